@@ -59,6 +59,9 @@ pub struct PredictionInterval {
     pub upper: f64,
     /// Comparisons that it rests on.
     pub comparisons: usize,
+    /// Relative standard uncertainty by inputs that it holds, root mean square of those comparisons `[-]`; none where it is not known.
+    #[serde(default)]
+    pub input_uncertainty: Option<f64>,
     /// What was compared.
     pub quantity: String,
     /// The flow's own regime.

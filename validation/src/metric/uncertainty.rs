@@ -89,6 +89,14 @@ pub struct UncertaintyComponent {
     pub source: String,
 }
 
+impl UncertaintyComponent {
+    /// What it is called: its source up to the first bracket.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.source.split(" (").next().unwrap_or(&self.source)
+    }
+}
+
 /// All causes that are known.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
@@ -139,6 +147,16 @@ impl Uncertainty {
         self.of(part.origins())
     }
 
+    /// The largest of what belongs to a part of a comparison, with its share of the sum of squares `[-]`; none where nothing is known or
+    /// all is nothing.
+    #[must_use]
+    pub fn largest(&self, part: ComparisonPart) -> Option<(&UncertaintyComponent, f64)> {
+        let all = self.of_part(part).filter(|all| *all > 0.0)?;
+        let own = self.parts.iter().filter(|own| part.origins().contains(&own.origin));
+        let largest = own.max_by(|one, other| one.standard.total_cmp(&other.standard))?;
+        Some((largest, (largest.standard / all).powi(2)))
+    }
+
     /// Takes away what belongs to a part of a comparison.
     pub(crate) fn forget(&mut self, part: ComparisonPart) {
         self.parts.retain(|own| !part.origins().contains(&own.origin));
@@ -178,6 +196,15 @@ mod tests {
         assert_eq!(metric.uncertainty.parts().len(), 2);
         assert!(metric.uncertainty.standard().is_some_and(|standard| (standard - 0.5).abs() < 1e-15));
         assert_eq!(metric.uncertainty.of_reference(), Some(0.3));
+        assert_eq!(metric.uncertainty.largest(ComparisonPart::Input), None);
+        let metric = metric.known_to(Origin::Input, Some(0.3), "a (a reason)").known_to(
+            Origin::Input,
+            Some(0.4),
+            "b (a reason)",
+        );
+        let (largest, share) = metric.uncertainty.largest(ComparisonPart::Input).expect("two inputs");
+        assert_eq!(largest.name(), "b");
+        assert!((share - 0.64).abs() < 1e-12);
         let text = serde_json::to_string(&metric.uncertainty).expect("serialises");
         assert!(text.starts_with(r#"[{"origin":"digitisation","standard":0.3,"source":"other readings"}"#), "{text}");
     }

@@ -18,6 +18,7 @@ mod eddy_film;
 mod error;
 mod film;
 mod grains;
+mod input_range;
 mod law_film;
 mod layer_statement;
 mod liquid_column;
@@ -26,12 +27,15 @@ mod measured;
 mod measured_table;
 mod motion_thresholds;
 mod papers;
+mod propagation;
 mod rough_channel;
 mod sensitivity_table;
 mod settling;
 mod settling_beads;
 mod shipped;
 mod slope_laws;
+#[cfg(test)]
+mod stale_tests;
 mod stated_uncertainty;
 mod steady_film;
 mod validation_set;
@@ -54,6 +58,7 @@ pub use film::{BinghamFilm, HerschelBulkleyFilm, Incline, NewtonianFilm};
 pub use grains::{
     ALUMINIUM_BARS, FlowRule, GLASS_BEADS, GLASS_BEADS_FLOW_RULE, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND,
 };
+pub use input_range::{Basis, InputRange, Spread};
 pub use law_film::LawFilm;
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
 pub use liquid_column::{
@@ -71,6 +76,6 @@ pub use settling::{GrainForm, SettlingGrains, richardson_zaki_confidence, richar
 pub use settling_beads::{SETTLING_BEADS, SettlingBeads};
 pub use shipped::{shipped_table, shipped_tables};
 pub use slope_laws::{RoughIncline, SLOPE_EXPERIMENT, SlopeExperiment, slope_run_out};
-pub use stated_uncertainty::{Basis, InputRange, Refinement, StatedPart, StatedUncertainty, UnknownPart, completed};
+pub use stated_uncertainty::{Refinement, StatedPart, StatedUncertainty, UnknownPart, completed};
 pub use steady_film::SteadyFilm;
 pub use validation_set::{ValidatedComparison, ValidationSet, WAY_OF_FRONT};

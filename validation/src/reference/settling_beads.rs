@@ -17,11 +17,24 @@ const APART: f64 = 2e-3;
 const SUSPENSION: (f64, f64) = (0.012, 0.050);
 const DEPOSIT: (f64, f64) = (0.002, 0.042);
 
+/// A number of beads and oil.
+type GrainNumber = fn(&mut SettlingGrains) -> &mut f64;
+
+/// The numbers of beads and oil that have a range, by their names in the table.
+const NUMBERS: [(&str, GrainNumber); 4] = [
+    ("bead diameter", |grains| &mut grains.grain_diameter),
+    ("bead density", |grains| &mut grains.grain_density),
+    ("oil density", |grains| &mut grains.fluid_density),
+    ("oil viscosity", |grains| &mut grains.kinematic_viscosity),
+];
+
 /// What was measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SettlingBeads {
     /// Beads and oil.
     pub grains: SettlingGrains,
+    /// What beads and oil are known to: the name of each number with these beads and oil at the lower and the upper end of its range.
+    pub ends: Vec<(&'static str, SettlingGrains, SettlingGrains)>,
     /// (time `[s]`, height of the upper interface `[m]`).
     pub upper: Vec<(f64, f64)>,
     /// (time `[s]`, height up to which there is a deposit `[m]`).
@@ -74,15 +87,28 @@ impl SettlingBeads {
             common_slope(&[points]).map_or(none, |fit| FittedValue { value: fit.value.abs(), ..fit })
         };
         let value = |what| beads.number_of("what", what, "value");
+        let half_width = |what| beads.number_of("what", what, "half width");
         let heights = fraction.numbers("height")?;
+        let grains = SettlingGrains {
+            grain_diameter: value("bead diameter")?,
+            grain_density: value("bead density")?,
+            fluid_density: value("oil density")?,
+            kinematic_viscosity: value("oil viscosity")?,
+            gravity: GRAVITY,
+        };
+        let ends = NUMBERS.iter().map(|&(what, number)| {
+            let half = half_width(what)?;
+            let moved = |by: f64| {
+                let mut moved = grains;
+                *number(&mut moved) += by;
+                moved
+            };
+            Ok((what, moved(-half), moved(half)))
+        });
+        let ends = ends.collect::<Result<_, ReferenceError>>()?;
         Ok(Self {
-            grains: SettlingGrains {
-                grain_diameter: value("bead diameter")?,
-                grain_density: value("bead density")?,
-                fluid_density: value("oil density")?,
-                kinematic_viscosity: value("oil viscosity")?,
-                gravity: GRAVITY,
-            },
+            grains,
+            ends,
             sinking: slope(&upper),
             rise: slope(&deposit),
             suspension: between(heights, fraction.numbers("first")?, SUSPENSION),

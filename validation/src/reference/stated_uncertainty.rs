@@ -1,11 +1,12 @@
 //! How far comparisons are known where neither the runs of a case nor its tables tell: `reference-data/CASE/uncertainty.toml`.
 //!
-//! Inputs have ranges, each with its source. They are propagated by runs at both ends of each range (`sensitivity_table`): the error
-//! E = S − D of an even spread between the ends has the standard uncertainty |E_high − E_low|/√12. A spacing is propagated by a
-//! run at half of it: at first order twice the difference is left, taken for the half width of an even spread. What is not known
-//! stands there with the reason.
+//! Inputs have ranges, each with its source. They are propagated by runs at both ends of each range (`sensitivity_table`,
+//! `propagation`). A spacing is propagated by a run at half of it: at first order twice the difference is left, taken for the half
+//! width of an even spread. What is not known stands there with the reason.
 
-use super::sensitivity_table::{RangeEnd, SensitivityRow, sensitivity_table};
+use super::input_range::{Basis, InputRange};
+use super::propagation::{by_input, by_spacing, rows_of};
+use super::sensitivity_table::{SensitivityRow, sensitivity_table};
 use crate::metric::{ComparisonPart, Metric, Origin, Variant};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -16,29 +17,8 @@ include!(concat!(env!("OUT_DIR"), "/stated_uncertainties.rs"));
 /// Name of the file in the folder of a case.
 const FILE: &str = "uncertainty.toml";
 
-/// What a number rests on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Basis {
-    /// The source states it.
-    Stated,
-    /// It follows from numbers that the source states, as is said.
-    Derived,
-    /// It is the project's choice of a range that the field takes for granted, with the reason.
-    Assumed,
-}
-
-impl Basis {
-    /// For a reader.
-    #[must_use]
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Stated => "stated",
-            Self::Derived => "derived",
-            Self::Assumed => "assumed, range of the field",
-        }
-    }
-}
+/// Why a run that shows what an input does has no uncertainty by its inputs.
+const ALTERED: &str = "this run shows what an input does, and is no comparison of its own";
 
 /// The runs that propagate ranges, of the quick tier.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -50,27 +30,6 @@ pub struct SensitivityRuns {
     pub only: Vec<Variant>,
     /// Seeds over which results are averaged; the case's own where there are none.
     pub seeds: Vec<u64>,
-}
-
-/// An input that is known within a range.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct InputRange {
-    /// What it is called.
-    pub name: String,
-    /// The case at the lower end, `path=value`.
-    pub low: Vec<String>,
-    /// The case at the upper end.
-    pub high: Vec<String>,
-    /// The range in words, with its unit.
-    pub range: String,
-    /// What the range rests on.
-    pub basis: Basis,
-    /// Where it comes from.
-    pub source: String,
-    /// What variants of comparisons have for which the input is not known so.
-    #[serde(default)]
-    pub not_for: Vec<Variant>,
 }
 
 /// A spacing that is halved.
@@ -136,6 +95,8 @@ pub struct StatedUncertainty {
     /// What is known without runs.
     #[serde(rename = "part")]
     pub parts: Vec<StatedPart>,
+    /// What variants have of runs that are there to show what an input does, and are no comparisons of their own.
+    pub altered: Vec<Variant>,
     /// What is not known.
     #[serde(rename = "unknown")]
     pub unknown: Vec<UnknownPart>,
@@ -167,22 +128,39 @@ impl StatedUncertainty {
         STATED.get(case)
     }
 
+    /// Whether a comparison is of a run that is there to show what an input does.
+    #[must_use]
+    pub fn is_altered(&self, variant: &Variant) -> bool {
+        self.altered.iter().any(|other| variant.includes(other))
+    }
+
     /// Why a part of a comparison is not known; none where no reason is stated.
     #[must_use]
     pub fn reason(&self, part: ComparisonPart, metric: &Metric) -> Option<&str> {
         let is_it = |own: &&UnknownPart| own.part == part && concerns(&own.quantities, &own.variant, metric);
-        self.unknown.iter().find(is_it).map(|own| own.reason.as_str())
+        let altered = (part == ComparisonPart::Input && self.is_altered(&metric.variant)).then_some(ALTERED);
+        self.unknown.iter().find(is_it).map(|own| own.reason.as_str()).or(altered)
+    }
+
+    /// Whether something is stated of a part of a comparison without runs: a number, or why there is none.
+    #[must_use]
+    pub fn says(&self, part: ComparisonPart, metric: &Metric) -> bool {
+        let is_stated = |own: &StatedPart| own.part == part && concerns(&own.quantities, &own.variant, metric);
+        self.parts.iter().any(is_stated) || self.reason(part, metric).is_some()
     }
 
     /// A comparison with what is stated of it, and what the runs of `table` say. Ranges go before what the case knows of its
     /// inputs, for they are all of them; what is stated comes after what the case knows of the same part.
     fn complete(&self, mut metric: Metric, table: &[SensitivityRow]) -> Metric {
         let Some(reference) = metric.compared_with() else { return metric };
-        let own: Vec<&SensitivityRow> =
-            table.iter().filter(|row| row.quantity == metric.name && row.variant == metric.variant).collect();
-        let holds = |range: &&InputRange| !range.not_for.iter().any(|other| metric.variant.includes(other));
-        let effects: Vec<(&InputRange, f64)> =
-            self.ranges.iter().filter(holds).filter_map(|range| Some((range, effect(&own, &range.name)?))).collect();
+        let (own, like) = rows_of(table, &metric);
+        let effect = |range: &InputRange| by_input(&own, &range.name, range.place()?);
+        let effects: Vec<(&InputRange, f64)> = self
+            .ranges
+            .iter()
+            .filter(|range| range.is_of(&metric.variant))
+            .filter_map(|range| Some((range, effect(range)?)))
+            .collect();
         if effects.iter().any(|(_, standard)| *standard > 0.0) {
             metric.uncertainty.forget(ComparisonPart::Input);
         }
@@ -190,14 +168,17 @@ impl StatedUncertainty {
         let is_open = |part: ComparisonPart| !is_known[part as usize];
         if is_open(ComparisonPart::Input) {
             for (range, standard) in effects {
-                let words = format!("{} {} ({}: {})", range.name, range.range, range.basis.word(), range.source);
+                let beside = like.map_or_else(String::new, |variant| format!("; from the runs of {variant}"));
+                let words =
+                    format!("{} {} ({}: {}{beside})", range.name, range.range, range.basis.word(), range.source);
                 metric = metric.known_to(Origin::Input, Some(standard), &words);
             }
         }
-        if is_open(ComparisonPart::Numerical) {
+        // what one spacing leaves says nothing of another
+        if is_open(ComparisonPart::Numerical) && like.is_none() {
             for spacing in &self.spacings {
                 let words = format!("twice what half of it changes: {}", spacing.name);
-                metric = metric.known_to(Origin::Numerical, left_by_spacing(&own, &spacing.name), &words);
+                metric = metric.known_to(Origin::Numerical, by_spacing(&own, &spacing.name), &words);
             }
         }
         let scale = if reference == 0.0 { metric.value.abs() } else { reference.abs() };
@@ -223,25 +204,6 @@ impl StatedUncertainty {
     }
 }
 
-/// Mean error over the repetitions with an input at an end of its range; none where it was not run.
-fn mean_error(rows: &[&SensitivityRow], input: &str, end: RangeEnd) -> Option<f64> {
-    let errors: Vec<f64> =
-        rows.iter().filter(|row| row.input == input && row.end == end).map(|row| row.value - row.reference).collect();
-    (!errors.is_empty()).then(|| errors.iter().sum::<f64>() / errors.len() as f64)
-}
-
-/// Standard uncertainty of an error by an input that is spread evenly over its range.
-fn effect(rows: &[&SensitivityRow], input: &str) -> Option<f64> {
-    let [low, high] = [RangeEnd::Low, RangeEnd::High].map(|end| mean_error(rows, input, end));
-    Some((high? - low?).abs() / 12.0_f64.sqrt())
-}
-
-/// Standard uncertainty that a spacing leaves.
-fn left_by_spacing(rows: &[&SensitivityRow], spacing: &str) -> Option<f64> {
-    let (own, refined) = (mean_error(rows, "", RangeEnd::Own)?, mean_error(rows, spacing, RangeEnd::Refined)?);
-    Some(2.0 * (refined - own).abs() / 3.0_f64.sqrt())
-}
-
 /// The metrics of a case with all that is stated of how far they are known.
 #[must_use]
 pub fn completed(case: &str, metrics: Vec<Metric>) -> Vec<Metric> {
@@ -254,6 +216,7 @@ pub fn completed(case: &str, metrics: Vec<Metric>) -> Vec<Metric> {
 mod tests {
     use super::*;
     use crate::metric::{Confidence, MetricKind};
+    use crate::reference::RangeEnd;
 
     fn compared(name: &str, value: f64) -> Metric {
         Metric::observed(name, &Variant::of("a", 1.0), value, "-").of_kind(MetricKind::Validation).against(
@@ -281,6 +244,7 @@ mod tests {
         name = "friction"
         low = ["friction=0.4"]
         high = ["friction=0.6"]
+        own = 0.5
         range = "0.4 to 0.6"
         basis = "assumed"
         source = "a reason"
@@ -317,7 +281,8 @@ mod tests {
         ];
         let metric = stated.complete(compared("run_out", 2.1), &table);
         let part = |part| metric.uncertainty.of_part(part).expect("known");
-        assert!((part(ComparisonPart::Input) - 0.4 / 12.0_f64.sqrt()).abs() < 1e-12);
+        // errors of 0.4 at the lower end, 0.1 at the own value and 0 at the upper end
+        assert!((part(ComparisonPart::Input) - ((0.3_f64.powi(2) + 0.1_f64.powi(2)) / 6.0).sqrt()).abs() < 1e-12);
         assert!((part(ComparisonPart::Numerical) - 0.2 / 3.0_f64.sqrt()).abs() < 1e-12);
         assert!((part(ComparisonPart::Reference) - 0.2).abs() < 1e-12);
         // what the case knows goes before what is stated, and ranges before what it knows of its inputs
@@ -351,6 +316,9 @@ mod tests {
             let sources = stated.ranges.iter().map(|own| &own.source).chain(stated.parts.iter().map(|own| &own.source));
             for source in sources.chain(stated.unknown.iter().map(|own| &own.reason)) {
                 assert!(source.len() > 20, "{case}: {source:?} is no source");
+            }
+            for range in &stated.ranges {
+                assert!(range.place().is_some(), "{case}: {} stands outside of its range", range.name);
             }
             for part in &stated.parts {
                 assert!(part.relative.is_some() != part.absolute.is_some(), "{case}: {:?} has one number", part.part);

@@ -1,7 +1,8 @@
 //! The validation set: every accepted comparison with a measurement or a published fit, with the regime of its flow, which
 //! `tests/snapshots/comparisons/TIER.csv` holds. Bias and scatter over it predict how far a value of the user's own is off.
 
-use crate::metric::{FlowRegime, Metric, PredictionInterval, REGIME_NUMBERS, Variant};
+use super::StatedUncertainty;
+use crate::metric::{ComparisonPart, FlowRegime, Metric, PredictionInterval, REGIME_NUMBERS, Variant};
 use crate::number::two_digits;
 use crate::statistics::{Comparison, ModelBias, model_bias};
 use serde::{Deserialize, Serialize};
@@ -31,6 +32,9 @@ pub struct ValidatedComparison {
     pub uncertainty: Option<f64>,
     /// Relative standard uncertainty of the reference `[-]`, where it is known.
     pub reference_uncertainty: Option<f64>,
+    /// The same by the inputs.
+    #[serde(default)]
+    pub input_uncertainty: Option<f64>,
     /// a `[-]`.
     pub aspect_ratio: Option<f64>,
     /// θ `[°]`.
@@ -51,6 +55,7 @@ impl ValidatedComparison {
             |(run, _): &&(Variant, FlowRegime)| metric.variant.concerns(run) && (shared(run) > 0 || run.is_empty());
         let own = runs.iter().rev().filter(is_own).max_by_key(|(run, _)| shared(run));
         let regime = own.map(|(_, regime)| *regime).unwrap_or_default();
+        let relative = |standard: f64| standard / reference.abs();
         Some(Self {
             case: case.to_owned(),
             quantity: metric.name.clone(),
@@ -59,7 +64,8 @@ impl ValidatedComparison {
             value: metric.value,
             reference,
             uncertainty: metric.uncertainty.standard(),
-            reference_uncertainty: metric.uncertainty.of_reference().map(|standard| standard / reference.abs()),
+            reference_uncertainty: metric.uncertainty.of_reference().map(relative),
+            input_uncertainty: metric.uncertainty.of_part(ComparisonPart::Input).map(relative),
             aspect_ratio: regime.aspect_ratio,
             slope_angle: regime.slope_angle,
             inertial_number: regime.inertial_number,
@@ -82,6 +88,11 @@ impl ValidatedComparison {
             inertial_number: self.inertial_number,
             grain_ratio: self.grain_ratio,
         }
+    }
+
+    /// Whether it is there to show what an input does, and is no comparison of its own.
+    fn is_altered(&self) -> bool {
+        StatedUncertainty::of(&self.case).is_some_and(|stated| stated.is_altered(&self.variant))
     }
 
     fn comparison(&self) -> Option<Comparison> {
@@ -145,10 +156,35 @@ impl ValidationSet {
         self.comparisons.iter().filter(|row| quantities.contains(&row.quantity.as_str()))
     }
 
-    /// Bias and scatter of some quantities; none with fewer than three comparisons.
+    /// How many comparisons of some quantities there are, without those that show what an input does.
+    #[must_use]
+    pub fn number(&self, quantities: &[&str]) -> usize {
+        self.of(quantities).filter(|row| !row.is_altered()).count()
+    }
+
+    /// Bias and scatter of some quantities; none with fewer than three comparisons. What is there to show what an input does is no
+    /// comparison of its own: it would count an experiment several times, and its inputs as the model's scatter.
     #[must_use]
     pub fn bias(&self, quantities: &[&str]) -> Option<ModelBias> {
-        model_bias(&self.of(quantities).filter_map(ValidatedComparison::comparison).collect::<Vec<_>>())
+        let own = self.of(quantities).filter(|row| !row.is_altered());
+        model_bias(&own.filter_map(ValidatedComparison::comparison).collect::<Vec<_>>())
+    }
+
+    /// Root mean square of the relative standard uncertainties by the inputs of these comparisons, where they are known `[-]`.
+    #[must_use]
+    pub fn input_uncertainty(&self, quantities: &[&str]) -> Option<f64> {
+        let own = self.of(quantities).filter(|row| !row.is_altered() && row.comparison().is_some());
+        let squares: Vec<f64> = own.filter_map(|row| row.input_uncertainty).map(|own| own * own).collect();
+        (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
+    }
+
+    /// Bounds of prediction over true value of a further flow with 95 % confidence `[-]`. The comparisons of an experiment have its
+    /// inputs in common, so that an error of those moves all of them and no scatter shows it; a further flow has inputs of its own, known no
+    /// better, and they come beside the scatter.
+    #[must_use]
+    pub fn next_ratio(&self, quantities: &[&str]) -> Option<(f64, f64)> {
+        let bias = self.bias(quantities)?;
+        Some(bias.next_ratio_beside(self.input_uncertainty(quantities).unwrap_or(0.0)))
     }
 
     /// Least and greatest of each number of the regime among the comparisons of some quantities.
@@ -168,23 +204,27 @@ impl ValidationSet {
     #[must_use]
     pub fn predict(&self, quantities: &[&str], regime: FlowRegime, value: f64) -> Option<PredictionInterval> {
         let bias = self.bias(quantities)?;
-        let (least, most) = bias.next_ratio();
+        let (least, most) = self.next_ratio(quantities)?;
         let outside = |place: usize| {
             let name = REGIME_NUMBERS[place];
-            let (low, high) = self.ranges(quantities)[place]?;
-            match regime.numbers()[place] {
-                Some(own) if (low..=high).contains(&own) => None,
-                Some(own) => {
+            match (regime.numbers()[place], self.ranges(quantities)[place]) {
+                (Some(own), Some((low, high))) if (low..=high).contains(&own) => None,
+                (Some(own), Some((low, high))) => {
                     let [own, low, high] = [own, low, high].map(two_digits);
                     Some(format!("{name} = {own} lies outside of what was validated, {low} to {high}"))
                 }
-                None => Some(format!("{name} is not known of this flow")),
+                (Some(own), None) => {
+                    Some(format!("{name} = {} is known of nothing that was validated", two_digits(own)))
+                }
+                (None, Some(_)) => Some(format!("{name} is not known of this flow")),
+                (None, None) => None,
             }
         };
         Some(PredictionInterval {
             lower: value / most,
             upper: value / least,
             comparisons: bias.comparisons,
+            input_uncertainty: self.input_uncertainty(quantities),
             quantity: quantities.join(", "),
             regime,
             warnings: (0..REGIME_NUMBERS.len()).filter_map(outside).collect(),
@@ -248,7 +288,38 @@ mod tests {
         let found = set.predict(&["run_out"], tall, 2.0).expect("four comparisons");
         assert!(found.warnings[0].starts_with("a = h/r = 9 lies outside"), "{:?}", found.warnings);
         assert!(found.warnings[1].starts_with("θ [°] is not known"), "{:?}", found.warnings);
+        let of_grains = FlowRegime { grain_ratio: Some(0.01), ..known };
+        let found = set.predict(&["run_out"], of_grains, 2.0).expect("four comparisons");
+        assert_eq!(found.warnings, ["d/h = 0.01 is known of nothing that was validated"]);
         assert_eq!(set.predict(&["height"], known, 2.0), None);
+    }
+
+    #[test]
+    fn inputs_that_an_experiment_has_in_common_widen_the_interval() {
+        let regime = FlowRegime::default();
+        let (mut known, narrow) = (set(), set().predict(&["run_out"], regime, 2.0).expect("four comparisons"));
+        known.comparisons.iter_mut().for_each(|row| row.input_uncertainty = Some(0.1));
+        let wide = known.predict(&["run_out"], regime, 2.0).expect("four comparisons");
+        assert_eq!((narrow.input_uncertainty, wide.comparisons), (None, 4));
+        assert!(wide.input_uncertainty.is_some_and(|inputs| (inputs - 0.1).abs() < 1e-12));
+        let reach = |found: &PredictionInterval| libm::log(found.upper / found.lower);
+        // t of three degrees of freedom: the reach of the inputs alone is 3.182 times their uncertainty to either side
+        let alone = 2.0 * 3.182_446 * 0.1;
+        assert!((reach(&wide) - reach(&narrow).hypot(alone)).abs() < 1e-5, "{} {}", reach(&wide), reach(&narrow));
+    }
+
+    #[test]
+    fn a_pile_that_shows_what_an_input_does_is_no_comparison_of_its_own() {
+        let with = |material: &str| {
+            let mut set = set();
+            let mut pile = ValidatedComparison { case: "column-planar".to_owned(), ..set.comparisons[0].clone() };
+            pile.variant = Variant::of("material", material);
+            pile.value = 3.0;
+            set.replace("column-planar", vec![pile]);
+            set.bias(&["run_out"]).expect("four comparisons")
+        };
+        assert_eq!(with("bars_friction_0.3387"), set().bias(&["run_out"]).expect("four comparisons"));
+        assert_eq!(with("bars").comparisons, 5);
     }
 
     #[test]

@@ -60,6 +60,14 @@ impl<'r> Comparison<'r> {
         self.metric.uncertainty.standard()
     }
 
+    /// u_val over the size of the reference: the level at which a comparison validates; none where the reference is 0 or nothing is
+    /// known.
+    #[must_use]
+    pub fn level(&self) -> Option<f64> {
+        let reference = (self.metric.value - self.error).abs();
+        self.uncertainty().map(|uncertainty| uncertainty / reference).filter(|level| level.is_finite())
+    }
+
     /// What is not known.
     #[must_use]
     pub fn unknown(&self) -> Vec<ComparisonPart> {
@@ -128,6 +136,7 @@ mod tests {
         let all = Comparison::of("column", &all).expect("a comparison").model_error();
         assert!(matches!(all, ModelError::AtLeast(least) if (least - 0.4).abs() < 1e-6), "{all:?}");
         assert_eq!(own[2].model_error(), ModelError::Unknown);
+        assert!(own[0].level().is_some_and(|level| (level - 0.25).abs() < 1e-12) && own[2].level().is_none());
         assert_eq!((own[0].unknown(), own[2].unknown()), (vec![ComparisonPart::Input], ComparisonPart::ALL.to_vec()));
     }
 }

@@ -6,7 +6,7 @@ use super::template::fill;
 use super::view::{FigureView, VerdictMark, anchor, picture};
 use super::{DrawnFigure, Report};
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::ComparisonPart;
+use crate::metric::{ComparisonPart, Metric, UncertaintyComponent};
 use crate::number::{two_digits, with_unit};
 use crate::reference::StatedUncertainty;
 use serde::Serialize;
@@ -16,6 +16,8 @@ pub(super) const FOLDER: &str = "comparisons";
 
 /// Half width of a reference's dash, in rows `[-]`.
 const DASH: f64 = 0.35;
+/// Distance of the bar of the inputs alone from that of all, in rows `[-]`.
+const BESIDE: f64 = 0.22;
 /// Ratio of the largest to the least number of a quantity from which its axis is logarithmic `[-]`.
 const WIDE: f64 = 20.0;
 
@@ -27,6 +29,10 @@ struct ComparisonPage {
     beyond: usize,
     partly: usize,
     unknown: usize,
+    /// Comparisons without u_input.
+    without_input: usize,
+    /// Least, middle and greatest level of those that are within their uncertainty `[%]`.
+    levels: Option<[String; 3]>,
     quantities: Vec<QuantityView>,
 }
 
@@ -49,7 +55,11 @@ struct RowView {
     error: String,
     /// u_num, u_input and u_D, each with where it comes from.
     parts: [(String, String); 3],
+    /// The input that most of u_input comes from, with its share.
+    dominant: String,
     uncertainty: String,
+    /// u_val over the reference.
+    level: String,
     mark: VerdictMark,
     statement: String,
     /// Why parts are not known.
@@ -84,9 +94,20 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Option<Result<St
         beyond: count(|error| matches!(error, ModelError::AtLeast(_))),
         partly: count(|error| matches!(error, ModelError::BeyondKnown(_))),
         unknown: count(|error| error == ModelError::Unknown),
+        without_input: groups.iter().flat_map(|(_, own)| own).filter(|compared| compared.input.is_none()).count(),
+        levels: levels(groups.iter().flat_map(|(_, own)| own)),
         quantities: groups.iter().enumerate().map(|(place, group)| quantity(group, drawn.get(place))).collect(),
     };
     (!groups.is_empty()).then(|| fill("comparisons.html", &page))
+}
+
+/// Least, middle and greatest level of the comparisons that are within their uncertainty, where the reference is not 0 `[%]`.
+fn levels<'c>(all: impl Iterator<Item = &'c Comparison<'c>>) -> Option<[String; 3]> {
+    let is_within = |compared: &&Comparison<'_>| matches!(compared.model_error(), ModelError::Within(_));
+    let mut levels: Vec<f64> = all.filter(is_within).filter_map(Comparison::level).collect();
+    levels.sort_by(f64::total_cmp);
+    let of = |place: usize| Some(two_digits(100.0 * levels.get(place)?).to_string());
+    Some([of(0)?, of(levels.len() / 2)?, of(levels.len().checked_sub(1)?)?])
 }
 
 /// A figure of each quantity, in the order of the page: predictions with their bars beside what they are compared with.
@@ -124,8 +145,18 @@ fn figure(((name, unit), own): &QuantityComparisons<'_>) -> Figure {
         panel.points(case, slot, points).error =
             rows().map(|(_, compared)| compared.uncertainty().unwrap_or(0.0)).collect();
     }
+    let of_inputs: Vec<(f64, f64, f64)> = own
+        .iter()
+        .enumerate()
+        .filter_map(|(place, compared)| Some((place as f64 + 1.0 + BESIDE, compared.metric.value, compared.input?)))
+        .collect();
+    if !of_inputs.is_empty() {
+        let points = of_inputs.iter().map(|&(x, y, _)| (x, y));
+        panel.points("u_input alone", cases.len(), points).error = of_inputs.iter().map(|own| own.2).collect();
+    }
     let caption = format!(
-        "{}: predictions with ± u_val, as far as it is known, beside their references, row by row of the table.",
+        "{}: predictions with ± u_val, as far as it is known, and with ± u_input alone, beside their references, row by row of the table. A row without the second bar \
+         has inputs of which nothing is known.",
         name.replace('_', " ")
     );
     Figure::new(&name.replace('_', "-"), &caption, vec![panel])
@@ -151,9 +182,10 @@ fn row(number: usize, compared: &Comparison<'_>, widest: f64) -> RowView {
         own.map(|own| format!("{}: {}", two_digits(own.standard), own.source)).collect::<Vec<_>>().join("; ")
     };
     let (mark, statement) = match compared.model_error() {
-        ModelError::Within(level) => {
-            (VerdictMark { word: "validated", ..VerdictMark::PASS }, format!("validated at the level {}", unit(level)))
-        }
+        ModelError::Within(level) => (
+            VerdictMark { word: "validated", ..VerdictMark::PASS },
+            format!("at the level {} and no finer", unit(level)),
+        ),
         ModelError::AtLeast(least) => (
             VerdictMark { word: "model error", ..VerdictMark::KNOWN },
             format!("model error of at least {}", unit(least)),
@@ -193,12 +225,28 @@ fn row(number: usize, compared: &Comparison<'_>, widest: f64) -> RowView {
             (part(compared.input), words(ComparisonPart::Input)),
             (part(compared.reference), words(ComparisonPart::Reference)),
         ],
+        dominant: dominant(metric),
         uncertainty: part(compared.uncertainty()),
+        level: compared.level().map(|level| format!("{} %", two_digits(100.0 * level))).unwrap_or_default(),
         mark,
         statement: statement + &lower_bound,
         reasons: unknown.iter().filter_map(reason).collect(),
         bar: bar(compared, widest),
     }
+}
+
+/// The input that most of u_input comes from.
+fn dominant(metric: &Metric) -> String {
+    let most = metric.uncertainty.largest(ComparisonPart::Input);
+    let words = |(own, share): (&UncertaintyComponent, f64)| {
+        let is_alone = share > 0.995;
+        if is_alone {
+            own.name().to_owned()
+        } else {
+            format!("{} % of its square: {}", two_digits(100.0 * share), own.name())
+        }
+    };
+    most.map(words).unwrap_or_default()
 }
 
 fn bar(compared: &Comparison<'_>, widest: f64) -> BarView {

@@ -5,6 +5,7 @@ use super::{DrawnFigure, Report};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::Metric;
 use crate::number::{four_digits, two_digits};
+use crate::reference::StatedUncertainty;
 use crate::statistics::{Comparison, Deviation, ModelBias, model_bias};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -43,7 +44,12 @@ pub fn quantities_of<'a>(cases: impl IntoIterator<Item = (&'a str, Vec<&'a Metri
     type Group = (Vec<(String, Vec<Comparison>)>, usize);
     let mut groups: BTreeMap<(String, String), Group> = BTreeMap::new();
     for (case, metrics) in cases {
-        for (metric, compared) in metrics.into_iter().filter_map(|metric| Some((metric, comparison(metric)?))) {
+        // what is there to show what an input does is no comparison of its own
+        let stated = StatedUncertainty::of(case);
+        let is_own = |metric: &&Metric| !stated.is_some_and(|stated| stated.is_altered(&metric.variant));
+        for (metric, compared) in
+            metrics.into_iter().filter(is_own).filter_map(|metric| Some((metric, comparison(metric)?)))
+        {
             let (own, left_out) = groups.entry((metric.name.clone(), metric.unit.clone())).or_default();
             if !(compared.predicted > 0.0 && compared.measured > 0.0 && compared.predicted.is_finite()) {
                 *left_out += 1;

@@ -29,6 +29,7 @@ struct QuantityView {
     comparisons: usize,
     ranges: Vec<String>,
     bias: String,
+    inputs: String,
     interval: String,
     figure: Option<FigureView>,
 }
@@ -149,15 +150,15 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, m
         let figure = group.name.replace(' ', "-");
         QuantityView {
             name: group.name.clone(),
-            comparisons: set.of(&names).count(),
+            comparisons: set.number(&names),
             ranges: set.ranges(&names).iter().map(range).collect(),
             bias: bias.map_or_else(|| "none".to_owned(), |bias| four_digits(bias.bias).to_string()),
-            interval: bias.map_or_else(
+            inputs: set
+                .input_uncertainty(&names)
+                .map_or_else(|| "not known".to_owned(), |inputs| format!("{}\u{202f}%", two_digits(100.0 * inputs))),
+            interval: set.next_ratio(&names).map_or_else(
                 || "none".to_owned(),
-                |bias| {
-                    let (least, most) = bias.next_ratio();
-                    format!("{} … {}", two_digits(least), two_digits(most))
-                },
+                |(least, most)| format!("{} … {}", two_digits(least), two_digits(most)),
             ),
             figure: drawn.iter().find(|drawn| drawn.name == figure).map(picture),
         }

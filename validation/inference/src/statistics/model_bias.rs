@@ -82,11 +82,19 @@ impl ModelBias {
     /// uncertainty of the bias with it, so that a few comparisons are reported with an interval of due width.
     #[must_use]
     pub fn next_ratio(&self) -> (f64, f64) {
+        self.next_ratio_beside(0.0)
+    }
+
+    /// The same of a comparison that has a relative standard uncertainty `[-]` beside, of which the scatter does not know, such as that of
+    /// inputs which all comparisons of an experiment have in common.
+    #[must_use]
+    pub fn next_ratio_beside(&self, uncertainty: f64) -> (f64, f64) {
         let n = self.comparisons as f64;
         let (lower, upper) = self.interval;
         // the interval is symmetric about m in logarithms, with or without the σ of the bias
         let shift = 0.5 * libm::log(lower * upper) - self.shift();
-        let reach = student_quantile(CONFIDENCE, self.comparisons - 1) * self.scatter * (1.0 + 1.0 / n).sqrt();
+        let deviation = (self.scatter * self.scatter * (1.0 + 1.0 / n) + uncertainty * uncertainty).sqrt();
+        let reach = student_quantile(CONFIDENCE, self.comparisons - 1) * deviation;
         (libm::exp(shift - reach), libm::exp(shift + reach))
     }
 
@@ -161,6 +169,10 @@ mod tests {
         // 4.30265 · 0.1 · √(4/3)
         assert!((libm::log(known.next_ratio().1) - 0.496_827).abs() < 1e-5);
         assert!((known.next_ratio().0 * known.next_ratio().1 - 1.0).abs() < 1e-12);
+        // what stands beside adds as squares: a whole deviation of a further comparison makes the reach √2 times as long
+        let whole = known.scatter * (1.0 + 1.0 / known.comparisons as f64).sqrt();
+        let reach = |(lower, upper): (f64, f64)| libm::log(upper / lower);
+        assert!((reach(known.next_ratio_beside(whole)) / reach(known.next_ratio()) - 2.0_f64.sqrt()).abs() < 1e-12);
     }
 
     #[test]

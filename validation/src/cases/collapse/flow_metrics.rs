@@ -4,7 +4,7 @@ use super::CollapseRecord;
 use super::column::{ColumnPurpose, ColumnRun, Geometry};
 use super::deposit::{BIN_WIDTH, Collapse};
 use super::material::ExperimentGrains;
-use super::pile::{failure_angle, pile_of};
+use super::pile::{failure_angle, pile_of, with_friction};
 use super::quantities::{
     ENERGY_GAIN, ENSEMBLE_FLOWING_LAYER_R_SQUARED, FAILURE_SURFACE_ANGLE, FASTEST_HEIGHT, FLOWING_LAYER_R_SQUARED,
     FLOWING_LAYER_SHEAR_RATE, LINEAR_MISFIT_RATIO, TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING,
@@ -129,11 +129,14 @@ pub(super) fn of_run((run, record): &CollapseRecord, records: &[CollapseRecord])
             let active = 45.0 + 0.5 * libm::atan(run.law.contact_friction()).to_degrees();
             let metric = observed(FAILURE_SURFACE_ANGLE, angle);
             if let Some((pile, (angle, error))) = pile_of(run).and_then(|pile| Some((pile, failure_angle(pile)?))) {
-                metrics.push(metric.against(Some(angle), &pile.source, pile.confidence).known_to(
+                let metric = metric.against(Some(angle), &pile.source, pile.confidence).known_to(
                     Origin::Digitisation,
                     Some(error),
                     "standard error of the line through the measured points",
-                ));
+                );
+                metrics.push(with_friction(metric, records, run, |(other, seen)| {
+                    self::wedge(other, &seen.frames)?.angle().zip(wedge.angle()).map(|(other, own)| other - own)
+                }));
                 return metrics;
             }
             metrics.push(metric.against(

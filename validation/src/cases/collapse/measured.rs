@@ -6,8 +6,7 @@ use super::deposit::Collapse;
 use super::flow_metrics;
 use super::fronts::FRONT_THICKNESS;
 use super::known::{ColumnUncertainty, with_uncertainty};
-use super::material::Alteration;
-use super::pile::pile_of;
+use super::pile::{pile_of, with_friction};
 use super::quantities::{
     FAILURE_LINE_DISTANCE, FINAL_HEIGHT, MEDIAN_RUN_OUT_RATIO, RUN_OUT, RUN_OUT_RATIO, SURFACE_DISTANCE,
 };
@@ -33,9 +32,6 @@ const FEWEST: usize = 3;
 const READING: &str =
     "scatter of the points of the surface about the line through their neighbours, at the toe over its slope";
 const AREA: &str = "the area under the points is that much larger than the pile's: heights as a whole are off by it";
-const RATE: &str = "distance to the pile whose friction rises with the rate as that of Lagrée's grains, over √3: that of the bars was not measured";
-const FRICTION: &str =
-    "distance to the pile whose friction is the sine of the measured angle instead of the tangent, over √3";
 
 /// Thickness of a deposit at a distance from the wall, both over r_0; its innermost bin's at the wall.
 fn thickness(collapse: &Collapse, place: f64) -> f64 {
@@ -47,32 +43,6 @@ fn over_surface(pile: &MeasuredPile, difference: impl Fn(f64, f64) -> f64) -> f6
     let square = |&(x, height): &(f64, f64)| difference(x / pile.length, height / pile.length).powi(2);
     let mean = pile.surface.iter().map(square).sum::<f64>() / pile.surface.len() as f64;
     100.0 * mean.sqrt() * pile.length / pile.height
-}
-
-/// A metric with what it moves by if the pile's friction has another meaning or rises with the rate, as standard uncertainties: the pile
-/// stands at one end of each even spread.
-fn with_friction(
-    metric: Metric,
-    records: &[CollapseRecord],
-    run: &ColumnRun,
-    difference: impl Fn(&Collapse) -> f64,
-) -> Metric {
-    if !run.material.is_published() {
-        return metric;
-    }
-    let widest = |is_it: fn(&Alteration) -> bool| {
-        let altered = records.iter().filter(|(other, _)| {
-            pile_of(other).is_some()
-                && other.material.alteration.is_some_and(|own| is_it(&own))
-                && other.resolution == run.resolution
-        });
-        Some(altered.map(|(_, record)| difference(&record.data).abs()).fold(0.0, f64::max) / 3.0_f64.sqrt())
-    };
-    metric.known_to(Origin::Input, widest(|own| matches!(own, Alteration::Friction(_))), FRICTION).known_to(
-        Origin::Input,
-        widest(|own| matches!(own, Alteration::LimitingFriction(_))),
-        RATE,
-    )
 }
 
 /// Run-out, height, surface and line of failure of the pile of bars against the measured ones.
@@ -102,17 +72,19 @@ pub(super) fn of_pile(
     let of_height =
         with_uncertainty(of(FINAL_HEIGHT.of(&variant, tall), height), known.height, None, known.spread.height);
     let distance = over_surface(pile, |x, measured| thickness(collapse, x) - measured);
-    let moved = |other: &Collapse| over_surface(pile, |x, _| thickness(other, x) - thickness(collapse, x));
+    let moved = |(_, other): &CollapseRecord| {
+        Some(over_surface(pile, |x, _| thickness(&other.data, x) - thickness(collapse, x)))
+    };
     let of_surface = of(SURFACE_DISTANCE.of(&variant, distance), 0.0);
     let mut metrics = vec![
-        with_friction(of_run_out, records, run, |other| other.run_out() - own)
+        with_friction(of_run_out, records, run, |(_, other)| Some(other.data.run_out() - own))
             .known_to(Origin::Digitisation, Some(pile.front_reading() / r), READING)
             .gated_by(
                 judged(band(run_out, PILE_RUN_OUT)),
                 "33 %, twice what is not known: most of it how the friction of the bars rises with the rate, which nobody measured; then the meaning of \
                  their friction angle, a row at the toe, and the reading",
             ),
-        with_friction(of_height, records, run, |other| other.final_height() - tall)
+        with_friction(of_height, records, run, |(_, other)| Some(other.data.final_height() - tall))
             .known_to(Origin::Digitisation, Some(pile.reading / r), READING)
             .known_to(Origin::Experiment, Some(pile.excess().abs() * height), AREA)
             .gated_by(judged(band(height, PILE_HEIGHT)), "3 %, twice what the area under the measured points is off by"),
@@ -133,7 +105,15 @@ pub(super) fn of_pile(
         };
         let mean = pile.failure.iter().map(off).sum::<f64>() / pile.failure.len() as f64;
         // how their line was defined is not stated, and ours is by a displacement of a spacing
-        metrics.push(of(FAILURE_LINE_DISTANCE.of(&variant, 100.0 * mean.sqrt() / r), 0.0));
+        let distance = of(FAILURE_LINE_DISTANCE.of(&variant, 100.0 * mean.sqrt() / r), 0.0);
+        metrics.push(with_friction(distance, records, run, |(other, seen)| {
+            let theirs: Vec<(f64, f64)> =
+                flow_metrics::wedge(other, &seen.frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect();
+            let at = |rows: &[(f64, f64)], y: f64| interpolated(rows, y, (Beyond::EndValue, Beyond::EndValue));
+            let squares = pile.failure.iter().map(|&(_, y)| Some((at(&theirs, y)? - at(&rows, y)?).powi(2)));
+            let sum: f64 = squares.sum::<Option<f64>>()?;
+            Some(100.0 * (sum / pile.failure.len() as f64).sqrt() / r)
+        }));
     }
     metrics
 }

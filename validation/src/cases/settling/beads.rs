@@ -5,7 +5,7 @@ use super::drag_curves::{label, slot};
 use super::quantities::{DEPOSIT_RISE_OVER_MEASURED, SINKING_OVER_MEASURED};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Limit, Metric, Origin, Variant};
-use crate::reference::{SETTLING_BEADS, SettlingBeads};
+use crate::reference::{SETTLING_BEADS, SettlingBeads, SettlingGrains};
 use bagnold_solver::material::drag::DragLaw;
 
 /// The laws that speak of dense suspensions.
@@ -14,6 +14,8 @@ const LAWS: [DragLaw; 4] = [DragLaw::WenYu, DragLaw::Ergun, DragLaw::Gidaspow, D
 const FACTOR: f64 = 2.0;
 /// Half of a pixel of the images `[m]`.
 const HALF_PIXEL: f64 = 0.39e-3;
+
+const PRINTED: &str = "half of the last printed digit that is no trailing zero, evenly spread; how the sizes of the beads differ is not told";
 
 /// Velocity at which a law lets the beads sink `[m/s]`, and its relative uncertainty from the fraction `[-]`.
 fn sinking(beads: &SettlingBeads, law: DragLaw) -> Option<(f64, f64)> {
@@ -24,11 +26,27 @@ fn sinking(beads: &SettlingBeads, law: DragLaw) -> Option<(f64, f64)> {
     Some((own, 0.5 * (high - low) / own))
 }
 
+/// Relative standard uncertainty of a law's velocity by each number of beads and oil `[-]`.
+fn by_numbers(beads: &SettlingBeads, law: DragLaw, own: f64) -> Vec<(&'static str, f64)> {
+    let at = |grains: &SettlingGrains| grains.hindered_velocity(law, beads.suspension.value);
+    let effect = |(name, low, high): &(&'static str, SettlingGrains, SettlingGrains)| {
+        Some((*name, (at(high)? - at(low)?).abs() / own / 12.0_f64.sqrt()))
+    };
+    beads.ends.iter().filter_map(effect).collect()
+}
+
 pub(super) fn metrics() -> Vec<Metric> {
     let beads = &*SETTLING_BEADS;
     let of_law = |&law: &DragLaw| -> Option<[Metric; 2]> {
         let (velocity, by_fraction) = sinking(beads, law)?;
         let variant = Variant::of("law", law.name());
+        let numbers = by_numbers(beads, law, velocity);
+        let with_numbers = |metric: Metric| {
+            numbers.iter().fold(metric, |metric, (name, relative)| {
+                let standard = metric.value * relative;
+                metric.known_to(Origin::Input, Some(standard), &format!("{name} ({PRINTED})"))
+            })
+        };
         let sunk = velocity / beads.sinking.value;
         let risen = beads.rise_under(velocity) / beads.rise.value;
         let metric = |metric: Metric| {
@@ -42,7 +60,7 @@ pub(super) fn metrics() -> Vec<Metric> {
                 .known_to(Origin::Numerical, Some(1e-3), "particles meet the root of a law within 0.1 %, by the case's own gates")
         };
         Some([
-            metric(SINKING_OVER_MEASURED.of(&variant, sunk))
+            with_numbers(metric(SINKING_OVER_MEASURED.of(&variant, sunk)))
                 .known_to(
                     Origin::Experiment,
                     Some(sunk * beads.sinking.standard_error / beads.sinking.value),
@@ -51,9 +69,9 @@ pub(super) fn metrics() -> Vec<Metric> {
                 .known_to(
                     Origin::Input,
                     Some(sunk * by_fraction),
-                    "standard deviation of the fraction over the height at first",
+                    "solid fraction (standard deviation over the height at first)",
                 ),
-            metric(DEPOSIT_RISE_OVER_MEASURED.of(&variant, risen))
+            with_numbers(metric(DEPOSIT_RISE_OVER_MEASURED.of(&variant, risen)))
                 .known_to(
                     Origin::Experiment,
                     Some(risen * beads.rise.standard_error / beads.rise.value),
@@ -62,7 +80,7 @@ pub(super) fn metrics() -> Vec<Metric> {
                 .known_to(
                     Origin::Input,
                     Some(risen * by_fraction.hypot(beads.rise_known_to())),
-                    "standard deviations of both fractions over the height, for the velocity and for the volumes",
+                    "solid fractions (standard deviations of both over the height, for the velocity and for the volumes)",
                 ),
         ])
     };
@@ -109,5 +127,11 @@ mod tests {
         let (own, _) = sinking(beads, DragLaw::Ergun).expect("in range");
         assert!((own / by_hand - 1.0).abs() < 1e-3, "{own} for {by_hand}");
         assert_eq!(metrics().len(), 2 * LAWS.len());
+        // in this regime the velocity goes with d², Δρ, and 1/(ν ρ_f): ±5 µm of 290, ±5 kg/m³ of 100, half of the last digit of ν
+        let numbers = by_numbers(beads, DragLaw::Ergun, own);
+        let expected = [10.0 / 290.0, 0.05, 0.05 + 5.0 / 950.0, 5e-9 / 2.105e-5].map(|half| half / 3.0_f64.sqrt());
+        for ((name, found), expected) in numbers.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 5e-3, "{name}: {found} for {expected}");
+        }
     }
 }
