@@ -71,6 +71,18 @@ pub trait OpenFieldLaw: Debug + Send + Sync {
     /// field as it was. The plastic strain of a step is (τ* − τ)/G.
     fn end_of_step(&self, trial: &TrialStress<f64>, field: &FieldStep<f64>) -> FieldReturn<f64>;
 
+    /// Whether plastic flow changes the volume.
+    fn dilates(&self) -> bool {
+        false
+    }
+
+    /// Plastic volume strain e `[-]` that goes with a value of its field, where the law dilates: at the density ρ the pressure is that of the equation of
+    /// state at ρ exp(e). The stress at the end of a step is then that under `trial.dilated_pressure(e − e⁰)`, with e⁰ of the
+    /// field before.
+    fn plastic_volume_strain(&self, _field: f64) -> f64 {
+        0.0
+    }
+
     /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]` and a value of its field.
     fn yield_stress(&self, pressure: f64, field: f64) -> f64;
 
@@ -218,16 +230,23 @@ impl FieldLaw for OpenField {
     }
 
     fn end_of_step<R: Real>(&self, trial: &TrialStress<R>, field: &FieldStep<R>) -> FieldReturn<R> {
-        let &TrialStress { shear_stress, pressure, shear_modulus, time_step, .. } = trial;
-        let values = [shear_stress, pressure, field.value, field.gain, field.loss];
+        let values = [trial.shear_stress, trial.pressure, field.value, field.gain, field.loss];
         let end = |[shear_stress, pressure, value, gain, loss]: [f64; 5]| {
-            let trial = TrialStress::new(shear_stress, pressure, shear_modulus, time_step);
+            let trial = trial.at(shear_stress, pressure);
             self.0.law.end_of_step(&trial, &FieldStep { value, gain, loss })
         };
         FieldReturn {
             shear_stress: R::lane_by_lane(values, &|values| end(values).shear_stress),
             field: R::lane_by_lane(values, &|values| end(values).field),
         }
+    }
+
+    fn dilates(&self) -> bool {
+        self.0.law.dilates()
+    }
+
+    fn plastic_volume_strain<R: Real>(&self, field: R) -> R {
+        R::lane_by_lane([field], &|[field]| self.0.law.plastic_volume_strain(field))
     }
 
     fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: R, _elastic_viscosity: f64) -> R {
