@@ -46,7 +46,7 @@ where
     })
 }
 
-fn check<const D: usize>(scene: &Scene<D>)
+pub(crate) fn check<const D: usize>(scene: &Scene<D>)
 where
     Simulation<D>: Compiled<D>,
 {

@@ -4,6 +4,7 @@ mod artificial_viscosity;
 mod cuts;
 mod density_coupling;
 mod determinism;
+mod dilation;
 mod energy_ledger;
 mod fields;
 mod frames;

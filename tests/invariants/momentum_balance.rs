@@ -92,6 +92,8 @@ fn the_artificial_stress_of_soil_that_holds_together_is_balanced() {
         peak_cohesion: 1e5,
         residual_cohesion: 1e5,
         softening_strain: 1.0,
+        peak_dilation: 0.0,
+        dilation_strain: None,
     });
     assert!(imbalance(bare(), soil, Disorder::FULL) < ROUNDING);
 }

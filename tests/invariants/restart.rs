@@ -28,7 +28,7 @@ fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool").install(work)
 }
 
-fn check<const D: usize>(scene: &Scene<D>)
+pub(crate) fn check<const D: usize>(scene: &Scene<D>)
 where
     Simulation<D>: Compiled<D>,
 {

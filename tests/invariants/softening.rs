@@ -15,6 +15,8 @@ const SOIL: SofteningDruckerPrager = SofteningDruckerPrager {
     peak_cohesion: 200.0,
     residual_cohesion: 50.0,
     softening_strain: 0.1,
+    peak_dilation: 0.0,
+    dilation_strain: None,
 };
 
 /// A block under a uniform pressure whose particles move as u = γ̇ y, whatever acts on them: each step starts from a new simulation with the

@@ -7,7 +7,6 @@ use crate::weakly_compressible::boundary::enclosure::Exits;
 use crate::weakly_compressible::boundary::shell_contact::{Passed, Touch};
 use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::energy::energy_of;
-use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::Contact;
 use crate::weakly_compressible::passes::{shell_impulse, side_walls};
@@ -23,8 +22,6 @@ impl<const D: usize> State<D> {
         }
         self.particles.keep_real();
         let (particles, flow) = (&self.particles, self.particles.flow_count());
-        let single = self.model.gradient_use() == GradientUse::Stress && self.model.rheology.is_plastic();
-        let shear_modulus = single.then(|| self.model.shear_modulus());
         gone.clear();
         gone.extend(particles.position[..flow].iter().map(|place| exits.side(place).is_some()));
         if !gone.contains(&true) {
@@ -39,7 +36,7 @@ impl<const D: usize> State<D> {
             departed.mass_times_time += particles.mass[index] * self.time;
             departed.momentum += particles.velocity[index] * particles.mass[index];
             departed.support += particles.support_impulse[index];
-            departed.energy += energy_of(particles, index, &self.model.equation_of_state, shear_modulus);
+            departed.energy += energy_of(particles, index, &self.model);
         }
         self.particles.remove(gone);
     }

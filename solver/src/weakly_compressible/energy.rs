@@ -24,6 +24,7 @@ use crate::lanes::Lanes;
 use crate::lanes::algebra::{accumulate, contraction, dot, matrix_product, scaled, splat_vector, sum_of, zero_tensor};
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::vector::{Tensor, Vector, double_contraction};
+use crate::weakly_compressible::model::{GradientUse, Model};
 use crate::weakly_compressible::particles::Particles;
 use serde::{Deserialize, Serialize};
 
@@ -100,17 +101,13 @@ pub struct EnergyAccount {
 }
 
 impl EnergyAccount {
-    pub(crate) fn of<const D: usize>(
-        particles: &Particles<D>,
-        equation_of_state: &EquationOfState,
-        shear_modulus: Option<f64>,
-        ledger: EnergyLedger,
-    ) -> Self {
+    pub(crate) fn of<const D: usize>(particles: &Particles<D>, model: &Model<D>, ledger: EnergyLedger) -> Self {
+        let shear_modulus = model.rheology.is_plastic().then(|| model.shear_modulus());
         let (mut kinetic, mut elastic) = (0.0, 0.0);
         for index in particles.by_identity() {
             let (mass, density) = (particles.mass[index], particles.density[index]);
             kinetic += 0.5 * mass * particles.velocity[index].norm_squared();
-            elastic += mass * compression_energy(equation_of_state, density);
+            elastic += mass * specific_compression_energy(model, particles, index);
             if let Some(shear_modulus) = shear_modulus {
                 elastic += shear_energy(mass / density, &particles.stress[index], shear_modulus);
             }
@@ -135,21 +132,31 @@ impl EnergyAccount {
 }
 
 /// Kinetic and elastic energy of one particle `[J]`.
-pub(crate) fn energy_of<const D: usize>(
-    particles: &Particles<D>,
-    index: usize,
-    equation_of_state: &EquationOfState,
-    shear_modulus: Option<f64>,
-) -> f64 {
+pub(crate) fn energy_of<const D: usize>(particles: &Particles<D>, index: usize, model: &Model<D>) -> f64 {
+    let single = model.gradient_use() == GradientUse::Stress && model.rheology.is_plastic();
+    let shear_modulus = single.then(|| model.shear_modulus());
     let (mass, density) = (particles.mass[index], particles.density[index]);
     let shear = |modulus| shear_energy(mass / density, &particles.stress[index], modulus);
-    mass * (0.5 * particles.velocity[index].norm_squared() + compression_energy(equation_of_state, density))
+    mass * (0.5 * particles.velocity[index].norm_squared() + specific_compression_energy(model, particles, index))
         + shear_modulus.map_or(0.0, shear)
 }
 
 /// Energy of elastic shear in a volume `[J]`.
 fn shear_energy<const D: usize>(volume: f64, stress: &Tensor<D>, shear_modulus: f64) -> f64 {
     volume * double_contraction(stress, stress) / (4.0 * shear_modulus)
+}
+
+/// Energy of the compression of a particle `[J/kg]`: ∫ p/ρ² dρ from the density without pressure, ρ0 exp(−e), is exp(e) times the energy that the
+/// equation of state gives at ρ exp(e).
+fn specific_compression_energy<const D: usize>(model: &Model<D>, particles: &Particles<D>, index: usize) -> f64 {
+    let density = particles.density[index];
+    match &particles.field {
+        Some(field) if model.dilates => {
+            let loosening: f64 = model.rheology.loosening(field[index]);
+            loosening * compression_energy(&model.equation_of_state, density * loosening)
+        }
+        _ => compression_energy(&model.equation_of_state, density),
+    }
 }
 
 /// ∫ p/ρ² dρ from ρ0 `[J/kg]`.
@@ -363,6 +370,36 @@ impl<V: Lanes> CompressionStep<V> {
         let mean = V::splat(0.5) * (self.pressure.0 + self.pressure.1);
         sum.walls = sum.walls + factor * mean * self.by_walls;
         sum.density_coupling = sum.density_coupling - factor * mean * self.by_coupling;
+    }
+}
+
+/// What dilation makes of the compression of eight particles.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DilationStep<V> {
+    /// Volumes, zero where there is no particle.
+    pub(crate) volume: V,
+    /// Bulk modulus `[Pa]`.
+    pub(crate) bulk_modulus: f64,
+    /// Pressures `[Pa]` of the new density before and after the dilation.
+    pub(crate) pressure: (V, V),
+    /// Plastic volume strain that the step adds `[-]`.
+    pub(crate) strain: V,
+}
+
+impl<V: Lanes> DilationStep<V> {
+    /// Takes from the plastic work what dilation against the pressure has stored in compression. At a given density the energy of it,
+    /// m exp(e) ψ(ρ exp(e)), grows with e by V K (1 + s) ln(1 + s), s = p/K: p with a part p/2K more.
+    #[inline(always)]
+    pub(crate) fn add_to(&self, sum: &mut StressWork<V>) {
+        let stored = |pressure: V| {
+            let relative = pressure / V::splat(self.bulk_modulus);
+            (V::splat(1.0) + relative) * V::lane_by_lane([relative], &|[strain]| libm::log1p(strain))
+        };
+        let mean = V::splat(0.5 * self.bulk_modulus) * (stored(self.pressure.0) + stored(self.pressure.1));
+        let work = self.volume * mean * self.strain;
+        // where nothing dilates also of a particle whose state is lost
+        let zero = V::splat(0.0);
+        sum.plastic = sum.plastic - work.if_less(zero, self.strain, zero) - work.if_less(self.strain, zero, zero);
     }
 }
 

@@ -6,7 +6,6 @@ use crate::weakly_compressible::boundary::inlet::{BLOCKED, FedRow};
 use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::energy::energy_of;
 use crate::weakly_compressible::memory;
-use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::particles::Arriving;
 use crate::weakly_compressible::scene::MOST_PARTICLES;
 use crate::weakly_compressible::state::State;
@@ -67,8 +66,6 @@ impl<const D: usize> State<D> {
 
     /// What a row brings.
     fn book_row(&mut self, inlet: usize, row: std::ops::Range<usize>, free: FedRow) {
-        let single = self.model.gradient_use() == GradientUse::Stress && self.model.rheology.is_plastic();
-        let shear_modulus = single.then(|| self.model.shear_modulus());
         let particles = &self.particles;
         let arrivals = &mut self.surroundings.books.arrivals;
         let fed = &mut arrivals.inlets[inlet];
@@ -78,7 +75,7 @@ impl<const D: usize> State<D> {
             fed.mass += particles.mass[index];
             fed.mass_times_time += particles.mass[index] * self.time;
             fed.momentum += particles.velocity[index] * particles.mass[index];
-            fed.energy += energy_of(particles, index, &self.model.equation_of_state, shear_modulus);
+            fed.energy += energy_of(particles, index, &self.model);
         }
         arrivals.rows.push(free);
     }

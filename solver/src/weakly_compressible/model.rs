@@ -2,10 +2,10 @@
 
 use crate::kernel::Kernel;
 use crate::lanes::algebra::{deviatoric_rate, invariant};
-use crate::lanes::{InstructionSet, Lanes};
+use crate::lanes::{InstructionSet, Lanes, Real};
 use crate::material::equation_of_state::EquationOfState;
-use crate::material::rheology::Rheology;
 use crate::material::rheology::field::{FieldBoundary, FieldDiffusion, FieldStep, LawField};
+use crate::material::rheology::{ElasticModuli, Rheology};
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
 use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
@@ -32,6 +32,8 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) full_weight: f64,
     /// W(0) where tension is cut, so that grains may fly apart, else 0 `[1/m^D]`.
     pub(crate) lone_density_per_mass: f64,
+    /// Whether plastic flow changes the volume, so that the pressure depends on the field also.
+    pub(crate) dilates: bool,
     /// Where the law holds together.
     pub(crate) artificial_stress: Option<ArtificialStress>,
 }
@@ -90,6 +92,22 @@ impl<const D: usize> Model<D> {
         self.numerics.shear_modulus_ratio * self.equation_of_state.bulk_modulus
     }
 
+    /// Moduli of a step whose volume is given.
+    pub(crate) fn moduli(&self) -> ElasticModuli {
+        ElasticModuli { shear: self.shear_modulus(), bulk: self.equation_of_state.bulk_modulus }
+    }
+
+    /// Pressure `[Pa]` at a density `[kg/m³]` and a value of the law's field: that of the equation of state at ρ exp(e), with the plastic volume
+    /// strain e.
+    #[inline(always)]
+    pub(crate) fn pressure<R: Real>(&self, density: R, field: R) -> R {
+        if self.dilates {
+            self.equation_of_state.pressure(density * self.rheology.loosening(field))
+        } else {
+            self.equation_of_state.pressure(density)
+        }
+    }
+
     /// ζ ρ0 c_s h `[Pa·s]`: viscosity that damps elastic waves below the yield. Without it an arrested layer
     /// swings for ever; a flowing one does not feel it.
     pub(crate) fn elastic_viscosity(&self) -> f64 {
@@ -135,9 +153,17 @@ impl<const D: usize> Model<D> {
 
     /// σ of the density–pressure coupling (27) `[-]`. None in soil that holds together: there the pressure is one of the stresses in
     /// balance and as uneven as they are at faces and corners, where the coupling never vanishes; it would make slopes at rest creep.
+    /// Where such soil dilates see [`Model::couples_what_yields`].
     #[inline(always)]
     pub(crate) fn density_coupling(&self) -> f64 {
-        if self.rheology.is_cohesive() { 0.0 } else { self.numerics.density_coupling }
+        if self.rheology.is_cohesive() && !self.dilates { 0.0 } else { self.numerics.density_coupling }
+    }
+
+    /// Whether the coupling acts on what yields alone: in soil that holds together and dilates. There each particle presses by its own plastic strain,
+    /// K Δe, and what two neighbours have of it differently their stiffness makes noise of many cohesions; what is elastic stays as it is.
+    #[inline(always)]
+    pub(crate) fn couples_what_yields(&self) -> bool {
+        self.dilates && self.rheology.is_cohesive()
     }
 
     /// Whether the terms of pairs are single precision.

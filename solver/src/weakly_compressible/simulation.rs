@@ -308,13 +308,11 @@ impl<const D: usize> Simulation<D> {
 
     fn copy(&self) -> Snapshot<D> {
         let State { particles, model, .. } = &self.state;
-        Snapshot::new(self.state.time, particles, &model.equation_of_state, self.account())
+        Snapshot::new(self.state.time, particles, model, self.account())
     }
 
     fn account(&self) -> Option<EnergyAccount> {
         let State { particles, model, energy, .. } = &self.state;
-        let shear_modulus = model.rheology.is_plastic().then(|| model.shear_modulus());
-        (model.gradient_use() == GradientUse::Stress)
-            .then(|| EnergyAccount::of(particles, &model.equation_of_state, shear_modulus, *energy))
+        (model.gradient_use() == GradientUse::Stress).then(|| EnergyAccount::of(particles, model, *energy))
     }
 }

@@ -1,9 +1,9 @@
 //! A copy of the flow's state in the order of the scene, for observation, comparison and the last good state.
 
-use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::energy::EnergyAccount;
+use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::particles::Particles;
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +22,7 @@ pub struct Snapshot<const D: usize> {
     pub stress: Vec<Tensor<D>>,
     /// Densities `[kg/m³]`.
     pub density: Vec<f64>,
-    /// Pressures `[Pa]`, from the densities.
+    /// Pressures `[Pa]`, from the densities, and from the field of a law that dilates.
     pub pressure: Vec<f64>,
     /// Masses `[kg]`.
     pub mass: Vec<f64>,
@@ -38,27 +38,27 @@ pub struct Snapshot<const D: usize> {
 }
 
 impl<const D: usize> Snapshot<D> {
-    pub(crate) fn new(
-        time: f64,
-        particles: &Particles<D>,
-        equation_of_state: &EquationOfState,
-        energy: Option<EnergyAccount>,
-    ) -> Self {
+    pub(crate) fn new(time: f64, particles: &Particles<D>, model: &Model<D>, energy: Option<EnergyAccount>) -> Self {
         let order = particles.by_identity();
         fn pick<T: Copy>(array: &[T], order: &[usize]) -> Vec<T> {
             order.iter().map(|&index| array[index]).collect()
         }
         let density = pick(&particles.density, &order);
+        let field = particles.field.as_ref().map_or_else(Vec::new, |field| pick(field, &order));
         Self {
             time,
             position: pick(&particles.position, &order),
             velocity: pick(&particles.velocity, &order),
             velocity_gradient: pick(&particles.velocity_gradient, &order),
             stress: pick(&particles.stress, &order),
-            pressure: density.iter().map(|&rho| equation_of_state.pressure(rho)).collect(),
+            pressure: density
+                .iter()
+                .enumerate()
+                .map(|(place, &rho)| model.pressure(rho, field.get(place).copied().unwrap_or_default()))
+                .collect(),
             density,
             mass: pick(&particles.mass, &order),
-            field: particles.field.as_ref().map_or_else(Vec::new, |field| pick(field, &order)),
+            field,
             memory: particles.memory.as_ref().map_or_else(Vec::new, |memory| pick(memory, &order)),
             support_impulse: pick(&particles.support_impulse, &order),
             energy,

@@ -79,6 +79,7 @@ impl<const D: usize> State<D> {
                     Tension::Cut => kernel.value_at(0.0),
                     Tension::Kept => 0.0,
                 },
+                dilates: scene.rheology.dilates(),
                 artificial_stress: (scene.rheology.is_cohesive())
                     .then(|| ArtificialStress::new(&kernel, scene.spacing)),
             },

@@ -38,6 +38,23 @@ impl<const D: usize> State<D> {
         let flow = self.particles.flow_count();
         let equation_of_state = self.model.equation_of_state;
         let particles = &mut self.particles;
+        if let (true, Some(field)) = (self.model.dilates, &particles.field) {
+            let model = &self.model;
+            (
+                &mut particles.pressure[..flow],
+                &mut particles.volume[..flow],
+                &particles.density[..flow],
+                &particles.mass,
+                &field[..flow],
+            )
+                .into_par_iter()
+                .with_min_len(4096)
+                .for_each(|(pressure, volume, density, mass, field)| {
+                    *pressure = model.pressure(*density, *field);
+                    *volume = mass / density;
+                });
+            return;
+        }
         (&mut particles.pressure[..flow], &mut particles.volume[..flow], &particles.density[..flow], &particles.mass)
             .into_par_iter()
             .with_min_len(4096)

@@ -153,6 +153,18 @@ pub trait FieldLaw {
         field.memory
     }
 
+    /// Whether plastic flow changes the volume.
+    fn dilates(&self) -> bool {
+        false
+    }
+
+    /// Plastic volume strain e `[-]` that goes with a value of the field, where the law dilates: at the density ρ the pressure is that of the equation
+    /// of state at ρ exp(e). Never falling with the plastic strain of a law that only dilates. Then the stress at the end of a step is that under
+    /// [`TrialStress::dilated_pressure`].
+    fn plastic_volume_strain<R: Real>(&self, _field: R) -> R {
+        R::splat(0.0)
+    }
+
     /// What of a particle is elastic at an equivalent shear stress and a pressure `[Pa]`, from 1 to 0 `[-]`; 0 without
     /// pressure. `elastic_viscosity` `[Pa·s]` is that of the damping which the elastic part feels.
     fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: &FieldStep<R>, elastic_viscosity: f64) -> R;

@@ -1,7 +1,7 @@
 //! From a scalar law with a field to a stress tensor: the elastic trial, the law's return of both, and the spin.
 
-use super::TrialStress;
 use super::field::{FieldLaw, FieldReturn, FieldStep, StateReturn};
+use super::{ElasticModuli, TrialStress};
 use crate::lanes::Real;
 use crate::lanes::algebra::{accumulate, deviatoric_rate, invariant, matrix_product};
 
@@ -11,7 +11,7 @@ pub(super) struct Step<R> {
     /// `[Pa]`
     pub(super) pressure: R,
     /// `[Pa]`
-    pub(super) shear_modulus: f64,
+    pub(super) moduli: ElasticModuli,
     /// `[s]`
     pub(super) time_step: f64,
 }
@@ -27,7 +27,7 @@ pub(super) fn with_field<R: Real, L: FieldLaw, const D: usize>(
     field: &FieldStep<R>,
     step: Step<R>,
 ) -> StateReturn<[[R; D]; D], R> {
-    let Step { pressure, shear_modulus, time_step } = step;
+    let Step { pressure, moduli: ElasticModuli { shear: shear_modulus, bulk }, time_step } = step;
     let zero = R::splat(0.0);
     let rate = deviatoric_rate(velocity_gradient);
     let mut trial_stress = *previous;
@@ -42,7 +42,7 @@ pub(super) fn with_field<R: Real, L: FieldLaw, const D: usize>(
         }
     }
     let trial_shear_stress = invariant(0.5, &trial_stress);
-    let trial = TrialStress::new(trial_shear_stress, pressure, shear_modulus, time_step);
+    let trial = TrialStress::new(trial_shear_stress, pressure, shear_modulus, time_step).with_bulk_modulus(bulk);
     let end: FieldReturn<R> = law.end_of_step(&trial, field);
     let half = R::splat(0.5 * time_step) * law.turned_part(&trial, field, &end, vorticity.sqrt());
     let mut spin = trial_stress;

@@ -19,6 +19,9 @@
 
 mod bingham;
 mod coulomb_bingham;
+mod dilating_return;
+#[cfg(test)]
+mod dilation_tests;
 pub mod field;
 mod field_update;
 mod grain_parameters;
@@ -29,6 +32,7 @@ mod nonlocal_mu_i;
 #[cfg(test)]
 mod nonlocal_mu_i_tests;
 pub mod open;
+mod plastic_dilation;
 mod regularisation;
 mod regularised_mu_i;
 mod root_mu_i;
@@ -84,16 +88,55 @@ pub struct TrialStress<R> {
     pub pressure: R,
     /// Elastic shear modulus `[Pa]`.
     pub shear_modulus: f64,
+    /// Elastic bulk modulus `[Pa]` where the volume of the step is given; 0 where the pressure is.
+    pub bulk_modulus: f64,
     /// Time step `[s]`.
     pub time_step: f64,
 }
 
 impl<R> TrialStress<R> {
-    /// A trial from shear stress, pressure and shear modulus `[Pa]` and a time step `[s]`.
+    /// A trial from shear stress, pressure and shear modulus `[Pa]` and a time step `[s]`, at a given pressure.
     #[inline(always)]
     pub fn new(shear_stress: R, pressure: R, shear_modulus: f64, time_step: f64) -> Self {
-        Self { shear_stress, pressure, shear_modulus, time_step }
+        Self { shear_stress, pressure, shear_modulus, bulk_modulus: 0.0, time_step }
     }
+
+    /// The same at a given volume, with the elastic bulk modulus `[Pa]` that answers to dilation.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_bulk_modulus(self, bulk_modulus: f64) -> Self {
+        Self { bulk_modulus, ..self }
+    }
+
+    /// The trial of one particle, with its shear stress and pressure `[Pa]`.
+    #[inline(always)]
+    fn at(&self, shear_stress: f64, pressure: f64) -> TrialStress<f64> {
+        let &Self { shear_modulus, bulk_modulus, time_step, .. } = self;
+        TrialStress { shear_stress, pressure, shear_modulus, bulk_modulus, time_step }
+    }
+}
+
+impl<R: Real> TrialStress<R> {
+    /// Pressure `[Pa]` after a plastic volume strain `[-]` that the step adds: that of the equation of state p = K (ρ exp(e)/ρ0 − 1), which the
+    /// weakly compressible model has. The trial's own where the pressure is given.
+    #[inline(always)]
+    #[must_use]
+    pub fn dilated_pressure(&self, volume_strain: R) -> R {
+        if self.bulk_modulus <= 0.0 {
+            return self.pressure;
+        }
+        let growth = R::lane_by_lane([volume_strain], &|[strain]| libm::expm1(strain));
+        self.pressure + (R::splat(self.bulk_modulus) + self.pressure) * growth
+    }
+}
+
+/// Elastic moduli of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElasticModuli {
+    /// Shear modulus `[Pa]`.
+    pub shear: f64,
+    /// Bulk modulus `[Pa]` where the volume of the step is given; 0 where the pressure is.
+    pub bulk: f64,
 }
 
 /// A law that carries the stress along: elastic up to a yield stress, then a plastic shear rate.
@@ -221,7 +264,7 @@ macro_rules! rheology {
             }
 
             /// Deviatoric stress `[Pa]` and what the law keeps after a time step, as [`Rheology::updated_stress`]; a law that
-            /// keeps nothing leaves it as it was.
+            /// keeps nothing leaves it as it was. The pressure is given: dilation does not change it.
             #[must_use]
             pub fn updated_state<const D: usize>(
                 &self,
@@ -232,23 +275,38 @@ macro_rules! rheology {
                 shear_modulus: f64,
                 time_step: f64,
             ) -> StateReturn<Tensor<D>, f64> {
+                let moduli = ElasticModuli { shear: shear_modulus, bulk: 0.0 };
+                self.updated_state_of_volume(previous, velocity_gradient, pressure, field, moduli, time_step)
+            }
+
+            /// [`Rheology::updated_state`] at a given volume: `pressure` `[Pa]` is that of the new density with the field before the step, and
+            /// what dilates raises it, to [`TrialStress::dilated_pressure`].
+            #[must_use]
+            pub fn updated_state_of_volume<const D: usize>(
+                &self,
+                previous: &Tensor<D>,
+                velocity_gradient: &Tensor<D>,
+                pressure: f64,
+                field: &FieldStep<f64>,
+                moduli: ElasticModuli,
+                time_step: f64,
+            ) -> StateReturn<Tensor<D>, f64> {
                 match self {
                     $(Self::$keeper(law) => {
                         let (previous, gradient) = (components(previous), components(velocity_gradient));
-                        let step = field_update::Step { pressure, shear_modulus, time_step };
+                        let step = field_update::Step { pressure, moduli, time_step };
                         let end = field_update::with_field(law, &previous, &gradient, field, step);
                         let stress = Tensor::from_fn(|i, j| end.stress[i][j]);
                         StateReturn { stress, field: end.field, memory: end.memory }
                     })*
                     law => {
-                        let stress =
-                            law.updated_stress(previous, velocity_gradient, pressure, shear_modulus, time_step);
+                        let stress = law.updated_stress(previous, velocity_gradient, pressure, moduli.shear, time_step);
                         StateReturn { stress, field: field.value, memory: field.memory }
                     }
                 }
             }
 
-            /// [`Rheology::updated_state`] of eight particles, one a lane.
+            /// [`Rheology::updated_state_of_volume`] of eight particles, one a lane.
             #[inline(always)]
             pub(crate) fn updated_states<V: Lanes, const D: usize>(
                 &self,
@@ -256,7 +314,7 @@ macro_rules! rheology {
                 velocity_gradient: &[[V; D]; D],
                 pressure: V,
                 field: &FieldStep<V>,
-                shear_modulus: f64,
+                moduli: ElasticModuli,
                 time_step: f64,
             ) -> StateReturn<[[V; D]; D], V> {
                 match self {
@@ -272,11 +330,11 @@ macro_rules! rheology {
                     })*
                     $(Self::$plastic(law) => {
                         let stress =
-                            stress_update::plastic(law, previous, velocity_gradient, pressure, shear_modulus, time_step);
+                            stress_update::plastic(law, previous, velocity_gradient, pressure, moduli.shear, time_step);
                         StateReturn { stress, field: field.value, memory: field.memory }
                     })*
                     $(Self::$keeper(law) => {
-                        let step = field_update::Step { pressure, shear_modulus, time_step };
+                        let step = field_update::Step { pressure, moduli, time_step };
                         field_update::with_field(law, previous, velocity_gradient, field, step)
                     })*
                 }
@@ -399,6 +457,29 @@ macro_rules! rheology {
                 }
             }
 
+            /// Whether plastic flow changes the volume.
+            #[inline]
+            #[must_use]
+            pub fn dilates(&self) -> bool {
+                match self {
+                    $(Self::$viscous(_) => false,)*
+                    $(Self::$plastic(_) => false,)*
+                    $(Self::$keeper(law) => law.dilates(),)*
+                }
+            }
+
+            /// Plastic volume strain e `[-]` that goes with a value of the law's field: the logarithm of the volume without pressure over that
+            /// of the reference density.
+            #[inline(always)]
+            #[must_use]
+            pub fn plastic_volume_strain<R: Real>(&self, field: R) -> R {
+                match self {
+                    $(Self::$viscous(_) => R::splat(0.0),)*
+                    $(Self::$plastic(_) => R::splat(0.0),)*
+                    $(Self::$keeper(law) => law.plastic_volume_strain(field),)*
+                }
+            }
+
             /// The law's field in a flow at a shear rate `[1/s]` under a ratio of shear stress and pressure `[-]`; none of a law
             /// without.
             #[must_use]
@@ -414,6 +495,16 @@ macro_rules! rheology {
 }
 
 impl Rheology {
+    /// exp(e) `[-]`: the volume without pressure at a value of the law's field, over that of the reference density. 1 of a law that does not dilate.
+    #[inline(always)]
+    #[must_use]
+    pub fn loosening<R: Real>(&self, field: R) -> R {
+        if !self.dilates() {
+            return R::splat(1.0);
+        }
+        R::lane_by_lane([self.plastic_volume_strain(field)], &|[strain]| libm::exp(strain))
+    }
+
     /// The first parameter outside its range, or a pair of them that makes no law, if any.
     #[must_use]
     pub fn parameter_problem(&self) -> Option<ParameterProblem> {

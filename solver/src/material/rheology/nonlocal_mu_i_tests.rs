@@ -1,5 +1,5 @@
 use super::field::{FieldLaw, FieldStep};
-use super::{MuI, NonlocalMuI, PlasticLaw, Rheology, TrialStress};
+use super::{ElasticModuli, MuI, NonlocalMuI, PlasticLaw, Rheology, TrialStress};
 use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::vector::Tensor;
@@ -158,8 +158,16 @@ impl LanePass for Update<'_> {
         for _ in 0..30 {
             let stress = load_tensor::<V, 3>(self.stress);
             let field = FieldStep::new(V::load(self.field), V::splat(0.4), V::splat(0.3));
-            let (stress, field) =
-                law.updated_states(&stress, &gradient, V::load(self.pressure), &field, 2e4, 1e-4).stress_and_field();
+            let (stress, field) = law
+                .updated_states(
+                    &stress,
+                    &gradient,
+                    V::load(self.pressure),
+                    &field,
+                    ElasticModuli { shear: 2e4, bulk: 0.0 },
+                    1e-4,
+                )
+                .stress_and_field();
             store_tensor(&stress, self.stress);
             *self.field = field.to_array();
         }

@@ -77,6 +77,18 @@ pub trait OpenFieldLaw: Debug + Send + Sync {
     /// field as it was. The plastic strain of a step is (τ* − τ)/G.
     fn end_of_step(&self, trial: &TrialStress<f64>, field: &FieldStep<f64>) -> FieldReturn<f64>;
 
+    /// Whether plastic flow changes the volume.
+    fn dilates(&self) -> bool {
+        false
+    }
+
+    /// Plastic volume strain e `[-]` that goes with a value of its field, where the law dilates: at the density ρ the pressure is that of the equation of
+    /// state at ρ exp(e). The stress at the end of a step is then that under `trial.dilated_pressure(e − e⁰)`, with e⁰ of the
+    /// field before.
+    fn plastic_volume_strain(&self, _field: f64) -> f64 {
+        0.0
+    }
+
     /// What it keeps beside its field at the end of the step that ended so, with zeros behind. A step of no length leaves it as
     /// it was.
     fn memory_after(&self, _trial: &TrialStress<f64>, field: &FieldStep<f64>, _end: &FieldReturn<f64>) -> Memory<f64> {
@@ -230,17 +242,24 @@ impl FieldLaw for OpenField {
     }
 
     fn end_of_step<R: Real>(&self, trial: &TrialStress<R>, field: &FieldStep<R>) -> FieldReturn<R> {
-        let &TrialStress { shear_stress, pressure, shear_modulus, time_step, .. } = trial;
         let [first, second, third] = field.memory;
-        let values = [shear_stress, pressure, field.value, field.gain, field.loss, first, second, third];
+        let values = [trial.shear_stress, trial.pressure, field.value, field.gain, field.loss, first, second, third];
         let end = |[shear_stress, pressure, value, gain, loss, first, second, third]: [f64; 8]| {
-            let trial = TrialStress::new(shear_stress, pressure, shear_modulus, time_step);
+            let trial = trial.at(shear_stress, pressure);
             self.0.law.end_of_step(&trial, &FieldStep { value, gain, loss, memory: [first, second, third] })
         };
         FieldReturn {
             shear_stress: R::lane_by_lane(values, &|values| end(values).shear_stress),
             field: R::lane_by_lane(values, &|values| end(values).field),
         }
+    }
+
+    fn dilates(&self) -> bool {
+        self.0.law.dilates()
+    }
+
+    fn plastic_volume_strain<R: Real>(&self, field: R) -> R {
+        R::lane_by_lane([field], &|[field]| self.0.law.plastic_volume_strain(field))
     }
 
     fn memories(&self) -> &[LawField] {
@@ -251,14 +270,23 @@ impl FieldLaw for OpenField {
         if self.0.law.memories().is_empty() {
             return field.memory;
         }
-        let &TrialStress { shear_stress, pressure, shear_modulus, time_step, .. } = trial;
         let [first, second, third] = field.memory;
         let ends = [end.shear_stress, end.field];
-        let values =
-            [shear_stress, pressure, field.value, field.gain, field.loss, first, second, third, ends[0], ends[1]];
+        let values = [
+            trial.shear_stress,
+            trial.pressure,
+            field.value,
+            field.gain,
+            field.loss,
+            first,
+            second,
+            third,
+            ends[0],
+            ends[1],
+        ];
         let after = |values: [f64; 10]| {
             let [shear_stress, pressure, value, gain, loss, first, second, third, at_end, field] = values;
-            let trial = TrialStress::new(shear_stress, pressure, shear_modulus, time_step);
+            let trial = trial.at(shear_stress, pressure);
             let before = FieldStep { value, gain, loss, memory: [first, second, third] };
             self.0.law.memory_after(&trial, &before, &FieldReturn { shear_stress: at_end, field })
         };

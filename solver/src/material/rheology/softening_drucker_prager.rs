@@ -6,10 +6,10 @@
 //! Y(κ, p) = μ(κ) p + k(κ), μ = μ_r + (μ_p − μ_r) r, k = k_r + (k_p − k_r) r, r = max(0, 1 − κ/κ_r),
 //!
 //! with friction μ `[-]` and cohesion k `[Pa]` at their peak (p) for κ = 0 and at their residual (r) from κ_r on. Beyond it the
-//! material flows without change of volume, along its deviatoric stress, at any rate alike: dκ = |γ̇_p| dt. Flow without
-//! dilation in the plane has the mean of the principal stresses in the plane as its pressure, so that
-//! Mohr and Coulomb's material of friction angle φ and cohesion c has exactly μ = sin φ and k = c cos φ there. In space the
-//! cone lies between the edges of their pyramid.
+//! material flows along its deviatoric stress, at any rate alike: dκ = |γ̇_p| dt, and as it flows it dilates by β(κ) dκ
+//! ([`PlasticDilation`]; β = 0 unless it is given). The pressure in the plane is the mean of the principal stresses in the plane, so that
+//! Mohr and Coulomb's material of friction angle φ and cohesion c has exactly μ = sin φ and k = c cos φ there, and its dilation by the angle ψ is
+//! β = sin ψ; β = μ is associated flow. In space the cone lies between the edges of their pyramid.
 //!
 //! Over a step stress and strain are solved together at its end: with the trial τ* > Y(κ⁰),
 //!
@@ -18,16 +18,18 @@
 //! The left side less the right side is positive at Δκ = 0 and has one kink, at κ_r; behind it, it falls. So it has one root, however
 //! steep the softening: Δκ = (τ* − Y_r)/G if that passes κ_r, else Δκ = (τ* − Y(κ⁰))/(G − H) with the modulus of softening
 //! H = (Y_p − Y_r)/κ_r, which is below G then. What softens faster than it unloads (H > G) drops to the residual at once.
-//! τ + G κ = G γ holds to rounding, so that a path is exact for every step.
+//! τ + G κ = G γ holds to rounding, so that a path is exact for every step. With dilation the pressure rises with Δκ, and the equation is that
+//! of `dilating_return`.
 //!
 //! Where the equation of state keeps tension, a cohesion reaches to p = −k/μ, the apex of the cone, and Y = 0 beyond it.
 //! Where it cuts tension, p = 0 means that the material has come apart: no shear stress, whatever the cohesion.
 //!
-//! Limits: no dilation, hence no rise of the pressure where the volume is held; no rate. Softening localises: in a body,
+//! Limits: no rate; a dilation that does not end (without κ_d) is for checks against limit analysis. Softening localises: in a body,
 //! bands of shear are as narrow as the particles allow.
 
 use super::field::{FieldLaw, FieldReturn, FieldStep, LawField};
 use super::mu_i::REST_SHEAR_RATE;
+use super::plastic_dilation::PlasticDilation;
 use super::{MuI, TrialStress};
 use crate::lanes::Real;
 use crate::parameter::{ParameterProblem, between, not_negative, positive};
@@ -53,14 +55,31 @@ pub struct SofteningDruckerPrager {
     /// Plastic shear strain κ_r `[-]` over which strength falls to its residual.
     #[schemars(transform = positive("give the plastic shear strain at which strength is residual; 0.1 is usual"))]
     pub softening_strain: f64,
+    /// Dilation β_p `[-]` before any plastic strain: plastic volume strain gained per plastic shear strain, the sine of the dilation angle, ≤ μ_p.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(transform = between(0.0, 1.0, "give the sine of the dilation angle, no angle, at most peak_friction; 0.2 for dense sand, 0 for none"))]
+    pub peak_dilation: f64,
+    /// Plastic shear strain κ_d `[-]` over which dilation falls to nothing; without it dilation never ends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("give the plastic shear strain at which the volume does not change any more; 0.2 is usual"))]
+    pub dilation_strain: Option<f64>,
 }
+
+/// Whether a value stands for nothing, and so is not written.
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands a reference")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// Most plastic volume strain `[-]`: what sand gains from its densest to its loosest state.
+const LARGEST_LOOSENING: f64 = 0.25;
 
 /// Below its yield stress by more than this part of it a material is wholly elastic `[-]`.
 const YIELDING: f64 = 0.01;
 
 /// A value where there is a pressure or a tension, another one where there is none or where it is lost.
 #[inline(always)]
-fn where_held<R: Real>(value: R, pressure: R, other: R) -> R {
+pub(super) fn where_held<R: Real>(value: R, pressure: R, other: R) -> R {
     let zero = R::splat(0.0);
     value.if_less(zero, pressure, value.if_less(pressure, zero, other))
 }
@@ -75,7 +94,7 @@ impl SofteningDruckerPrager {
 
     /// Residual strength and what softening takes of the peak strength `[Pa]`, at a pressure `[Pa]`.
     #[inline(always)]
-    fn residual_and_lost<R: Real>(&self, pressure: R) -> (R, R) {
+    pub(super) fn residual_and_lost<R: Real>(&self, pressure: R) -> (R, R) {
         let at = |friction: f64, cohesion: f64| (R::splat(friction) * pressure + R::splat(cohesion)).max(R::splat(0.0));
         let peak = at(self.peak_friction, self.peak_cohesion);
         // under tension less friction would be more strength
@@ -85,14 +104,20 @@ impl SofteningDruckerPrager {
 
     /// Plastic shear strain up to the residual strength `[-]`.
     #[inline(always)]
-    fn strain_left<R: Real>(&self, strain: R) -> R {
+    pub(super) fn strain_left<R: Real>(&self, strain: R) -> R {
         (R::splat(self.softening_strain) - strain).max(R::splat(0.0))
     }
 
     /// r `[-]`.
     #[inline(always)]
-    fn retained<R: Real>(&self, strain_left: R) -> R {
+    pub(super) fn retained<R: Real>(&self, strain_left: R) -> R {
         strain_left / R::splat(self.softening_strain)
+    }
+
+    /// How it dilates.
+    #[inline(always)]
+    pub(super) fn dilation(&self) -> PlasticDilation {
+        PlasticDilation { peak: self.peak_dilation, strain: self.dilation_strain.unwrap_or(f64::INFINITY) }
     }
 
     pub(super) fn strength_problem(&self) -> Option<ParameterProblem> {
@@ -102,6 +127,39 @@ impl SofteningDruckerPrager {
         };
         rises("residual_friction", "peak_friction", self.residual_friction, self.peak_friction)
             .or_else(|| rises("residual_cohesion", "peak_cohesion", self.residual_cohesion, self.peak_cohesion))
+            .or_else(|| self.dilation_problem())
+    }
+
+    /// What dilates more than it has friction gains energy from its flow under a great pressure.
+    fn dilation_problem(&self) -> Option<ParameterProblem> {
+        let (dilation, peak) = (self.dilation(), self.peak_dilation);
+        let problem = |value: f64, field: &str, rule: String, remedy: &str| {
+            Some(ParameterProblem::new(field, value, &rule, remedy))
+        };
+        if peak > self.peak_friction {
+            let remedy = "give the sine of the dilation angle, no greater than that of the angle of friction";
+            return problem(peak, "peak_dilation", "at most peak_friction".to_owned(), remedy);
+        }
+        // both fall along lines, so that the ends of the softening are enough
+        let at_residual = dilation.ratio(self.softening_strain);
+        if at_residual > self.residual_friction {
+            let rule = format!(
+                "so small that the dilation left at softening_strain, {at_residual:.3}, is at most residual_friction, {}",
+                self.residual_friction
+            );
+            return problem(peak, "peak_dilation", rule, "give less, or a dilation_strain that ends it sooner");
+        }
+        let (strain, most) = (self.dilation_strain?, LARGEST_LOOSENING);
+        if dilation.largest_volume_strain() > most {
+            let rule = format!("at most {:.3}, so that the volume grows by no more than {most}", 2.0 * most / peak);
+            return problem(
+                strain,
+                "dilation_strain",
+                rule,
+                "give the strain at which soil has come to its critical density",
+            );
+        }
+        None
     }
 }
 
@@ -114,6 +172,8 @@ impl From<MuI> for SofteningDruckerPrager {
             peak_cohesion: 0.0,
             residual_cohesion: 0.0,
             softening_strain: 1.0,
+            peak_dilation: 0.0,
+            dilation_strain: None,
         }
     }
 }
@@ -140,6 +200,9 @@ impl FieldLaw for SofteningDruckerPrager {
             let shear_stress = trial.shear_stress.min(strength);
             return FieldReturn { shear_stress: where_held(shear_stress, trial.pressure, zero), field: before };
         }
+        if self.dilates() && trial.bulk_modulus > 0.0 {
+            return self.dilating_end_of_step(trial, before);
+        }
         let modulus = R::splat(trial.shear_modulus);
         let softening = lost / R::splat(self.softening_strain); // H
         let to_residual = (trial.shear_stress - residual) / modulus;
@@ -154,6 +217,15 @@ impl FieldLaw for SofteningDruckerPrager {
             // what has come apart stays as soft as it was
             field: where_held(after, trial.pressure, before),
         }
+    }
+
+    fn dilates(&self) -> bool {
+        self.peak_dilation > 0.0
+    }
+
+    #[inline(always)]
+    fn plastic_volume_strain<R: Real>(&self, field: R) -> R {
+        self.dilation().volume_strain(field)
     }
 
     #[inline(always)]

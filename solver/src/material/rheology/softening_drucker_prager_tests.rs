@@ -1,5 +1,5 @@
 use super::field::{FieldLaw, FieldStep};
-use super::{MuI, PlasticLaw, Rheology, SofteningDruckerPrager, TrialStress};
+use super::{ElasticModuli, MuI, PlasticLaw, Rheology, SofteningDruckerPrager, TrialStress};
 use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::vector::{Tensor, double_contraction, equivalent_shear_stress};
@@ -13,8 +13,11 @@ const SOIL: SofteningDruckerPrager = SofteningDruckerPrager {
     peak_cohesion: 10.0,
     residual_cohesion: 5.0,
     softening_strain: 0.25,
+    peak_dilation: 0.0,
+    dilation_strain: None,
 };
 const PRESSURE: f64 = 100.0;
+const MODULI: ElasticModuli = ElasticModuli { shear: 2e3, bulk: 0.0 };
 
 /// τ `[Pa]` at a shear strain γ `[-]` under [`PRESSURE`], written down from the peak and the residual strength: elastic to the peak, down
 /// a line whose plastic part is κ_r long, residual.
@@ -143,6 +146,7 @@ fn stress_and_strain_solve_their_equation_together() {
             peak_cohesion: cohesion,
             residual_cohesion: cohesion * random.random::<f64>(),
             softening_strain: libm::exp(random.random_range(-7.0..1.0)),
+            ..SOIL
         };
         let pressure = libm::exp(random.random_range(-3.0..9.0));
         let modulus = libm::exp(random.random_range(3.0..12.0));
@@ -223,6 +227,7 @@ fn whatever_is_allowed_gives_a_finite_state_that_never_hardens() {
                         peak_cohesion,
                         residual_cohesion: kept * peak_cohesion,
                         softening_strain,
+                        ..SOIL
                     };
                     assert_eq!(Rheology::SofteningDruckerPrager(law).parameter_problem(), None, "{law:?}");
                     for (pressure, modulus) in [(1e-12, 1e-9), (100.0, 2e4), (1e15, 1e15)] {
@@ -298,7 +303,7 @@ impl LanePass for Update<'_> {
             let stress = load_tensor::<V, 3>(self.stress);
             let field = FieldStep::alone(V::load(self.field));
             let (stress, field) =
-                law.updated_states(&stress, &gradient, V::load(self.pressure), &field, 2e3, 1e-3).stress_and_field();
+                law.updated_states(&stress, &gradient, V::load(self.pressure), &field, MODULI, 1e-3).stress_and_field();
             store_tensor(&stress, self.stress);
             *self.field = field.to_array();
         }

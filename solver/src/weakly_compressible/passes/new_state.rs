@@ -2,13 +2,13 @@
 //! what that adds to the energy ledger. Only here does the weakly compressible model ask the law for a stress.
 
 use crate::lanes::algebra::{
-    accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
+    accumulate, deviatoric_rate, invariant, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
 };
 use crate::lanes::{LANES, Lanes};
 use crate::material::rheology::field::{FieldBoundary, FieldStep, Memory};
 use crate::vector::{Tensor, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
-use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, EnergyLedger, StressWork};
+use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, DilationStep, EnergyLedger, StressWork};
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::model::{GradientUse, Model};
 use crate::weakly_compressible::numerics::ViscositySwitch;
@@ -111,6 +111,16 @@ impl<V: Lanes> FieldSums<V> {
     }
 }
 
+/// What the law takes a step from: the new density, and the pressure at it with the field before the step.
+#[derive(Clone, Copy)]
+struct LawStep<V> {
+    /// `[kg/m³]`
+    density: V,
+    /// `[Pa]`
+    pressure: V,
+    field: V,
+}
+
 /// A block of particles on its way to the next step.
 pub(super) struct Advance<'a, const D: usize> {
     pub(super) model: &'a Model<D>,
@@ -135,19 +145,38 @@ impl<const D: usize> Advance<'_, D> {
         let equation_of_state = &self.model.equation_of_state;
         let previous = load::<V>(&out.density[places.clone()]);
         let strength = self.model.density_coupling();
-        let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
         let here = self.block_start + places.start..self.block_start + places.end;
-        let mass = load::<V>(&self.particles.mass[here.clone()]);
+        let field_before =
+            if self.model.field.is_some() { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
+        let pressure_before = load::<V>(&self.particles.pressure[here.clone()]);
+        let mut coupling = sums.coupling;
+        if self.model.couples_what_yields() {
+            let shear_stress = invariant(0.5, &load_tensor::<V, D>(&out.stress[places.clone()]));
+            let damping = self.model.elastic_viscosity();
+            let mut kept = FieldStep::alone(field_before);
+            if self.model.keeps_memory {
+                kept = kept.with_memory(memory::load(&out.memory[places.clone()]));
+            }
+            let elastic = self.model.rheology.elasticity(shear_stress, pressure_before, &kept, damping);
+            coupling = coupling * (V::splat(1.0) - elastic);
+        }
+        let density = continuity::advanced(previous, sums.compression, coupling, strength, self.time_step);
+        let mass = load::<V>(&self.particles.mass[here]);
         let density = continuity::held(density, previous, mass, self.model.lone_density_per_mass);
         let time_step = V::splat(self.time_step);
-        CompressionStep {
+        let field_before =
+            if self.model.field.is_some() { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
+        let pressure = self.model.pressure(density, field_before);
+        let mut compression = CompressionStep {
             mass,
             density: (previous, density),
-            pressure: (load::<V>(&self.particles.pressure[here]), equation_of_state.pressure(density)),
+            pressure: (pressure_before, pressure),
             by_walls: time_step * previous * sums.wall_compression,
-            by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
+            by_coupling: time_step * time_step * V::splat(strength) * coupling,
+        };
+        if !self.model.dilates {
+            compression.add_to(work);
         }
-        .add_to(work);
         let inverse_reference = 1.0 / equation_of_state.reference_density;
         store(density, &mut out.density[places.clone()]);
         for place in places.clone() {
@@ -163,26 +192,30 @@ impl<const D: usize> Advance<'_, D> {
             store(switched, &mut out.artificial_viscosity[places.clone()]);
         }
         if self.gradient != GradientUse::None {
-            self.stress_of(places, density, sums, out, work, extremes);
+            let start = LawStep { density, pressure, field: field_before };
+            compression.pressure.1 = self.stress_of(places, start, sums, out, work, extremes);
+        }
+        if self.model.dilates {
+            compression.add_to(work);
         }
     }
 
-    /// Velocity gradient, and the stress or the viscosity that the law gives with it.
+    /// Velocity gradient, and the stress or the viscosity that the law gives with it; returns the pressure of the new state.
     #[inline(always)]
     fn stress_of<V: Lanes>(
         &self,
         places: Range<usize>,
-        density: V,
+        start: LawStep<V>,
         sums: &RateSums<V, D>,
         out: &mut Output<'_, D>,
         work: &mut StressWork<V>,
         extremes: &mut Extremes,
-    ) {
+    ) -> V {
+        let LawStep { density, mut pressure, field: field_before } = start;
         let law = &self.model.rheology;
         let particles_here = self.block_start + places.start..self.block_start + places.end;
         let correction = self.particles.correction.load::<V>(particles_here.start / LANES);
         let gradient = matrix_product(&sums.gradient, &correction);
-        let pressure = self.model.equation_of_state.pressure(density);
         let gradient_before = load_tensor::<V, D>(&out.velocity_gradient[places.clone()]);
         store_tensor(&gradient, &mut out.velocity_gradient[places.clone()]);
         if self.gradient == GradientUse::Stress {
@@ -194,22 +227,27 @@ impl<const D: usize> Advance<'_, D> {
                     accumulate(&mut diffused[i], strength, &sums.stress_diffusion[i]);
                 }
             }
-            let modulus = self.model.shear_modulus();
-            let keeps_field = self.model.field.is_some();
+            let moduli = self.model.moduli();
+            let volume = load::<V>(&self.particles.volume[particles_here.clone()]);
             let keeps_memory = self.model.keeps_memory;
-            let field_before = if keeps_field { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
             let mut kept = self.field_step(field_before, &sums.field);
             if keeps_memory {
                 kept = kept.with_memory(memory::load(&out.memory[places.clone()]));
             }
-            let end = law.updated_states(&diffused, &gradient, pressure, &kept, modulus, self.time_step);
-            if keeps_field {
-                store(end.field, &mut out.field[places.clone()]);
+            let end = law.updated_states(&diffused, &gradient, pressure, &kept, moduli, self.time_step);
+            let (stress, field) = (end.stress, end.field);
+            if self.model.field.is_some() {
+                store(field, &mut out.field[places.clone()]);
             }
             if keeps_memory {
                 memory::store(&end.memory, &mut out.memory[places.clone()]);
             }
-            let stress = end.stress;
+            if self.model.dilates {
+                let dilated = self.model.pressure(density, field);
+                let strain = law.plastic_volume_strain(field) - law.plastic_volume_strain(field_before);
+                DilationStep { volume, bulk_modulus: moduli.bulk, pressure: (pressure, dilated), strain }.add_to(work);
+                pressure = dilated;
+            }
             store_tensor(&stress, &mut out.stress[places.clone()]);
             let pressure_before = load::<V>(&self.particles.pressure[particles_here.clone()]);
             let mut added = zero_tensor::<V, D>();
@@ -226,9 +264,9 @@ impl<const D: usize> Advance<'_, D> {
                 accumulate(&mut flow_gradient[i], V::splat(-1.0), &sums.wall_gradient[i]);
             }
             DeformationStep {
-                volume: load::<V>(&self.particles.volume[particles_here.clone()]),
+                volume,
                 time_step: self.time_step,
-                shear_modulus: law.is_plastic().then_some(modulus),
+                shear_modulus: law.is_plastic().then_some(moduli.shear),
                 added_stress: &added,
                 pressure: (pressure_before, pressure),
                 divergence: sums.wall_compression - sums.compression,
@@ -242,15 +280,16 @@ impl<const D: usize> Advance<'_, D> {
             .add_to(work);
         }
         if self.gradient == GradientUse::Viscosity || !law.is_plastic() {
-            let pressure = pressure.to_array();
+            let pressures = pressure.to_array();
             for (lane, place) in places.enumerate() {
-                let viscosity = law.viscosity(shear_rate(&out.velocity_gradient[place]), pressure[lane]);
+                let viscosity = law.viscosity(shear_rate(&out.velocity_gradient[place]), pressures[lane]);
                 out.viscosity[place] = viscosity;
                 if !law.is_plastic() {
                     extremes.kinematic_viscosity = extremes.kinematic_viscosity.max(viscosity / out.density[place]);
                 }
             }
         }
+        pressure
     }
 
     /// A field with what its diffusion brings and takes.

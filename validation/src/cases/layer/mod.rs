@@ -140,7 +140,12 @@ impl Layer<'_> {
             flow.velocity[particle] = Vector::<2>::new((self.velocity)(position[1]), 0.0);
             flow.stress[particle] = Tensor::<2>::new(0.0, shear, shear, 0.0);
             let ratio = shear / self.hydrostatic_pressure(position[1]);
-            flow.field.extend(self.rheology.field_in_flow(self.shear_rate(position[1]), ratio));
+            let Some(field) = self.rheology.field_in_flow(self.shear_rate(position[1]), ratio) else { continue };
+            flow.field.push(field);
+            // what has dilated is looser under the same pressure, and its particles as large as before
+            let loosening: f64 = self.rheology.loosening(field);
+            flow.density[particle] /= loosening;
+            flow.mass[particle] /= loosening;
         }
         scene
     }

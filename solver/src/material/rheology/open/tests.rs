@@ -2,7 +2,7 @@ use super::{OpenLaw, OpenLawError, OpenPlasticLaw, Parameters, RegistrationError
 use crate::lanes::algebra::{load_tensor, store_tensor};
 use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::material::rheology::field::FieldStep;
-use crate::material::rheology::{MuI, PlasticLaw, Rheology, TrialStress, ViscousLaw};
+use crate::material::rheology::{ElasticModuli, MuI, PlasticLaw, Rheology, TrialStress, ViscousLaw};
 use crate::vector::Tensor;
 use serde::Deserialize;
 use std::sync::Once;
@@ -88,8 +88,10 @@ impl LanePass for Update<'_> {
         let pressure = V::load(self.pressures);
         let stress = load_tensor::<V, 3>(self.stress);
         let none = FieldStep::alone(V::splat(0.0));
-        let (stress, field) =
-            self.law.updated_states(&stress, &gradient, pressure, &none, 2e4, 1e-3).stress_and_field();
+        let (stress, field) = self
+            .law
+            .updated_states(&stress, &gradient, pressure, &none, ElasticModuli { shear: 2e4, bulk: 0.0 }, 1e-3)
+            .stress_and_field();
         *self.elasticity = self.law.elasticity(stress[0][1], pressure, &FieldStep::alone(field), 0.0).to_array();
         store_tensor(&stress, self.stress);
     }
