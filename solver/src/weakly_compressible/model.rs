@@ -153,17 +153,9 @@ impl<const D: usize> Model<D> {
 
     /// σ of the density–pressure coupling (27) `[-]`. None in soil that holds together: there the pressure is one of the stresses in
     /// balance and as uneven as they are at faces and corners, where the coupling never vanishes; it would make slopes at rest creep.
-    /// Where such soil dilates see [`Model::couples_what_yields`].
     #[inline(always)]
     pub(crate) fn density_coupling(&self) -> f64 {
-        if self.rheology.is_cohesive() && !self.dilates { 0.0 } else { self.numerics.density_coupling }
-    }
-
-    /// Whether the coupling acts on what yields alone: in soil that holds together and dilates. There each particle presses by its own plastic strain,
-    /// K Δe, and what two neighbours have of it differently their stiffness makes noise of many cohesions; what is elastic stays as it is.
-    #[inline(always)]
-    pub(crate) fn couples_what_yields(&self) -> bool {
-        self.dilates && self.rheology.is_cohesive()
+        if self.rheology.is_cohesive() { 0.0 } else { self.numerics.density_coupling }
     }
 
     /// Whether the terms of pairs are single precision.

@@ -2,7 +2,7 @@
 //! what that adds to the energy ledger. Only here does the weakly compressible model ask the law for a stress.
 
 use crate::lanes::algebra::{
-    accumulate, deviatoric_rate, invariant, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
+    accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
 };
 use crate::lanes::{LANES, Lanes};
 use crate::material::rheology::field::{FieldBoundary, FieldStep, Memory};
@@ -146,21 +146,8 @@ impl<const D: usize> Advance<'_, D> {
         let previous = load::<V>(&out.density[places.clone()]);
         let strength = self.model.density_coupling();
         let here = self.block_start + places.start..self.block_start + places.end;
-        let field_before =
-            if self.model.field.is_some() { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
         let pressure_before = load::<V>(&self.particles.pressure[here.clone()]);
-        let mut coupling = sums.coupling;
-        if self.model.couples_what_yields() {
-            let shear_stress = invariant(0.5, &load_tensor::<V, D>(&out.stress[places.clone()]));
-            let damping = self.model.elastic_viscosity();
-            let mut kept = FieldStep::alone(field_before);
-            if self.model.keeps_memory {
-                kept = kept.with_memory(memory::load(&out.memory[places.clone()]));
-            }
-            let elastic = self.model.rheology.elasticity(shear_stress, pressure_before, &kept, damping);
-            coupling = coupling * (V::splat(1.0) - elastic);
-        }
-        let density = continuity::advanced(previous, sums.compression, coupling, strength, self.time_step);
+        let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
         let mass = load::<V>(&self.particles.mass[here]);
         let density = continuity::held(density, previous, mass, self.model.lone_density_per_mass);
         let time_step = V::splat(self.time_step);
@@ -172,7 +159,7 @@ impl<const D: usize> Advance<'_, D> {
             density: (previous, density),
             pressure: (pressure_before, pressure),
             by_walls: time_step * previous * sums.wall_compression,
-            by_coupling: time_step * time_step * V::splat(strength) * coupling,
+            by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
         };
         if !self.model.dilates {
             compression.add_to(work);
