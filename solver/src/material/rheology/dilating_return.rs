@@ -33,7 +33,7 @@ impl SofteningDruckerPrager {
         let strain =
             R::lane_by_lane([trial.shear_stress, trial.pressure, before], &|[shear_stress, pressure, before]| {
                 // what has come apart stays as it was
-                if pressure < 0.0 || pressure > 0.0 {
+                if pressure.abs() > 0.0 {
                     self.dilating_strain(&trial.at(shear_stress, pressure), before)
                 } else {
                     0.0
