@@ -33,10 +33,10 @@ impl SofteningDruckerPrager {
         let strain =
             R::lane_by_lane([trial.shear_stress, trial.pressure, before], &|[shear_stress, pressure, before]| {
                 // what has come apart stays as it was
-                if pressure.abs() > 0.0 {
-                    self.dilating_strain(&trial.at(shear_stress, pressure), before)
-                } else {
+                if pressure == 0.0 || pressure.is_nan() {
                     0.0
+                } else {
+                    self.dilating_strain(&trial.at(shear_stress, pressure), before)
                 }
             });
         let after = before + strain;
