@@ -86,13 +86,20 @@ fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
         };
         row.metric.split('_').map(weight).sum::<usize>()
     };
-    let is_of_run = |drawn: &DrawnFigure| {
-        row.variant.iter().any(|part| part.split_once('=').is_some_and(|(_, value)| value == drawn.name))
+    // a figure `heap` is that of a run `heap`, or else of one `local-heap`
+    let of_run = |drawn: &DrawnFigure| {
+        let by_value = |value: &str| match value {
+            _ if value == drawn.name => 2,
+            _ if value.split('-').any(|word| word == drawn.name) => 1,
+            _ => 0,
+        };
+        let values = row.variant.iter().filter_map(|part| part.split_once('='));
+        values.map(|(_, value)| by_value(value)).max().unwrap_or_default()
     };
-    let fit = |drawn: &DrawnFigure| (is_of_run(drawn), shared(drawn));
+    let fit = |drawn: &DrawnFigure| (of_run(drawn), shared(drawn));
     // the first of equals
     let best = drawn.iter().filter(|drawn| drawn.failure.is_none()).rev().max_by_key(|drawn| fit(drawn));
-    best.filter(|best| fit(best) > (false, 0)).map(|best| best.name.clone()).unwrap_or_default()
+    best.filter(|best| fit(best) > (0, 0)).map(|best| best.name.clone()).unwrap_or_default()
 }
 
 /// How many metrics of a case are what.

@@ -2,7 +2,7 @@
 
 use super::NonlocalShearRecord;
 use super::flow::{Cooperation, ExactShear, ShearFlow};
-use super::marks::{LEAST, LEAST_OF_ERRORS, LOCAL, NONLOCAL, label, shown, thinned};
+use super::marks::{LEAST, LEAST_OF_ERRORS, NONLOCAL, label, shown, thinned};
 use super::run::ShearRun;
 use crate::figure::{Axis, Figure, Panel};
 
@@ -23,8 +23,8 @@ pub(super) fn drawn(records: &[&NonlocalShearRecord]) -> Figure {
         let (Some(exact), ShearFlow::Heap { cooperation, .. }) = (exact, run.flow) else { continue };
         let (diameter, scale) = (run.grains.law.grain_diameter, speed(run));
         let (name, law) = match cooperation {
-            Cooperation::Nonlocal => (NONLOCAL, "together"),
-            Cooperation::Local => (LOCAL, "alone"),
+            Cooperation::Nonlocal => (NONLOCAL, "nonlocal law"),
+            Cooperation::Local => ("local law, without particles", "local law"),
         };
         if !curves.contains(&cooperation) {
             curves.push(cooperation);
@@ -38,7 +38,7 @@ pub(super) fn drawn(records: &[&NonlocalShearRecord]) -> Figure {
         let depth = |y: f64| run.flow.distance(y) / diameter;
         let rows = record.data.velocities();
         let few = thinned(run, rows.clone());
-        let name = format!("{}, {law}", label(run));
+        let name = format!("{law}, {}", label(run));
         velocity.points(&name, slot, shown(few.map(|(y, u)| (depth(y), u / scale)), least));
         let inside = rows.iter().filter(|(y, u)| (*u).min(exact.velocity(*y)) / scale >= LEAST_OF_ERRORS * largest);
         error.line_points("", slot, inside.map(|&(y, u)| (depth(y), 100.0 * (u / exact.velocity(y) - 1.0))));
