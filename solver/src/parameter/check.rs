@@ -99,13 +99,17 @@ impl Place {
             path: self.below(key).path,
             known: properties.keys().map(|name| self.below(name).path).collect(),
         });
-        unknown.or_else(|| {
-            properties.iter().find_map(|(name, schema)| match table.get(name) {
-                Some(value) => self.below(name).fault(schema, value),
-                None if required.contains(&name.as_str()) => Some(Fault::Missing { path: self.below(name).path }),
-                None => None,
-            })
-        })
+        // what is given and wrong comes before what is not given
+        let wrong = || {
+            let given = properties.iter().filter_map(|(name, schema)| Some((name, schema, table.get(name)?)));
+            given.map(|(name, schema, value)| self.below(name).fault(schema, value)).find_map(|fault| fault)
+        };
+        let missing = || {
+            let missing =
+                properties.keys().find(|name| required.contains(&name.as_str()) && !table.contains_key(*name));
+            missing.map(|name| Fault::Missing { path: self.below(name).path })
+        };
+        unknown.or_else(wrong).or_else(missing)
     }
 
     fn fault_of_choice(&self, shape: &Shape<'_>, value: &Value) -> Option<Fault> {

@@ -57,14 +57,14 @@ pub enum ParameterError {
         case: String,
     },
     /// A field without a default is absent.
-    #[error("{}`{field}` is missing; `bagnold show {case}` prints it with a valid value", origin(.file))]
+    #[error("{}`{field}` is missing; {remedy}", origin(.file))]
     MissingField {
         /// File that lacks it, where known.
         file: Option<PathBuf>,
         /// Dotted TOML path.
         field: String,
-        /// Whose parameters they are.
-        case: String,
+        /// Where its values are told.
+        remedy: String,
     },
     /// A file is not TOML.
     #[error("{}: line {line}, column {column}: {message}; correct the TOML syntax there", shown(.file))]

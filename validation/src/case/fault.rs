@@ -20,7 +20,15 @@ pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> Param
             field: path,
             case: case.to_owned(),
         },
-        Fault::Missing { path } => ParameterError::MissingField { file: None, field: path, case: case.to_owned() },
+        Fault::Missing { path } => {
+            let remedy = if known.contains(&path) {
+                format!("`bagnold show {case}` prints it with a valid value")
+            } else {
+                // of a table that is left out by default
+                format!("`bagnold schema {case}` tells what it is")
+            };
+            ParameterError::MissingField { file: None, field: path, remedy }
+        }
         Fault::Kind { path, value, rule, choice } => {
             let value = value.unwrap_or_else(|| "not valid".to_owned());
             ParameterError::field(&path, value, &rule, &remedy(choice.as_ref(), case))

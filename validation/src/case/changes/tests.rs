@@ -124,7 +124,7 @@ fn wrong_values_are_refused_with_the_type_they_should_have() {
     );
     assert_eq!(
         message("law.bingham.viscosity = 1", &[]),
-        "layer.toml: `law.bingham.yield_stress` is missing; `bagnold show layer` prints it with a valid value"
+        "layer.toml: `law.bingham.yield_stress` is missing; `bagnold schema layer` tells what it is"
     );
 }
 
@@ -223,7 +223,7 @@ fn laws_that_do_not_exist_or_lack_a_parameter_are_refused() {
     );
     assert_eq!(
         message("material.law = \"newtonian\"", &[]),
-        "layer.toml: `material.viscosity` is missing; `bagnold show layer` prints it with a valid value"
+        "layer.toml: `material.viscosity` is missing; `bagnold schema layer` tells what it is"
     );
     assert_eq!(
         message("", &["material.law=newtonian", "material.viscosity=1", "material.static_friction=0.4"]),
