@@ -26,6 +26,8 @@ pub mod field;
 mod field_update;
 mod grain_parameters;
 mod herschel_bulkley;
+#[cfg(test)]
+mod lanes_of_a_law_tests;
 mod mu_i;
 mod newtonian;
 mod nonlocal_mu_i;

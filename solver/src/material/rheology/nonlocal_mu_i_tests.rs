@@ -1,7 +1,6 @@
 use super::field::{FieldLaw, FieldStep};
+use super::lanes_of_a_law_tests::ShearedLaw;
 use super::{ElasticModuli, MuI, NonlocalMuI, PlasticLaw, Rheology, TrialStress};
-use crate::lanes::algebra::{load_tensor, store_tensor};
-use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::vector::Tensor;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -144,57 +143,17 @@ fn no_pressure_no_stress_and_no_fluidity_and_no_step_no_change() {
     assert_eq!((end.shear_stress, end.field), (10.0, 3.0));
 }
 
-struct Update<'a> {
-    stress: &'a mut [Tensor<3>; LANES],
-    field: &'a mut [f64; LANES],
-    pressure: &'a [f64; LANES],
-}
-
-impl LanePass for Update<'_> {
-    #[inline(always)]
-    fn run<V: Lanes>(self) {
-        let law = Rheology::NonlocalMuI(NonlocalMuI::of(GLASS));
-        let gradient = load_tensor::<V, 3>(&[gradient(); LANES]);
-        for _ in 0..30 {
-            let stress = load_tensor::<V, 3>(self.stress);
-            let field = FieldStep::new(V::load(self.field), V::splat(0.4), V::splat(0.3));
-            let (stress, field) = law
-                .updated_states(
-                    &stress,
-                    &gradient,
-                    V::load(self.pressure),
-                    &field,
-                    ElasticModuli { shear: 2e4, bulk: 0.0 },
-                    1e-4,
-                )
-                .stress_and_field();
-            store_tensor(&stress, self.stress);
-            *self.field = field.to_array();
-        }
-    }
-}
-
-fn gradient() -> Tensor<3> {
-    Tensor::<3>::new(0.5, 3.0, -1.0, 0.2, -0.4, 0.0, 1.0, 2.0, 0.1)
-}
-
 #[test]
 fn eight_lanes_of_every_instruction_set_give_the_bits_of_one_value() {
-    let law = Rheology::NonlocalMuI(NonlocalMuI::of(GLASS));
-    let pressure = [-5.0, 0.0, 1e-3, 1.0, 20.0, 300.0, 4e3, f64::NAN];
-    let (mut expected, mut fields) = ([Tensor::<3>::zeros(); LANES], [1.0; LANES]);
-    for lane in 0..LANES {
-        for _ in 0..30 {
-            let field = FieldStep::new(fields[lane], 0.4, 0.3);
-            (expected[lane], fields[lane]) =
-                law.updated_state(&expected[lane], &gradient(), pressure[lane], &field, 2e4, 1e-4).stress_and_field();
-        }
+    let (expected, fields) = ShearedLaw {
+        law: Rheology::NonlocalMuI(NonlocalMuI::of(GLASS)),
+        pressure: [-5.0, 0.0, 1e-3, 1.0, 20.0, 300.0, 4e3, f64::NAN],
+        moduli: ElasticModuli { shear: 2e4, bulk: 0.0 },
+        time_step: 1e-4,
+        steps: 30,
+        initial_field: 1.0,
+        exchange: (0.4, 0.3),
     }
+    .check();
     assert!(expected[4].norm() > 1.0 && fields[4] > 0.1, "{expected:?} {fields:?}");
-    for set in InstructionSet::available() {
-        let (mut stress, mut field) = ([Tensor::<3>::zeros(); LANES], [1.0; LANES]);
-        set.run(Update { stress: &mut stress, field: &mut field, pressure: &pressure });
-        assert_eq!(stress, expected, "{}", set.name());
-        assert_eq!(field.map(f64::to_bits), fields.map(f64::to_bits), "{}", set.name());
-    }
 }

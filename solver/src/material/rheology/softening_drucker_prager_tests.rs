@@ -1,7 +1,6 @@
 use super::field::{FieldLaw, FieldStep};
+use super::lanes_of_a_law_tests::ShearedLaw;
 use super::{ElasticModuli, MuI, PlasticLaw, Rheology, SofteningDruckerPrager, TrialStress};
-use crate::lanes::algebra::{load_tensor, store_tensor};
-use crate::lanes::{InstructionSet, LANES, LanePass, Lanes};
 use crate::vector::{Tensor, double_contraction, equivalent_shear_stress};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -288,50 +287,18 @@ fn a_cohesion_bears_tension_up_to_the_apex_of_the_cone() {
     assert_eq!(law.updated_stress(&stress, &rest, 0.0, 2e4, 1e-4), rest);
 }
 
-struct Update<'a> {
-    stress: &'a mut [Tensor<3>; LANES],
-    field: &'a mut [f64; LANES],
-    pressure: &'a [f64; LANES],
-}
-
-impl LanePass for Update<'_> {
-    #[inline(always)]
-    fn run<V: Lanes>(self) {
-        let law = Rheology::SofteningDruckerPrager(SOIL);
-        let gradient = load_tensor::<V, 3>(&[gradient(); LANES]);
-        for _ in 0..60 {
-            let stress = load_tensor::<V, 3>(self.stress);
-            let field = FieldStep::alone(V::load(self.field));
-            let (stress, field) =
-                law.updated_states(&stress, &gradient, V::load(self.pressure), &field, MODULI, 1e-3).stress_and_field();
-            store_tensor(&stress, self.stress);
-            *self.field = field.to_array();
-        }
-    }
-}
-
-fn gradient() -> Tensor<3> {
-    Tensor::<3>::new(0.5, 3.0, -1.0, 0.2, -0.4, 0.0, 1.0, 2.0, 0.1)
-}
-
 #[test]
 fn eight_lanes_of_every_instruction_set_give_the_bits_of_one_value() {
-    let law = Rheology::SofteningDruckerPrager(SOIL);
-    let pressure = [-5.0, 0.0, 1e-3, 1.0, 20.0, 300.0, 4e3, f64::NAN];
-    let (mut expected, mut fields) = ([Tensor::<3>::zeros(); LANES], [0.0; LANES]);
-    for lane in 0..LANES {
-        for _ in 0..60 {
-            let field = FieldStep::alone(fields[lane]);
-            (expected[lane], fields[lane]) =
-                law.updated_state(&expected[lane], &gradient(), pressure[lane], &field, 2e3, 1e-3).stress_and_field();
-        }
+    let (expected, fields) = ShearedLaw {
+        law: Rheology::SofteningDruckerPrager(SOIL),
+        pressure: [-5.0, 0.0, 1e-3, 1.0, 20.0, 300.0, 4e3, f64::NAN],
+        moduli: MODULI,
+        time_step: 1e-3,
+        steps: 60,
+        initial_field: 0.0,
+        exchange: (0.0, 0.0),
     }
+    .check();
     // softening, and elastic under a great pressure
     assert!(fields[3] > 0.1 && fields[4] > 0.1 && fields[6] == 0.0 && expected[6].norm() > 100.0, "{fields:?}");
-    for set in InstructionSet::available() {
-        let (mut stress, mut field) = ([Tensor::<3>::zeros(); LANES], [0.0; LANES]);
-        set.run(Update { stress: &mut stress, field: &mut field, pressure: &pressure });
-        assert_eq!(stress, expected, "{}", set.name());
-        assert_eq!(field.map(f64::to_bits), fields.map(f64::to_bits), "{}", set.name());
-    }
 }
