@@ -1,7 +1,7 @@
 //! The program's commands inside Python.
 
 use crate::waiting::wait_for;
-use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::REGISTRY;
 use bagnold_validation::cli::{Arguments, execute};
 use clap::Parser;
 use pyo3::prelude::*;

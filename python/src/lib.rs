@@ -5,7 +5,7 @@ mod results;
 mod run;
 mod waiting;
 
-use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::REGISTRY;
 use pyo3::prelude::*;
 
 /// Calls into Bagnold's library.

@@ -2,9 +2,9 @@
 //! a copy; they are read-only.
 
 use crate::waiting::Refused;
-use bagnold_validation::figure::{Figure, render};
-use bagnold_validation::observation::Frame;
-use bagnold_validation::output::Table;
+use bagnold_figure::{Figure, render};
+use bagnold_harness::observation::Frame;
+use bagnold_harness::output::Table;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

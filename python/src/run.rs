@@ -2,13 +2,13 @@
 
 use crate::results::{Figures, particles, table};
 use crate::waiting::{Refused, wait_for};
-use bagnold_validation::case::{CaseResult, Limits, ParameterError, Request, Requested, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
+use bagnold_harness::case::{CaseResult, Limits, ParameterError, Request, Requested, Silent, Tier, execute};
+use bagnold_validation::REGISTRY;
 use bagnold_validation::cli::ProgramError;
-use bagnold_validation::judge::{Measurements, draw_measured};
-use bagnold_validation::metric::Variant;
-use bagnold_validation::result::MetricsDocument;
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::measured::{Measurements, draw_measured};
+use bagnold_harness::metric::Variant;
+use bagnold_harness::result::MetricsDocument;
+use bagnold_harness::store::{Store, StorePolicy};
 use clap::ValueEnum;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};

@@ -1,7 +1,7 @@
 //! Work beside Python: the interpreter is free meanwhile, and Ctrl-C ends the work as it ends the program.
 
-use bagnold_validation::input::escaped_lines;
-use bagnold_validation::interruption;
+use bagnold_harness::input::escaped_lines;
+use bagnold_harness::interruption;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

@@ -1,7 +1,7 @@
 //! Repeated experiments: how often region and intervals hold the truth, and what a calibration costs.
 
-use bagnold_validation::inference::diagnosis::{outliers, serial_correlation};
-use bagnold_validation::inference::{
+use bagnold_inference::inference::diagnosis::{outliers, serial_correlation};
+use bagnold_inference::inference::{
     Answer, Budget, Evaluate, Evaluated, Method, Repeatability, SolvePlan, Stopped, UNLIKELY, chi_squared, solve,
 };
 use rand::{RngExt, SeedableRng};

@@ -1,8 +1,8 @@
 //! The exact film of a Herschel–Bulkley fluid: τ_y, K and n from velocities at fifteen heights with 3 % of noise.
 
 use super::coverage::{Problem, Tally, normal, usual};
-use bagnold_validation::inference::{Evaluate, chi_squared, solve};
-use bagnold_validation::reference::{HerschelBulkleyFilm, Incline};
+use bagnold_inference::inference::{Evaluate, chi_squared, solve};
+use bagnold_reference::film::{HerschelBulkleyFilm, Incline};
 use std::fmt::Write;
 
 const INCLINE: Incline = Incline { layer_height: 0.05, inclination: 0.3, gravity: 9.81, density: 1300.0 };

@@ -1,13 +1,13 @@
 //! Whole calibrations of a film's viscosity: each thing that can be wrong with a problem has its finding.
 
 use super::coverage::normal;
-use bagnold_validation::calibration::{
+use bagnold_harness::case::Limits;
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_reference::film::{HerschelBulkleyFilm, Incline};
+use bagnold_tools::calibration::{
     CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate,
 };
-use bagnold_validation::case::Limits;
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::reference::{HerschelBulkleyFilm, Incline};
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -55,10 +55,11 @@ impl CalibrationMonitor for Unseen {
 pub(crate) fn outcome(folder: &Path, text: &str) -> CalibrationResult {
     let file = folder.join("plan.toml");
     std::fs::write(&file, text).expect("a folder to write in");
-    let plan = CalibrationPlan::read(&file, REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
+    let plan = CalibrationPlan::read(&file, *REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
     let kept = CalibrationFolder::begin(&folder.join("out"), &file, REGISTRY.origin(), false)
         .unwrap_or_else(|error| panic!("{error}"));
-    calibrate(&plan, &kept, REGISTRY, &Store::open(StorePolicy::Use), &Unseen).unwrap_or_else(|error| panic!("{error}"))
+    calibrate(&plan, &kept, *REGISTRY, &Store::open(StorePolicy::Use), &Unseen)
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Findings with data that the film itself gives, with noise of a seed.

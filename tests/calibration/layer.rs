@@ -1,7 +1,7 @@
 //! The one-dimensional layer of `bed-load-1d`: μ_2, and μ_2 with B, from velocities of water and grains.
 
 use super::coverage::{Problem, Tally, normal};
-use bagnold_validation::reference::bed_load_layer::{BedLoadLayer, Closures, GrainMotion, InitialVelocity, Stream};
+use bagnold_reference::one_dimension::bed_load::{BedLoadLayer, Closures, GrainMotion, InitialVelocity, Stream};
 
 /// Relative standard uncertainty of a transport.
 const NOISE: f64 = 0.05;

@@ -1,9 +1,10 @@
 //! Two problems of the cases with two minima each: both are found and listed from wherever the search starts.
 
 use super::coverage::{Problem, usual};
+use bagnold_inference::inference::{LocalMinimum, chi_squared, search};
+use bagnold_reference::film::{HerschelBulkleyFilm, Incline};
+use bagnold_reference::settling::SettlingGrains;
 use bagnold_solver::material::drag::DragLaw;
-use bagnold_validation::inference::{LocalMinimum, chi_squared, search};
-use bagnold_validation::reference::{HerschelBulkleyFilm, Incline, SettlingGrains};
 
 /// Cells of the grid that finds the minima by brute force.
 const GRID: usize = 200;

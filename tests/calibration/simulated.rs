@@ -2,11 +2,11 @@
 //! which suspensions sink, to which it comes through the drag.
 
 use super::coverage::{Problem, Tally, normal, usual};
-use bagnold_validation::case::{Limits, Silent, Tier};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::evaluation::{CaseRequest, EvaluationRecord, evaluate};
-use bagnold_validation::inference::{Budget, SolvePlan};
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{Limits, Silent, Tier};
+use bagnold_harness::evaluation::{CaseRequest, EvaluationRecord, evaluate};
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_inference::inference::{Budget, SolvePlan};
+use bagnold_validation::REGISTRY;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -47,7 +47,7 @@ impl Simulated {
         let with = toml::from_str(self.with).expect("parameters of the case");
         let request = CaseRequest { case: self.case.to_owned(), name: None, tier: Tier::Quick, with };
         let prepared =
-            request.prepare(REGISTRY, Path::new("simulated.rs"), &[(self.setting)(u)], Limits::default()).ok()?;
+            request.prepare(*REGISTRY, Path::new("simulated.rs"), &[(self.setting)(u)], Limits::default()).ok()?;
         let record = evaluate(prepared, &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");
         record.failure.is_none().then(|| (self.predict)(&record)).filter(|values| values.len() == self.data)
     }

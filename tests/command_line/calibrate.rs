@@ -92,7 +92,7 @@ fn assert_one_point(result: &serde_json::Value) {
     let data = result["fit"].as_array().expect("a list").len();
     let reduced = result["reduced_chi_squared"].as_f64().expect("more data than parameters");
     assert!((reduced * (data - parameters.len()) as f64 / least - 1.0).abs() < 1e-12, "{reduced} of {least}");
-    let p = bagnold_validation::inference::chi_squared_tail(least, data - parameters.len());
+    let p = bagnold_inference::inference::chi_squared_tail(least, data - parameters.len());
     assert_eq!(result["p_value"].as_f64(), Some(p));
     for (k, parameter) in parameters.iter().enumerate() {
         for end in 0..2 {

@@ -1,8 +1,8 @@
 //! 0 all gates hold, 1 a gate fails, 2 bad input (see `bad_input`), 3 diverged.
 
 use crate::program::{CHEAP, Place, document};
-use bagnold_validation::metric::Verdict;
-use bagnold_validation::observation::Outcome;
+use bagnold_harness::metric::Verdict;
+use bagnold_harness::observation::Outcome;
 
 #[test]
 fn zero_and_one_json_document_when_all_gates_hold() {
@@ -118,7 +118,7 @@ fn zero_for_help_version_list_and_show() {
         let finished = place.bagnold(arguments).assert().code(0).stderr("");
         assert!(!finished.get_output().stdout.is_empty());
     }
-    for case in bagnold_validation::cases::REGISTRY.iter() {
+    for case in bagnold_validation::REGISTRY.iter() {
         let finished = place.bagnold(&["show", case.name()]).assert().code(0).stderr("");
         let text = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
         assert!(text.starts_with(&format!("case = \"{}\"\ntier = \"quick\"\n", case.name())), "{text}");

@@ -1,7 +1,7 @@
 //! What a run and a report write, and that nothing is lost.
 
 use crate::program::{CHEAP, Place, document, path};
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::store::{Store, StorePolicy};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

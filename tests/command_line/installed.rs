@@ -2,9 +2,9 @@
 
 use crate::program::{CHEAP, Place, path};
 use assert_cmd::Command;
-use bagnold_validation::case::Tier;
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::report::Baseline;
+use bagnold_harness::case::Tier;
+use bagnold_harness::report::Baseline;
+use bagnold_validation::REGISTRY;
 use std::path::PathBuf;
 
 /// The folder in which one works, beside the home and the copied program.

@@ -3,8 +3,8 @@
 
 use crate::program::{Place, document, path};
 use assert_cmd::Command;
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::store::{identity, source_hash};
+use bagnold_harness::store::{identity, source_hash};
+use bagnold_validation::REGISTRY;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -40,7 +40,7 @@ impl Compiler {
         // what `cargo test` builds at the root, so that nothing is left to be built
         let finished = cargo(&arguments).current_dir(ROOT).assert().success();
         let text = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
-        let wanted = ["bagnold_solver", "bagnold_validation", "schemars", "serde"];
+        let wanted = ["bagnold_harness", "bagnold_solver", "bagnold_validation", "schemars", "serde"];
         let mut libraries = BTreeMap::new();
         for message in text.lines().map(|line| serde_json::from_str::<Value>(line).expect("one message a line")) {
             let name = message["target"]["name"].as_str().unwrap_or_default();
@@ -171,7 +171,7 @@ fn a_program_tells_the_same_of_itself_in_every_folder() {
     let arguments = [&["run", "--out", &out, "--json"], crate::program::CHEAP].concat();
     let here = document(&place.bagnold(&arguments).current_dir(ROOT).assert().code(0)).provenance;
     assert_eq!(there.commit, here.commit, "the commit is that of the build");
-    assert_eq!(there.commit, bagnold_validation::store::commit());
+    assert_eq!(there.commit, bagnold_harness::store::commit());
     assert!(there.profile.contains("solver at opt-level "), "{}", there.profile);
     assert!(
         ["portable", "SSE2", "AVX2", "AVX-512"].contains(&there.instruction_set.as_str()),

@@ -2,7 +2,7 @@
 
 use assert_cmd::Command;
 use assert_cmd::assert::Assert;
-use bagnold_validation::result::MetricsDocument;
+use bagnold_harness::result::MetricsDocument;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -81,7 +81,7 @@ pub(crate) fn document(finished: &Assert) -> MetricsDocument {
         serde_json::from_str(&text).unwrap_or_else(|error| panic!("not one JSON document ({error}):\n{text}"));
     assert_eq!(
         document.provenance.source_hash,
-        bagnold_validation::store::source_hash(),
+        bagnold_harness::store::source_hash(),
         "the program is older than this test: run `cargo build --bin bagnold`"
     );
     document

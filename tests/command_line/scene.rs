@@ -4,8 +4,8 @@ use crate::program::{Place, document};
 use std::path::{Path, PathBuf};
 
 fn shipped() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/scenes");
-    let entries = std::fs::read_dir(folder).expect("validation/scenes").flatten();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/scenes");
+    let entries = std::fs::read_dir(folder).expect("validation/examples/scenes").flatten();
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     files.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     files.sort();
@@ -36,7 +36,7 @@ fn every_shipped_scene_runs_and_closes_its_balances() {
 #[test]
 fn a_scene_is_known_by_the_triangles_of_its_mesh() {
     let place = Place::new();
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/scenes");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/scenes");
     let text = |name: &str| std::fs::read_to_string(shipped.join(name)).expect("a shipped file");
     std::fs::write(place.path("funnel.toml"), text("funnel.toml")).expect("writable");
     let simulated = |mesh: &str| {

@@ -2,8 +2,8 @@
 
 use crate::program::{Place, document};
 use assert_cmd::assert::Assert;
-use bagnold_validation::metric::Verdict;
-use bagnold_validation::result::MetricEntry;
+use bagnold_harness::metric::Verdict;
+use bagnold_harness::result::MetricEntry;
 
 /// A block of beads of a few particles that falls apart for a moment.
 const FLUME: &str = "case = \"scene\"\nname = \"flume\"\ngravity = [0.0, -9.81]\nspacing = 0.02\nduration = 0.1\ninterval = 0.01\n\
@@ -116,14 +116,14 @@ fn a_figure_of_checks_stands_on_the_page_and_slips_in_it_are_named() {
 
 #[test]
 fn every_shipped_study_can_be_prepared() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/studies");
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/studies");
     let mut seen = 0;
     for entry in std::fs::read_dir(folder).expect("the shipped studies") {
         let path = entry.expect("an entry").path();
-        if path.extension().is_some_and(|kind| kind == "toml") && bagnold_validation::study::is_study(&path) {
-            let registry = bagnold_validation::cases::REGISTRY;
-            let study = bagnold_validation::study::Study::read(&path, registry).expect("a study");
-            let cases = study.prepare(registry, None, &[], bagnold_validation::case::Limits::default()).expect("cases");
+        if path.extension().is_some_and(|kind| kind == "toml") && bagnold_scenes::study::is_study(&path) {
+            let registry = *bagnold_validation::REGISTRY;
+            let study = bagnold_scenes::study::Study::read(&path, registry).expect("a study");
+            let cases = study.prepare(registry, None, &[], bagnold_harness::case::Limits::default()).expect("cases");
             assert!(!cases.is_empty());
             seen += 1;
         }
@@ -271,7 +271,8 @@ fn a_suite_is_one_report_with_accepted_values_of_its_own() {
 
 #[test]
 fn the_shipped_study_holds() {
-    let shipped = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/studies/beads-in-a-flume.toml");
+    let shipped =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/studies/beads-in-a-flume.toml");
     let finished = Place::new().run(&[&shipped.display().to_string(), "--json", "--quiet"]).code(0);
     let gated: Vec<String> = document(&finished)
         .metrics

@@ -2,9 +2,9 @@
 
 use crate::killed::{Finished, assert_same_files, kill_and_resume, written};
 use crate::program::Place;
-use bagnold_validation::case::Limits;
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::sweep::SweepPlan;
+use bagnold_harness::case::Limits;
+use bagnold_tools::sweep::SweepPlan;
+use bagnold_validation::REGISTRY;
 use std::path::{Path, PathBuf};
 
 const PLAN: &str = r#"
@@ -36,7 +36,7 @@ fn records(folder: &Path) -> Finished {
 #[test]
 fn the_shipped_plan_has_four_hundred_layers() {
     let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/sweeps/bed-load-1d-map.toml");
-    let manifest = SweepPlan::read(&plan).and_then(|plan| plan.manifest(REGISTRY, Limits::default())).expect("a plan");
+    let manifest = SweepPlan::read(&plan).and_then(|plan| plan.manifest(*REGISTRY, Limits::default())).expect("a plan");
     assert_eq!(manifest.entries.len(), 400);
     for entry in &manifest.entries {
         assert_eq!(entry.refusal, None, "{}", entry.folder);

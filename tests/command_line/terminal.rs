@@ -135,7 +135,7 @@ fn texts_of_files_do_not_reach_the_terminal_as_they_stand() {
         let said = String::from_utf8_lossy(&ended.stderr).into_owned();
         assert_eq!(ended.status.code(), Some(2), "{arguments:?}: {said}");
         let is_plain =
-            |text: &str| !text.chars().any(|letter| bagnold_validation::input::is_control(letter) && letter != '\n');
+            |text: &str| !text.chars().any(|letter| bagnold_harness::input::is_control(letter) && letter != '\n');
         assert!(is_plain(&said), "{arguments:?}: {said:?}");
         // what is quoted is still recognised; of a comment nothing is
         assert!(said.contains("[2J") || arguments.contains(&"raw.toml"), "{arguments:?}: {said}");

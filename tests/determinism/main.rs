@@ -1,8 +1,8 @@
 //! The same bits from the same case, whatever the number of threads. Nothing is taken from the store.
 
-use bagnold_validation::case::{CaseResult, Changes, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 
 /// One run from rest at 24°.
 const SHORT: &[&str] = &["slope_angles=[24]", "arrest_slope_angles=[]", "runaway_slope_angles=[]"];

@@ -1,7 +1,7 @@
 //! No number of a case's parameters is without bounds. That schema and program agree on them is for `tests/schema`.
 
-use bagnold_validation::case::Tier;
-use bagnold_validation::cases::REGISTRY;
+use bagnold_harness::case::Tier;
+use bagnold_validation::REGISTRY;
 
 #[test]
 fn every_number_of_every_case_is_bounded_on_both_sides() {

@@ -1,7 +1,7 @@
 //! Random changes of a case's parameters, made from its schema.
 
-use bagnold_validation::case::{AnyCase, Tier};
-use bagnold_validation::cases::REGISTRY;
+use bagnold_harness::case::{AnyCase, Tier};
+use bagnold_validation::REGISTRY;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use serde_json::Value;

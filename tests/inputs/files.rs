@@ -1,11 +1,11 @@
 //! Plans, tables and case files with random mistakes in them: an error or a plan, never a panic.
 
 use crate::judge::{count, runner};
-use bagnold_validation::calibration::CalibrationPlan;
-use bagnold_validation::case::{AnyCase, CaseFile, Limits, Tier};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::reference::MeasuredData;
-use bagnold_validation::sweep::SweepPlan;
+use bagnold_harness::case::{AnyCase, CaseFile, Limits, Tier};
+use bagnold_harness::evidence::MeasuredData;
+use bagnold_tools::calibration::CalibrationPlan;
+use bagnold_tools::sweep::SweepPlan;
+use bagnold_validation::REGISTRY;
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::strategy::ValueTree;
@@ -89,7 +89,7 @@ fn a_case_file_is_read_or_refused() {
         if let Ok(file) = CaseFile::read(&path)
             && let Ok(case) = REGISTRY.find(&file.case)
         {
-            let changes = bagnold_validation::case::Changes { file: Some((&path, file.fields)), ..Default::default() };
+            let changes = bagnold_harness::case::Changes { file: Some((&path, file.fields)), ..Default::default() };
             if let Err(error) = AnyCase::prepare(case, Tier::Quick, &changes) {
                 assert!(error.to_string().contains("case.toml"), "{error}");
             }
@@ -111,7 +111,7 @@ fn a_sweep_plan_is_read_or_refused() {
         std::fs::write(&path, text).expect("writable");
         if let Ok(plan) = SweepPlan::read(&path) {
             // what the cases refuse is an error too
-            let _ = plan.manifest(REGISTRY, Limits::default());
+            let _ = plan.manifest(*REGISTRY, Limits::default());
         }
     });
 }
@@ -122,7 +122,7 @@ fn a_calibration_plan_is_read_or_refused() {
     let path = folder.path().join("plan.toml");
     read_with_slips(&shipped("validation/calibrations", "toml"), |text| {
         std::fs::write(&path, text).expect("writable");
-        let _ = CalibrationPlan::read(&path, REGISTRY, Limits::default());
+        let _ = CalibrationPlan::read(&path, *REGISTRY, Limits::default());
     });
 }
 

@@ -1,10 +1,10 @@
 //! What becomes of a generated input.
 
 use crate::changes::{Input, inputs};
-use bagnold_validation::case::{Changes, PreparedCase, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::Verdict;
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{Changes, PreparedCase, Silent, Tier, execute};
+use bagnold_harness::metric::Verdict;
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 use std::panic::AssertUnwindSafe;

@@ -7,3 +7,4 @@ mod bounds;
 mod changes;
 mod files;
 mod judge;
+mod submission;

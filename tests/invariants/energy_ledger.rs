@@ -5,6 +5,7 @@ use crate::fields;
 use crate::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, bed, block, periodic_scene, simulation,
 };
+use bagnold_harness::observation::EnergyBook;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
@@ -13,7 +14,6 @@ use bagnold_solver::weakly_compressible::energy::{EnergyAccount, EnergyLedger};
 use bagnold_solver::weakly_compressible::numerics::{Contact, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
-use bagnold_validation::observation::EnergyBook;
 
 const STEPS: usize = 100;
 

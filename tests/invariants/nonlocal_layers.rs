@@ -2,6 +2,7 @@
 //! solution without particles, in the plane and in space.
 
 use crate::patches::{Disorder, SPACING, bed, block, open_scene, simulation};
+use bagnold_reference::one_dimension::{BagnoldProfile, NonlocalLayer, NonlocalProfile};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::field::FieldBoundary;
@@ -11,7 +12,6 @@ use bagnold_solver::weakly_compressible::boundary::wall;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
-use bagnold_validation::reference::{BagnoldProfile, NonlocalLayer, NonlocalProfile};
 use rayon::ThreadPoolBuilder;
 
 const BEADS: MuI = MuI {

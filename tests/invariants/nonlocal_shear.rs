@@ -1,13 +1,13 @@
 //! When a chute of the nonlocal law flows: the case `nonlocal-shear` judges how it does.
 
 use crate::nonlocal_layers::on_one_thread;
-use bagnold_solver::material::rheology::Rheology;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
-use bagnold_validation::case::recording::Beginning;
-use bagnold_validation::case::{Parameters, Tier};
-use bagnold_validation::cases::nonlocal_shear::{
+use bagnold_cases::nonlocal_shear::{
     Above, Channel, ChannelGrains, ExactShear, Motion, NonlocalShearParameters, ShearFlow, ShearRun, ShearedGrains,
 };
+use bagnold_harness::case::recording::Beginning;
+use bagnold_harness::case::{Parameters, Tier};
+use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::weakly_compressible::simulation::Simulation;
 
 /// A chute of the case that is 20 diameters wide, whose walls bear a friction.
 fn chute(run: &ShearRun, wall_friction: f64) -> ShearFlow {

@@ -6,12 +6,12 @@
 //! turned round. A quarter is more than any number of the two papers is known to, and less than what turns any of their statements into
 //! another. `BAGNOLD_ALL_ROWS=1` asks every row that metrics reproduce; rows that rest on tests alone are not asked.
 
-use bagnold_validation::case::{Changes, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::{Limit, Metric};
-use bagnold_validation::reference::{Element, MetricName, PAPERS};
-use bagnold_validation::report::papers::Status;
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{Changes, Silent, Tier, execute};
+use bagnold_harness::evidence::{Element, MetricName, PAPERS};
+use bagnold_harness::metric::{Limit, Metric};
+use bagnold_harness::report::papers::Status;
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// First eight hexadecimal digits of the commit that last changed the rows when this was written.

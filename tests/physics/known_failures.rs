@@ -1,11 +1,11 @@
 //! The list of gates that are known to fail: every entry must speak of something that is still measured.
 
 use crate::verdict::complaints;
-use bagnold_validation::case::{CaseResult, Changes, RunSummary, Tier};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::{Confidence, Limit, Metric, Variant};
-use bagnold_validation::observation::Outcome;
-use bagnold_validation::report::{KnownFailure, KnownFailures};
+use bagnold_harness::case::{CaseResult, Changes, RunSummary, Tier};
+use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
+use bagnold_harness::observation::Outcome;
+use bagnold_harness::report::{KnownFailure, KnownFailures};
+use bagnold_validation::REGISTRY;
 use std::path::Path;
 
 /// The committed list.

@@ -1,7 +1,7 @@
 //! Scenes that last for tens of falls: at rest, pushed, swinging, sliding. All hold the balances that a scene is judged by.
 
 use crate::scene_texts::{CLOSED, PISTON, SLOPING, WATER, boxed, result};
-use bagnold_validation::metric::{Metric, Verdict};
+use bagnold_harness::metric::{Metric, Verdict};
 
 #[test]
 fn the_energy_ledger_closes_in_sound_runs_of_every_kind() {

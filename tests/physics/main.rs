@@ -12,7 +12,7 @@ mod scene_texts;
 mod scenes;
 mod verdict;
 
-use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::REGISTRY;
 
 /// Both tiers of each case. A name here is that of the registry with `_` for `-`.
 macro_rules! cases {
@@ -22,7 +22,7 @@ macro_rules! cases {
 
         $(mod $case {
             use crate::verdict::assert_gates;
-            use bagnold_validation::case::Tier;
+            use bagnold_harness::case::Tier;
 
             #[test]
             fn holds_its_gates_at_the_quick_tier() {

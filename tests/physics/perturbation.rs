@@ -1,9 +1,9 @@
 //! The deterministic path of a collapse is not a matter of chance: a displacement of 1e-10 spacings changes nothing
 //! that is measured of it.
 
-use bagnold_validation::case::{Parameters, Run, Silent, Tier};
-use bagnold_validation::cases::collapse::Collapse;
-use bagnold_validation::cases::column_planar::ColumnPlanarParameters;
+use bagnold_cases::collapse::Collapse;
+use bagnold_cases::collapse::planar::ColumnPlanarParameters;
+use bagnold_harness::case::{Parameters, Run, Silent, Tier};
 
 /// Relative change that the drift snapshots allow `[-]`.
 const TOLERANCE: f64 = 1e-3;

@@ -1,11 +1,11 @@
 //! How far a column runs out: the measurement at rest, and what the default resolution is known to.
 
+use bagnold_cases::collapse::Collapse;
+use bagnold_cases::collapse::planar::{ColumnPlanar, ColumnPlanarParameters};
+use bagnold_harness::case::{Case, Parameters, Run, Silent, Tier};
+use bagnold_harness::metric::COVERAGE;
+use bagnold_harness::observation::{Frame, Recorded};
 use bagnold_solver::material::rheology::Rheology;
-use bagnold_validation::case::{Case, Parameters, Run, Silent, Tier};
-use bagnold_validation::cases::collapse::Collapse;
-use bagnold_validation::cases::column_planar::{ColumnPlanar, ColumnPlanarParameters};
-use bagnold_validation::metric::COVERAGE;
-use bagnold_validation::observation::{Frame, Recorded};
 
 /// Columns of Lagrée's grains alone, 20 particles over the half width.
 fn columns(aspect_ratios: &[f64]) -> ColumnPlanarParameters {

@@ -1,8 +1,8 @@
 //! What a scene is before it runs: settled bodies rest when they are released, and the cost that is said is the cost that is taken.
 
-use bagnold_validation::case::{CaseResult, Changes, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 
 /// A scene from the text of its file, and the particle-steps that are expected of it.
 fn result_of(text: &str) -> (CaseResult, f64) {
@@ -60,7 +60,7 @@ fn slab(space: bool, preparation: &str) -> String {
 /// height, where it is evenly filled.
 fn pictures(result: &CaseResult) -> Vec<(f64, f64)> {
     let up = if result.name == "scene" { 1 } else { 2 };
-    let of_picture = |frame: &bagnold_validation::observation::Frame| {
+    let of_picture = |frame: &bagnold_harness::observation::Frame| {
         let count = frame.position.len() as f64;
         let (_, _, velocity) = frame.vectors.iter().find(|(name, ..)| name == "velocity").expect("velocities");
         let squares: f64 = velocity.iter().flatten().map(|part| part * part).sum();

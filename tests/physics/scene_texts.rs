@@ -1,8 +1,8 @@
 //! Scenes that several questions are asked of, as a user writes them.
 
-use bagnold_validation::case::{CaseResult, Changes, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 use std::path::Path;
 
 pub(crate) const WATER: &str = r#"

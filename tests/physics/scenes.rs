@@ -1,9 +1,9 @@
 //! Shipped scenes against what is known of them. Their balances are gates of the case; what is here takes several scenes.
 
-use bagnold_validation::case::{CaseFile, Changes, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::output::Table;
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{CaseFile, Changes, Silent, Tier, execute};
+use bagnold_harness::output::Table;
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 use std::path::Path;
 
 /// The series of a shipped scene.
@@ -13,7 +13,7 @@ fn series(name: &str) -> Table {
 
 /// The same with other parameters.
 fn changed(name: &str, change: impl FnOnce(&mut toml::Table)) -> Table {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/scenes").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/scenes").join(name);
     let CaseFile { case, tier, mut fields, .. } = CaseFile::read(&path).expect("a scene");
     change(&mut fields);
     let changes = Changes { file: Some((&path, fields)), ..Changes::default() };

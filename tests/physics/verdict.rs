@@ -1,12 +1,12 @@
 //! One case at one tier: simulated or taken from the store, then judged.
 
 use crate::known_failures::{self, owing_tier};
-use bagnold_validation::case::{CaseResult, Changes, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::{Limit, Metric, Verdict};
-use bagnold_validation::observation::Outcome;
-use bagnold_validation::report::{KnownFailureStatus, KnownFailures};
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
+use bagnold_harness::metric::{Limit, Metric, Verdict};
+use bagnold_harness::observation::Outcome;
+use bagnold_harness::report::{KnownFailureStatus, KnownFailures};
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 use std::sync::{Mutex, PoisonError};
 
 /// A case already uses every core; two at a time would only disturb each other.

@@ -138,7 +138,7 @@ fn the_schema_of_a_study_accepts_the_shipped_one_and_refuses_slips() {
     let schema: Value = serde_json::from_str(&printed(&["schema", "study"])).expect("JSON");
     jsonschema::draft202012::meta::validate(&schema).expect("valid against the metaschema");
     let validator = validator(&schema);
-    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../validation/studies/beads-in-a-flume.toml");
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../validation/examples/studies/beads-in-a-flume.toml");
     let text = std::fs::read_to_string(file).expect("the shipped study");
     let study = |from: &str, to: &str| -> Value {
         assert!(text.contains(from), "{from}");

@@ -6,12 +6,12 @@
 
 mod measured_points;
 
-use bagnold_validation::case::{Changes, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::{Metric, undeclared};
-use bagnold_validation::reference::ValidationSet;
-use bagnold_validation::report::{Baseline, GateList, MetricKey, description};
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{Changes, Silent, Tier, execute};
+use bagnold_harness::evidence::ValidationSet;
+use bagnold_harness::metric::{Metric, undeclared};
+use bagnold_harness::report::{Baseline, GateList, MetricKey, description};
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 use insta::comparator::Comparator;
 use insta::{Settings, Snapshot};
 use std::path::{Path, PathBuf};

@@ -1,10 +1,10 @@
 //! How much is judged by measured points: neither by formulas nor by solvers of this project.
 
-use bagnold_validation::case::{Changes, Silent, Tier, execute};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::{MetricKind, Verdict};
-use bagnold_validation::reference::{ReferenceKind, shipped_table, shipped_tables};
-use bagnold_validation::store::{Store, StorePolicy};
+use bagnold_harness::case::{Changes, Silent, Tier, execute};
+use bagnold_harness::evidence::{ReferenceKind, shipped_table, shipped_tables};
+use bagnold_harness::metric::{MetricKind, Verdict};
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
 use std::collections::BTreeSet;
 
 /// Cases that measured points judge.

@@ -1,10 +1,13 @@
-//! Every option that parameters leave is used by a run of some tier, or `validation/coverage.toml` names the tests that hold it or
+//! Every option that parameters leave is used by a run of some tier, or `validation/harness/coverage.toml` names the tests that hold it or
 //! the reason why none does.
 
 use crate::source::workspace;
-use bagnold_validation::case::{Changes, FeatureOption, Features, Tier};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::report::coverage::DECLARATIONS;
+use bagnold_harness::case::{Changes, FeatureOption, Features, RunSummary, Tier};
+use bagnold_harness::metric::{Limit, Metric, MetricKind, Value, Variant};
+use bagnold_harness::observation::Outcome;
+use bagnold_harness::report::CaseReport;
+use bagnold_harness::report::coverage::{CaseCoverage, DECLARATIONS, Grade, OptionCoverage, coverage};
+use bagnold_validation::REGISTRY;
 use std::collections::BTreeSet;
 
 /// Options of all runs of all cases over their tiers.
@@ -12,7 +15,7 @@ fn used(features: &Features) -> BTreeSet<FeatureOption> {
     let tiers = [Tier::Quick, Tier::Paper, Tier::Fine];
     let plans = REGISTRY.iter().flat_map(|case| tiers.map(|tier| (case, tier)));
     let plans = plans.map(|(case, tier)| case.prepare(tier, &Changes::default()).expect("the tiers are valid"));
-    let of_plan = |plan: Box<dyn bagnold_validation::case::PreparedCase>| {
+    let of_plan = |plan: Box<dyn bagnold_harness::case::PreparedCase>| {
         (0..plan.run_count()).flat_map(|run| features.chosen(&plan.run_parameters(run))).collect::<Vec<_>>()
     };
     plans.flat_map(of_plan).collect()
@@ -20,7 +23,7 @@ fn used(features: &Features) -> BTreeSet<FeatureOption> {
 
 #[test]
 fn every_option_is_used_by_a_run_or_declared() {
-    let features = Features::of(REGISTRY);
+    let features = Features::of(*REGISTRY);
     let used = used(&features);
     let is_open = |option: &FeatureOption| {
         !used.contains(option) && !DECLARATIONS.is_selection(&option.feature) && DECLARATIONS.of(option).is_none()
@@ -29,7 +32,7 @@ fn every_option_is_used_by_a_run_or_declared() {
         features.options().filter(is_open).map(|option| format!("{} = {}", option.feature, option.option)).collect();
     assert!(
         open.is_empty(),
-        "no run of any tier uses these options; let a case use them, or declare them in validation/coverage.toml with \
+        "no run of any tier uses these options; let a case use them, or declare them in validation/harness/coverage.toml with \
          their tests:\n{}",
         open.join("\n")
     );
@@ -37,7 +40,7 @@ fn every_option_is_used_by_a_run_or_declared() {
 
 #[test]
 fn every_declaration_is_needed_and_names_tests_that_there_are() {
-    let features = Features::of(REGISTRY);
+    let features = Features::of(*REGISTRY);
     let (used, known) = (used(&features), features.options().collect::<BTreeSet<_>>());
     let mut wrong = Vec::new();
     for own in &DECLARATIONS.options {
@@ -65,5 +68,65 @@ fn every_declaration_is_needed_and_names_tests_that_there_are() {
             wrong.push(format!("{}: no such parameter, or no reason", selection.feature));
         }
     }
-    assert!(wrong.is_empty(), "validation/coverage.toml:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "validation/harness/coverage.toml:\n{}", wrong.join("\n"));
+}
+
+fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
+    CaseReport {
+        name: name.to_owned(),
+        summary: String::new(),
+        description: String::new(),
+        parameters_toml: String::new(),
+        command: String::new(),
+        metrics,
+        figures: Vec::new(),
+        animations: Vec::new(),
+        runs: Vec::new(),
+        run_parameters: Vec::new(),
+        metrics_json: String::new(),
+    }
+}
+
+fn run(kernel: &str) -> RunSummary {
+    RunSummary {
+        variant: Variant::of("kernel", kernel).and("rows", 10),
+        outcome: Outcome::Finished,
+        particles: 1,
+        steps: 1,
+        simulated_time: 1.0,
+        wall_seconds: 1.0,
+        threads: 1,
+        microseconds_per_particle_step: None,
+        state_hash: String::new(),
+        from_store: false,
+    }
+}
+
+#[test]
+fn a_gate_counts_for_the_options_of_the_runs_that_it_speaks_of() {
+    let gate = |name: &str, kernel: &str, kind, value| {
+        let variant = Variant::of("kernel", kernel).and("rows", Value::list([10, 20]));
+        Metric::observed(name, &variant, value, "-").of_kind(kind).gated(Limit::AtMost(1.0), "a reason")
+    };
+    let metrics = vec![
+        gate("error", "wendland-c2", MetricKind::Verification, 0.5),
+        gate("observed_order", "wendland-c2", MetricKind::Verification, 2.0),
+        gate("front", "cubic-spline", MetricKind::Validation, 0.5),
+        Metric::observed("seen", &Variant::of("kernel", "cubic-spline"), 0.1, "-"),
+    ];
+    let mut film = case("film", metrics);
+    for kernel in ["wendland-c2", "cubic-spline"] {
+        film.runs.push(run(kernel));
+        film.run_parameters.push(serde_json::json!({ "numerics": { "kernel": kernel } }));
+    }
+    let rows = coverage(&Features::of(*REGISTRY), &[film, case("other", Vec::new())]);
+    let of = |option: &str| {
+        let row = rows.iter().find(|row| row.option.feature == "kernel" && row.option.option == option);
+        row.expect("a kernel").cases.clone()
+    };
+    let exact = CaseCoverage { gates: [(Grade::Exact, 1), (Grade::Converging, 1)].into(), failing: 1 };
+    assert_eq!(of("wendland-c2"), [Some(exact), None]);
+    let measured = CaseCoverage { gates: [(Grade::Measured, 1)].into(), failing: 0 };
+    assert_eq!(of("cubic-spline"), [Some(measured), None]);
+    assert!(rows.iter().any(OptionCoverage::is_unused));
 }

@@ -1,8 +1,8 @@
 //! Lists that follow from the registry: README's table of cases, the folders of reference data.
 
 use crate::source::workspace;
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::reference::shipped_tables;
+use bagnold_harness::evidence::shipped_tables;
+use bagnold_validation::REGISTRY;
 
 fn registered() -> Vec<&'static str> {
     REGISTRY.iter().map(|case| case.name()).collect()
@@ -50,24 +50,29 @@ fn every_table_is_named_by_the_readme_beside_it() {
 }
 
 #[test]
-fn a_package_of_the_validation_holds_every_table() {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let listed = std::process::Command::new(cargo)
-        .args(["package", "--list", "--allow-dirty", "--offline", "-p", "bagnold-validation"])
-        .current_dir(workspace())
-        .output()
-        .expect("cargo");
-    assert!(listed.status.success(), "{}", String::from_utf8_lossy(&listed.stderr));
-    let listed = String::from_utf8_lossy(&listed.stdout).into_owned();
-    let listed: Vec<&str> = listed.lines().collect();
+fn packages_hold_every_table_and_every_plan() {
+    let listed = |package: &str| -> Vec<String> {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let listed = std::process::Command::new(cargo)
+            .args(["package", "--list", "--allow-dirty", "--offline", "-p", package])
+            .current_dir(workspace())
+            .output()
+            .expect("cargo");
+        assert!(listed.status.success(), "{}", String::from_utf8_lossy(&listed.stderr));
+        String::from_utf8_lossy(&listed.stdout).lines().map(str::to_owned).collect()
+    };
+    let (harness, program) = (listed("bagnold-harness"), listed("bagnold-validation"));
+    let is_packaged = |listed: &[String], name: &str| {
+        assert!(listed.iter().any(|own| own == name), "{name} would not be packaged");
+    };
     for (name, _) in shipped_tables() {
-        assert!(listed.contains(&format!("reference-data/{name}").as_str()), "{name} would not be packaged");
+        is_packaged(&harness, &format!("reference-data/{name}"));
     }
     for case in registered() {
-        assert!(listed.contains(&format!("snapshots/quick/{case}.snap").as_str()), "{case} would not be packaged");
+        is_packaged(&harness, &format!("snapshots/quick/{case}.snap"));
     }
-    for name in ["snapshots/known_failures.toml", "sweeps/bed-load-1d-map.toml", "verify/short_runs.toml", "README.md"]
-    {
-        assert!(listed.contains(&name), "{name} would not be packaged");
+    is_packaged(&harness, "snapshots/known_failures.toml");
+    for name in ["sweeps/bed-load-1d-map.toml", "verify/short_runs.toml", "README.md", "build/embed.rs"] {
+        is_packaged(&program, name);
     }
 }

@@ -15,7 +15,7 @@ mod own_field_law;
 #[expect(dead_code, reason = "its main prints what the test asserts")]
 mod own_law;
 
-use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::REGISTRY;
 use bagnold_validation::cli::program;
 use std::path::Path;
 use std::process::ExitCode;
@@ -70,7 +70,7 @@ fn a_law_of_ones_own_that_remembers_runs_a_scene() {
         std::fs::write(path("block.toml"), scene).expect("writable");
         let (file, store, out) = (path("block.toml"), path("store"), path("out"));
         let arguments = ["own_field_law", "--quiet", "run", &file, "--store", &store, "--out", &out];
-        assert_eq!(program(REGISTRY, arguments), ExitCode::SUCCESS, "its gates hold");
+        assert_eq!(program(*REGISTRY, arguments), ExitCode::SUCCESS, "its gates hold");
         let gauges = std::fs::read_dir(folder.path().join("out/tables")).expect("written").flatten();
         let gauges = gauges.map(|entry| entry.path()).find(|path| path.display().to_string().contains("gauges-"));
         let table = std::fs::read_to_string(gauges.expect("a table")).expect("readable");

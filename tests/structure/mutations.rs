@@ -1,8 +1,10 @@
-//! Errors for the mutation check stand outside of the sources (`validation/mutations.toml`): a reader of an equation sees the
+//! Errors for the mutation check stand outside of the sources (`validation/tools/mutations.toml`): a reader of an equation sees the
 //! equation.
 
 use crate::source::workspace;
-use bagnold_validation::mutation::Mutations;
+use bagnold_harness::case::{Changes, Tier};
+use bagnold_tools::mutation::Mutations;
+use bagnold_validation::REGISTRY;
 
 #[test]
 fn every_text_of_a_mutation_stands_once_in_its_file() {
@@ -23,6 +25,23 @@ fn every_text_of_a_mutation_stands_once_in_its_file() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(places >= 75, "{places} places");
+}
+
+#[test]
+fn every_mutation_has_cases_that_take_their_settings() {
+    let all = Mutations::read(&workspace()).expect("a file of mutations");
+    assert!(all.iter().count() >= 60);
+    for mutation in all.iter() {
+        let scopes = all.scopes(mutation);
+        assert!(!scopes.is_empty(), "{} is seen by no case", mutation.name);
+        for scope in scopes {
+            let case = REGISTRY.find(&scope.case).expect("a case");
+            let changes = Changes { file: None, settings: &scope.settings, ..Changes::default() };
+            assert!(case.prepare(Tier::Quick, &changes).is_ok(), "{scope:?}");
+        }
+    }
+    let last = all.iter().last().expect("one");
+    assert_eq!((all.number(last), all.find(&last.name)), (all.iter().count(), Some(last)));
 }
 
 #[test]

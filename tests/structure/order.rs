@@ -2,7 +2,7 @@
 
 use crate::imports::imports;
 use crate::source::{Source, sources};
-use bagnold_validation::cases::REGISTRY;
+use bagnold_validation::REGISTRY;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Rooms of one floor, which may use each other as long as no circle arises; and whether they must not, as peers.
@@ -27,22 +27,32 @@ const SOLVER: &[Floor] = &[
     peers(&["weakly_compressible", "incompressible"]),
 ];
 
-/// `validation/inference/src`, likewise. The packages `number`, `figure` and `layer` have a single floor; what each of them knows
-/// is said by its dependencies.
+/// `validation/inference/src`, from the ground up.
 const INFERENCE: &[Floor] = &[floor(&["statistics", "sampling"]), floor(&["inference"])];
 
-/// `validation/src`, likewise; what it passes on of other packages stands below it.
-const VALIDATION: &[Floor] = &[
+/// `validation/harness/src`, from the ground up.
+const HARNESS: &[Floor] = &[
     floor(&["input", "interruption"]),
     floor(&["output", "page"]),
-    floor(&["metric", "reference"]),
-    floor(&["observation"]),
+    floor(&["metric"]),
+    floor(&["observation", "evidence"]),
     floor(&["store", "checkpoint"]),
     floor(&["case"]),
     floor(&["setup"]),
-    floor(&["cases", "evaluation", "result", "report"]),
-    floor(&["sweep", "calibration", "mutation", "judge", "compare", "study"]),
-    floor(&["cli"]),
+    floor(&["evaluation", "result", "report"]),
+    floor(&["measured"]),
+];
+
+/// Packages of `validation/`, each with the packages of this project that it may depend on.
+const PACKAGES: [(&str, &[&str]); 8] = [
+    ("number", &[]),
+    ("figure", &["number"]),
+    ("inference", &["number"]),
+    ("harness", &["number", "figure", "inference", "solver"]),
+    ("reference", &["inference", "solver", "harness"]),
+    ("cases", &["number", "figure", "inference", "solver", "harness", "reference"]),
+    ("scenes", &["number", "figure", "inference", "solver", "harness", "reference"]),
+    ("tools", &["number", "figure", "inference", "solver", "harness"]),
 ];
 
 /// Rooms of the models by which a term could see more than its arguments.
@@ -116,34 +126,31 @@ fn the_solver_depends_downwards_only() {
 }
 
 #[test]
-fn the_validation_depends_downwards_only() {
-    assert_none(&offences("validation/src", VALIDATION));
+fn the_harness_depends_downwards_only() {
+    assert_none(&offences("validation/harness/src", HARNESS));
 }
 
 #[test]
-fn packages_beside_the_validation_know_only_what_they_need() {
+fn the_inference_depends_downwards_only() {
     assert_none(&offences("validation/inference/src", INFERENCE));
-    let known: [(&str, &[&str]); 4] = [
-        ("number", &[]),
-        ("figure", &["bagnold-number"]),
-        ("inference", &["bagnold-number"]),
-        // of the solver laws only: no test of it knows a particle
-        ("layer", &["bagnold-inference", "bagnold-solver"]),
-    ];
-    for (package, known) in known {
+}
+
+#[test]
+fn packages_know_only_what_they_need() {
+    for (package, known) in PACKAGES {
         let path = crate::source::workspace().join("validation").join(package).join("Cargo.toml");
         let manifest: toml::Table = toml::from_str(&std::fs::read_to_string(&path).expect("a manifest")).expect("TOML");
         let needs =
             manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(toml::Table::keys);
-        let own: Vec<&String> = needs.filter(|name| name.starts_with("bagnold-")).collect();
-        assert!(own.iter().all(|name| known.contains(&name.as_str())), "{package} depends on {own:?}");
+        let own: Vec<&str> = needs.filter_map(|name| name.strip_prefix("bagnold-")).collect();
+        assert!(own.iter().all(|name| known.contains(name)), "{package} depends on {own:?}");
     }
 }
 
 #[test]
-fn a_layer_without_particles_knows_laws_of_the_solver_only() {
+fn references_know_laws_of_the_solver_only() {
     let mut found = Vec::new();
-    for source in sources("validation/layer/src") {
+    for source in sources("validation/reference/src") {
         for (line, text) in source.code.lines().enumerate() {
             let foreign = text.contains("bagnold_solver::")
                 && !text.contains("bagnold_solver::material::")
@@ -177,23 +184,41 @@ fn a_term_knows_neither_laws_nor_particles_nor_lists() {
 
 #[test]
 fn no_case_imports_another() {
-    let cases: BTreeSet<String> = REGISTRY.iter().map(|case| case.name().replace('-', "_")).collect();
+    // what cases share stands in the folder of their family, or in `shared`
+    let folders: BTreeSet<Vec<String>> =
+        sources("validation/cases/src").iter().filter_map(|source| case_folder(&source.module)).collect();
+    assert_eq!(folders.len() + SCENES, REGISTRY.iter().count(), "{folders:?}");
     let mut found = Vec::new();
-    for source in sources("validation/src") {
-        // what several cases share has a folder that is no case
-        let [root, own, ..] = source.module.as_slice() else { continue };
+    for source in sources("validation/cases/src") {
+        let own = case_folder(&source.module);
         for import in imports(&source) {
-            if let ("cases", [first, other, ..]) = (root.as_str(), import.path.as_slice())
-                && first == "cases"
-                && other != own
-                && cases.contains(other)
-            {
-                let rule = format!("imports `{}`: `{other}` is another case", import.path.join("::"));
+            if let Some(other) = case_folder(&import.path).filter(|other| Some(other) != own.as_ref()) {
+                let rule = format!("imports `{}`: `{}` is another case", import.path.join("::"), other.join("::"));
                 found.push(offence(&source, import.line, &rule));
             }
         }
     }
     assert_none(&found);
+}
+
+/// Cases of the registry that are scenes.
+const SCENES: usize = 2;
+
+/// The folder of the case in which a module stands, or none: a file `metrics` or `parameters` makes no case of a family's folder.
+fn case_folder(module: &[String]) -> Option<Vec<String>> {
+    const FAMILIES: [(&str, &[&str]); 3] = [
+        ("layer", &["hydrostatic", "film", "bagnold", "flow_thickness"]),
+        ("collapse", &["planar", "round", "incline"]),
+        ("channel", &["still_water", "water_film", "clear_water", "bed_load"]),
+    ];
+    const ALONE: [&str; 4] = ["nonlocal_shear", "settling", "bed_load_1d", "water_column"];
+    let [first, rest @ ..] = module else { return None };
+    let family = FAMILIES.iter().find(|(name, _)| name == first);
+    match (family, rest) {
+        (Some((_, cases)), [case, ..]) if cases.contains(&case.as_str()) => Some(module[..2].to_vec()),
+        (None, _) if ALONE.contains(&first.as_str()) => Some(module[..1].to_vec()),
+        _ => None,
+    }
 }
 
 #[test]

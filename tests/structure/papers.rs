@@ -1,10 +1,10 @@
 //! The rows of the papers speak of what is there: files, tests, cases, metrics, runs.
 
 use crate::source::workspace;
-use bagnold_validation::case::{Changes, Tier};
-use bagnold_validation::cases::REGISTRY;
-use bagnold_validation::metric::Variant;
-use bagnold_validation::reference::{Element, PAPERS};
+use bagnold_harness::case::{Changes, Tier};
+use bagnold_harness::evidence::{Element, PAPERS};
+use bagnold_harness::metric::Variant;
+use bagnold_validation::REGISTRY;
 use std::collections::BTreeMap;
 
 fn elements() -> impl Iterator<Item = (String, &'static Element)> {

@@ -37,7 +37,7 @@ fn the_python_package_has_the_programs_version_and_types() {
     let text =
         |path: &str| std::fs::read_to_string(workspace().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
     let manifest: toml::Table = toml::from_str(&text("python/Cargo.toml")).expect("TOML");
-    assert_eq!(manifest["package"]["version"].as_str(), Some(bagnold_validation::store::version()));
+    assert_eq!(manifest["package"]["version"].as_str(), Some(bagnold_harness::store::version()));
     assert!(workspace().join("python/bagnold/py.typed").is_file());
     // what the package exports is documented
     let init = text("python/bagnold/__init__.py");

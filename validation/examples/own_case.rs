@@ -1,14 +1,14 @@
 //! A case of one's own: a shear wave in a viscous liquid, u = U sin ky, that decays with exp(−ν k² t).
 //! `cargo run --example own_case -- report` judges it.
 
+use bagnold_harness::case::{Case, ParameterError, Parameters, Progress, Registry, Run, Tier};
+use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
+use bagnold_harness::{case::recording::record, observation::Recorded};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::{domain::Domain, vector::Vector};
-use bagnold_validation::case::{Case, ParameterError, Parameters, Progress, Registry, Run, Tier};
-use bagnold_validation::metric::{Confidence, Limit, Metric, Variant};
-use bagnold_validation::{case::recording::record, observation::Recorded};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;

@@ -1,28 +1,21 @@
-//! Cases, references, metrics, figures and reports around the Bagnold solver.
+//! The program `bagnold`: its commands, and the registry of all cases.
 
-pub mod calibration;
-pub mod case;
-pub mod cases;
-pub mod checkpoint;
 pub mod cli;
-pub mod compare;
-pub mod evaluation;
-pub mod input;
-pub mod interruption;
-pub mod judge;
-pub mod metric;
-pub mod mutation;
-pub mod observation;
-pub mod output;
-mod page;
-pub mod reference;
-pub mod report;
-pub mod result;
-pub mod setup;
-pub mod store;
-pub mod study;
-pub mod sweep;
+mod registry;
 
-pub use bagnold_figure as figure;
-pub use bagnold_inference::{inference, sampling, statistics};
-pub use bagnold_number as number;
+pub use registry::REGISTRY;
+
+use bagnold_figure as figure;
+use bagnold_harness::{
+    case, checkpoint, evaluation, evidence, input, interruption, measured, metric, observation, output, report, result,
+    store,
+};
+use bagnold_number as number;
+use bagnold_scenes::study;
+use bagnold_tools::{calibration, compare, judge, mutation, sweep};
+
+#[cfg(test)]
+#[path = "../harness/src/case/pendulum.rs"]
+mod pendulum;
+#[cfg(test)]
+mod stale_sensitivities;

@@ -40,9 +40,9 @@ pub use exit::Exit;
 pub use new::NewError;
 
 use crate::case::{Limits, ParameterError, Registry, Tier};
-use crate::cases::REGISTRY;
 use crate::checkpoint::{self, InterruptedRuns};
 use crate::interruption::{self, Signal};
+use crate::registry::{REGISTRY, declare_build};
 use crate::store::{Store, StorePolicy};
 use arguments::{Allowance, Work};
 use clap::Parser;
@@ -54,12 +54,13 @@ use terminal::{StandardOutput, print, say, tell};
 /// The program: reads its arguments, prints on standard output and error.
 #[must_use]
 pub fn main() -> ExitCode {
-    program(REGISTRY, std::env::args_os())
+    program(*REGISTRY, std::env::args_os())
 }
 
 /// The program with the cases of a registry, for crates with cases of their own. The first argument is the program's name.
 #[must_use]
 pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
+    declare_build();
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(answer) => return answered(&answer),

@@ -6,7 +6,7 @@ use super::expectation::Expectation;
 use super::profile::StageTimer;
 use super::{Exit, print, say, summary, tell};
 use crate::case::{CaseResult, Tier};
-use crate::judge::Measurements;
+use crate::measured::Measurements;
 use crate::output::{FileError, OutputFolder};
 use crate::report::{
     self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, Report, ReportProvenance, SpeedHistory,

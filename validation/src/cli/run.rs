@@ -8,7 +8,7 @@ use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
 use super::simulation::{announce, simulate_showing};
 use crate::case::{OutputPlan, ParameterError, Registry, Request, Requested};
-use crate::judge::{self, Measurements};
+use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
 use crate::report::Baseline;
 use crate::result::States;
@@ -56,7 +56,7 @@ pub(super) fn run(
     states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
     profile.over("runs and their figures");
     for result in &mut results {
-        judge::draw_measured(result, &overlay)?;
+        draw_measured(result, &overlay)?;
         if let Some(plan) = &wanted {
             result.parameters_toml += &format!("\n{}", plan.text());
             "bagnold run case.toml".clone_into(&mut result.command);

@@ -6,8 +6,8 @@ use super::simulation::{announce, simulate};
 use super::{Exit, say};
 use crate::case::{ParameterError, Registry};
 use crate::evaluation::SensitivityPlan;
+use crate::evidence::sensitivity_text;
 use crate::output::{FileError, write_whole};
-use crate::reference::sensitivity_text;
 use std::io::Write;
 
 /// Simulates and writes the table.

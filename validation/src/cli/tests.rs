@@ -1,8 +1,8 @@
 //! The commands from arguments to files, with the test case.
 
 use super::{Arguments, Exit, execute};
-use crate::case::pendulum::REGISTRY;
 use crate::metric::Verdict;
+use crate::pendulum::REGISTRY;
 use crate::result::MetricsDocument;
 use clap::Parser;
 use std::path::Path;

@@ -116,8 +116,8 @@ fn state_hash(run: &ShortRun, registry: Registry, threads: u16) -> Result<String
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::pendulum;
-    use crate::cases::REGISTRY;
+    use crate::REGISTRY;
+    use crate::pendulum;
 
     fn run(file: &Path, write: bool) -> (Exit, String) {
         let command = VerifyArguments { file: Some(file.to_owned()), write: write.then(|| file.to_owned()) };

@@ -11,7 +11,7 @@ const MUTATE_EXAMPLES: &str = "Examples:
   bagnold mutate trial von-karman clear-water            one case with one error, as `bagnold run` shows it
 
 Works in a checkout: a copy of the program, in target/mutations, is built with the errors of
-validation/mutations.toml; this program has none of them. Each error is caught by a gate that
+validation/tools/mutations.toml; this program has none of them. Each error is caught by a gate that
 held without it, by a run that stops, only by the snapshot of accepted values, or by nothing.
 
 Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or no checkout.";
@@ -32,7 +32,7 @@ pub struct VerifyArguments {
 #[derive(Debug, Args)]
 #[command(
     after_help = "The ranges and their sources stand in reference-data/CASE/uncertainty.toml; the program carries the tables of
-validation/sensitivities, from which a report takes the uncertainty by the inputs."
+validation/harness/sensitivities, from which a report takes the uncertainty by the inputs."
 )]
 pub struct SensitivitiesArguments {
     /// Name of a case, see `bagnold list`.

@@ -87,7 +87,7 @@ fn write(folder: &Path, name: &str, templates: &[Template], checkout: Option<&Pa
         made => made.map_err(unwritable)?,
     }
     std::fs::create_dir(folder.join("src")).map_err(unwritable)?;
-    let dependencies = dependencies(checkout);
+    let dependencies = dependencies(checkout, templates);
     for (path, text) in templates {
         let text = text.replace("{{profile}}\n", PROFILE).replace("{{dependencies}}", &dependencies);
         std::fs::write(folder.join(path), text.replace("{{name}}", name)).map_err(unwritable)?;
@@ -100,18 +100,24 @@ fn write(folder: &Path, name: &str, templates: &[Template], checkout: Option<&Pa
     Ok(())
 }
 
-/// The packages of Bagnold: in the checkout if there is one, else by this program's version.
-fn dependencies(checkout: Option<&Path>) -> String {
+/// Packages of Bagnold, with their folders.
+const PACKAGES: [(&str, &str); 3] =
+    [("solver", "solver"), ("harness", "validation/harness"), ("validation", "validation")];
+
+/// The packages of Bagnold that the templates name: in the checkout if there is one, else by this program's version.
+fn dependencies(checkout: Option<&Path>, templates: &[Template]) -> String {
     let version = env!("CARGO_PKG_VERSION");
-    let line = |package: &str| {
+    let is_used = |package: &str| templates.iter().any(|(_, text)| text.contains(&format!("bagnold_{package}::")));
+    let line = |(package, folder): (&str, &str)| {
         let source = match checkout {
             // a path is a string with escapes of its own in TOML
-            Some(root) => format!("path = {}", toml::Value::from(root.join(package).display().to_string())),
+            Some(root) => format!("path = {}", toml::Value::from(root.join(folder).display().to_string())),
             None => format!("version = \"={version}\""),
         };
         format!("bagnold-{package} = {{ {source} }}")
     };
-    [line("solver"), line("validation")].join("\n")
+    let used = PACKAGES.into_iter().filter(|(package, _)| is_used(package));
+    used.map(line).collect::<Vec<_>>().join("\n")
 }
 
 #[cfg(test)]

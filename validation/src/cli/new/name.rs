@@ -1,7 +1,7 @@
 //! Names that a crate with a law or a case can have.
 
 use super::super::arguments::NewCrate;
-use crate::cases::REGISTRY;
+use crate::REGISTRY;
 use crate::input::FieldError;
 use bagnold_solver::material::rheology::open::built_in;
 

@@ -1,0 +1,1 @@
+../harness/build/embed.rs

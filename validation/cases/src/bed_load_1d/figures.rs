@@ -1,0 +1,152 @@
+//! The case's figures.
+
+use super::BedLoad1dRecord;
+use super::metrics::{difference, log_law};
+use super::records::{literature, of};
+use super::run::{BedLoad1dRun, LayerPurpose, percent};
+use crate::figure::{Axis, Figure, Panel};
+use crate::reference::one_dimension::bed_load::LayerState;
+use crate::shared::transport_panel;
+
+type SolvedLayer<'a> = (&'a BedLoad1dRun, &'a LayerState);
+
+pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
+    let layers: Vec<SolvedLayer<'_>> = literature(records).collect();
+    if layers.is_empty() {
+        return Vec::new();
+    }
+    let mut figures = vec![profiles(&layers), transport(&layers)];
+    figures.extend(convergence(records, &layers));
+    figures.extend(super::onset::figure(records));
+    figures.extend(super::others::figure(records));
+    figures.extend(super::regimes::figure(&layers, super::metrics::MOVING, percent));
+    figures.extend(super::sensitivities::figure(records, &layers));
+    figures
+}
+
+fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
+    let near = |layer: &LayerState| 1.6e3 * layer.top_of_grains();
+    let top = layers.iter().map(|(_, state)| near(state)).fold(0.0, f64::max);
+    let depth = layers.iter().map(|(run, _)| 1e3 * run.stream.bed_depth).fold(0.0, f64::max).min(10.0);
+    let height = || Axis { limits: Some((-depth, top)), ..Axis::linear("z [mm]") };
+    let mut panels = [
+        Panel::new("water", Axis::linear("u_f/u_* [-]"), Axis::logarithmic("z [mm]")),
+        Panel::new("grains", Axis::linear("u_s [m/s]"), height()),
+        Panel::new(
+            "tail of the grains",
+            Axis { limits: Some((1e-4, 2.0)), ..Axis::logarithmic("u_s [m/s]") },
+            height(),
+        ),
+        Panel::new("solid fraction", Axis::linear("φ [-]"), height()),
+        Panel::new("drag on the grains", Axis::linear("K (u_f − u_s) [N/m³]"), height()),
+        Panel::new("stresses", Axis { limits: Some((0.0, 1.6)), ..Axis::linear("τ/(ρ_f g h tanθ) [-]") }, height()),
+    ];
+    for (slot, &(run, state)) in layers.iter().enumerate() {
+        let label = percent(run);
+        let stream = &run.stream;
+        let cells = |values: &[f64], keep: &dyn Fn(usize) -> bool| -> Vec<(f64, f64)> {
+            (0..state.height.len()).filter(|k| keep(*k)).map(|k| (values[k], 1e3 * state.height[k])).collect()
+        };
+        let with_grains = |k: usize| state.solid_fraction[k] > 0.0;
+        let relative: Vec<f64> = state.fluid_velocity.iter().map(|u| u / stream.shear_velocity()).collect();
+        let drag = state.drag();
+        let curves = [
+            cells(&relative, &|k| state.height[k] > 0.0),
+            cells(&state.grain_velocity, &with_grains),
+            cells(&state.grain_velocity, &with_grains),
+            cells(&state.solid_fraction, &|_| true),
+            cells(&drag, &|_| true),
+        ];
+        for (place, (panel, curve)) in panels.iter_mut().zip(curves).enumerate() {
+            panel.line(if place == 0 { &label } else { "" }, slot, curve);
+        }
+        let faces = |values: &[f64]| -> Vec<(f64, f64)> {
+            values.iter().zip(&state.face).map(|(tau, z)| (tau / stream.bed_stress(), 1e3 * z)).collect()
+        };
+        let name = |text: &str| if slot == 0 { text.to_owned() } else { String::new() };
+        panels[5].line(&name("τ_f"), slot, faces(&state.fluid_stress));
+        panels[5].line_points(&name("τ_s"), slot, faces(&state.grain_stress));
+        let weight = carried(state);
+        panels[5].reference(&name("g sinθ ∫ ρ dz"), faces(&weight));
+    }
+    let (run, state) = layers[0];
+    let law =
+        state.height.iter().filter(|z| **z > run.stream.grain_diameter / 20.0).map(|&z| (log_law(run, z), 1e3 * z));
+    panels[0].reference("clear water, z_0 = d/30, z_off = 0.12 d", law);
+    Figure::new(
+        "profiles",
+        "Steady layers on the slopes. The water's velocity in half-logarithmic axes bends where grains move and has \
+         the slope of clear water above; the grains' velocity decays exponentially in the bed; the drag peaks where \
+         the moving grains are dense; the stresses of both phases together carry the weight above.",
+        panels.into(),
+    )
+    .in_columns(2)
+}
+
+/// g sinθ ∫_z ρ dz at the faces `[Pa]`.
+fn carried(state: &LayerState) -> Vec<f64> {
+    let stream = &state.stream;
+    let mut carried = vec![0.0; state.face.len()];
+    for k in (0..state.height.len()).rev() {
+        let fraction = state.solid_fraction[k];
+        let density = fraction * stream.grain_density + (1.0 - fraction) * stream.fluid_density;
+        carried[k] = carried[k + 1] + density * stream.driving() * state.cell_height;
+    }
+    carried
+}
+
+fn transport(layers: &[SolvedLayer<'_>]) -> Figure {
+    let mut panel = transport_panel::formulas();
+    let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport()));
+    panel.points("layer, closures of the literature", 0, points);
+    Figure::new(
+        "transport",
+        "Bed-load transport over the Shields number: the layers with the literature's closures and published \
+         formulas. The band about Wong & Parker's formula is the scatter of the experiments behind it.",
+        vec![panel],
+    )
+}
+
+/// Differences between neighbouring cell heights.
+fn convergence(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Option<Figure> {
+    let studies = [
+        (LayerPurpose::DilatingOrder, "with dilation: q*", "relative difference of q* [-]"),
+        (LayerPurpose::FrozenOrder, "given fraction: profiles", "relative L2 difference [-]"),
+    ];
+    let mut panels = Vec::new();
+    for (purpose, title, label) in studies {
+        let mut panel = Panel::new(title, Axis::logarithmic("height of a cell [mm]"), Axis::logarithmic(label));
+        for (slot, (run, _)) in layers.iter().enumerate() {
+            let study: Vec<&LayerState> = of(records, |other| *other == purpose)
+                .filter(|(other, _)| other.stream.slope == run.stream.slope)
+                .map(|(_, state)| state)
+                .collect();
+            let points: Vec<(f64, f64)> = study
+                .windows(2)
+                .map(|pair| (1e3 * pair[0].cell_height, difference(pair[0], pair[1], purpose)))
+                .collect();
+            if slot == 0
+                && let (Some(first), Some(last)) = (points.first(), points.last())
+            {
+                let end = first.1 * (last.0 / first.0) * (last.0 / first.0);
+                let guide = vec![*first, (last.0, end)];
+                panel.reference("second order", guide);
+            }
+            if !points.is_empty() {
+                panel.line_points(&percent(run), slot, points);
+            }
+        }
+        if !panel.series.is_empty() {
+            panels.push(panel);
+        }
+    }
+    (!panels.is_empty()).then(|| {
+        Figure::new(
+            "convergence",
+            "Difference between each height of cells and half of it, over that height, for the transport of dilating \
+         layers and for the profiles of layers with a given smooth fraction.",
+            panels,
+        )
+        .in_columns(2)
+    })
+}

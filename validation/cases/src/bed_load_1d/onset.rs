@@ -1,0 +1,160 @@
+//! The onset of motion over the grain size, beside Shields' curve.
+//!
+//! A layer has no threshold but a transport that falls steeply, so the onset is where it falls below a rate. Three are
+//! given: W* = q*/τ*^{3/2} = 0.002, the literature's own definition of a reference transport (Parker, Klingeman & McLean 1982),
+//! q* = 10⁻⁴ and q* = 10⁻³. Which of them would count as motion is no literature's choice, and W* = 0.002 is some 10⁻⁵ of q*, within the
+//! creep of a resting bed whose yield is regularised (half its rate moves that onset by 2 to 10 %, and that of
+//! q* = 10⁻⁴ by less than 1 %); from the first to the last lies a factor of two. So does between the methods by
+//! which experimenters tell it: every criterion is judged by the band of the thresholds that they measured with grains of that size.
+
+use super::BedLoad1dRecord;
+use super::onset_criterion::{CRITERIA, Crossing};
+use super::run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
+use crate::case::Run;
+use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::metric::{Confidence, Limit, Metric, Origin, Quantity};
+use crate::reference::bed_load::{
+    MOTION_THRESHOLDS, ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence,
+};
+
+/// Colour of the measured thresholds, beyond those of the criteria.
+const MEASURED_SLOT: usize = 6;
+
+fn expected(run: &BedLoad1dRun) -> f64 {
+    critical_shields_number(run.stream.dimensionless_diameter())
+}
+
+fn tables(records: &[BedLoad1dRecord]) -> impl Iterator<Item = (&BedLoad1dRun, &BedLoadLayerObservation)> {
+    records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Onset).map(|(run, record)| (run, &record.data))
+}
+
+/// Onsets and how far the starts differ.
+pub(super) fn metrics(
+    records: &[BedLoad1dRecord],
+    [ratio, onset, over_measured]: [Quantity; 3],
+    start: Quantity,
+) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for (run, data) in tables(records) {
+        let scan = data.scan.as_slice();
+        for (criterion, name) in CRITERIA {
+            let variant = run.variant().and("criterion", name);
+            let crossing = criterion.onset(scan);
+            let found = crossing.value();
+            let source = format!("{ONSET_SOURCE}{}", crossing.remark());
+            metrics.push(
+                ratio
+                    .of(&variant, found / expected(run))
+                    .against(Some(1.0), &source, onset_confidence())
+                    .with_snapshot_tolerance(0.01, 0.0),
+            );
+            metrics.push(
+                onset
+                    .of(&variant, found)
+                    .against(Some(expected(run)), &source, onset_confidence())
+                    .with_snapshot_tolerance(0.01, 0.0),
+            );
+            let creep = (criterion.onset(&data.scan_at_half_rate).value() / found - 1.0).abs();
+            let known_to = ScanUncertainty { bend: criterion.bend(scan), creep };
+            metrics.extend(beside_measured(over_measured.of(&variant, found), run, crossing, known_to));
+        }
+        metrics.push(
+            start
+                .of(&run.variant(), data.start_difference)
+                .against(Some(0.0), "the layers from rest, all Shields numbers", Confidence::Exact)
+                .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
+                .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE),
+        );
+    }
+    metrics
+}
+
+/// What the onset of a scan is known to, relative `[-]`.
+#[derive(Debug, Clone, Copy)]
+struct ScanUncertainty {
+    /// By the distance of its Shields numbers.
+    bend: f64,
+    /// By the creep of a bed whose yield is regularised.
+    creep: f64,
+}
+
+/// An onset over the median of the thresholds measured with grains of its size; none where too few were.
+fn beside_measured(
+    metric: Metric,
+    run: &BedLoad1dRun,
+    crossing: Crossing,
+    ScanUncertainty { bend, creep }: ScanUncertainty,
+) -> Option<Metric> {
+    let thresholds = &*MOTION_THRESHOLDS;
+    let band = thresholds.band(run.stream.dimensionless_diameter())?;
+    let (lower, upper) = band.bounds;
+    let value = metric.value / band.median;
+    let remark = crossing.remark();
+    let source = format!("median of {} measured thresholds, {}{remark}", band.number, thresholds.source);
+    Some(
+        Metric { value, ..metric }
+            .against(Some(1.0), &source, thresholds.confidence)
+            .known_to(
+                Origin::Experiment,
+                Some(band.deviation / band.median),
+                "half of the width of the middle two thirds of the thresholds with grains within a factor of two in size",
+            )
+            .known_to(
+                Origin::Numerical,
+                Some(value * bend),
+                "distance of the straight line in logarithms between two Shields numbers of the scan to the parabola through three",
+            )
+            .known_to(
+                Origin::Numerical,
+                Some(value * creep),
+                "what half the rate of the regularised yield adds, of about twice as much that no creep would",
+            )
+            .gated(
+                Limit::Within(lower / band.median, upper / band.median),
+                "nine tenths of the measured thresholds of grains within a factor of two in size lie there, whatever their authors took for motion",
+            )
+            .with_snapshot_tolerance(0.01, 0.0),
+    )
+}
+
+/// Onset over the grain size, and the transport about it.
+pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
+    let mut curve = Panel::new("onset", Axis::logarithmic("D* [-]"), Axis::logarithmic("τ* at the onset [-]"));
+    let mut rates = Panel::new("transport about it", Axis::logarithmic("τ*/τ*_c [-]"), Axis::logarithmic("q* [-]"));
+    let points: Vec<f64> = (0..=60).map(|k| 8.0 * libm::pow(25.0, f64::from(k) / 60.0)).collect();
+    let expectation: Vec<(f64, f64)> = points.iter().map(|&size| (size, critical_shields_number(size))).collect();
+    curve.bands.push(Band {
+        label: format!("factor {ONSET_SCATTER}"),
+        points: expectation.iter().map(|&(size, tau)| (size, tau / ONSET_SCATTER, tau * ONSET_SCATTER)).collect(),
+    });
+    let thresholds = &*MOTION_THRESHOLDS;
+    let measured = points.iter().filter_map(|&size| {
+        let (lower, upper) = thresholds.band(size)?.bounds;
+        Some((size, lower, upper))
+    });
+    curve.bands.push(Band { label: "nine tenths of the measured ones".to_owned(), points: measured.collect() });
+    let drawn = |point: &&(f64, f64)| point.0 > points[0] && point.0 < points[points.len() - 1] && point.1 < 0.3;
+    let measured = thresholds.points.iter().filter(drawn).copied().collect();
+    curve.series.push(Series::new("measured thresholds", Mark::Points, MEASURED_SLOT, measured));
+    curve.series.push(Series::new(ONSET_SOURCE, Mark::Reference, 0, expectation));
+    for (slot, (criterion, name)) in CRITERIA.into_iter().enumerate() {
+        let onsets = tables(records)
+            .map(|(run, data)| (run.stream.dimensionless_diameter(), criterion.onset(&data.scan).value()))
+            .filter(|(_, onset)| onset.is_finite());
+        curve.series.push(Series::new(name, Mark::LinePoints, slot, onsets.collect()));
+    }
+    for (slot, (run, data)) in tables(records).enumerate() {
+        let label = format!("{} mm", 1e3 * run.stream.grain_diameter);
+        let points = data.scan.iter().map(|&(tau, transport)| (tau / expected(run), transport)).collect();
+        rates.series.push(Series::new(&label, Mark::LinePoints, slot, points));
+    }
+    (!rates.series.is_empty()).then(|| Figure {
+        name: "onset".to_owned(),
+        caption: "The Shields number at which the transport reaches a rate, over the grain size, beside Shields' curve and \
+                  511 thresholds measured in flumes, of which nine tenths of those within a factor of two in size lie in the wider band; and the transport about it. Grains of a millimetre and less lie within \
+                  the viscous sublayer and creep: between the first motion and q* = 10⁻³ lies a factor of two."
+            .to_owned(),
+        panels: vec![curve, rates],
+        columns: 2,
+    })
+}

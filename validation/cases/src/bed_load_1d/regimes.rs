@@ -1,0 +1,184 @@
+//! How grains move: how many rows of them at once, whether the water among them follows a power of the height, and what streams of
+//! about the same Shields number carried in flumes.
+
+use super::run::BedLoad1dRun;
+use crate::case::Run;
+use crate::figure::{Axis, Figure, Panel};
+use crate::metric::{Confidence, Limit, Metric, Origin, quantities};
+use crate::reference::bed_load::{MeasuredRates, SHEET_FLOW_LOWEST_VELOCITY, TransportFormula, measured_rates_about};
+use crate::reference::one_dimension::bed_load::LayerState;
+use crate::statistics::{linear_fit, power_law};
+
+quantities! {
+    shared pub(super)
+    ROWS_IN_MOTION: stated("rows_in_motion", "-", "rows of packed grains that all grains faster than 1 cm/s would make"),
+    POWER_LAW_MISFIT_RATIO: stated(
+        "power_law_misfit_ratio", "-",
+        "rms misfit of the water's velocity among moving grains to a power of the height over that to its logarithm",
+    ),
+    POWER_LAW_MISFIT: stated("power_law_misfit", "%", "that misfit to a power of the height over the largest velocity there"),
+    LOWEST_LAYER_EXPONENT: validated("lowest_layer_exponent", "-", "exponent of that power"),
+    TRANSPORT_OVER_MEASURED: validated(
+        "transport_over_measured", "-",
+        "q* over the median of measured runs of about the same Shields number",
+    ),
+}
+
+/// Fewest cells that a power is fitted to.
+const FEWEST: usize = 6;
+
+/// Rows of packed grains that the moving ones make `[-]`: ∫ φ dz over φ_max d, where they are faster than `speed` `[m/s]`.
+fn rows_in_motion(run: &BedLoad1dRun, state: &LayerState, speed: f64) -> f64 {
+    let moving = state.solid_fraction.iter().zip(&state.grain_velocity).filter(|(_, velocity)| **velocity > speed);
+    let volume: f64 = moving.map(|(fraction, _)| fraction * state.cell_height).sum();
+    volume / (run.closures.largest_fraction * run.stream.grain_diameter)
+}
+
+/// (height above where grains begin to move, over d; u_f/u_*) of the cells among moving grains.
+fn lowest_layer(run: &BedLoad1dRun, state: &LayerState, speed: f64) -> Vec<(f64, f64)> {
+    let Some(bottom) = state.moves_above(speed) else { return Vec::new() };
+    let top = state.top_of_grains();
+    let stream = &run.stream;
+    let cells = state.height.iter().zip(&state.fluid_velocity).filter(|(z, u)| **z > bottom && **z < top && **u > 0.0);
+    cells.map(|(z, u)| ((z - bottom) / stream.grain_diameter, u / stream.shear_velocity())).collect()
+}
+
+/// How well a power c zⁿ describes a velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct PowerMisfit {
+    /// Root mean square misfit over the largest velocity `[-]`.
+    relative: f64,
+    /// The same misfit over that of a + b ln z, both of two constants by least squares of the velocity; the power's exponent is taken
+    /// from the logarithms `[-]`.
+    over_logarithm: f64,
+}
+
+impl PowerMisfit {
+    /// None without a fit.
+    fn of(points: &[(f64, f64)]) -> Option<Self> {
+        let law = power_law(points)?;
+        let mean = |squares: f64| (squares / points.len() as f64).sqrt();
+        // the power has no constant of its own, so that its exponent is its second one
+        let power = |z: f64| libm::pow(z, law.value);
+        let scale = points.iter().map(|&(z, u)| u * power(z)).sum::<f64>()
+            / points.iter().map(|&(z, _)| power(z) * power(z)).sum::<f64>();
+        let of_power = mean(points.iter().map(|&(z, u)| (u - scale * power(z)).powi(2)).sum());
+        let logarithms: Vec<(f64, f64)> = points.iter().map(|&(z, u)| (libm::log(z), u)).collect();
+        let line = linear_fit(&logarithms)?;
+        let of_line = mean(logarithms.iter().map(|(x, u)| (u - line.intercept - line.slope * x).powi(2)).sum());
+        let fastest = points.iter().map(|point| point.1).fold(0.0, f64::max);
+        Some(Self { relative: of_power / fastest, over_logarithm: of_power / of_line })
+    }
+}
+
+/// What a layer of the case's own closures says of the regime of transport.
+pub(super) fn metrics(run: &BedLoad1dRun, state: &LayerState, speed: f64) -> Vec<Metric> {
+    let variant = run.variant();
+    let single = "statements of the bed-load paper: up to 3 % grains saltate, one by one, and under stronger shear upper layers of them slide \
+                  over lower ones, which takes more than a row";
+    let power = "statement of the bed-load paper after Sumer et al.: in the lowest layer the profile is a power law and bends in \
+                 half-logarithmic axes, where a logarithm is straight";
+    let mut metrics = vec![
+        ROWS_IN_MOTION
+            .of(&variant, rows_in_motion(run, state, speed))
+            .against(None, single, Confidence::Medium)
+            .with_snapshot_tolerance(1e-3, 0.0),
+    ];
+    let points = lowest_layer(run, state, speed);
+    let (measured, law) = (&*SHEET_FLOW_LOWEST_VELOCITY, power_law(&points).filter(|_| points.len() >= FEWEST));
+    if let (Some(law), Some(misfit)) = (law, PowerMisfit::of(&points)) {
+        metrics.extend([
+            POWER_LAW_MISFIT
+                .of(&variant, 100.0 * misfit.relative)
+                .against(None, power, Confidence::Medium)
+                .with_snapshot_tolerance(0.01, 0.0),
+            POWER_LAW_MISFIT_RATIO
+                .of(&variant, misfit.over_logarithm)
+                .against(None, power, Confidence::Medium)
+                .with_snapshot_tolerance(0.01, 0.0),
+            LOWEST_LAYER_EXPONENT
+                .of(&variant, law.value)
+                .against(Some(measured.law.value), &measured.source, measured.confidence)
+                .known_to(
+                    Origin::Digitisation,
+                    Some(measured.law.standard_error),
+                    "standard error of the fit to their points",
+                )
+                .known_to(Origin::Numerical, Some(law.standard_error), "standard error of the fit to the cells")
+                .with_snapshot_tolerance(0.01, 0.0),
+        ]);
+    }
+    metrics
+}
+
+/// Transport against the runs of flumes at about the same Shields number; none where there are too few.
+pub(super) fn beside_measured(run: &BedLoad1dRun, state: &LayerState, input: Option<(f64, String)>) -> Option<Metric> {
+    let shields = run.stream.shields_number();
+    let MeasuredRates { median, bounds, deviation, number, source, confidence } = measured_rates_about(shields)?;
+    let expected = median * TransportFormula::WongParker.transport(shields);
+    let (input, words) = input.unwrap_or((f64::NAN, String::new()));
+    Some(
+        TRANSPORT_OVER_MEASURED
+            .of(&run.variant(), state.transport() / expected)
+            .against(Some(1.0), &format!("median of {number} runs, {source}"), confidence)
+            .known_to(
+                Origin::Experiment,
+                Some(deviation / median),
+                "half of the width of the middle two thirds of the runs within a factor of 1.3 in the Shields number, each over Wong & \
+                 Parker's formula",
+            )
+            .known_to(Origin::Input, Some(input / median), &words)
+            .gated(
+                Limit::Within(bounds.0 / median, bounds.1 / median),
+                "nine tenths of the measured runs within a factor of 1.3 in the Shields number lie there, each over Wong & Parker's formula",
+            )
+            .with_snapshot_tolerance(1e-3, 0.0),
+    )
+}
+
+/// The water among moving grains beside the measured sheet flow.
+pub(super) fn figure(
+    layers: &[(&BedLoad1dRun, &LayerState)],
+    speed: f64,
+    name: impl Fn(&BedLoad1dRun) -> String,
+) -> Option<Figure> {
+    let measured = &*SHEET_FLOW_LOWEST_VELOCITY;
+    let mut panel = Panel::new(
+        "",
+        Axis::logarithmic("height above the grains at rest, over d [-]"),
+        Axis::logarithmic("u_f/u_* [-]"),
+    );
+    panel.points("Sumer et al. 1996, τ* = 1.4", 0, measured.points.iter().copied());
+    let (first, last) = (measured.points.first()?.0, measured.points.last()?.0);
+    let law = |z: f64| (z, measured.law.coefficient * libm::pow(z, measured.law.value));
+    panel.reference(&format!("its lowest layer: exponent {:.2}", measured.law.value), [law(first), law(last)]);
+    for (slot, (run, state)) in layers.iter().enumerate() {
+        let points = lowest_layer(run, state, speed);
+        let exponent = power_law(&points).map_or(f64::NAN, |law| law.value);
+        panel.line(&format!("{}: exponent {exponent:.2}", name(run)), slot + 1, points);
+    }
+    Some(Figure::new(
+        "lowest-layer",
+        "The water's velocity among moving grains over the height above those at rest, beside a measured sheet flow of a much greater \
+         Shields number, whose columns are inferred: a power law is straight here.",
+        vec![panel],
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_is_told_from_a_logarithm() {
+        let heights: Vec<f64> = (1..=20).map(|k| 0.1 * f64::from(k)).collect();
+        let of = |velocity: fn(f64) -> f64| heights.iter().map(|&z| (z, velocity(z))).collect::<Vec<_>>();
+        let power = PowerMisfit::of(&of(|z| 3.0 * libm::pow(z, 0.75))).expect("points");
+        assert!(power.over_logarithm < 1e-9 && power.relative < 1e-9, "{power:?}");
+        let logarithm = PowerMisfit::of(&of(|z| 6.0 + 2.0 * libm::log(z))).expect("points");
+        assert!(logarithm.over_logarithm > 10.0 && logarithm.relative > 0.01, "{logarithm:?}");
+        // what bends in both axes is no power either
+        let bent = PowerMisfit::of(&of(|z| 0.3 + 3.0 * z * z)).expect("points");
+        assert!(bent.relative > 0.05, "{bent:?}");
+    }
+}

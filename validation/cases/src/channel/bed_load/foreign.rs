@@ -1,0 +1,187 @@
+//! Bed load as another code gives it: profiles of water and grains, and the history of the transport.
+
+use super::observation::{BedLoadObservation, Carried};
+use super::quantities as quantity;
+use super::run::{BedLoadFormulation, BedLoadRun};
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
+use crate::channel::{self, BlockProfile, ProfilePoint};
+use crate::input::FieldError;
+use crate::statistics::BLOCKS;
+
+/// What a run may yield.
+pub(super) const FORM: ExternalSchema = ExternalSchema {
+    particles: &[],
+    series: &[
+        ExternalColumn::new("time", "s", "time since the start"),
+        ExternalColumn::new(
+            "transport",
+            "m^2/s",
+            "volume of grains that passes a section, per time and width, without pores",
+        ),
+        ExternalColumn::new("mean_velocity", "m/s", "mean of the water's velocity above the top of the bed at rest"),
+    ],
+    profile: &[
+        ExternalColumn::new("height", "m", "height above the top of the bed at rest, rising; negative inside it"),
+        ExternalColumn::new(
+            "velocity",
+            "m/s",
+            "velocity of the water there, a mean over a time in which the flow is stationary",
+        ),
+        ExternalColumn::new(
+            "grain_velocity",
+            "m/s",
+            "velocity of the grains there, likewise; not a number where there are none",
+        ),
+    ],
+    description: "transport is q* = q_s/√((s − 1) g d³), a mean over the last quarter of the series with the standard error of its blocks; \
+        transport_ratio is that over the 1-D layer of the same closures, predicted_transport compares it with Wong and Parker's \
+        formula. fluid_velocity_rms and grain_velocity_rms are root mean squares of the velocities less the 1-D layer's at the \
+        heights given (water: 0.5 mm to 0.9 h; grains: where those of the layer are faster than 1 cm/s), over u_*. \
+        semi_log_slope is the slope of u over ln(z + z_0) in a range of heights, over u_*/κ; deficits are differences to clear \
+        water's logarithmic law, over u_*.",
+};
+
+/// Metrics that the water's profile suffices for.
+const OF_WATER: [&str; 13] = [
+    quantity::FLUID_VELOCITY_RMS.name,
+    quantity::FLUID_VELOCITY_MEAN.name,
+    quantity::SEMI_LOG_SLOPE.name,
+    quantity::LAYER_SLOPE_RATIO.name,
+    quantity::NUMBER_OF_LAYERS.name,
+    quantity::LAYER_SLOPE.name,
+    quantity::LAYER_BORDER.name,
+    quantity::NEAR_BED_DEFICIT.name,
+    quantity::OUTER_DEFICIT.name,
+    quantity::RELATIVE_DEFICIT.name,
+    quantity::SHEARED_UP_TO.name,
+    quantity::SHEARED_FROM.name,
+    quantity::SHEARED_THICKNESS_GROWTH.name,
+];
+/// Metrics that the grains' profile suffices for.
+const OF_GRAINS: [&str; 5] = [
+    quantity::GRAIN_VELOCITY_RMS.name,
+    quantity::DECAY_LENGTH.name,
+    quantity::MOVES_ABOVE.name,
+    quantity::GRAIN_CURVATURE_ABOVE.name,
+    quantity::GRAIN_CURVATURE_BELOW.name,
+];
+/// Metrics that the history of the transport suffices for.
+const OF_TRANSPORT: [&str; 4] = [
+    quantity::TRANSPORT.name,
+    quantity::PREDICTED_TRANSPORT.name,
+    quantity::TRANSPORT_RATIO.name,
+    quantity::TRANSPORT_GROWTH.name,
+];
+
+/// The observation from what another code gives.
+///
+/// # Errors
+/// A 1-D layer to compare with that cannot be computed.
+pub(super) fn observe(
+    run: &BedLoadRun,
+    given: &ExternalData,
+) -> Result<ExternalObservation<BedLoadObservation>, FieldError> {
+    let water = channel::foreign::observe(given)?.observation;
+    let mut measured = Vec::new();
+    let (height, velocity) = (given.profile("height"), given.profile("grain_velocity"));
+    let point =
+        |(&height, &velocity): (&f64, &f64)| ProfilePoint { height, velocity, pressure: f64::NAN, samples: 1.0 };
+    let moving = height.iter().zip(velocity).filter(|(_, velocity)| velocity.is_finite());
+    let sediment = BlockProfile::known(moving.map(point));
+    if !height.is_empty() && !given.profile("velocity").is_empty() {
+        measured.extend(OF_WATER);
+    }
+    if !sediment.sums.is_empty() {
+        measured.extend(OF_GRAINS);
+    }
+    let unknown = || vec![f64::NAN; water.series.time.len()];
+    let unit = run.stream().transport_unit();
+    let transport = given.series("transport");
+    if !transport.is_empty() {
+        measured.extend(OF_TRANSPORT);
+    }
+    let stream_velocity = given.series("mean_velocity");
+    if !stream_velocity.is_empty() {
+        measured.extend([quantity::STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
+    }
+    let layer = match &run.formulation {
+        BedLoadFormulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {
+            FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
+        })?),
+        _ => None,
+    };
+    let observation = BedLoadObservation {
+        transport: if transport.is_empty() { unknown() } else { transport.iter().map(|rate| rate / unit).collect() },
+        stream_velocity: if stream_velocity.is_empty() { unknown() } else { stream_velocity.to_vec() },
+        carried: vec![vec![Carried::default(); BLOCKS]; sediment.sums.len()],
+        sediment,
+        length: f64::NAN,
+        layer,
+        channel: water,
+    };
+    Ok(ExternalObservation { observation, measured })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::judgement;
+    use super::super::parameters::BedLoadParameters;
+    use super::super::runs::runs;
+    use super::*;
+    use crate::case::{NamedColumns, Parameters, Tier};
+    use crate::metric::Verdict;
+
+    fn dilating() -> BedLoadRun {
+        let runs = runs(&BedLoadParameters::of_tier(Tier::Quick));
+        let is_dilating = |run: &BedLoadRun| matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.stage.name() == "dilating");
+        runs.into_iter().find(is_dilating).expect("the quick tier has grains that dilate")
+    }
+
+    /// The layer itself, sampled as another code would give it, agrees with the layer.
+    #[test]
+    fn the_layer_as_given_by_another_code_is_the_layer() {
+        let run = dilating();
+        let BedLoadFormulation::Continuum(own) = &run.formulation else { unreachable!("it is one of a continuum") };
+        let layer = own.layer(run.stream()).expect("a layer");
+        let heights: Vec<f64> = (-30..45).map(|k| 1e-3 * (f64::from(k) + 0.5)).collect();
+        let of = |pick: fn(&crate::reference::one_dimension::bed_load::LayerState, f64) -> f64| -> Vec<f64> {
+            heights.iter().map(|&z| pick(&layer, z)).collect()
+        };
+        let profile: NamedColumns = [
+            ("height", heights.clone()),
+            ("velocity", of(|layer, z| layer.at(z).fluid_velocity)),
+            ("grain_velocity", of(|layer, z| layer.at(z).grain_velocity)),
+        ]
+        .map(|(name, values)| (name.to_owned(), values))
+        .into();
+        let time: Vec<f64> = (0..400).map(|k| 0.01 * f64::from(k)).collect();
+        let rate = layer.transport() * run.stream().transport_unit();
+        let series: NamedColumns = [
+            ("transport", vec![rate; time.len()]),
+            ("mean_velocity", vec![layer.mean_fluid_velocity(); time.len()]),
+            ("time", time),
+        ]
+        .map(|(name, values)| (name.to_owned(), values))
+        .into();
+        let given = ExternalData { profile, series, ..ExternalData::default() };
+        let seen = observe(&run, &given).expect("complete");
+        let record = given.record(seen.observation);
+        let found = judgement::all(&[(run, record)]);
+        let value = |name: &str| found.iter().find(|metric| metric.name == name).unwrap_or_else(|| panic!("{name}"));
+        assert!((value("transport_ratio").value - 1.0).abs() < 1e-12);
+        assert!(value("fluid_velocity_rms").value < 1e-12 && value("grain_velocity_rms").value < 1e-12);
+        for name in ["transport_ratio", "fluid_velocity_rms", "fluid_velocity_mean"] {
+            assert!(seen.measured.contains(&name) && value(name).verdict() != Verdict::Fail, "{name}");
+        }
+        assert!(!seen.measured.contains(&"drag_peak_height") && !seen.measured.contains(&"particles_lost"));
+    }
+
+    #[test]
+    fn a_history_alone_measures_no_profile() {
+        let series: NamedColumns = [("time", vec![0.0, 1.0]), ("transport", vec![1e-4, 1e-4])]
+            .map(|(name, values)| (name.to_owned(), values))
+            .into();
+        let seen = observe(&dilating(), &ExternalData { series, ..ExternalData::default() }).expect("complete");
+        assert_eq!(seen.measured, OF_TRANSPORT);
+    }
+}

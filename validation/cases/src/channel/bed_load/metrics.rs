@@ -1,0 +1,199 @@
+//! What is measured of a run, and how that is judged.
+
+use super::observation::BedLoadObservation;
+use super::parameters::Stage;
+use super::profiles;
+use super::quantities::{
+    DECAY_LENGTH, DRAG_PEAK_HEIGHT, END_TIME, FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS, GRAIN_CURVATURE_ABOVE,
+    GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE, PREDICTED_TRANSPORT,
+    STREAM_VELOCITY, TRANSPORT, TRANSPORT_RATIO,
+};
+use super::run::BedLoadRun;
+use super::run::ContinuumRun;
+use crate::case::Run;
+use crate::channel;
+use crate::metric::{Confidence, Limit, Metric};
+use crate::observation::Recorded;
+use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
+
+/// Averaging time from which on a flow is taken to be settled enough to be judged `[s]`.
+pub(super) const JUDGED_FROM: f64 = 1.5;
+/// Shortest averaging time of a flow that is judged because it no longer changes `[s]`.
+const SHORTEST: f64 = 0.5;
+/// Largest change of the stream's velocity over U/(2 g i) of such a flow `[-]`.
+const STEADY: f64 = 0.02;
+
+/// Spacing below which the transport of dilating grains is judged more closely `[m]`.
+const FINE: f64 = 6e-4;
+
+pub(super) fn transport(run: &BedLoadRun, record: &Recorded<BedLoadObservation>) -> Metric {
+    let formula = TransportFormula::WongParker;
+    channel::observed(TRANSPORT, &run.variant(), record.data.channel.average(&record.data.transport), 1.0).against(
+        Some(formula.transport(run.stream().shields_number())),
+        formula.name(),
+        formula.confidence(),
+    )
+}
+
+/// What every run reports.
+pub(super) fn common(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+    let variant = run.variant();
+    let data = &record.data;
+    let mean = run.clear_water().mean_velocity();
+    metrics.push(transport(run, record));
+    metrics.push(
+        channel::observed(STREAM_VELOCITY, &variant, data.channel.average(&data.stream_velocity), 1.0 / mean)
+            .exactly(1.0, "clear water over a fixed bed"),
+    );
+    metrics.push(channel::velocity_drift(&variant, drift(run, data), "stream's velocity"));
+}
+
+/// Whether a run is judged: it was watched for long, or it does not change.
+pub(super) fn is_settled(run: &BedLoadRun, data: &BedLoadObservation) -> bool {
+    run.averaging_time >= JUDGED_FROM || (run.averaging_time >= SHORTEST && drift(run, data).abs() <= STEADY)
+}
+
+/// Relative change of the stream's velocity over U/(2 g i) `[-]`.
+fn drift(run: &BedLoadRun, data: &BedLoadObservation) -> f64 {
+    let channel = &data.channel;
+    let velocity = channel.series.within(&data.stream_velocity, channel.window);
+    let mean = velocity.iter().sum::<f64>() / velocity.len() as f64;
+    let adjustment = mean / (2.0 * run.materials.gravity * run.slope);
+    channel.trend(&data.stream_velocity) * adjustment / mean
+}
+
+/// The printed set-up: no gate, what it does is the result.
+pub(super) fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+    let variant = run.variant();
+    let data = &record.data;
+    metrics.push(END_TIME.of(&variant, record.simulated_time).with_snapshot_tolerance(0.05, 0.0));
+    let highest = data.channel.series.highest.iter().copied().fold(0.0, f64::max);
+    metrics.push(
+        HIGHEST_PARTICLE.of(&variant, highest).exactly(1.0, "the depth of the water").with_snapshot_tolerance(0.1, 0.0),
+    );
+    let last = data.transport.last().copied().unwrap_or(f64::NAN);
+    let formula = TransportFormula::WongParker;
+    metrics.push(
+        LAST_TRANSPORT
+            .of(&variant, last)
+            .against(Some(formula.transport(run.stream().shields_number())), formula.name(), formula.confidence())
+            .with_snapshot_tolerance(0.2, 1e-3),
+    );
+}
+
+/// What is reported of the grains; of settled flows the shape of their profile is judged by the paper's statement.
+pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoadObservation, judged: bool) {
+    let variant = run.variant();
+    let layer = data.layer.as_ref();
+    let points = data.sediment.points();
+    let source = "the 1-D layer";
+    let values = [
+        (
+            DECAY_LENGTH,
+            1e3 * profiles::decay_length(&points),
+            layer.and_then(|l| l.decay_length(1e-4)).map(|l| 1e3 * l),
+        ),
+        (
+            MOVES_ABOVE,
+            1e3 * profiles::moves_above(&points, 0.01),
+            layer.and_then(|l| l.moves_above(0.01)).map(|z| 1e3 * z),
+        ),
+    ];
+    for (quantity, value, reference) in values {
+        let metric = quantity.of(&variant, value).with_snapshot_tolerance(0.1, 0.5);
+        metrics.push(match reference {
+            Some(reference) => metric.exactly(reference, source),
+            None => metric,
+        });
+    }
+    let curvatures =
+        [(GRAIN_CURVATURE_ABOVE, true, Limit::AtMost(0.0)), (GRAIN_CURVATURE_BELOW, false, Limit::AtLeast(0.0))];
+    for (quantity, above, limit) in curvatures {
+        let estimate = data.sediment.estimate(|points| profiles::grain_curvature(run, points, above));
+        let metric = channel::observed(quantity, &variant, estimate, 1.0);
+        let source = "statement of the paper: concave above the top of the bed (−), convex below (+)";
+        let reason =
+            "the sign is what the paper states; a profile with too few points for a curvature does not show it";
+        metrics.push(metric.against(None, source, Confidence::Medium).gated_by(judged.then_some(limit), reason));
+    }
+    let drag = data.drag_profile();
+    let peak = drag
+        .iter()
+        .copied()
+        .fold((f64::NAN, f64::NEG_INFINITY), |best, point| if point.1 > best.1 { point } else { best });
+    metrics.push(DRAG_PEAK_HEIGHT.of(&variant, 1e3 * peak.0).with_snapshot_tolerance(0.1, 1.0));
+}
+
+pub(super) fn continuum(
+    metrics: &mut Vec<Metric>,
+    run: &BedLoadRun,
+    record: &Recorded<BedLoadObservation>,
+    own: &ContinuumRun,
+) {
+    let stage = own.stage;
+    let variant = run.variant();
+    let data = &record.data;
+    let Some(layer) = &data.layer else { return };
+    metrics.push(channel::particles_lost(&variant, &record.clone().map(|data| data.channel)));
+    common(metrics, run, record);
+    metrics.push(
+        channel::MOMENTUM_RESIDUAL
+            .of(&variant, data.channel.momentum.residual())
+            .against(
+                Some(0.0),
+                "change of momentum = gravity − what held grains and floor take; particles that cross a gradient of φ \
+                 change the share of their mass that counts",
+                Confidence::Exact,
+            )
+            .with_snapshot_tolerance(0.1, 1e-3),
+    );
+    let source = "the 1-D layer of the same closures";
+    let judged = is_settled(run, data) && own.is_judged();
+    let gated = |metric: Metric, holds: bool, limit, reason: &str| {
+        if judged && holds { metric.gated(limit, reason) } else { metric }
+    };
+    let profile = &data.channel.profile;
+    let rms = profile.estimate(|points| profiles::fluid_rms(run, points, layer));
+    let metric = channel::observed(FLUID_VELOCITY_RMS, &variant, rms, 1.0).exactly(0.0, source);
+    let (most, reason) = match stage {
+        Stage::Dilating => {
+            (0.1, "a profile shifted by a twelfth of a spacing of 1 mm, as columns have it at all spacings")
+        }
+        Stage::Porous | Stage::Frozen => {
+            (0.25, "a profile shifted by a fifth of a spacing of 1 mm where it is steepest, 1.4 u_* a mm")
+        }
+    };
+    metrics.push(gated(metric, true, Limit::AtMost(most), reason));
+    let mean = profile.estimate(|points| profiles::fluid_mean(run, points, layer));
+    let metric = channel::observed(FLUID_VELOCITY_MEAN, &variant, mean, 1.0).exactly(1.0, source);
+    metrics.push(gated(metric, true, Limit::Within(0.97, 1.03), "the same shift over a depth mean of 10 u_*"));
+    if stage == Stage::Porous {
+        return;
+    }
+    let rms = data.sediment.estimate(|points| profiles::grain_rms(run, points, layer));
+    let metric = channel::observed(GRAIN_VELOCITY_RMS, &variant, rms, 1.0).exactly(0.0, source);
+    metrics.push(gated(
+        metric,
+        stage == Stage::Frozen,
+        Limit::AtMost(0.2),
+        "the grains' profile, 0.7 u_* a mm, shifted by a third of a spacing of 1 mm",
+    ));
+    if judged && stage == Stage::Dilating {
+        let formula = TransportFormula::WongParker;
+        let expected = formula.transport(run.stream().shields_number());
+        let predicted = channel::observed(PREDICTED_TRANSPORT, &variant, data.channel.average(&data.transport), 1.0);
+        metrics.push(predicted.against(Some(expected), formula.name(), formula.confidence()).gated(
+            Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
+            "nine tenths of the runs that Meyer-Peter & Müller measured from τ* = 0.1 on lie there; no parameter is fitted to it",
+        ));
+    }
+    let ratio = data.channel.average(&data.transport);
+    let (within, reason) = match stage {
+        Stage::Dilating if own.spacing < FINE => (0.08, "half of what a spacing of 1 mm is given"),
+        Stage::Dilating => (0.15, "the layer that moves is a few spacings thick, at 2 % one or two"),
+        Stage::Porous | Stage::Frozen => (0.1, "the grains' profile shifted by a third of a spacing of 1 mm"),
+    };
+    let metric = channel::observed(TRANSPORT_RATIO, &variant, ratio, 1.0 / layer.transport()).exactly(1.0, source);
+    metrics.push(gated(metric, true, Limit::Within(1.0 - within, 1.0 + within), reason));
+    grains(metrics, run, data, judged && stage == Stage::Dilating);
+}

@@ -1,0 +1,77 @@
+//! The channel of the formulations with one particle a grain, and the water of all.
+
+use super::parameters::{GrainParticles, Materials};
+use super::run::{BedLoadFormulation, BedLoadRun};
+use crate::channel::{Channel, Until};
+use crate::setup::Lattice;
+use bagnold_solver::incompressible as solver;
+use bagnold_solver::incompressible::{Bed, ParticleSet, Sediment};
+use bagnold_solver::vector::Vector;
+
+impl BedLoadRun {
+    pub(super) fn grains_channel<'a>(
+        &self,
+        grains: &GrainParticles,
+        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
+    ) -> Channel<'a> {
+        let Materials { depth, gravity, fluid_density, grain_density, grain_diameter, .. } = self.materials;
+        let rows = |length: f64, spacing: f64| (length / spacing).round() as usize;
+        let printed = matches!(self.formulation, BedLoadFormulation::Paper(_));
+        // the printed set-up has water above the bed only, on the grains as on a floor
+        let below = if printed { 0.0 } else { grains.bed_depth };
+        let fluid = Lattice {
+            spacing: grains.spacing,
+            rows: rows(depth + below, grains.spacing),
+            columns: rows(grains.length, grains.spacing),
+            bottom: -below,
+        };
+        let bed = Lattice {
+            spacing: grain_diameter,
+            rows: rows(grains.bed_depth, grain_diameter),
+            columns: rows(grains.length, grain_diameter),
+            bottom: -grains.bed_depth,
+        };
+        let buoyant_weight = (grain_density - fluid_density) * gravity;
+        let sediment = Sediment {
+            particles: ParticleSet {
+                position: bed.displaced(self.jitter, self.seed.wrapping_add(1)),
+                velocity: vec![Vector::zeros(); bed.len()],
+            },
+            filling: vec![1.0; bed.len()],
+            wall: bed.below(4).sites().collect(),
+            spacing: grain_diameter,
+            smoothing_ratio: grains.numerics.smoothing_ratio,
+            density: grain_density,
+            grain_diameter,
+            law: grains.material,
+            load: solver::SedimentLoad::Packed { level: -grain_diameter, buoyant_weight },
+            pressure: solver::SedimentPressure::Incompressible,
+            drag: grains.drag,
+            drag_form: solver::DragForm::Grain(grains.drag_factor),
+            drag_smoothing_length: grains.drag_smoothing_length,
+            gravity: Vector::<2>::new(gravity * self.slope, -buoyant_weight / grain_density),
+        };
+        Channel {
+            turbulence: grains.turbulence.over(depth, grains.origin_offset),
+            bed: Bed::NoSlip(fluid.bottom),
+            sediment: Some(sediment),
+            numerics: grains.numerics,
+            may_diverge: printed,
+            ..self.water(fluid, velocity)
+        }
+    }
+
+    /// The run's water without turbulence and sediment.
+    pub(super) fn water<'a>(&self, fluid: Lattice, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
+        let Materials { gravity, fluid_density, kinematic_viscosity, .. } = self.materials;
+        Channel {
+            slope: self.slope,
+            kinematic_viscosity,
+            jitter: self.jitter,
+            seed: self.seed,
+            until: Until::Time(self.duration),
+            window: self.averaging_time,
+            ..Channel::of(fluid, fluid_density, gravity, velocity)
+        }
+    }
+}

@@ -1,0 +1,210 @@
+//! Parameters, tiers and runs.
+
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
+use crate::channel::{Channel, ChannelObservation, TurbulenceClosure, Until, Water};
+use crate::metric::Variant;
+use crate::observation::Recorded;
+use crate::reference::water::{RoughChannel, roughness_ratio};
+use crate::setup::rules;
+use bagnold_solver::incompressible::Bed;
+use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
+use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How long a flow is simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Period {
+    /// For a fixed time; nothing is claimed about stationarity.
+    Fixed {
+        /// Simulated time `[s]`.
+        #[schemars(transform = between(0.5, 1e4, "a few seconds, more to be stationary"))]
+        duration: f64,
+        /// Averaging window before the end `[s]`.
+        averaging_time: f64,
+    },
+    /// Until the depth mean changes little over U/(2 g i), then for an averaging window.
+    Stationary {
+        /// Largest relative change `[-]`.
+        #[schemars(transform = between(1e-5, 0.1, "0.005 is half a per cent"))]
+        tolerance: f64,
+        /// Times in a row.
+        #[schemars(transform = between(1.0, 20.0, "3 tells a steady flow from a turning point"))]
+        checks: usize,
+        /// Time at which averaging begins all the same, over U/(2 g i) of the logarithmic law `[-]`.
+        at_most: f64,
+        /// Averaging window over the same `[-]`.
+        #[schemars(transform = between(0.5, 1e3, "8 hold as many blocks"))]
+        averaging_times: f64,
+    },
+}
+
+/// The flow over its bed, and how long it is watched.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RoughBedFlow {
+    /// Kinematic viscosity `[m²/s]`.
+    #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
+    pub kinematic_viscosity: f64,
+    /// Equivalent sand roughness k_s of the bed `[m]`, about the grain diameter.
+    #[schemars(transform = positive("give it in metres; about the grain diameter"))]
+    pub sand_roughness: f64,
+    /// Depth z_off of the wall law's origin below the bed `[m]`.
+    #[schemars(transform = not_negative("a fraction of a grain diameter, such as 0.0006"))]
+    pub origin_offset: f64,
+    /// Closure of the turbulence; the logarithmic law belongs to the parabolic mixing length.
+    pub turbulence: TurbulenceClosure,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
+    pub jitter: f64,
+    /// Initial velocity over the logarithmic law's `[-]`.
+    #[schemars(transform = between(0.1, 3.0, "1 starts from the logarithmic law"))]
+    pub start_share: f64,
+    /// How long.
+    pub period: Period,
+}
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ClearWaterParameters {
+    /// The water.
+    #[serde(flatten)]
+    pub water: Water,
+    /// Slopes i of the bed, tangents, one run each `[-]`; 0.03 is 3 %.
+    #[schemars(transform = each(rules::driving_slope()))]
+    #[schemars(transform = unique("name every slope once"))]
+    #[schemars(transform = filled("at least one slope", "3 % is 0.03"))]
+    pub slopes: Vec<f64>,
+    /// The flow.
+    #[serde(flatten)]
+    pub flow: RoughBedFlow,
+}
+
+impl Parameters for ClearWaterParameters {
+    type Run = ClearWaterRun;
+
+    fn of_tier(tier: Tier) -> Self {
+        let quick = Self {
+            water: Water::of_rows(23),
+            slopes: vec![0.03],
+            flow: RoughBedFlow {
+                kinematic_viscosity: 1e-6,
+                sand_roughness: 5e-3,
+                origin_offset: 6e-4,
+                turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
+                jitter: 0.1,
+                start_share: 1.0,
+                period: Period::Fixed { duration: 3.0, averaging_time: 1.0 },
+            },
+        };
+        let period = Period::Stationary { tolerance: 0.005, checks: 3, at_most: 25.0, averaging_times: 8.0 };
+        let paper = Self {
+            water: Water { columns: 20, ..quick.water },
+            slopes: vec![0.02, 0.03, 0.05],
+            flow: RoughBedFlow { start_share: 0.8, period, ..quick.flow },
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => paper,
+            Tier::Fine => Self { water: paper.water.finer(), ..paper },
+        }
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let Self { water, flow: RoughBedFlow { origin_offset, sand_roughness, period, .. }, .. } = *self;
+        rules::between("origin_offset", origin_offset, 0.0, 0.1 * water.depth, "a fraction of a grain diameter")?;
+        let first_row = 0.5 * water.depth / water.resolution as f64 + origin_offset;
+        let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
+        rules::between("sand_roughness", sand_roughness, 0.0, roughness_ratio() * first_row, remedy)?;
+        match period {
+            Period::Fixed { duration, averaging_time } => {
+                let field = "period.fixed.averaging_time";
+                rules::between(field, averaging_time, 0.2, 0.5 * duration, "the window lies in the second half")?;
+            }
+            Period::Stationary { checks, at_most, .. } => {
+                let field = "period.stationary.at_most";
+                rules::between(field, at_most, checks as f64, 1e3, "25 suffice from 80 % of the law")?;
+            }
+        }
+        water.check()
+    }
+
+    fn runs(&self) -> Vec<ClearWaterRun> {
+        let Self { water, flow, .. } = *self;
+        self.slopes.iter().map(|&slope| ClearWaterRun { slope, water, flow }).collect()
+    }
+}
+
+/// One simulation.
+#[derive(Debug, Clone, Serialize)]
+pub struct ClearWaterRun {
+    /// Slope i `[-]`.
+    pub slope: f64,
+    /// The water.
+    pub water: Water,
+    /// The flow.
+    pub flow: RoughBedFlow,
+}
+
+impl Run for ClearWaterRun {
+    type Observation = ChannelObservation;
+
+    fn variant(&self) -> Variant {
+        Variant::of("slope", self.slope).and("resolution", self.water.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.water.particles()
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::INCOMPRESSIBLE
+    }
+
+    fn particle_steps(&self) -> f64 {
+        self.channel(&|_| 0.0).expected_steps() * self.water.particles()
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
+        let law = self.reference();
+        self.channel(&|z| self.flow.start_share * law.velocity(z)).run(progress)
+    }
+}
+
+impl ClearWaterRun {
+    /// The flow that it is compared with.
+    #[must_use]
+    pub fn reference(&self) -> RoughChannel {
+        RoughChannel {
+            depth: self.water.depth,
+            slope: self.slope,
+            gravity: self.water.gravity,
+            density: self.water.density,
+            sand_roughness: self.flow.sand_roughness,
+            origin_offset: self.flow.origin_offset,
+        }
+    }
+
+    fn channel<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
+        let time = self.reference().adjustment_time();
+        let RoughBedFlow { kinematic_viscosity, sand_roughness, origin_offset, turbulence, jitter, period, .. } =
+            self.flow;
+        let (until, window) = match period {
+            Period::Fixed { duration, averaging_time } => (Until::Time(duration), averaging_time),
+            Period::Stationary { tolerance, checks, at_most, averaging_times } => {
+                (Until::Stationary { tolerance, checks, at_most: at_most * time }, averaging_times * time)
+            }
+        };
+        Channel {
+            slope: self.slope,
+            kinematic_viscosity,
+            turbulence: turbulence.over(self.water.depth, origin_offset),
+            bed: Bed::Rough { level: 0.0, origin_offset, law: RoughWall { sand_roughness } },
+            jitter,
+            until,
+            window,
+            interval: 0.01,
+            ..self.water.channel(velocity)
+        }
+    }
+}

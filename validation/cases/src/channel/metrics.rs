@@ -1,0 +1,104 @@
+//! Quantities and metrics that the cases of a channel share.
+
+use super::ChannelObservation;
+use crate::metric::{Limit, Metric, Origin, Quantity, Variant, quantities};
+use crate::observation::Recorded;
+use crate::statistics::{Average, FittedValue, block_average, linear_fit};
+
+quantities! {
+    shared pub(crate)
+    PARTICLES_LOST:
+        accounted("particles_lost", "-", "particles that ended below the floor or far above the surface"),
+    MOMENTUM_RESIDUAL: accounted(
+        "momentum_residual", "-",
+        "change of momentum less gravity and friction of the bed, over the impulse of the slope",
+    ),
+    HEIGHT_CHANGE: verified("height_change", "%", "mean height over half the depth, less 1"),
+    PRESSURE_L2: verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one"),
+    BED_SHEAR: verified("bed_shear", "-", "friction of the bed over the weight's part along it"),
+    VELOCITY_DRIFT: verified("velocity_drift", "%", "relative change of the mean velocity over U/(2 g i) in the window"),
+}
+
+/// Standard errors that a value may move before a change is reported `[-]`.
+const SNAPSHOT_ERRORS: f64 = 2.0;
+
+impl ChannelObservation {
+    /// Mean of a series over the window, with its statistical error; not a number where the run did not get there.
+    #[must_use]
+    pub fn average(&self, array: &[f64]) -> FittedValue {
+        block_average(&self.series.within(array, self.window))
+            .map_or(FittedValue { value: f64::NAN, standard_error: 0.0 }, Average::estimate)
+    }
+
+    /// Slope of a line through a series over the window, in its unit per second.
+    #[must_use]
+    pub fn trend(&self, array: &[f64]) -> f64 {
+        let time = self.series.within(&self.series.time, self.window);
+        let points: Vec<(f64, f64)> = time.into_iter().zip(self.series.within(array, self.window)).collect();
+        linear_fit(&points).map_or(f64::NAN, |fit| fit.slope)
+    }
+}
+
+/// A quantity from an average in other units, which may drift by its statistical error.
+#[must_use]
+pub fn observed(quantity: Quantity, variant: &Variant, estimate: FittedValue, factor: f64) -> Metric {
+    let noise = (SNAPSHOT_ERRORS * factor * estimate.standard_error).abs();
+    let scatter = (factor * estimate.standard_error).abs();
+    quantity.of(variant, factor * estimate.value).with_snapshot_tolerance(1e-3, noise).known_to(
+        Origin::Repeat,
+        Some(scatter),
+        "standard error of the mean over blocks of the averaging window",
+    )
+}
+
+/// The number of particles that ended below the floor or far above the surface, gated at 0.
+#[must_use]
+pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
+    PARTICLES_LOST
+        .of(variant, record.data.particles_lost as f64)
+        .exactly(0.0, "no particle passes a wall")
+        .gated(Limit::AtMost(0.0), "a particle below the floor is lost mass")
+}
+
+/// How far momentum along the floor closes over the averaging window, over the impulse of the slope `[-]`, gated.
+#[must_use]
+pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
+    MOMENTUM_RESIDUAL
+        .of(variant, record.data.momentum.residual())
+        .exactly(0.0, "change of momentum = gravity − friction of the bed, summed over every step")
+        .gated(
+            Limit::Within(-1e-11, 1e-11),
+            "pairs exchange equal and opposite impulses: the rounding of double precision, 1e-16 of each of the terms of ten thousand \
+             steps, not a tolerance of a solve",
+        )
+        .with_snapshot_tolerance(0.0, 1e-11)
+}
+
+/// Mean height over half the depth, less 1 `[%]`, with why it matters.
+#[must_use]
+pub fn height_change(variant: &Variant, data: &ChannelObservation, source: &str) -> Metric {
+    let height = data.average(&data.series.relative_height);
+    let change = FittedValue { value: height.value - 1.0, ..height };
+    observed(HEIGHT_CHANGE, variant, change, 100.0).exactly(0.0, source)
+}
+
+/// Relative L2 of the pressure `[%]`.
+#[must_use]
+pub fn pressure_l2(variant: &Variant, data: &ChannelObservation) -> Metric {
+    let source = "hydrostatic pressure ρ g (h − z) at every particle";
+    observed(PRESSURE_L2, variant, data.average(&data.series.pressure_error), 100.0).exactly(0.0, source)
+}
+
+/// Friction of the bed over the weight's part along it, which is given `[Pa]`.
+#[must_use]
+pub fn bed_shear(variant: &Variant, data: &ChannelObservation, weight: f64) -> Metric {
+    let shear = data.average(&data.series.bed_shear);
+    observed(BED_SHEAR, variant, shear, 1.0 / weight).exactly(1.0, "ρ g h i")
+}
+
+/// Relative change `[-]` of the velocity of `what` over U/(2 g i).
+#[must_use]
+pub fn velocity_drift(variant: &Variant, change: f64, what: &str) -> Metric {
+    let source = format!("change of the {what} over U/(2 g i), by a line through the window");
+    VELOCITY_DRIFT.of(variant, 100.0 * change).exactly(0.0, &source).with_snapshot_tolerance(0.2, 0.1)
+}

@@ -1,0 +1,327 @@
+//! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
+
+use super::CollapseRecord;
+use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
+use super::column::{ColumnPurpose, ColumnRun};
+use super::deposit::Collapse;
+use super::fronts::with_resolution;
+use super::material::Material;
+use super::quantities::{
+    ENSEMBLE_MEAN, ENSEMBLE_RUN_OUT, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, FINAL_HEIGHT, GRID_CONVERGENCE_INDEX,
+    HOURGLASS_SPREAD, OBSERVED_ORDER, RUN_OUT,
+};
+use crate::figure::{Axis, Figure, Panel};
+use crate::metric::{Confidence, Limit, Metric, Origin, Variant};
+use crate::reference::collapse::{Author, PLANAR_COLLAPSE};
+use crate::statistics::{GridConvergence, Mean, grid_convergence, mean};
+
+/// Name, measure and largest index `[-]` of what must converge.
+type ConvergingMeasure = (&'static str, fn(&Collapse) -> f64, f64);
+
+/// Fewest seeds whose scatter counts as a spread.
+const ENSEMBLE: usize = 5;
+
+const MEASURED: [ConvergingMeasure; 3] = [
+    ("centroid", |collapse| collapse.centroid, 0.03),
+    (RUN_OUT.name, Collapse::run_out, 0.08),
+    ("front_at_0.05_r0", Collapse::run_out_of_rows, 0.08),
+];
+
+/// A column that is studied, and all records.
+#[derive(Clone, Copy)]
+struct ConvergenceStudy<'a> {
+    material: Material,
+    aspect_ratio: f64,
+    records: &'a [CollapseRecord],
+}
+
+impl<'a> ConvergenceStudy<'a> {
+    /// The columns that have runs of a purpose, in their order.
+    fn all(records: &'a [CollapseRecord], purpose: ColumnPurpose) -> Vec<Self> {
+        let mut found: Vec<Self> = Vec::new();
+        for (run, _) in records.iter().filter(|(run, _)| run.purpose == purpose) {
+            let (material, aspect_ratio) = (run.material, run.aspect_ratio);
+            if !found.iter().any(|other| (other.material, other.aspect_ratio) == (material, aspect_ratio)) {
+                found.push(Self { material, aspect_ratio, records });
+            }
+        }
+        found
+    }
+
+    /// Whether its grains are the published ones.
+    fn is_published(&self) -> bool {
+        self.records.iter().any(|(run, _)| run.material == self.material && run.has_published_law())
+    }
+
+    fn label(&self) -> String {
+        format!("{}, a = {}", self.material, self.aspect_ratio)
+    }
+
+    /// A variant with the column's keys at its end.
+    fn name(&self, variant: Variant) -> Variant {
+        variant.and("material", self.material.to_string()).and("aspect_ratio", self.aspect_ratio)
+    }
+
+    /// Its runs of some purposes by return mapping, resolution by resolution.
+    fn by_resolution(&self, purposes: &[ColumnPurpose]) -> Vec<(usize, Vec<&'a CollapseRecord>)> {
+        let is_own = |(run, _): &&CollapseRecord| {
+            let is_column = run.material == self.material && run.aspect_ratio == self.aspect_ratio;
+            is_column && run.regularisation_rate.is_none() && purposes.contains(&run.purpose)
+        };
+        let own: Vec<&CollapseRecord> = self.records.iter().filter(is_own).collect();
+        let mut resolutions: Vec<usize> = own.iter().map(|(run, _)| run.resolution).collect();
+        resolutions.sort_unstable();
+        resolutions.dedup();
+        let of = |rows| own.iter().copied().filter(|(run, _)| run.resolution == rows).collect();
+        resolutions.into_iter().map(|rows| (rows, of(rows))).collect()
+    }
+
+    /// Means over the seeds, resolution by resolution. A run that stands for itself is one of its ensemble.
+    fn means(&self, measure: fn(&Collapse) -> f64) -> Vec<Mean> {
+        let runs = self.by_resolution(&[ColumnPurpose::Law, ColumnPurpose::Convergence]).into_iter();
+        let values =
+            |runs: Vec<&CollapseRecord>| runs.iter().map(|(_, record)| measure(&record.data)).collect::<Vec<_>>();
+        runs.filter_map(|(resolution, runs)| Mean::of(resolution, &values(runs))).collect()
+    }
+
+    /// Relative standard uncertainty of a measure from the spacing at a resolution of the study `[-]`.
+    fn numerical_uncertainty(&self, resolution: usize, measure: fn(&Collapse) -> f64) -> Option<f64> {
+        uncertainty_at(&self.means(measure), resolution)
+    }
+
+    /// What a share of a row makes of the run-out at a resolution, over r_0 `[-]`: the largest of the seeds.
+    fn row(&self, resolution: usize) -> Option<f64> {
+        let runs = self.by_resolution(&[ColumnPurpose::Law, ColumnPurpose::Convergence]);
+        let (_, own) = runs.into_iter().find(|(rows, _)| *rows == resolution)?;
+        own.iter().filter_map(|(_, record)| record.data.front_uncertainty()).reduce(f64::max)
+    }
+
+    /// Resolutions at which the hourglass coefficient was varied, with (coefficient, mean over the seeds) in ascending
+    /// order.
+    fn hourglasses(&self, measure: fn(&Collapse) -> f64) -> Vec<(usize, Vec<(f64, f64)>)> {
+        let point = |(run, record): &CollapseRecord| (run.release.numerics.hourglass, measure(&record.data));
+        let sorted = |(resolution, runs): (usize, Vec<&CollapseRecord>)| {
+            let mut points: Vec<(f64, f64)> = runs.into_iter().map(point).collect();
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let of_one = |points: &[(f64, f64)]| {
+                let values: Vec<f64> = points.iter().map(|point| point.1).collect();
+                (points[0].0, mean(&values))
+            };
+            (resolution, points.chunk_by(|a, b| a.0 == b.0).map(of_one).collect())
+        };
+        self.by_resolution(&[ColumnPurpose::Hourglass]).into_iter().map(sorted).collect()
+    }
+}
+
+pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for study in ConvergenceStudy::all(records, ColumnPurpose::Convergence) {
+        for (quantity, measure, largest) in MEASURED {
+            let means = study.means(measure);
+            let variant = study.name(Variant::of("quantity", quantity));
+            let run_out = means.iter().filter(|mean| quantity == RUN_OUT.name && mean.runs >= ENSEMBLE);
+            metrics.extend(run_out.map(|mean| against_law(&study, &variant, mean)));
+            metrics.extend(of_ensembles(variant, &means, largest));
+        }
+    }
+    let spreads = [(RUN_OUT.name, Collapse::run_out as fn(&_) -> _), (FINAL_HEIGHT.name, Collapse::final_height)];
+    for (quantity, measure) in spreads {
+        let spread = relative_spread(records, measure);
+        if spread > 0.0 {
+            let source = "largest relative standard deviation over the seeds of the initial displacements: a part of the \
+                          uncertainty of run-out and height, which moves no limit";
+            let metric = ENSEMBLE_SPREAD.of(&Variant::of("quantity", quantity), 100.0 * spread);
+            metrics.push(metric.against(None, source, Confidence::Exact).with_snapshot_tolerance(0.02, 0.02));
+        }
+    }
+    for study in ConvergenceStudy::all(records, ColumnPurpose::Hourglass) {
+        metrics
+            .extend(MEASURED.iter().flat_map(|(quantity, measure, _)| hourglass_spreads(&study, quantity, *measure)));
+    }
+    metrics
+}
+
+/// An ensemble's mean run-out against the law of the same material: one run alone scatters too much to be judged by it.
+/// Its seeds share the error of the spacing.
+fn against_law(study: &ConvergenceStudy<'_>, variant: &Variant, mean: &Mean) -> Metric {
+    let law = Author::Lagree.law(&PLANAR_COLLAPSE.run_out);
+    let expected = law.value(study.aspect_ratio);
+    let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
+    let limit = expected.map(|expected| band(expected, SAME_LAW));
+    let metric = with_resolution(
+        metric,
+        study.numerical_uncertainty(mean.resolution, Collapse::run_out),
+        study.row(mean.resolution),
+    );
+    metric
+        .known_to(Origin::Repeat, Some(mean.standard_error), "standard error of the mean over the seeds")
+        .against(expected, &law.source, law.confidence)
+        .with_snapshot_tolerance(1e-3, 1e-3)
+        .gated_by(limit.filter(|_| study.is_published()), SAME_LAW_REASON)
+}
+
+/// How far the choice of the hourglass coefficient moves a result, resolution by resolution.
+fn hourglass_spreads(study: &ConvergenceStudy<'_>, quantity: &str, measure: fn(&Collapse) -> f64) -> Vec<Metric> {
+    let spread = |(resolution, points): (usize, Vec<(f64, f64)>)| {
+        let values: Vec<f64> = points.into_iter().map(|point| point.1).collect();
+        let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &v| (a.min(v), b.max(v)));
+        let variant = study.name(Variant::of("quantity", quantity)).and("resolution", resolution);
+        let metric = HOURGLASS_SPREAD.of(&variant, 100.0 * (most - least) / mean(&values));
+        let (limit, reason) = match (quantity, resolution) {
+            ("centroid", ..40) => (None, ""),
+            ("centroid", _) => {
+                (Some(0.5), "the project's aim: the choice of a numerical coefficient moves the centroid by 0.5 %")
+            }
+            (_, ..40) => (
+                Some(5.0),
+                "the project's aim: 5 % below 40 particles over the half width, where a row of particles is 5 % of it",
+            ),
+            (_, ..80) => (Some(3.0), "the project's aim: 3 % from 40 particles over the half width on"),
+            _ => (Some(1.5), "the project's aim: 1.5 % from 80 particles over the half width on"),
+        };
+        let source = "largest less smallest over the mean, coefficient by coefficient: a modelling uncertainty";
+        metric
+            .against(None, source, Confidence::Exact)
+            .with_snapshot_tolerance(0.02, 0.2)
+            .gated_by(limit.map(Limit::AtMost), reason)
+    };
+    study.hourglasses(measure).into_iter().map(spread).collect()
+}
+
+/// The means of a quantity over the seeds, and how they converge.
+fn of_ensembles(variant: Variant, means: &[Mean], largest_index: f64) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    for mean in means {
+        let at = variant.clone().and("resolution", mean.resolution);
+        let values = [(ENSEMBLE_MEAN, mean.value), (ENSEMBLE_STANDARD_ERROR, mean.standard_error)];
+        metrics.extend(values.map(|(quantity, value)| quantity.of(&at, value).with_snapshot_tolerance(1e-3, 1e-3)));
+    }
+    if let Some(found) = finest(means) {
+        let source = "half width of the finest mean's 95 % interval, from the three finest means: 1.25 |f − f_∞| of every \
+                      order from 0.4 to 2 that the scatter over the seeds leaves open, and that scatter";
+        metrics.extend([
+            OBSERVED_ORDER.of(&variant, found.order).with_snapshot_tolerance(0.05, 0.05),
+            GRID_CONVERGENCE_INDEX
+                .of(&variant, 100.0 * found.index)
+                .with_snapshot_tolerance(0.05, 0.2)
+                .exactly(0.0, source)
+                .gated(
+                    Limit::AtMost(100.0 * largest_index),
+                    "the project's aim: 3 % for the centroid, 8 % for the run-out, whatever the runs scatter by",
+                ),
+        ]);
+    }
+    metrics
+}
+
+/// How the three finest means converge.
+fn finest(means: &[Mean]) -> Option<GridConvergence> {
+    means.last_chunk::<3>().and_then(|means| grid_convergence(means))
+}
+
+/// Relative standard uncertainty of a measure from the spacing where a study of the run's column has its resolution `[-]`.
+pub(super) fn numerical_uncertainty(
+    records: &[CollapseRecord],
+    run: &ColumnRun,
+    measure: fn(&Collapse) -> f64,
+) -> Option<f64> {
+    let study = ConvergenceStudy { material: run.material, aspect_ratio: run.aspect_ratio, records };
+    study.numerical_uncertainty(run.resolution, measure)
+}
+
+/// The same from the means of a study: at the finest resolution half of the index, at a coarser one also its distance from
+/// what the means approach.
+fn uncertainty_at(means: &[Mean], resolution: usize) -> Option<f64> {
+    let found = finest(means)?;
+    let (own, fine) = (means.iter().find(|mean| mean.resolution == resolution)?, means.last()?);
+    let interval = found.index * fine.value;
+    let off = if own.resolution == fine.resolution { 0.0 } else { own.value - found.limit };
+    Some(0.5 * off.hypot(interval) / own.value.abs())
+}
+
+/// Largest relative standard deviation of a measure over an ensemble of [`ENSEMBLE`] seeds or more `[-]`; 0 without one.
+pub(super) fn relative_spread(records: &[CollapseRecord], measure: fn(&Collapse) -> f64) -> f64 {
+    let studies = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
+    let ensembles = studies.iter().flat_map(|study| study.means(measure)).filter(|mean| mean.runs >= ENSEMBLE);
+    let spread = |mean: Mean| mean.standard_error * (mean.runs as f64).sqrt() / mean.value.abs();
+    ensembles.map(spread).fold(0.0, f64::max)
+}
+
+/// Figures of the studies that were made.
+pub(super) fn figures(records: &[CollapseRecord]) -> Vec<Figure> {
+    let mut resolution = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
+    // an ensemble at one resolution says nothing of convergence
+    resolution.retain(|study| study.means(|collapse| collapse.centroid).len() > 1);
+    let coefficient = ConvergenceStudy::all(records, ColumnPurpose::Hourglass);
+    let mut figures = Vec::new();
+    if !resolution.is_empty() {
+        figures.push(grid_convergence_figure(&resolution));
+    }
+    if !coefficient.is_empty() {
+        let mut panel =
+            Panel::new("", Axis::linear("hourglass coefficient [-]"), Axis::linear("run-out (r∞ − r0)/r0 [-]"));
+        for study in coefficient {
+            for (resolution, points) in study.hourglasses(Collapse::run_out) {
+                panel.line_points(&format!("{}, {resolution} over r0", study.label()), panel.series.len(), points);
+            }
+        }
+        figures.push(Figure::new(
+            "hourglass",
+            "Run-out over the coefficient of the hourglass control: what the choice of a numerical parameter does to \
+             the result, at two resolutions.",
+            vec![panel],
+        ));
+    }
+    figures
+}
+
+fn grid_convergence_figure(studies: &[ConvergenceStudy<'_>]) -> Figure {
+    let panels = MEASURED.map(|(name, measure, _)| {
+        let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
+        let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));
+        for (slot, study) in studies.iter().enumerate() {
+            let means = study.means(measure);
+            let scale = means.last().map_or(1.0, |mean| mean.value);
+            let percent = |value: f64| 100.0 * value / scale;
+            let points = means.iter().map(|mean| (mean.resolution as f64, percent(mean.value) - 100.0));
+            let error = |mean: &Mean| if mean.standard_error.is_nan() { 0.0 } else { percent(mean.standard_error) };
+            let mut errors: Vec<f64> = means.iter().map(error).collect();
+            if let (Some(last), Some(found)) = (errors.last_mut(), finest(&means)) {
+                *last = 100.0 * found.index;
+            }
+            panel.line_points(&study.label(), slot, points).error = errors;
+        }
+        panel
+    });
+    Figure::new(
+        "grid-convergence",
+        "Centroid, run-out and front at 0.05 r0 of the deposit over the resolution, relative to the finest: means over several seeds of \
+         the initial displacements, with the standard error of the mean, at the finest the half width of its 95 % interval \
+         (grid convergence index with the scatter).",
+        panels.to_vec(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_coarse_resolution_is_known_to_its_distance_from_what_the_means_approach() {
+        // 2 (1 + 1/n): exactly of first order
+        let means = [20, 40, 80].map(|n| Mean {
+            resolution: n,
+            value: 2.0 * (1.0 + 1.0 / n as f64),
+            standard_error: f64::NAN,
+            runs: 1,
+        });
+        for (n, off) in [(20, 0.1), (40, 0.05)] {
+            let expanded = 2.0 * uncertainty_at(&means, n).expect("a study") * 2.0 * (1.0 + 1.0 / n as f64);
+            assert!(expanded >= off && expanded < 1.2 * off + 0.07, "{n}: {expanded}");
+        }
+        let finest = 2.0 * uncertainty_at(&means, 80).expect("a study") * means[2].value;
+        assert!((0.025..0.07).contains(&finest), "{finest}");
+        assert_eq!(uncertainty_at(&means, 60), None);
+        assert_eq!(uncertainty_at(&means[..2], 20), None);
+    }
+}

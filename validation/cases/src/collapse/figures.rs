@@ -1,0 +1,280 @@
+//! The case's figures.
+
+use super::CollapseRecord;
+use super::column::{ColumnPurpose, ColumnRun, Geometry, PICTURES};
+use super::deposit::Collapse;
+use super::flow_metrics::{self, energies, stations};
+use super::material::{ExperimentGrains, Material};
+use super::{convergence, measured, scaling, stress_updates, velocity_profile, wedge};
+use crate::case::Run;
+use crate::figure::{Animation, Axis, Field, Figure, Panel};
+use crate::observation::energy;
+use crate::observation::pictures::{View, animation, halves};
+use crate::observation::{Frame, Recorded};
+use crate::reference::collapse::{Author, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE, ROUND_COLUMN_RUN_OUTS};
+
+pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
+    let laws: Vec<&CollapseRecord> = records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Law).collect();
+    let mut figures = Vec::new();
+    // the pile of bars has points of its own, and a figure with them
+    let others: Vec<&CollapseRecord> =
+        laws.iter().copied().filter(|(run, _)| run.material.grains != ExperimentGrains::Bars).collect();
+    if !others.is_empty() {
+        figures.push(scaling_figure(&others));
+    }
+    for material in materials(&laws) {
+        let own: Vec<&CollapseRecord> = laws.iter().copied().filter(|(run, _)| run.material == material).collect();
+        if is_shown(&own[0].0) {
+            figures.extend([deposits(&own), histories(&own), energy_budget(&own), wedges(&own)]);
+        }
+    }
+    figures.extend(measured::pile_figure(&laws));
+    figures.extend(convergence::figures(records));
+    figures.extend(stress_updates::figure(records));
+    for (run, record) in laws.iter().filter(|(run, _)| is_shown(run)).map(|record| (&record.0, &record.1)) {
+        figures.push(pictures(run, &record.frames));
+        figures.extend(shown(run, &record.frames));
+        figures.extend(velocity_profiles(run, record));
+    }
+    figures
+}
+
+/// The materials in their order.
+fn materials(records: &[&CollapseRecord]) -> Vec<Material> {
+    let mut found: Vec<Material> = Vec::new();
+    for (run, _) in records {
+        if !found.contains(&run.material) {
+            found.push(run.material);
+        }
+    }
+    found
+}
+
+/// A name with the material of its columns.
+fn of_material(name: &str, records: &[&CollapseRecord]) -> String {
+    records.first().map_or(name.to_owned(), |(run, _)| format!("{name}-{}", run.material))
+}
+
+/// Whether a column gets pictures of its own: variants of the grains look like their originals.
+fn is_shown(run: &ColumnRun) -> bool {
+    run.purpose == ColumnPurpose::Law && run.material.is_published()
+}
+
+/// Run-out and height over the aspect ratio, with every published law of the geometry.
+fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
+    let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
+    let (own, other) =
+        if round { (&*ROUND_COLLAPSE, &*PLANAR_COLLAPSE) } else { (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE) };
+    // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
+    let run_out_laws: Vec<&CollapseLaw> = own.run_out.iter().chain([Author::Lube.law(&other.run_out)]).collect();
+    let lube_of_planar = round.then(|| Author::Lube.law(&other.height));
+    let height_laws: Vec<&CollapseLaw> = own.height.iter().chain(lube_of_planar).collect();
+    let panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
+        let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));
+        for law in laws {
+            // a source keeps its colour from panel to panel
+            let known =
+                run_out_laws.iter().position(|other| other.source.split(',').next() == law.source.split(',').next());
+            let slot = known.unwrap_or(run_out_laws.len());
+            for (part, curve) in law.curves().into_iter().enumerate() {
+                let entry = if legend && part == 0 { law.source.as_str() } else { "" };
+                panel.line(entry, slot + 3, curve);
+            }
+        }
+        if round && legend {
+            let measured = &*ROUND_COLUMN_RUN_OUTS;
+            let bars = measured.points.iter().map(|(_, run_out)| 2.0 * measured.scatter * run_out).collect();
+            panel.points("measured, with twice their scatter", 1, measured.points.iter().copied()).error = bars;
+            panel.points("measured, doubtful", 2, measured.doubtful.iter().copied());
+        }
+        for (slot, material) in materials(records).into_iter().enumerate() {
+            let points: Vec<(f64, f64)> = records
+                .iter()
+                .filter(|(run, _)| run.material == material)
+                .map(|(run, record)| (run.initial_height(), measure(&record.data)))
+                .collect();
+            let law = records.iter().find(|(run, _)| run.material == material).map(|(run, _)| &run.law);
+            if let Some(law) = law.filter(|_| !points.is_empty()) {
+                let entry = if legend { material.title_with(law) } else { String::new() };
+                panel.points(&entry, slot, points);
+            }
+            if let Some(found) = scaling::fit(records, material, measure) {
+                let ends = [found.range.0, found.range.1];
+                let curve = ends.map(|a| (a, found.law.coefficient * libm::pow(a, found.law.value)));
+                let exponent = format!("fit: {:.2} ± {:.2}", found.law.value, found.half_width);
+                panel.reference(&exponent, curve.to_vec());
+            }
+        }
+        panel
+    };
+    Figure::new(
+        "scaling",
+        "Run-out and final height of the columns over their aspect ratio, with the published laws of their geometry \
+         and Lube's run-out of the other one. Fits are power laws through the tall columns, with the 95 % interval \
+         of the exponent. Coefficients depend on the grains, exponents much less.",
+        vec![
+            panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),
+            panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
+        ],
+    )
+}
+
+fn label(run: &ColumnRun) -> String {
+    let material = match run.material {
+        own if own.title() != own.title_with(&run.law) => own.title_with(&run.law),
+        Material::LAGREE => "Lagrée".to_owned(),
+        published if published.is_published() => published.to_string(),
+        altered => altered.title(),
+    };
+    format!("{material}, a = {}", run.aspect_ratio)
+}
+
+fn deposits(records: &[&CollapseRecord]) -> Figure {
+    let [x, thickness] = [("x/r0 [-]", "x"), ("thickness/r0 [-]", "thickness")]
+        .map(|(label, name)| Axis::linear(label).over(name, "m", records.iter().map(|(run, _)| run.half_width)));
+    let mut panel = Panel::new("", x, thickness);
+    for (slot, (run, record)) in records.iter().enumerate() {
+        panel.line(&label(run), slot, record.data.drawn());
+    }
+    Figure::new(
+        &of_material("deposits", records),
+        "Thickness of the deposits, volume per bin of 0.1 r0. Run-out is the front at a thickness of 0.02 r0, with what \
+         lies in fewer than four rows of particles as a wedge of its volume.",
+        vec![panel],
+    )
+}
+
+fn histories(records: &[&CollapseRecord]) -> Figure {
+    let mut front = Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("(front − r0)/r0 over a [-]"));
+    let mut energy =
+        Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("kinetic/initial potential energy [-]"));
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let (data, a, scale) = (&record.data, run.initial_height(), run.time_scale());
+        let time = || data.time.iter().map(|t| t / scale);
+        let way = time().zip(data.front.iter().map(|front| (front - 1.0) / a));
+        let initial = data.potential_energy.first().copied().unwrap_or(f64::NAN);
+        let share = time().zip(data.kinetic_energy.iter().map(|kinetic| kinetic / initial));
+        front.line(&label(run), slot, way);
+        energy.line("", slot, share);
+    }
+    Figure::new(
+        &of_material("histories", records),
+        "The front's way over the aspect ratio and the kinetic energy over the initial potential energy, in times of \
+         free fall √(h0/g). Deposits come to rest.",
+        vec![front, energy],
+    )
+}
+
+/// The values of a run's variant as a file name: `sand-0.9-20`.
+fn stem(run: &ColumnRun) -> String {
+    run.variant().file_name_of_values()
+}
+
+fn view(run: &ColumnRun) -> View {
+    View {
+        unit_length: run.half_width,
+        unit: "r0",
+        time_scale: run.time_scale(),
+        spacing: run.spacing(),
+        mirrored: true,
+    }
+}
+
+/// The animation of every run.
+pub(crate) fn animations(records: &[CollapseRecord]) -> Vec<Animation> {
+    let moving = |(run, record): &CollapseRecord| {
+        let section =
+            if run.geometry == Geometry::Round { " The section beside a symmetry plane is shown." } else { "" };
+        let caption = format!(
+            "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
+             front, where it falls below 0.02 r0. The left half is the mirror image of the simulated right one.{section}",
+            label(run)
+        );
+        animation(&format!("collapse-{}", stem(run)), &caption, &record.data.motion, &view(run))
+    };
+    records.iter().filter(|(run, _)| is_shown(run)).map(moving).collect()
+}
+
+/// The paper's pictures: speed and pressure at absolute times.
+fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
+    let shown: Vec<&Frame> = run.shown_times.iter().filter_map(|&time| Frame::nearest(frames, time)).collect();
+    let caption = format!(
+        "{}: speed on the left and pressure on the right of the symmetry plane, at the times of the collapse paper's \
+         figures 7–9; the left half is the mirror image of the simulated right one.",
+        label(run)
+    );
+    (!shown.is_empty()).then(|| halves(&format!("halves-{}", stem(run)), &caption, &shown, &view(run)))
+}
+
+fn energy_budget(records: &[&CollapseRecord]) -> Figure {
+    let runs: Vec<_> =
+        records.iter().map(|(run, record)| (label(run), run.time_scale(), energies(&record.data))).collect();
+    energy::figure(
+        &of_material("energy-budget", records),
+        "Potential energy released since the start, kinetic energy, and the rest, which friction has dissipated except for \
+         elastic energy of less than a hundredth; all over the potential energy released by the end.",
+        &runs,
+    )
+}
+
+fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Figure> {
+    let stations = stations(run, record);
+    let caption = format!(
+        "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a line through the \
+         flowing layer (faster than 0.35 of the largest velocity); right, one exponential for all stations below it, \
+         down to 0.05 of the largest velocity, where at least three points make a tail.",
+        label(run)
+    );
+    let name = format!("velocity-{}", stem(run));
+    (!stations.is_empty()).then(|| velocity_profile::figure(&name, &caption, &stations, (run.half_width, "r0")))
+}
+
+fn wedges(records: &[&CollapseRecord]) -> Figure {
+    let panels = records.iter().filter_map(|(run, record)| {
+        let wedge = flow_metrics::wedge(run, &record.frames)?;
+        Some(wedge::panel(&label(run), run, record.frames.last()?, &wedge))
+    });
+    Figure::new(
+        &of_material("wedges", records),
+        "Deposits in the colours of the displacement d since the start; particles that moved by less than a spacing are \
+         grey. Dashed is the initial column, solid the line through the surface of the undisturbed part.",
+        panels.collect(),
+    )
+    .in_columns(2)
+}
+
+/// Speed and pressure at the pictures' times; of a round column the slice beside a symmetry plane.
+fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
+    let r = run.half_width;
+    let times = PICTURES.iter().map(|time| time * run.time_scale());
+    let mut frames: Vec<&Frame> = times.filter_map(|time| Frame::nearest(frames, time)).chain(frames.last()).collect();
+    // a run that ended early has no more than its deposit to show
+    frames.dedup_by(|a, b| a.time == b.time);
+    let far = frames.iter().flat_map(|frame| &frame.position).map(|x| x[0] / r).fold(1.0, f64::max);
+    let high = frames.iter().flat_map(|frame| &frame.position).map(|x| x[1] / r).fold(0.0, f64::max);
+    let largest = |values: fn(&Frame) -> Vec<f64>| {
+        frames.iter().flat_map(|frame| values(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE)
+    };
+    let (fastest, deepest) = (largest(Frame::speeds), largest(Frame::pressures));
+    let mut panels = Vec::new();
+    for frame in frames {
+        let title = format!("t = {:.2} √(h0/g)", frame.time / run.time_scale());
+        for (values, label, limit) in [(frame.speeds(), "|v| [m/s]", fastest), (frame.pressures(), "p [kPa]", deepest)]
+        {
+            let x = Axis::linear("x/r0 [-]").between(0.0, far);
+            let mut panel = Panel::new(&title, x, Axis::linear("y/r0 [-]").between(0.0, high));
+            let seen: Vec<usize> =
+                (0..frame.position.len()).filter(|&index| frame.position[index][2] < run.spacing()).collect();
+            let points = seen.iter().map(|&index| (frame.position[index][0] / r, frame.position[index][1] / r));
+            let values = seen.iter().map(|&index| values[index]);
+            panel.field = Some(Field::new(label, run.spacing() / r, (0.0, limit), points, values));
+            panels.push(panel);
+        }
+    }
+    Figure::new(
+        &format!("pictures-{}", stem(run)),
+        &format!("{}: speed (left) and pressure (right) through the collapse and in the deposit.", label(run)),
+        panels,
+    )
+    .in_columns(2)
+}

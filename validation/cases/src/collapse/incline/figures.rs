@@ -1,0 +1,189 @@
+//! The case's figures.
+
+use super::InclineCollapseRecord;
+use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
+use crate::figure::{Animation, Axis, Field, Figure, Panel};
+use crate::observation::pictures::{View, animation};
+use crate::observation::{Frame, Recorded};
+use crate::reference::collapse::{SLOPE_EXPERIMENT, slope_run_out};
+
+/// Times at which thickness profiles are drawn `[s]`.
+const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
+/// The paper's scale of viscosities `[Pa·s]`.
+const PAPER_SCALE: (f64, f64) = (0.0, 1.5);
+
+pub(super) fn all(records: &[InclineCollapseRecord]) -> Vec<Figure> {
+    if records.is_empty() {
+        return Vec::new();
+    }
+    let mut figures = vec![fronts(records), thickness(records), run_outs(records)];
+    for record in records.iter().filter(|(run, _)| run.slope_angle > 15.0) {
+        figures.extend([velocities(record), viscosities(record)]);
+    }
+    figures
+}
+
+/// The collapses in motion.
+pub(super) fn animations(records: &[InclineCollapseRecord]) -> Vec<Animation> {
+    let moving = |(run, record): &InclineCollapseRecord| {
+        let caption = format!(
+            "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
+             front, where it falls below 0.02 r0. The gate at 0.2 m is not drawn.",
+            label(run)
+        );
+        let view = View {
+            unit_length: 1.0,
+            unit: "m",
+            time_scale: (run.reservoir.initial_height / run.reservoir.gravity).sqrt(),
+            spacing: run.spacing(),
+            mirrored: false,
+        };
+        animation(&format!("collapse-{}", stem(run)), &caption, &record.data.collapse.motion, &view)
+    };
+    records.iter().map(moving).collect()
+}
+
+/// The label as a file name.
+fn stem(run: &SlopeRun) -> String {
+    label(run).replace('°', "").replace([',', ' ', '/', '.'], "-").replace("--", "-")
+}
+
+fn label(run: &SlopeRun) -> String {
+    let gate = if run.gate_speed > 0.0 { format!("gate {} m/s", run.gate_speed) } else { "no gate".to_owned() };
+    let law = if run.regularisation_rate.is_some() { ", regularised" } else { "" };
+    format!("{}°, {gate}{law}", run.slope_angle)
+}
+
+fn fronts(records: &[InclineCollapseRecord]) -> Figure {
+    let mut front = Panel::new("", Axis::linear("t [s]"), Axis::linear("front − gate [m]"));
+    let mut energy = Panel::new("", Axis::linear("t [s]"), Axis::linear("kinetic energy [J/m]"));
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let data = &record.data.collapse;
+        let way = |front: &f64| (front - 1.0) * run.reservoir.reservoir_length;
+        let points = data.time.iter().copied().zip(data.front.iter().map(way));
+        front.line(&label(run), slot, points);
+        let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied());
+        energy.line("", slot, points);
+    }
+    Figure::new(
+        "fronts",
+        "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
+         rest; above it they run until the channel ends.",
+        vec![front, energy],
+    )
+}
+
+fn thickness(records: &[InclineCollapseRecord]) -> Figure {
+    let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
+    let panels = records.iter().enumerate().map(|(place, (run, record))| {
+        let y = Axis::linear("thickness [cm]").between(0.0, 100.0 * high);
+        let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
+        for (slot, time) in PROFILES.iter().enumerate() {
+            let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else { continue };
+            let r = run.reservoir.reservoir_length;
+            let profile = &record.data.thickness[index];
+            let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
+            let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
+            let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r));
+            let entry = if place == 0 { format!("{time} s") } else { String::new() };
+            panel.line(&entry, slot, points);
+        }
+        panel
+    });
+    Figure::new(
+        "thickness",
+        "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.",
+        panels.collect(),
+    )
+    .in_columns(2)
+}
+
+/// Final run-out over the slope, with the band of the experiments' fit.
+fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
+    let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("run-out from the gate [m]"));
+    let Some((first, _)) = records.first() else { unreachable!("figures are drawn of records") };
+    let friction = first.static_friction();
+    let curve = |friction: f64, k: f64| -> Vec<(f64, f64)> {
+        let angles = (0..=110).map(|step| 0.2 * f64::from(step));
+        let value = |angle: f64| slope_run_out(first.reservoir.initial_height, angle.to_radians(), friction, k);
+        angles.filter_map(|angle| Some((angle, value(angle)?))).filter(|(_, way)| *way < 6.0).collect()
+    };
+    let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
+    let (short, long) = (curve(friction, lower), curve(friction, upper));
+    panel.band("k = 0.4 to 0.5, tanδ = μ_s of the run", short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)));
+    let entry = format!("k = {lower} and {upper}, δ = {}° of the experiment", SLOPE_EXPERIMENT.repose_angle);
+    let experiment = libm::tan(SLOPE_EXPERIMENT.repose_angle.to_radians());
+    for (k, entry) in [(lower, entry.as_str()), (upper, "")] {
+        panel.reference(entry, curve(experiment, k));
+    }
+    let points: Vec<(f64, f64)> = records
+        .iter()
+        .filter(|(run, record)| run.regularisation_rate.is_none() && record.data.came_to_rest())
+        .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir.reservoir_length))
+        .collect();
+    panel.points("at rest", 0, points);
+    Figure::new(
+        "run-out",
+        "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
+         h_0 2k/(tanδ − tanθ).",
+        vec![panel],
+    )
+}
+
+/// Times from which fields are drawn `[s]`: the paper's begin at 0.11 s.
+const FIRST_FIELD: f64 = 0.1;
+/// Decades of shear rates that the colours span.
+const SHEAR_RATES: (f64, f64) = (-1.0, 2.0);
+
+/// What is drawn of a picture: values, label, limits.
+type DrawnField = (Vec<f64>, &'static str, (f64, f64));
+
+/// Velocity along the slope and shear rate in time: the paper's figure 4 and what it says beside figure 5.
+fn velocities((run, record): &InclineCollapseRecord) -> Figure {
+    let along = |frame: &Frame| -> Vec<f64> { frame.vector("velocity").iter().map(|v| v[0]).collect() };
+    let fastest = fields_of(record).flat_map(along).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let caption = "velocity along the slope, and shear rate on a logarithmic scale; colours end where the scale does.";
+    fields("velocities", caption, run, record, |frame| {
+        let decades = frame.scalar("shear_rate").iter().map(|rate| libm::log10(rate.max(1e-3))).collect();
+        vec![(along(frame), "u_x [m/s]", (0.0, fastest)), (decades, "log10 |γ̇| [1/s]", SHEAR_RATES)]
+    })
+}
+
+/// The viscosity in time: the paper's figure 5.
+fn viscosities((run, record): &InclineCollapseRecord) -> Figure {
+    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The viscosity of \
+                   grains that hardly move has no upper bound.";
+    fields("fields", caption, run, record, |frame| {
+        let viscosity = frame.scalar("viscosity").to_vec();
+        let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();
+        vec![(viscosity, "η [Pa·s]", PAPER_SCALE), (decades, "log10 η [Pa·s]", (-1.0, 4.0))]
+    })
+}
+
+fn fields_of(record: &Recorded<SlopeCollapse>) -> impl Iterator<Item = &Frame> {
+    record.frames.iter().filter(|frame| frame.time > FIRST_FIELD)
+}
+
+/// Panels below each other, those of one time together.
+fn fields(
+    name: &str,
+    caption: &str,
+    run: &SlopeRun,
+    record: &Recorded<SlopeCollapse>,
+    drawn: impl Fn(&Frame) -> Vec<DrawnField>,
+) -> Figure {
+    let high = run.reservoir.initial_height;
+    let far = fields_of(record).flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
+    let mut panels = Vec::new();
+    for frame in fields_of(record) {
+        let title = format!("t = {:.2} s", frame.time);
+        for (values, label, limits) in drawn(frame) {
+            let (x, y) = (Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high));
+            let mut panel = Panel::new(&title, x, y);
+            let points = frame.position.iter().map(|x| (x[0], x[1]));
+            panel.field = Some(Field::new(label, run.spacing(), limits, points, values));
+            panels.push(panel);
+        }
+    }
+    Figure::new(&format!("{name}-{}", stem(run)), &format!("{}: {caption}", label(run)), panels).in_columns(1)
+}

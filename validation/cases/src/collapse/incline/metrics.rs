@@ -1,0 +1,171 @@
+//! How a collapse on a slope is judged.
+
+use super::InclineCollapseRecord;
+use super::inside::{self, Inside};
+use crate::case::Run;
+use crate::collapse::fronts::with_resolution;
+use crate::collapse::metrics::{at_rest, conservation};
+use crate::collapse::quantities::{
+    DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
+};
+use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun, Station, linear_misfit_ratio};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::observation::{Frame, Recorded};
+use crate::reference::collapse::{SLOPE_EXPERIMENT, slope_run_out};
+use crate::setup::energy_ledger;
+use crate::statistics::mean;
+
+quantities! {
+    [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK, FRONT_DISPLACEMENT, FRONT, LINEAR_MISFIT_RATIO]
+    FASTEST_DEPTH: stated("fastest_depth", "-", "mean depth of the fastest twentieth of the grains along the slope, over the local thickness, at a time"),
+    VISCOSITY_AND_DEPTH: stated("viscosity_and_depth", "-", "rank correlation of the apparent viscosity and the depth below the surface, at a time"),
+    VISCOSITY_LIKE_PRESSURE: stated("viscosity_like_pressure", "-", "rank correlation of the apparent viscosity with the pressure less that with the shear rate, both as sizes, at a time"),
+    SURFACE_VISCOSITY: stated("surface_viscosity", "Pa·s", "median apparent viscosity of the uppermost fifth of the thickness, at a time"),
+    BED_VISCOSITY: stated("bed_viscosity", "Pa·s", "the same of the lowest fifth"),
+    SHEARED_DEPTH: stated("sheared_depth", "-", "mean depth of the twentieth of the grains that is sheared fastest, over the local thickness, at a time"),
+    INERTIA_CONTRAST: stated("inertia_contrast", "-", "range between the quartiles of the inertial number among the faster half of the grains over that among the slower, at a time"),
+    UNIFORMITY: stated("uniformity", "-", "least over largest depth mean of the velocity at three places behind the front, at a time"),
+    FRONT_VISCOSITY: stated("front_viscosity", "Pa·s", "median apparent viscosity of the last tenth of the reservoir's length behind the front, at a time"),
+}
+
+/// Times of the paper's figures 4 and 5 at which fields are measured `[s]`; they begin at 0.11 s.
+const FIELD_TIMES: [f64; 3] = [0.12, 0.2, 0.4];
+/// Slope of those figures `[°]`.
+const FIELD_SLOPE: f64 = 22.0;
+/// Earliest time that the paper speaks of `[s]`.
+const EARLIEST_STATED: f64 = 0.11;
+/// "Near the surface", of the local thickness `[-]`: the upper third.
+const NEAR_SURFACE: f64 = 1.0 / 3.0;
+
+/// What the gate allows beyond the band of the law's two quotations `[-]`.
+const MARGIN: f64 = 0.15;
+/// Times at which the front is reported `[s]`.
+const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
+
+pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
+    let (variant, data) = (run.variant(), &record.data.collapse);
+    let observed = |quantity: Quantity, variant: &Variant, value: f64| {
+        quantity.of(variant, value).with_snapshot_tolerance(1e-3, 1e-3)
+    };
+    let mut metrics = conservation(&variant, data, &run.reservoir.numerics);
+    let (angle, friction) = (run.slope_angle.to_radians(), run.static_friction());
+    let law = |k: f64| slope_run_out(run.reservoir.initial_height, angle, friction, k);
+    let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
+    if run.regularisation_rate.is_none()
+        && let (Some(short), Some(long)) = (law(lower), law(upper))
+    {
+        // on a horizontal bed the fit was not made for the paper's case
+        let is_judged = run.slope_angle > 0.0 && run.is_resolved() && run.law.is_plastic();
+        let limit = Limit::Within((1.0 - MARGIN) * short, (1.0 + MARGIN) * long);
+        let source =
+            format!("h_0 2k/(tanδ − tanθ), k = {lower} to {upper}, tanδ = μ_s: Mangeney et al. 2010 as quoted");
+        metrics.extend([
+            with_resolution(
+                observed(FRONT_DISPLACEMENT, &variant, data.run_out() * run.reservoir.reservoir_length),
+                None,
+                data.front_uncertainty().map(|uncertainty| uncertainty * run.reservoir.reservoir_length),
+            )
+            .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
+            .gated_by(
+                is_judged.then_some(limit),
+                "the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more",
+            ),
+            at_rest(&variant, data, &run.law, run.reservoir.duration),
+            observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
+                libm::atan(friction).to_degrees() - run.slope_angle,
+                "arctan μ_s − θ, the steepest surface that can rest, from the bed; line over 20–80 % of the front",
+            ),
+        ]);
+    }
+    for time in FRONT_TIMES {
+        if let Some(index) = data.time.iter().position(|&t| t >= time) {
+            let variant = Variant::of("time", time).followed_by(&variant);
+            metrics.push(observed(FRONT, &variant, data.front[index]));
+        }
+    }
+    if is_of_the_figures(run) {
+        metrics.extend(FIELD_TIMES.iter().filter_map(|&time| of_fields(time, run, record)).flatten());
+    }
+    metrics
+}
+
+/// Whether the run is that of the paper's figures 4 and 5, with the law itself.
+fn is_of_the_figures(run: &SlopeRun) -> bool {
+    run.slope_angle == FIELD_SLOPE && run.regularisation_rate.is_none()
+}
+
+/// Velocity over depth at a quarter, half and three quarters of the way from the gate to the front; none before the front has
+/// come two stations' widths.
+fn stations(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Vec<Station> {
+    let (unit, data) = (run.reservoir.reservoir_length, &record.data.collapse);
+    let Some(frame) = Frame::nearest(&record.frames, time) else { return Vec::new() };
+    let Some(front) = data.time.iter().position(|&t| t >= time).map(|index| data.front[index]) else {
+        return Vec::new();
+    };
+    if front - 1.0 < 2.0 * BIN_WIDTH {
+        return Vec::new();
+    }
+    let at = |part: f64| Station::of(frame, (1.0 + part * (front - 1.0)) * unit, BIN_WIDTH * unit, run.spacing());
+    [0.25, 0.5, 0.75].map(at).to_vec()
+}
+
+/// Mean over the depth `[m/s]`.
+fn mean_velocity(station: &Station) -> f64 {
+    mean(&station.profile.iter().map(|point| point.1).collect::<Vec<f64>>())
+}
+
+/// What the paper says of velocity and viscosity inside the collapse, at a time.
+fn of_fields(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Option<Vec<Metric>> {
+    let inside = Inside::at(time, run, record)?;
+    let variant = Variant::of("time", time).followed_by(&run.variant());
+    let is_judged = run.is_resolved() && run.law.is_plastic();
+    let of = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-2, 1e-2);
+    let since_clearance = time - run.gate_clearance();
+    let mut metrics = vec![
+        of(FASTEST_DEPTH, inside.fastest_depth)
+            .against(None, "statement: from 0.11 s on the largest velocity is near the surface, in a shallow region", Confidence::Medium)
+            .gated_by(
+                (is_judged && since_clearance >= EARLIEST_STATED - inside::NEAR).then_some(Limit::AtMost(NEAR_SURFACE)),
+                "near the surface means in the upper third of the local thickness, and grains that are as fast at every depth have 1/2; \
+                 the times count from where the gate has cleared the grains, for until then it holds the upper ones back",
+            ),
+    ];
+    let rises = "statement: the viscosity grows with the distance from the free surface, mainly through the pressure";
+    if let Some(correlation) = inside.viscosity_and_depth {
+        metrics.push(of(VISCOSITY_AND_DEPTH, correlation).against(None, rises, Confidence::Medium).gated_by(
+            is_judged.then_some(Limit::AtLeast(0.5)),
+            "grows with depth: 1 is a viscosity that rises all the way down, 0 one without order; half of it at least",
+        ));
+    }
+    if let (Some(pressure), Some(rate)) = (inside.viscosity_and_pressure, inside.viscosity_and_shear_rate) {
+        let looks = "statement: the field of the viscosity looks like that of the pressure and hides the effect of the strain rate";
+        metrics.push(
+            of(VISCOSITY_LIKE_PRESSURE, pressure.abs() - rate.abs()).against(None, looks, Confidence::Medium).gated_by(
+                is_judged.then_some(Limit::AtLeast(0.0)),
+                "it goes with the pressure more than with the rate",
+            ),
+        );
+    }
+    let (surface, bed) = inside.surface_and_bed_viscosity;
+    metrics.extend(surface.map(|viscosity| of(SURFACE_VISCOSITY, viscosity)));
+    metrics.extend(bed.map(|viscosity| of(BED_VISCOSITY, viscosity)));
+    metrics.push(of(SHEARED_DEPTH, inside.sheared_depth));
+    metrics.extend(inside.inertia_contrast.map(|contrast| of(INERTIA_CONTRAST, contrast)));
+    let stations = stations(time, run, record);
+    if let [_, middle, _] = stations.as_slice()
+        && let Some(ratio) = linear_misfit_ratio(middle, run.spacing())
+    {
+        metrics.push(of(LINEAR_MISFIT_RATIO, ratio));
+        let means: Vec<f64> = stations.iter().map(mean_velocity).collect();
+        let (least, most) = means.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &mean| (a.min(mean), b.max(mean)));
+        metrics.push(of(UNIFORMITY, least / most));
+    }
+    metrics.extend(inside.front_viscosity.map(|viscosity| {
+        of(FRONT_VISCOSITY, viscosity).against(
+            Some(0.7),
+            "statement: towards the front it falls to less than 0.7 Pa·s; the scan leaves the digit in doubt",
+            Confidence::Unverified,
+        )
+    }));
+    Some(metrics)
+}

@@ -1,0 +1,71 @@
+//! Grains released by a gate on an incline.
+
+mod figures;
+mod inside;
+mod metrics;
+
+pub use crate::collapse::InclineCollapseParameters;
+
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
+use crate::collapse::{self, SlopeCollapse, SlopeRun};
+use crate::figure::{Animation, Figure};
+use crate::input::FieldError;
+use crate::metric::{Metric, Quantity};
+use crate::output::Table;
+use crate::store::CodeOrigin;
+
+/// The case.
+#[derive(Debug)]
+pub struct InclineCollapse;
+
+type InclineCollapseRecord = RecordOf<InclineCollapseParameters>;
+
+impl Case for InclineCollapse {
+    const NAME: &'static str = "incline-collapse";
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
+    const SUMMARY: &'static str =
+        "grains released by a gate on a slope: front, thickness and final run-out against experiments";
+    const DESCRIPTION: &'static str = "A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a rough slope. \
+        The gate is pulled up normal to the slope and the grains run down the channel. Below the friction angle they \
+        come to rest, and the front's way from the gate is compared with x_f = h_0 2k/(tanδ − tanθ), k = 0.4 to 0.5, the \
+        fit of Mangeney et al. (2010) as later works quote it, taken with tanδ = μ_s of the run. Above the friction \
+        angle the local μ(I) law knows no deposit: the flow thins as long as the channel lasts. The front is that at a \
+        thickness of 0.02 r_0 as in column-planar: thickness in rows of particles, from the thickest place down the slope, what lies in \
+        fewer than four rows as a wedge of its volume. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
+        gate.";
+    const FORM: ExternalSchema = collapse::foreign_slope::FORM;
+    type Parameters = InclineCollapseParameters;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+
+    fn metrics(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Metric> {
+        records.iter().flat_map(metrics::of_run).collect()
+    }
+
+    fn figures(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Figure> {
+        figures::all(records)
+    }
+
+    fn animations(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Animation> {
+        figures::animations(records)
+    }
+
+    fn foreign(run: &SlopeRun, given: &ExternalData) -> Result<Option<ExternalObservation<SlopeCollapse>>, FieldError> {
+        collapse::foreign_slope::observe(run, given).map(Some)
+    }
+
+    fn tables(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Table> {
+        records.iter().map(table).collect()
+    }
+}
+
+/// Time series of one run.
+fn table((run, record): &InclineCollapseRecord) -> Table {
+    let data = &record.data.collapse;
+    let columns: [(&str, &[f64]); 4] = [
+        ("t [s]", &data.time),
+        ("front/r0 [-]", &data.front),
+        ("kinetic energy [J/m]", &data.kinetic_energy),
+        ("potential energy [J/m]", &data.potential_energy),
+    ];
+    Table::of_columns(format!("series-{}", run.variant().file_name()), &columns)
+}

@@ -1,0 +1,185 @@
+//! Which grains a column is made of.
+
+use crate::reference::grains::{ALUMINIUM_BARS, GLASS_BEADS, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
+use bagnold_solver::material::rheology::Rheology;
+use serde::Serialize;
+use std::fmt;
+
+/// The grains of a published experiment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ExperimentGrains {
+    /// Sand of Table 2.
+    Sand,
+    /// Glass beads of Table 1.
+    Glass,
+    /// Grains of Lagrée et al.
+    Lagree,
+    /// Aluminium bars of Bui et al.
+    Bars,
+}
+
+/// The one property in which grains differ from their originals.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Alteration {
+    /// I_0 of the law `[-]`.
+    ReferenceInertia(f64),
+    /// Diameter `[m]`.
+    GrainDiameter(f64),
+    /// Friction, whatever the rate `[-]`.
+    Friction(f64),
+    /// μ_2, to which friction rises with the rate as that of Lagrée's grains `[-]`.
+    LimitingFriction(f64),
+}
+
+/// Grains as published, or with one property altered.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Material {
+    /// The published grains.
+    pub grains: ExperimentGrains,
+    /// What is altered.
+    pub alteration: Option<Alteration>,
+}
+
+impl ExperimentGrains {
+    /// Name in files and variants.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sand => "sand",
+            Self::Glass => "glass",
+            Self::Lagree => "lagree",
+            Self::Bars => "bars",
+        }
+    }
+
+    /// What their source gives them.
+    fn as_published(self) -> &'static PublishedGrains {
+        match self {
+            Self::Sand => &TABLE_2_SAND,
+            Self::Glass => &GLASS_BEADS,
+            Self::Lagree => &LAGREE_GRAINS,
+            Self::Bars => &ALUMINIUM_BARS,
+        }
+    }
+}
+
+impl Material {
+    /// Sand as published.
+    pub const SAND: Self = Self::published(ExperimentGrains::Sand);
+    /// Glass beads as published.
+    pub const GLASS: Self = Self::published(ExperimentGrains::Glass);
+    /// Grains of Lagrée et al. as published.
+    pub const LAGREE: Self = Self::published(ExperimentGrains::Lagree);
+
+    /// Aluminium bars as published.
+    pub const BARS: Self = Self::published(ExperimentGrains::Bars);
+
+    /// Grains as published.
+    #[must_use]
+    pub const fn published(grains: ExperimentGrains) -> Self {
+        Self { grains, alteration: None }
+    }
+
+    /// Grains with one property altered.
+    #[must_use]
+    pub const fn altered(grains: ExperimentGrains, alteration: Alteration) -> Self {
+        Self { grains, alteration: Some(alteration) }
+    }
+
+    /// Whether they are as published.
+    #[must_use]
+    pub fn is_published(self) -> bool {
+        self.alteration.is_none()
+    }
+
+    /// Whether a law is a user's own, in the place of the published one; grains that the case itself alters are none.
+    #[must_use]
+    pub fn is_own(self, law: &Rheology) -> bool {
+        self.is_published() && *law != Rheology::MuI(self.grains.as_published().law)
+    }
+
+    /// What a legend calls them where they have this law: one of a user's own makes grains of his own.
+    #[must_use]
+    pub fn title_with(self, law: &Rheology) -> String {
+        if self.is_own(law) { format!("own grains as {}", self.grains.name()) } else { self.title() }
+    }
+
+    /// What a legend calls them.
+    #[must_use]
+    pub fn title(self) -> String {
+        let grains = match (self.grains, self.is_published()) {
+            (ExperimentGrains::Sand, true) => "sand of Table 2",
+            (ExperimentGrains::Glass, true) => "glass beads of Table 1",
+            (ExperimentGrains::Lagree, true) => "grains of Lagrée et al.",
+            (ExperimentGrains::Lagree, false) => "Lagrée et al.",
+            (ExperimentGrains::Bars, true) => "aluminium bars",
+            (other, false) => other.name(),
+        };
+        match self.alteration {
+            None => grains.to_owned(),
+            Some(Alteration::ReferenceInertia(value)) => format!("{grains}, I_0 = {value}"),
+            Some(Alteration::GrainDiameter(value)) => format!("{grains}, D = {value}"),
+            Some(Alteration::Friction(value)) => format!("{grains}, μ = {value}"),
+            Some(Alteration::LimitingFriction(value)) => format!("{grains}, μ_2 = {value}"),
+        }
+    }
+}
+
+/// The name in a variant: `sand`, `sand_inertia_0.279`, `lagree_diameter_0.001`.
+impl fmt::Display for Material {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.grains.name())?;
+        match self.alteration {
+            None => Ok(()),
+            Some(Alteration::ReferenceInertia(value)) => write!(formatter, "_inertia_{value}"),
+            Some(Alteration::GrainDiameter(value)) => write!(formatter, "_diameter_{value}"),
+            Some(Alteration::Friction(value)) => write!(formatter, "_friction_{value}"),
+            Some(Alteration::LimitingFriction(value)) => write!(formatter, "_limiting_friction_{value}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bagnold_solver::material::rheology::MuI;
+
+    #[test]
+    fn grains_with_a_law_of_ones_own_are_not_those_of_the_table() {
+        let published = TABLE_2_SAND.law;
+        let own = MuI { static_friction: published.static_friction + 0.01, ..published };
+        assert_eq!(Material::SAND.title_with(&Rheology::MuI(published)), "sand of Table 2");
+        assert_eq!(Material::SAND.title_with(&Rheology::MuI(own)), "own grains as sand");
+        let altered = Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(0.279));
+        assert_eq!(altered.title_with(&Rheology::MuI(own)), "sand, I_0 = 0.279");
+    }
+
+    #[test]
+    fn materials_have_a_name_for_files_and_one_for_readers() {
+        for (material, name, title) in [
+            (Material::SAND, "sand", "sand of Table 2"),
+            (Material::BARS, "bars", "aluminium bars"),
+            (
+                Material::altered(ExperimentGrains::Bars, Alteration::Friction(0.34)),
+                "bars_friction_0.34",
+                "bars, μ = 0.34",
+            ),
+            (Material::GLASS, "glass", "glass beads of Table 1"),
+            (Material::LAGREE, "lagree", "grains of Lagrée et al."),
+            (
+                Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(0.279)),
+                "sand_inertia_0.279",
+                "sand, I_0 = 0.279",
+            ),
+            (
+                Material::altered(ExperimentGrains::Lagree, Alteration::GrainDiameter(0.001)),
+                "lagree_diameter_0.001",
+                "Lagrée et al., D = 0.001",
+            ),
+        ] {
+            assert_eq!((material.to_string().as_str(), material.title().as_str()), (name, title));
+        }
+    }
+}

@@ -1,0 +1,236 @@
+//! How the columns are judged.
+
+use super::CollapseRecord;
+use super::bands::{self, AcceptanceBand};
+use super::column::{ColumnPurpose, ColumnRun, Geometry};
+use super::convergence::{numerical_uncertainty, relative_spread};
+use super::deposit::Collapse;
+use super::known::{ColumnUncertainty, EnsembleSpread, with_uncertainty};
+use super::material::Material;
+use super::measured;
+use super::pile::pile_of;
+use super::quantities::{
+    DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
+    RUN_OUT, STOPPING_TIME,
+};
+use crate::case::Run;
+use crate::evidence::{ValidationSet, WAY_OF_FRONT};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::reference::collapse::{Author, COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+use crate::setup::energy_ledger;
+use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+
+/// Aspect ratios about that of the paper's cone `[-]`.
+const CONES: std::ops::RangeInclusive<f64> = 2.0..=3.5;
+/// Share of the variance that a line explains of a flank whose lower half is half as steep as its upper one `[-]`.
+const BENT_FLANK: f64 = 0.973;
+
+pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
+    let mut metrics = Vec::new();
+    let spread = EnsembleSpread {
+        run_out: relative_spread(records, Collapse::run_out),
+        height: relative_spread(records, Collapse::final_height),
+    };
+    let mut round = Vec::new();
+    for column in records {
+        let (run, record) = column;
+        if run.purpose == ColumnPurpose::Law {
+            let numerical = |measure| numerical_uncertainty(records, run, measure);
+            let known = ColumnUncertainty {
+                run_out: numerical(Collapse::run_out),
+                height: numerical(Collapse::final_height),
+                spread,
+            };
+            let own = of_column(run, &record.data, known);
+            match pile_of(run).filter(|_| !run.is_of_own_grains()) {
+                Some(pile) => {
+                    // points of its own experiment stand in the place of other experiments' laws
+                    let replaced = [RUN_OUT.name, FINAL_HEIGHT.name];
+                    let is_by_law =
+                        |metric: &Metric| replaced.contains(&metric.name.as_str()) && metric.variant == run.variant();
+                    metrics.extend(own.into_iter().filter(|metric| !is_by_law(metric)));
+                    metrics.extend(measured::of_pile(records, column, pile, known));
+                }
+                None => metrics.extend(own),
+            }
+            if let Some(ratio) = measured::of_round_column(run, &record.data, known) {
+                round.push((run.initial_height(), ratio.clone()));
+                metrics.push(ratio);
+            }
+            metrics.extend(super::flow_metrics::of_run(column, records));
+            metrics.extend(super::statements::of_run(run, record));
+        } else {
+            metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics));
+        }
+    }
+    let ratios: Vec<(f64, &Metric)> = round.iter().map(|(ratio, metric)| (*ratio, metric)).collect();
+    metrics.extend(measured::of_round_columns(&ratios));
+    metrics.extend(super::convergence::metrics(records));
+    metrics.extend(super::stress_updates::metrics(records));
+    metrics.extend(super::other_numerics::metrics(records));
+    metrics.extend(super::scaling::metrics(records));
+    metrics
+}
+
+/// Nothing is lost: no particle and, where the numerics keep account of it, no momentum.
+pub(crate) fn conservation(variant: &Variant, collapse: &Collapse, numerics: &Numerics) -> Vec<Metric> {
+    let mut metrics = vec![
+        PARTICLES_LOST
+            .of(variant, collapse.lost as f64)
+            .exactly(0.0, "no particle passes the bed, the symmetry plane or the bed's end")
+            .gated(Limit::AtMost(0.0), "grains do not vanish"),
+    ];
+    metrics.extend(energy_ledger::metrics(variant, &collapse.energy, energy_ledger::EnergyScale::Work));
+    // an implicit step keeps no account of what the walls gave
+    if numerics.viscous_step == ViscousStep::Explicit {
+        metrics.push(
+            MOMENTUM_RESIDUAL
+                .of(variant, collapse.momentum_residual)
+                .exactly(0.0, "momentum against gravity and what bed, planes, gate and contacts gave, over M g t")
+                .gated(
+                    Limit::AtMost(1e-7),
+                    "forces between grains cancel in pairs, up to the rounding of single precision, 6e-8 of a force, whose signs do not agree",
+                )
+                .with_snapshot_tolerance(0.0, 1e-10),
+        );
+    }
+    metrics
+}
+
+/// Slope `[°]` of a heap from the final height to the front of the experiment with the longest run-out, less as much as heights may be
+/// off by; of planar columns of the sand, whose grains that experiment's are like.
+fn flattest(run: &ColumnRun) -> Option<f64> {
+    let of_sand = run.geometry == Geometry::Planar && run.material == Material::SAND && run.has_published_law();
+    let value = |laws: &[CollapseLaw]| Author::Lajeunesse.law(laws).value(run.initial_height()).filter(|_| of_sand);
+    let (height, run_out) = (value(&PLANAR_COLLAPSE.height)?, value(&PLANAR_COLLAPSE.run_out)?);
+    Some((1.0 - bands::HEIGHT) * libm::atan(height / (1.0 + run_out)).to_degrees())
+}
+
+/// The grains come to rest before the longest time of a run `[s]`: gated where the law has a yield, for a liquid never
+/// rests.
+pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, longest: f64) -> Metric {
+    let stop = collapse.stopping_time();
+    let limit = law.is_plastic().then_some(if stop.is_finite() {
+        Limit::Within(stop, longest)
+    } else {
+        Limit::AtMost(longest)
+    });
+    REST_TIME
+        .of(variant, collapse.rest_time())
+        .against(None, "grains with a yield stress come to rest", Confidence::Exact)
+        .with_snapshot_tolerance(0.02, 0.0)
+        .gated_by(
+            limit,
+            "from the time at which the front has covered 99 % of its way, for nothing rests while it flows, to the run's own longest \
+             time: a heap that creeps or trembles on does not reach rest",
+        )
+}
+
+fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> Vec<Metric> {
+    let spread = known.spread;
+    let (variant, a) = (run.variant(), run.initial_height());
+    let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
+    let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw, band: AcceptanceBand| {
+        // in a gap between its branches a law judges nothing, and says so
+        let source = if law.value(a).is_some() { law.source.clone() } else { law.in_words(a) };
+        let metric = observed(quantity, value).against(law.value(a), &source, law.confidence);
+        metric.gated_by(band.map(|band| band.0), band.map_or("", |band| band.1))
+    };
+    let (run_out_law, height_law) = bands::laws_of(run);
+    let laws = if run.geometry == Geometry::Planar { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
+    // where the true value of a user's own grains lies, by how far those of published ones were off
+    let predicted = |quantities: &[&str], value: f64| {
+        let own = run.is_of_own_grains().then(|| run.regime(collapse));
+        own.and_then(|regime| ValidationSet::shipped().predict(quantities, regime, value))
+    };
+    // beside all laws, gaps included, and before all else
+    let of_own_grains = |metric: Metric, laws: &[CollapseLaw]| {
+        if !run.is_of_own_grains() {
+            return metric;
+        }
+        let beside: Vec<String> = laws.iter().map(|law| law.in_words(a)).collect();
+        let source = format!(
+            "{}. None of them judges it: each holds for the grains of its own experiment or simulation, and these have another law",
+            beside.join("; ")
+        );
+        let quantities: &[&str] = if metric.name == RUN_OUT.name { &WAY_OF_FRONT } else { &[FINAL_HEIGHT.name] };
+        let interval = predicted(quantities, metric.value);
+        Metric { gate: None, ..metric.against(None, &source, Confidence::Medium) }.predicted(interval).leading()
+    };
+    let (duration, source, confidence) = &*COLLAPSE_DURATION;
+    let stopping_time = collapse.stopping_time() / run.time_scale();
+    let of_sand = run.material == Material::SAND && run.has_published_law();
+    let slope = observed(DEPOSIT_SLOPE_ANGLE, collapse.slope_angle());
+    let friction = run.law.contact_friction();
+    let steepest = libm::atan(friction).to_degrees();
+    let mut metrics = conservation(&variant, collapse, &run.release.numerics);
+    metrics.extend([
+        with_uncertainty(
+            of_own_grains(
+                by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law)),
+                &laws.run_out,
+            ),
+            known.run_out,
+            collapse.front_uncertainty(),
+            spread.run_out,
+        ),
+        with_uncertainty(
+            of_own_grains(
+                by_law(FINAL_HEIGHT, collapse.final_height(), height_law, bands::height(run, height_law)),
+                &laws.height,
+            ),
+            known.height,
+            None,
+            spread.height,
+        ),
+        observed(STOPPING_TIME, stopping_time)
+            .predicted(predicted(&[STOPPING_TIME.name], stopping_time))
+            .against(
+                Some(*duration),
+                &format!("about {duration} √(h_0/g), {source}; 99 % of the front's way here"),
+                *confidence,
+            )
+            .gated_by(
+                of_sand.then_some(Limit::Within(2.25, 3.6)),
+                "three sources say 2.5, 3 and 3.3 for grains; 10 % to either side for what each calls the stop",
+            ),
+        at_rest(&variant, collapse, &run.law, run.release.duration * run.time_scale()),
+        if friction > 0.0 {
+            slope
+                .exactly(steepest, "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front")
+                .gated(
+                    flattest(run).map_or(Limit::AtMost(steepest), |flattest| Limit::Within(flattest, steepest)),
+                    "grains without cohesion rest on no slope steeper than their angle of friction; a planar heap of the sand is no flatter \
+                     than one from the height to the front of Lajeunesse's laws, the longer of both experiments, less 15 % as its height",
+                )
+        } else {
+            slope
+        },
+        observed(FLANK_R_SQUARED, collapse.flank_r_squared())
+            .against(Some(1.0), "statement of the collapse paper, of a = 2.75: the deposit is a cone in the end", Confidence::Medium)
+            .gated_by(
+                (of_sand && CONES.contains(&a)).then_some(Limit::AtLeast(BENT_FLANK)),
+                "straighter than a flank whose lower half is half as steep as its upper one, of which a line explains 0.973",
+            ),
+        HEIGHT_BY_TOP
+            .of(&variant, 100.0 * (collapse.top / collapse.final_height() - 1.0))
+            .exactly(0.0, "highest particle beside the symmetry plane against the volume there")
+            .with_snapshot_tolerance(0.01, 0.2)
+            .gated_by(
+                (a <= 5.0).then_some(Limit::Within(-10.0, 10.0)),
+                "the project's aim: within 10 % up to a = 5, or particles stand above the heap",
+            ),
+    ]);
+    let (x96, x99) = collapse.quantiles;
+    let others = [
+        ("centroid", collapse.centroid),
+        ("mass_quantiles", 2.0 * x99 - x96 - 1.0),
+        ("front_at_0.05_r0", collapse.run_out_of_rows()),
+    ];
+    metrics.extend(others.map(|(quantity, value)| {
+        let variant = Variant::of("quantity", quantity).followed_by(&variant);
+        RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3)
+    }));
+    metrics
+}

@@ -1,0 +1,67 @@
+//! The pile of aluminium bars that was measured, among the columns.
+
+use super::CollapseRecord;
+use super::column::{ColumnPurpose, ColumnRun, Geometry};
+use super::material::{Alteration, ExperimentGrains};
+use crate::metric::{Metric, Origin};
+use crate::reference::collapse::{ALUMINIUM_BAR_PILE, MeasuredPile};
+use crate::statistics::common_slope;
+
+const RATE: &str = "friction at a rate (distance to the pile whose friction rises with the rate as that of Lagrée's grains, over √3: that of the bars was not measured)";
+const FRICTION: &str = "meaning of the friction angle (distance to the pile whose friction is the sine of the measured angle instead of the tangent, over √3)";
+
+/// The measured pile that a column is, if it is one.
+pub(super) fn pile_of(run: &ColumnRun) -> Option<&'static MeasuredPile> {
+    let pile = &*ALUMINIUM_BAR_PILE;
+    let same = |own: f64, measured: f64| (own / measured - 1.0).abs() < 1e-9;
+    let is_it = (run.geometry, run.material.grains) == (Geometry::Planar, ExperimentGrains::Bars)
+        && run.purpose == ColumnPurpose::Law
+        && same(run.half_width, pile.length)
+        && same(run.initial_height() * run.half_width, pile.height);
+    is_it.then_some(pile)
+}
+
+/// Slope of the measured line of failure `[°]` and its standard error.
+pub(super) fn failure_angle(pile: &MeasuredPile) -> Option<(f64, f64)> {
+    let fit = common_slope(std::slice::from_ref(&pile.failure))?;
+    let error = fit.standard_error / (1.0 + fit.value * fit.value);
+    Some((libm::atan(-fit.value).to_degrees(), error.to_degrees()))
+}
+
+/// A metric with what it moves by if the pile's friction has another meaning or rises with the rate, as standard uncertainties: the pile
+/// stands at one end of each even spread.
+pub(super) fn with_friction(
+    metric: Metric,
+    records: &[CollapseRecord],
+    run: &ColumnRun,
+    difference: impl Fn(&CollapseRecord) -> Option<f64>,
+) -> Metric {
+    if !run.material.is_published() {
+        return metric;
+    }
+    let widest = |is_it: fn(&Alteration) -> bool| {
+        let altered = records.iter().filter(|(other, _)| {
+            pile_of(other).is_some()
+                && other.material.alteration.is_some_and(|own| is_it(&own))
+                && other.resolution == run.resolution
+        });
+        Some(altered.filter_map(|other| Some(difference(other)?.abs())).fold(0.0, f64::max) / 3.0_f64.sqrt())
+    };
+    metric.known_to(Origin::Input, widest(|own| matches!(own, Alteration::Friction(_))), FRICTION).known_to(
+        Origin::Input,
+        widest(|own| matches!(own, Alteration::LimitingFriction(_))),
+        RATE,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_of_failure_has_the_slope_between_its_ends() {
+        let (angle, error) = failure_angle(&ALUMINIUM_BAR_PILE).expect("points");
+        let between = libm::atan((0.0989_f64 - 0.0005) / (0.1794 - 0.0212)).to_degrees();
+        assert!((angle - between).abs() < 2.0 && error < 2.0, "{angle} ± {error} for {between}");
+    }
+}

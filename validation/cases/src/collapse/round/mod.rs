@@ -1,0 +1,52 @@
+//! Round granular columns, the experiment of Lube et al. (2004), in three dimensions.
+
+mod parameters;
+
+pub use parameters::{ColumnRoundParameters, RoundColumn};
+
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
+use crate::collapse::{self, Collapse, CollapseRecord, ColumnRun};
+use crate::figure::{Animation, Figure};
+use crate::input::FieldError;
+use crate::metric::{Metric, Quantity};
+use crate::output::Table;
+use crate::store::CodeOrigin;
+
+/// The case.
+#[derive(Debug)]
+pub struct ColumnRound;
+
+impl Case for ColumnRound {
+    const NAME: &'static str = "column-round";
+    const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
+    const SUMMARY: &'static str =
+        "round columns of sand in three dimensions: run-out against the axisymmetric experiment's law";
+    const DESCRIPTION: &'static str = "A quarter of a cylinder of dry sand stands between two free-slip symmetry planes on a rough horizontal bed and is \
+        released at once. Run-out and height are defined as in column-planar, with the area of the bed that carries a thickness in \
+        place of a length and two rows in place of four, and quarter rings of width 0.1 r_0 as bins. The run-out law of Lube et al. (2004) was measured on such columns; the collapse paper compared its \
+        planar runs with it. The height law of the same source is unverified and does not gate. With another \
+        law than μ(I) the published laws are shown and do not gate.";
+    const FORM: ExternalSchema = collapse::foreign::FORM;
+    type Parameters = ColumnRoundParameters;
+    const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
+
+    fn metrics(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Metric> {
+        collapse::metrics::all(records)
+    }
+
+    fn figures(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Figure> {
+        collapse::figures::all(records)
+    }
+
+    fn animations(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Animation> {
+        collapse::figures::animations(records)
+    }
+
+    fn foreign(run: &ColumnRun, given: &ExternalData) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
+        collapse::foreign::observe(run, given).map(Some)
+    }
+
+    fn tables(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Table> {
+        records.iter().flat_map(collapse::tables).collect()
+    }
+}

@@ -1,0 +1,142 @@
+//! How far a run is from the exact profile, and from the independent one-dimensional solution in time.
+
+use super::BagnoldRecord;
+use super::parameters::LayerStart;
+use super::runs::{BagnoldPurpose, BagnoldRun};
+use crate::layer::{DepthProfile, LayerObservation};
+use crate::reference::one_dimension::{BagnoldProfile, LayerTransient, TransientHistory};
+use crate::shared::Arrangement;
+use crate::statistics::{Beyond, interpolated, linear_fit, relative_l2};
+
+/// A steady run's errors.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SteadyErrors {
+    /// Relative L2 of the bins' velocities `[%]`.
+    pub(super) velocity_l2: f64,
+    /// Relative error of the topmost bin's velocity `[%]`.
+    pub(super) surface_velocity_error: f64,
+    /// Mean of |μ(I)/tanθ − 1| over 0.1 h … 0.9 h `[%]`.
+    pub(super) implied_stress_error: f64,
+    /// Intercept of a line through u over y < 0.2 h less that of the exact profile, over u(h) `[%]`.
+    pub(super) wall_slip: f64,
+}
+
+impl SteadyErrors {
+    /// Errors of a measured depth profile; none where there is no steady flow.
+    pub(super) fn of(profile: &DepthProfile, exact: &BagnoldProfile) -> Option<Self> {
+        let surface = exact.surface_velocity()?;
+        let velocity = |y: f64| exact.velocity(y).unwrap_or(f64::NAN);
+        let top = profile.filled().last()?;
+        let low: Vec<usize> = profile.filled().filter(|&bin| profile.height[bin] < 0.2 * exact.layer_height).collect();
+        let intercept = |velocity: &dyn Fn(usize) -> f64| {
+            let line: Vec<(f64, f64)> = low.iter().map(|&bin| (profile.height[bin], velocity(bin))).collect();
+            linear_fit(&line).map(|fit| fit.intercept)
+        };
+        let slip = intercept(&|bin| profile.velocity[bin])? - intercept(&|bin| velocity(profile.height[bin]))?;
+        let stress: Vec<f64> = implied_stress(profile, exact).into_iter().map(|(_, error)| error.abs()).collect();
+        Some(Self {
+            velocity_l2: 100.0 * profile.velocity_l2(velocity),
+            surface_velocity_error: 100.0 * (profile.velocity[top] / velocity(profile.height[top]) - 1.0),
+            implied_stress_error: 100.0 * stress.iter().sum::<f64>() / stress.len() as f64,
+            wall_slip: 100.0 * slip / surface,
+        })
+    }
+}
+
+/// (y, I) between 0.1 h and 0.9 h, from central differences of the bins' velocities and their pressures.
+pub(super) fn inertial_numbers(profile: &DepthProfile, exact: &BagnoldProfile) -> Vec<(f64, f64)> {
+    let number = |(bin, rate): (usize, f64)| {
+        let speed = (profile.pressure[bin] / exact.grain_density).sqrt();
+        (profile.height[bin], rate * exact.grain_diameter / speed)
+    };
+    let inside = |(y, _): &(f64, f64)| (0.1..=0.9).contains(&(y / exact.layer_height));
+    profile.shear_rates().into_iter().map(number).filter(inside).collect()
+}
+
+/// (y, μ(I)/tanθ − 1) there, with μ(I) of (31).
+pub(super) fn implied_stress(profile: &DepthProfile, exact: &BagnoldProfile) -> Vec<(f64, f64)> {
+    let friction = |inertial_number: f64| {
+        exact.static_friction
+            + (exact.limiting_friction - exact.static_friction) / (1.0 + exact.reference_inertia / inertial_number)
+    };
+    let tangent = libm::tan(exact.inclination);
+    let numbers = inertial_numbers(profile, exact).into_iter();
+    numbers.map(|(y, inertial_number)| (y, friction(inertial_number) / tangent - 1.0)).collect()
+}
+
+/// (rows, velocity L2 `[%]`) of the runs of one kind at one angle, coarse to fine: of the mean velocity over the seeds of a
+/// resolution, bin by bin, for what one seed's displacements do to its height is no error of the spacing. Where the study has layers
+/// that are raised again, of displaced particles it is made of them alone.
+pub(super) fn convergence_errors(
+    records: &[BagnoldRecord],
+    angle: f64,
+    particles: Arrangement,
+    start: LayerStart,
+) -> Vec<(f64, f64)> {
+    let is_own = |(run, _): &&BagnoldRecord| {
+        let purposes = [BagnoldPurpose::Steady, BagnoldPurpose::Convergence, BagnoldPurpose::ConvergenceSeed];
+        purposes.contains(&run.purpose) && run.slope_angle == angle && run.particles == particles && run.start == start
+    };
+    let mut own: Vec<&BagnoldRecord> = records.iter().filter(is_own).collect();
+    let is_raised = |record: &&BagnoldRecord| record.0.purpose == BagnoldPurpose::ConvergenceSeed;
+    if own.iter().any(is_raised) {
+        own.retain(is_raised);
+    }
+    own.sort_by_key(|(run, _)| run.layer.resolution);
+    let error = |seeds: &[&BagnoldRecord]| {
+        let (run, _) = seeds[0];
+        let exact = run.profile();
+        let is_steady = seeds.iter().all(|(run, record)| run.unsteadiness(&record.data).is_none());
+        let profiles: Vec<&DepthProfile> = seeds.iter().map(|(_, record)| &record.data.profile).collect();
+        let pairs = mean_over_seeds(&profiles);
+        exact.surface_velocity()?;
+        let l2 = relative_l2(pairs.iter().map(|&(y, velocity)| (velocity, exact.velocity(y).unwrap_or(f64::NAN))));
+        (!pairs.is_empty()).then_some((run.layer.resolution as f64, if is_steady { 100.0 * l2 } else { f64::NAN }))
+    };
+    own.chunk_by(|one, other| one.0.layer.resolution == other.0.layer.resolution).filter_map(error).collect()
+}
+
+/// (height, velocity) of the bins that all profiles fill, in the mean over them.
+fn mean_over_seeds(profiles: &[&DepthProfile]) -> Vec<(f64, f64)> {
+    let number = profiles.len() as f64;
+    let bins = profiles.iter().map(|profile| profile.height.len()).min().unwrap_or(0);
+    let mean = |of: fn(&DepthProfile) -> &[f64], bin: usize| {
+        profiles.iter().map(|profile| of(profile)[bin]).sum::<f64>() / number
+    };
+    let filled = (0..bins).filter(|&bin| profiles.iter().all(|profile| profile.samples[bin] > 0.0));
+    filled.map(|bin| (mean(|profile| &profile.height, bin), mean(|profile| &profile.velocity, bin))).collect()
+}
+
+/// The 1-D solution from rest and the steady depth mean.
+pub(super) fn history_from_rest(run: &BagnoldRun) -> Option<(TransientHistory, f64)> {
+    let profile = run.profile();
+    let steady = profile.depth_mean()?;
+    let scale = libm::pow(profile.layer_height / 0.01, 1.5);
+    let mut layer = LayerTransient::from_rest(profile, 100, 1e-3 * scale).ok()?;
+    Some((layer.run(6.0 * scale, &[]).ok()?, steady))
+}
+
+/// The 1-D solution of a layer that comes to rest or runs away, until a time `[s]`.
+pub(super) fn transient_of(run: &BagnoldRun, end: f64) -> Option<TransientHistory> {
+    let start = run.start_profile();
+    let layer = match run.purpose {
+        BagnoldPurpose::Arrest => {
+            LayerTransient::from_profile(run.profile(), 100, 1e-3, |y| start.velocity(y).unwrap_or(0.0))
+        }
+        _ => LayerTransient::from_rest(run.profile(), 100, 2e-3),
+    };
+    layer.and_then(|mut layer| layer.run(end, &[])).ok()
+}
+
+/// The particles' depth means as a history.
+pub(super) fn particle_history(data: &LayerObservation) -> TransientHistory {
+    let series = &data.series;
+    TransientHistory { times: series.time.clone(), depth_means: series.mean_velocity.clone(), profiles: Vec::new() }
+}
+
+/// Depth mean at a time `[s]`, of a run that ends between two samples on the line of its last ones; not a number where the
+/// history ended before.
+pub(super) fn mean_at(history: &TransientHistory, time: f64) -> f64 {
+    let samples: Vec<(f64, f64)> = history.times.iter().copied().zip(history.depth_means.iter().copied()).collect();
+    interpolated(&samples, time, (Beyond::Nothing, Beyond::Line(1.0))).unwrap_or(f64::NAN)
+}

@@ -1,0 +1,165 @@
+//! The case's figures.
+
+use super::BagnoldRecord;
+use super::errors::{
+    convergence_errors, history_from_rest, implied_stress, inertial_numbers, particle_history, transient_of,
+};
+use super::parameters::{BagnoldParameters, LayerStart};
+use super::runs::{BagnoldPurpose, BagnoldRun};
+use crate::figure::{Axis, Figure, Panel};
+use crate::reference::one_dimension::TransientHistory;
+use crate::shared::Arrangement;
+
+const PROFILES: &str = "Mean velocity along the slope in 20 bins over the depth, against Bagnold's profile (36), which is exact for \
+    the μ(I) law. Left in metres per second, right the difference in percent of the exact surface velocity.";
+const OTHER_GRAINS: &str = "The same for grains of other materials with the same numerics: mean velocity against Bagnold's profile of each \
+    material, and the difference in percent of the exact surface velocity.";
+
+pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Figure> {
+    let first_start = parameters.starts.first().copied().unwrap_or(LayerStart::Rest);
+    let of = |belongs: &dyn Fn(&BagnoldRun) -> bool| -> Vec<&BagnoldRecord> {
+        records.iter().filter(|(run, _)| belongs(run)).collect()
+    };
+    let steady = of(&|run| run.purpose == BagnoldPurpose::Steady && run.start == first_start);
+    let outside = of(&|run| matches!(run.purpose, BagnoldPurpose::Arrest | BagnoldPurpose::Runaway));
+    let other_grains = of(&|run| run.purpose == BagnoldPurpose::OtherGrains);
+    let mut figures = Vec::new();
+    if !steady.is_empty() {
+        let profiles = profiles("velocity-profile", PROFILES, &steady);
+        figures.extend([profiles, stresses(&steady), transients(&steady)]);
+    }
+    if !other_grains.is_empty() {
+        figures.push(profiles("other-grains", OTHER_GRAINS, &other_grains));
+    }
+    if !outside.is_empty() {
+        figures.push(arrest_and_runaway(&outside));
+    }
+    figures.extend(convergence(parameters, records));
+    figures
+}
+
+fn label(run: &BagnoldRun) -> String {
+    match &run.material {
+        Some(material) => format!("{material}, {}°", run.slope_angle),
+        None => format!("{}°", run.slope_angle),
+    }
+}
+
+fn profiles(name: &str, caption: &str, records: &[&BagnoldRecord]) -> Figure {
+    let mut absolute = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
+    let mut error = Panel::new("", Axis::linear("(u − exact)/u(h) [%]"), Axis::linear("y/h [-]"));
+    error.reference("exact", [(0.0, 0.0), (0.0, 1.0)]);
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let exact = run.profile();
+        let Some(surface) = exact.surface_velocity() else { continue };
+        let h = exact.layer_height;
+        let velocity = |y: f64| exact.velocity(y).unwrap_or(0.0);
+        let exact_label = if slot == 0 { "Bagnold (36), exact" } else { "" };
+        absolute.reference(exact_label, (0..=100).map(|k| f64::from(k) / 100.0).map(|y| (velocity(y * h), y)));
+        let data = &record.data.profile;
+        absolute.points(&label(run), slot, data.drawn(&data.velocity, h));
+        let difference = |bin: usize| 100.0 * (data.velocity[bin] - velocity(data.height[bin])) / surface;
+        let differences = data.filled().map(|bin| (difference(bin), data.height[bin] / h));
+        error.line_points(&label(run), slot, differences);
+    }
+    Figure::new(name, caption, vec![absolute, error])
+}
+
+fn stresses(records: &[&BagnoldRecord]) -> Figure {
+    let mut pressure = Panel::new("", Axis::linear("p [Pa]"), Axis::linear("y/h [-]"));
+    let mut inertia = Panel::new("", Axis::linear("I/I(θ), exact [-]"), Axis::linear("y/h [-]"));
+    let mut implied = Panel::new("", Axis::linear("μ(I)/tanθ − 1 [%]"), Axis::linear("y/h [-]"));
+    inertia.reference("exact", [(1.0, 0.0), (1.0, 1.0)]);
+    implied.reference("exact", [(0.0, 0.0), (0.0, 1.0)]);
+    for (slot, (run, record)) in records.iter().enumerate() {
+        let exact = run.profile();
+        let Some(steady) = exact.inertial_number() else { continue };
+        let (h, data) = (exact.layer_height, &record.data.profile);
+        pressure.reference(if slot == 0 { "hydrostatic" } else { "" }, [(exact.pressure(0.0), 0.0), (0.0, 1.0)]);
+        pressure.points(&label(run), slot, data.drawn(&data.pressure, h));
+        let numbers = inertial_numbers(data, &exact).into_iter();
+        inertia.line_points(&label(run), slot, numbers.map(|(y, number)| (number / steady, y / h)));
+        let errors = implied_stress(data, &exact).into_iter();
+        implied.line_points(&label(run), slot, errors.map(|(y, error)| (100.0 * error, y / h)));
+    }
+    Figure::new(
+        "pressure-and-stress",
+        "Pressure against the hydrostatic line, inertial number against its constant exact value, and the stress \
+         ratio that the measured inertial number implies, relative to tanθ. The flow turns an error of 0.1 % of the \
+         friction coefficient into one of 0.8 % (25°) to 2 % (22°) of the velocity.",
+        vec![pressure, inertia, implied],
+    )
+    .in_columns(3)
+}
+
+fn transients(records: &[&BagnoldRecord]) -> Figure {
+    let mut panel = Panel::new("", Axis::linear("t [s]"), Axis::linear("depth mean of u [m/s]"));
+    for (slot, (run, record)) in records.iter().enumerate() {
+        if run.start == LayerStart::Rest
+            && let Some((history, _)) = history_from_rest(run)
+        {
+            let name = if slot == 0 { "1-D transient solver" } else { "" };
+            panel.reference(name, drawn(&history, record.simulated_time));
+        }
+        panel.line(&label(run), slot, drawn(&particle_history(&record.data), f64::INFINITY));
+    }
+    Figure::new(
+        "approach",
+        "Depth mean of the velocity from rest, against the one-dimensional solver, which shares nothing with the \
+         particles but the law.",
+        vec![panel],
+    )
+}
+
+fn arrest_and_runaway(records: &[&BagnoldRecord]) -> Figure {
+    let panels = records.iter().enumerate().map(|(slot, (run, record))| {
+        let fate = if run.purpose == BagnoldPurpose::Arrest { "arrest" } else { "runaway" };
+        let title = format!("{}: {fate}", label(run));
+        let mut panel = Panel::new(&title, Axis::linear("t [s]"), Axis::linear("depth mean of u [m/s]"));
+        if let Some(history) = transient_of(run, record.simulated_time) {
+            panel.reference("1-D transient solver", drawn(&history, f64::INFINITY));
+        }
+        panel.line("particles", slot, drawn(&particle_history(&record.data), f64::INFINITY));
+        panel
+    });
+    Figure::new(
+        "arrest-and-runaway",
+        "Below the static friction angle a layer that starts with a steady profile comes to rest; above the limiting \
+         friction angle a layer from rest accelerates without end (stopped when its mean passes half the sound \
+         speed).",
+        panels.collect(),
+    )
+}
+
+fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Option<Figure> {
+    let angle = parameters.convergence_slope_angle;
+    let mut panel =
+        Panel::new("", Axis::logarithmic("rows over the layer [-]"), Axis::logarithmic("relative L2 of u [%]"));
+    let kinds = [
+        (Arrangement::Lattice, LayerStart::Profile, "lattice, from the profile"),
+        (Arrangement::Jittered, LayerStart::Rest, "jittered, from rest"),
+    ];
+    for (slot, (particles, start, name)) in kinds.into_iter().enumerate() {
+        let errors = convergence_errors(records, angle, particles, start);
+        if errors.len() >= 2 {
+            if slot == 0 {
+                panel.order(1, "first order", &errors);
+            }
+            panel.line_points(name, slot, errors);
+        }
+    }
+    let first = panel.series.first()?;
+    let (from, to) = (first.points.first()?.0, first.points.last()?.0);
+    panel.band("gate at 40 rows", [(from, 1e-3, 0.7), (to, 1e-3, 0.7)]);
+    let caption =
+        format!("Relative L2 error of the velocity profile at {angle}° with the number of rows over the layer.");
+    Some(Figure::new("convergence", &caption, vec![panel]))
+}
+
+/// Depth means up to a time `[s]`, at most a few hundred points of them.
+fn drawn(history: &TransientHistory, end: f64) -> Vec<(f64, f64)> {
+    let points = history.times.iter().copied().zip(history.depth_means.iter().copied());
+    let points: Vec<(f64, f64)> = points.filter(|(time, _)| *time <= end).collect();
+    let stride = points.len().div_ceil(400).max(1);
+    points.into_iter().step_by(stride).collect()
+}

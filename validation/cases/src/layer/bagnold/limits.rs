@@ -1,0 +1,70 @@
+//! Where a layer of grains is beyond what particles can follow, known before it runs.
+
+use super::runs::{BagnoldPurpose, BagnoldRun};
+
+/// γ̇ Δ/√(p/ρ) = I √φ Δ/D `[-]` up to which layers were found to be steady and within 2 % of Bagnold's profile: 0.10 for glass
+/// at 25° and 20 rows; not at 0.135 (5 % after 20 s) and 0.27 (the layer loses 6 % of its height in 8 s). For two seconds from the
+/// exact profile a layer of 60 rows holds to 0.8 % at 0.21.
+const LARGEST_AGITATION: f64 = 0.12;
+
+/// Froude number of the depth mean `[-]` up to which layers were found to be steady; one of 12 is not, or diverges.
+const LARGEST_FROUDE_NUMBER: f64 = 10.0;
+
+impl BagnoldRun {
+    /// Why a steady flow is not expected to hold, and what helps; none where it is, and for runs that are there to show something
+    /// else.
+    pub(super) fn beyond_limits(&self) -> Option<String> {
+        if self.purpose != BagnoldPurpose::Steady {
+            return None;
+        }
+        let profile = self.profile();
+        let (inertia, mean) = (profile.inertial_number()?, profile.depth_mean()?);
+        let spacing = self.layer.layer_height / self.layer.resolution as f64;
+        let agitation = inertia * profile.solid_fraction.sqrt() * spacing / profile.grain_diameter;
+        let fall = self.layer.gravity * self.layer.layer_height * libm::cos(self.slope_angle.to_radians());
+        let froude_number = mean / fall.sqrt();
+        if agitation > LARGEST_AGITATION {
+            let rows = (self.layer.resolution as f64 * agitation / LARGEST_AGITATION).ceil();
+            return Some(format!(
+                "neighbouring rows slide past each other at {agitation:.2} √(p/ρ) (I √φ Δ/D), and beyond {LARGEST_AGITATION} \
+                 unevenness between particles was seen to change the flow by percents within seconds: take `resolution = {rows}` or a gentler slope"
+            ));
+        }
+        (froude_number > LARGEST_FROUDE_NUMBER).then(|| {
+            format!(
+                "the exact mean velocity has a Froude number of {froude_number:.1}, and beyond {LARGEST_FROUDE_NUMBER} layers were \
+                 not steady: take a gentler slope or a thinner layer"
+            )
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::{Parameters, Tier};
+    use crate::layer::bagnold::parameters::BagnoldParameters;
+
+    #[test]
+    fn shipped_layers_are_within_the_limits_and_finer_grains_are_not() {
+        for tier in [Tier::Quick, Tier::Paper] {
+            let mut reasons = BagnoldParameters::of_tier(tier).runs().into_iter().filter_map(|run| run.beyond_limits());
+            assert_eq!(reasons.next(), None);
+        }
+        let quick = BagnoldParameters::of_tier(Tier::Quick);
+        let coarse = |rows: usize, angle: f64| {
+            let mut parameters = quick.clone();
+            parameters.layer.resolution = rows;
+            parameters.slope_angles = vec![angle];
+            parameters.runs()[0].beyond_limits()
+        };
+        // I = 0.133 at 25°: 0.103 at 20 rows
+        assert_eq!(coarse(20, 25.0), None);
+        let reason = coarse(10, 25.0).expect("twice as coarse");
+        assert!(reason.contains("at 0.21 √(p/ρ)") && reason.contains("`resolution = 18`"), "{reason}");
+        assert_eq!(coarse(10, 20.0), None, "there is no steady flow to miss");
+        let mut thick = quick.clone();
+        (thick.layer.layer_height, thick.layer.resolution, thick.slope_angles) = (0.1, 1000, vec![29.0]);
+        let reason = thick.runs()[0].beyond_limits().expect("fast");
+        assert!(reason.contains("Froude number"), "{reason}");
+    }
+}

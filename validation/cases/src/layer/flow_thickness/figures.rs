@@ -1,0 +1,167 @@
+//! The case's figures.
+
+use super::metrics::{froude_number, incline, relative_thickness};
+use super::{
+    FlowThicknessParameters, FlowThicknessRecord, LayerFate, StartStop, StartStopRun, collapses, flows_of, searches,
+};
+use crate::figure::{Axis, Figure, Panel};
+use crate::reference::collapse::RoughIncline;
+
+pub(super) fn all(parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Figure> {
+    let Some(incline) = incline(parameters) else { return Vec::new() };
+    let drawn = [
+        (collapses(records).next().is_some(), histories as fn(_, _, _) -> _),
+        (searches(records).next().is_some(), stopping as fn(_, _, _) -> _),
+        (flows_of(records, false).next().is_some(), flow_rule as fn(_, _, _) -> _),
+        (flows_of(records, true).next().is_some(), froude as fn(_, _, _) -> _),
+    ];
+    drawn.into_iter().filter(|(present, _)| *present).map(|(_, draw)| draw(&incline, parameters, records)).collect()
+}
+
+/// Thickness at the stations over time, one panel per slope.
+fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
+    let panels = collapses(records).enumerate().map(|(place, (run, data))| {
+        let y = Axis::linear("thickness [cm]").between(0.0, 6.0);
+        let mut panel = Panel::new(&format!("{}°", run.slope_angle), Axis::linear("t [s]"), y);
+        let time = &data.collapse.time;
+        for (slot, &station) in parameters.stations.iter().enumerate() {
+            let thickness = data.thickness_at(station / run.reservoir.reservoir_length);
+            let points = time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir.reservoir_length));
+            let entry = if place == 0 { format!("x = {station} m") } else { String::new() };
+            panel.line(&entry, slot, points);
+        }
+        if let (Some(law), Some(&end)) =
+            (incline.flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians()), time.last())
+        {
+            let entry = if place == 0 { "h_s of (44)" } else { "" };
+            let points = vec![(0.0, 100.0 * law), (end, 100.0 * law)];
+            panel.reference(entry, points);
+        }
+        panel
+    });
+    Figure::new(
+        "thickness-in-time",
+        "Thickness of the flow of a collapse at three places of the slope (volume in a bin of 2 cm over its width), \
+         with the paper's h_s (44). The flow passes as a wave: no plateau is reached before the grains have gone by, \
+         so that (44) is an order of magnitude and not a law of this flow.",
+        panels.collect(),
+    )
+    .in_columns(2)
+}
+
+/// Which layers stop: the local law and the experiments.
+fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
+    let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
+    let thickness = |step: i32| 1.0e-3 * libm::pow(40.0, f64::from(step) / 60.0);
+    let experiment =
+        (0..=60).map(thickness).map(|h| (incline.stopping_angle(h).to_degrees(), 1e3 * h)).collect::<Vec<_>>();
+    let local = libm::atan(incline.static_friction).to_degrees();
+    panel.line("experiments: h_stop(θ)", 2, experiment);
+    panel.reference("local law: tanθ = μ_s", [(local, 1.0), (local, 40.0)]);
+    // one curve of the nonlocal law for each condition at the surface
+    let mut drawn = Vec::new();
+    for (run, _) in searches(records) {
+        let Some(choice) = run.layer.nonlocal else { continue };
+        if drawn.contains(&choice.surface) {
+            continue;
+        }
+        drawn.push(choice.surface);
+        let angle = |h: f64| {
+            let mut layer = run.layer.clone();
+            layer.layer.layer_height = h;
+            layer.exact(0.0).map(|layer| (layer.stopping_angle().to_degrees(), 1e3 * h))
+        };
+        let label = format!("nonlocal law: {}", choice.surface_name());
+        panel.line(&label, 2 + drawn.len(), (0..=60).map(thickness).filter_map(angle).collect::<Vec<_>>());
+    }
+    let ends = [("stopped", LayerFate::Stops), ("kept flowing", LayerFate::Flows), ("undecided", LayerFate::Undecided)];
+    for (slot, (label, fate)) in ends.into_iter().enumerate() {
+        let of_search = |(run, found): (&StartStopRun, &StartStop)| -> Vec<(f64, f64)> {
+            let ended = found.trials.iter().filter(|trial| trial.fate == fate);
+            ended.map(|trial| (trial.slope_angle, 1e3 * run.layer.layer.layer_height)).collect()
+        };
+        let points: Vec<(f64, f64)> = searches(records).flat_map(of_search).collect();
+        // most searches leave nothing open, and then the legend need not speak of it
+        if fate != LayerFate::Undecided || !points.is_empty() {
+            panel.points(label, slot, points);
+        }
+    }
+    Figure::new(
+        "start-stop",
+        "Layers that stopped and layers that kept flowing, over slope and thickness. The local μ(I) law stops them \
+         all at one slope; in experiments thin layers stop on steeper slopes, and so they do under the nonlocal law, whose own \
+         h_stop depends on what its fluidity is at the surface. Left of the curve of h_stop the \
+         experiments have no flow, right of the dashed line the law has no deposit.",
+        vec![panel],
+    )
+}
+
+/// The flow rule (42).
+fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
+    let mut panel = Panel::new("", Axis::linear("h/h_stop(θ) [-]"), Axis::linear("Ū/√(gh) [-]"));
+    let points: Vec<(f64, f64)> = flows_of(records, false)
+        .filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data))))
+        .collect();
+    let far = points.iter().fold(1.0_f64, |most, point| most.max(point.0));
+    let line = vec![(0.0, 0.0), (1.05 * far, 1.05 * far * parameters.flow_coefficient)];
+    panel.reference("β of Table 1", line);
+    panel.points("steady flows", 0, points);
+    Figure::new(
+        "flow-rule",
+        "Depth mean of the velocity of steady flows over √(gh) against the thickness over h_stop(θ), with (42). That \
+         the points lie on the line follows from (41): it verifies the solver.",
+        vec![panel],
+    )
+}
+
+/// Cells of a steady profile in a curve, whose error is then below the width of its line.
+const CURVE_CELLS: usize = 1000;
+/// Points of a curve.
+const CURVE_POINTS: i32 = 200;
+/// What half a degree of the slope makes of h_stop, which no document at hand states the scatter of `[°]`.
+const SLOPE_ERROR: f64 = 0.5;
+
+/// The Froude number of both laws beside the flow rule.
+fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
+    let axis = Axis::logarithmic;
+    let mut panel = Panel::new("", axis("h/h_stop(θ) of the experiments [-]"), axis("Ū/√(gh) [-]"));
+    let points = |nonlocal: bool| -> Vec<(f64, f64)> {
+        let flows = flows_of(records, nonlocal);
+        flows.filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data)))).collect()
+    };
+    let (local, nonlocal) = (points(false), points(true));
+    let farthest = local.iter().chain(&nonlocal).fold(1.0_f64, |most, point| most.max(point.0));
+    let (angle, coefficient) = (parameters.nonlocal.profile_angle, parameters.flow_coefficient);
+    let thickness = |angle: f64| incline.deposit_thickness(angle.to_radians());
+    let relative = |step: i32| libm::pow(1.3 * farthest, f64::from(step) / f64::from(CURVE_POINTS));
+    let steps = || (0..=CURVE_POINTS).map(relative);
+    if let (Some(thick), Some(own), Some(thin)) =
+        (thickness(angle - SLOPE_ERROR), thickness(angle), thickness(angle + SLOPE_ERROR))
+    {
+        let along = |thickness: f64| move |times: f64| coefficient * times * own / thickness;
+        let (lower, upper) = (along(thick), along(thin));
+        panel.band("the same at a slope half a degree gentler or steeper", steps().map(|x| (x, lower(x), upper(x))));
+        let layer = flows_of(records, true).next().map(|(run, _)| run.layer.clone());
+        let curve = layer.into_iter().flat_map(|layer| {
+            steps().filter_map(move |times| {
+                let mut layer = layer.clone();
+                layer.layer.layer_height = times * own;
+                let velocity = layer.exact(angle)?.steady(CURVE_CELLS).ok()?.depth_mean();
+                let froude = velocity / (layer.layer.gravity * layer.layer.layer_height).sqrt();
+                // below its own h_stop it is at rest
+                (velocity > 0.0).then_some((times, froude))
+            })
+        });
+        panel.line("nonlocal law, without particles", 1, curve.collect::<Vec<_>>());
+    }
+    panel.reference("flow rule of the experiments, β h/h_stop", steps().map(|times| (times, coefficient * times)));
+    panel.points("local law, particles", 0, local);
+    panel.points("nonlocal law, particles", 1, nonlocal);
+    Figure::new(
+        "froude-number",
+        "Depth mean of the velocity over √(gh) against the thickness over the h_stop(θ) of experiments, for both laws. The local law lies on the \
+         published line by an identity, however thin the layer; the nonlocal law comes to it far above h_stop only and is at rest below its own. \
+         The published points are not at hand, nor how they scatter: the band is what half a degree of the slope makes of h_stop.",
+        vec![panel],
+    )
+}

@@ -1,0 +1,356 @@
+//! The slope at which a layer of given thickness stops flowing, bisected.
+
+use super::nonlocal::NonlocalChoice;
+use crate::case::recording::{Ending, Followed, SimulationStage, follow, resumed};
+use crate::case::{ParameterError, Progress};
+use crate::layer::{Layer, PeriodicLayer, bulk_modulus};
+use crate::metric::Variant;
+use crate::observation::Recorded;
+use crate::reference::one_dimension::{BagnoldProfile, NonlocalLayer};
+use crate::shared::Arrangement;
+use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Depth mean of the velocity over √(gh) below which a layer has stopped `[-]`.
+const STOPPED: f64 = 1e-4;
+/// A flow is steady when its depth mean changes by less than this over [`STEADY_TIME`] `[-]`.
+const STEADY: f64 = 5e-3;
+/// `[s]`
+const STEADY_TIME: f64 = 1.0;
+/// Cells of a steady profile of the nonlocal law: its discretisation is then below what particles do.
+pub(super) const REFERENCE_CELLS: usize = 4000;
+/// Interval of the observations `[s]`.
+const INTERVAL: f64 = 0.02;
+
+/// A layer that is set in motion at a slope, and what is asked of it.
+#[derive(Debug, Clone, Serialize)]
+pub struct LayerAtSlope {
+    /// Its size, particles and numerics.
+    pub layer: PeriodicLayer,
+    pub(super) solid_fraction: f64,
+    /// Grains.
+    pub material: MuI,
+    /// How they cooperate; none for the local law.
+    pub nonlocal: Option<NonlocalChoice>,
+    /// Simulated time `[s]`.
+    pub duration: f64,
+}
+
+/// The bracket of slopes in which a layer stops.
+#[derive(Debug, Clone, Serialize)]
+pub struct StartStopRun {
+    /// The layer.
+    pub layer: LayerAtSlope,
+    /// Slopes between which it is sought `[°]`: it must stop at the first and flow at the second.
+    pub bracket: (f64, f64),
+    /// Width of the bracket that ends the search `[°]`.
+    pub tolerance: f64,
+    /// Slope whose steady profile every layer starts with `[°]`.
+    pub start_angle: f64,
+}
+
+/// What became of a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LayerFate {
+    /// It came to rest.
+    Stops,
+    /// It reached a steady flow.
+    Flows,
+    /// Neither, when its time was up or it diverged.
+    Undecided,
+}
+
+/// One layer of the search.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct SlopeTrial {
+    /// Slope `[°]`.
+    pub slope_angle: f64,
+    /// What became of the layer.
+    pub fate: LayerFate,
+    /// When it stopped, was found steady or was given up `[s]`.
+    pub time: f64,
+    /// Depth mean of its velocity at that time `[m/s]`.
+    pub mean_velocity: f64,
+    /// Particles below the bed or far above the layer.
+    pub lost: usize,
+}
+
+/// What the search leaves behind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StartStop {
+    /// All trials in their order.
+    pub trials: Vec<SlopeTrial>,
+}
+
+impl StartStop {
+    /// Steepest slope at which the layer stopped and gentlest at which it flowed `[°]`; none where the ends of the
+    /// search do not bracket the change, or where a trial left open which it is.
+    #[must_use]
+    pub fn bracket(&self) -> Option<(f64, f64)> {
+        let angles = |fate: LayerFate| self.trials.iter().filter(move |t| t.fate == fate).map(|t| t.slope_angle);
+        let (steepest, gentlest) =
+            (angles(LayerFate::Stops).reduce(f64::max)?, angles(LayerFate::Flows).reduce(f64::min)?);
+        let decided = angles(LayerFate::Undecided).next().is_none();
+        (decided && steepest < gentlest).then_some((steepest, gentlest))
+    }
+}
+
+impl LayerAtSlope {
+    /// Steady profile at a slope `[°]`.
+    #[must_use]
+    pub fn profile(&self, angle: f64) -> BagnoldProfile {
+        let PeriodicLayer { layer_height, gravity, .. } = self.layer;
+        BagnoldProfile::of(&self.material, layer_height, self.solid_fraction, gravity, angle)
+    }
+
+    /// The layer at a slope `[°]`, from the steady profile of another.
+    pub(super) fn layer<'a>(&self, angle: f64, start: &'a InitialMotion) -> Layer<'a> {
+        let density = self.solid_fraction * self.material.grain_density;
+        Layer {
+            bulk_modulus: bulk_modulus(density, self.layer.gravity, self.layer.layer_height, start.depth_mean),
+            velocity: &*start.velocity,
+            shear_stress: &*start.shear_stress,
+            duration: self.duration,
+            window: 0.3 * self.duration,
+            interval: INTERVAL,
+            ..self.layer.of(self.law(), density, angle)
+        }
+    }
+
+    /// Its law.
+    pub(super) fn law(&self) -> Rheology {
+        self.nonlocal.map_or(Rheology::MuI(self.material), |choice| choice.law(self.material))
+    }
+
+    /// The model's own layer on a slope `[°]`, without particles; none of the local law.
+    pub(super) fn exact(&self, slope_angle: f64) -> Option<NonlocalLayer> {
+        self.nonlocal.map(|choice| choice.exact(self.profile(slope_angle)))
+    }
+
+    /// Its name, on a slope `[°]` if it has one.
+    pub(super) fn variant(&self, slope_angle: Option<f64>) -> Variant {
+        let mut variant = Variant::of("thickness", self.layer.layer_height);
+        if let Some(angle) = slope_angle {
+            variant = variant.and("slope_angle", angle);
+        }
+        variant = variant.and("rows", self.layer.resolution);
+        match &self.nonlocal {
+            // displaced layers are the rule, of both laws
+            Some(choice) if self.layer.jitter == 0.0 => {
+                variant.and("surface", choice.surface_name()).and("particles", Arrangement::Lattice.name())
+            }
+            Some(choice) => variant.and("surface", choice.surface_name()),
+            None => variant,
+        }
+    }
+
+    /// Expected particle-steps of one layer.
+    pub(super) fn particles(&self) -> f64 {
+        self.layer.particles()
+    }
+
+    pub(super) fn particle_steps(&self) -> f64 {
+        let PeriodicLayer { layer_height, gravity, resolution, numerics, .. } = &self.layer;
+        let step = numerics.acoustic_courant * numerics.smoothing_ratio * layer_height
+            / (*resolution as f64 * (50.0 * gravity * layer_height).sqrt());
+        self.duration / step * self.layer.particles()
+    }
+}
+
+/// How a layer moves at the start.
+pub(super) struct InitialMotion {
+    velocity: Box<dyn Fn(f64) -> f64 + Sync>,
+    shear_stress: Box<dyn Fn(f64) -> f64 + Sync>,
+    depth_mean: f64,
+}
+
+impl InitialMotion {
+    /// The motion of a steady profile.
+    pub(super) fn of(profile: BagnoldProfile) -> Self {
+        Self {
+            velocity: Box::new(move |y| profile.velocity(y).unwrap_or(0.0)),
+            shear_stress: Box::new(move |y| profile.shear_stress(y)),
+            depth_mean: profile.depth_mean().unwrap_or(0.0),
+        }
+    }
+
+    /// The motion of the steady profile of the nonlocal law, where it has one.
+    pub(super) fn of_nonlocal(layer: NonlocalLayer) -> Option<Self> {
+        let profile = layer.steady(REFERENCE_CELLS).ok()?;
+        let depth_mean = profile.depth_mean();
+        Some(Self {
+            velocity: Box::new(move |y| profile.velocity(y)),
+            shear_stress: Box::new(move |y| layer.layer.shear_stress(y)),
+            depth_mean,
+        })
+    }
+}
+
+impl StartStopRun {
+    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, ParameterError> {
+        let (stopping, flowing) = self.bracket;
+        let new = SlopeBisection { stopping, flowing, trials: Vec::new(), steps: 0, simulated_time: 0.0, seconds: 0.0 };
+        let mut search: SlopeBisection = resumed(progress).unwrap_or(new);
+        loop {
+            let angle = search.next_angle();
+            let (trial, simulation, ending) = self.attempt(angle, progress, &search)?;
+            search.seconds += ending.started.elapsed().as_secs_f64();
+            search.steps += simulation.steps();
+            search.simulated_time += simulation.time();
+            if !search.enter(trial) || search.is_narrow(self.tolerance) {
+                let SlopeBisection { trials, steps, simulated_time, seconds, .. } = search;
+                let record = ending.record(&simulation, |_| StartStop { trials });
+                return Ok(Recorded { steps, simulated_time, wall_seconds: seconds, ..record });
+            }
+        }
+    }
+
+    /// Layers that the search needs about.
+    pub(super) fn rounds(&self) -> f64 {
+        let (stopping, flowing) = self.bracket;
+        2.0 + ((flowing - stopping) / self.tolerance).log2().ceil().max(0.0)
+    }
+
+    /// Runs one layer until it has stopped, is steady or its time is up.
+    fn attempt(
+        &self,
+        angle: f64,
+        progress: &dyn Progress,
+        search: &SlopeBisection,
+    ) -> Result<(SlopeTrial, Simulation<2>, Ending<Snapshot<2>>), ParameterError> {
+        let start = InitialMotion::of(self.layer.profile(self.start_angle));
+        let layer = self.layer.layer(angle, &start);
+        let (round, rounds) = (search.trials.len() as f64, self.rounds());
+        let (h, duration) = (self.layer.layer.layer_height, self.layer.duration);
+        let threshold = STOPPED * (self.layer.layer.gravity * h).sqrt();
+        let lag = (STEADY_TIME / INTERVAL) as usize;
+        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, context: search };
+        let begin = |simulation: &Simulation<2>| LayerObserver {
+            means: Vec::new(),
+            trial: SlopeTrial {
+                slope_angle: angle,
+                fate: LayerFate::Undecided,
+                time: 0.0,
+                mean_velocity: f64::NAN,
+                lost: 0,
+            },
+            last_good: simulation.snapshot(),
+        };
+        let followed = follow(
+            stage,
+            |beginning| layer.scene_for(beginning),
+            begin,
+            |seen, simulation| {
+                let LayerObserver { means, trial, last_good } = seen;
+                let snapshot = simulation.snapshot();
+                let mass: f64 = snapshot.mass.iter().sum();
+                let mean = snapshot.mass.iter().zip(&snapshot.velocity).map(|(m, v)| m * v[0]).sum::<f64>() / mass;
+                means.push(mean);
+                let steady = means.len() > lag && (mean / means[means.len() - 1 - lag] - 1.0).abs() < STEADY;
+                let fate = match (mean < threshold, steady) {
+                    (true, _) => LayerFate::Stops,
+                    (false, true) => LayerFate::Flows,
+                    (false, false) => LayerFate::Undecided,
+                };
+                let lost = snapshot.position.iter().filter(|x| !(x[1] > 0.0 && x[1] < 2.0 * h)).count();
+                *trial = SlopeTrial { slope_angle: angle, fate, time: snapshot.time, mean_velocity: mean, lost };
+                progress.advance(
+                    round * duration + snapshot.time,
+                    rounds * duration,
+                    simulation.steps() as f64 * snapshot.mass.len() as f64,
+                );
+                *last_good = snapshot;
+                if fate == LayerFate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+        )?;
+        let Followed { simulation, stop, kept: LayerObserver { trial, last_good, .. }, started } = followed;
+        let criterion = "the slope at which the layer stops is bracketed".to_owned();
+        Ok((trial, simulation, Ending { criterion, ..Ending::of(stop, last_good, started) }))
+    }
+}
+
+/// What has been seen of a layer.
+#[derive(Serialize, Deserialize)]
+struct LayerObserver {
+    /// Depth means of its velocity `[m/s]`.
+    means: Vec<f64>,
+    trial: SlopeTrial,
+    last_good: Snapshot<2>,
+}
+
+/// How far a search has come.
+#[derive(Serialize, Deserialize)]
+struct SlopeBisection {
+    /// Steepest slope at which a layer stopped, and gentlest at which one flowed `[°]`.
+    stopping: f64,
+    flowing: f64,
+    trials: Vec<SlopeTrial>,
+    /// Steps, simulated time and wall time `[s]` of all trials.
+    steps: u64,
+    simulated_time: f64,
+    seconds: f64,
+}
+
+impl SlopeBisection {
+    /// Slope of the next trial `[°]`.
+    fn next_angle(&self) -> f64 {
+        match self.trials.len() {
+            0 => self.stopping,
+            1 => self.flowing,
+            _ => 0.5 * (self.stopping + self.flowing),
+        }
+    }
+
+    /// Enters a trial; whether the change is still bracketed.
+    fn enter(&mut self, trial: SlopeTrial) -> bool {
+        self.trials.push(trial);
+        match (self.trials.len(), trial.fate) {
+            (_, LayerFate::Undecided) => false,
+            (1, fate) => fate == LayerFate::Stops,
+            (2, fate) => fate == LayerFate::Flows,
+            (_, LayerFate::Stops) => {
+                self.stopping = trial.slope_angle;
+                true
+            }
+            (_, LayerFate::Flows) => {
+                self.flowing = trial.slope_angle;
+                true
+            }
+        }
+    }
+
+    /// Whether the bracket is no wider than a tolerance `[°]`.
+    fn is_narrow(&self, tolerance: f64) -> bool {
+        self.trials.len() > 1 && self.flowing - self.stopping <= tolerance * (1.0 + 1e-9)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bracket_is_that_of_the_trials() {
+        let trial = |slope_angle: f64, fate: LayerFate| SlopeTrial {
+            slope_angle,
+            fate,
+            time: 1.0,
+            mean_velocity: 0.0,
+            lost: 0,
+        };
+        let search =
+            |trials: &[(f64, LayerFate)]| StartStop { trials: trials.iter().map(|t| trial(t.0, t.1)).collect() };
+        let found =
+            [(19.0, LayerFate::Stops), (25.0, LayerFate::Flows), (22.0, LayerFate::Flows), (20.5, LayerFate::Stops)];
+        assert_eq!(search(&found).bracket(), Some((20.5, 22.0)));
+        assert_eq!(search(&[(19.0, LayerFate::Flows)]).bracket(), None);
+        assert_eq!(search(&[(22.0, LayerFate::Stops), (21.0, LayerFate::Flows)]).bracket(), None);
+        // a layer that is still slowing down when its time is up does not flow
+        let undecided = [(19.0, LayerFate::Stops), (25.0, LayerFate::Flows), (22.0, LayerFate::Undecided)];
+        assert_eq!(search(&undecided).bracket(), None);
+    }
+}

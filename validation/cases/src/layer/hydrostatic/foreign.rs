@@ -1,0 +1,110 @@
+//! A layer at rest as another code gives it: its profile and its history.
+
+use super::metrics::{ACOUSTIC_BREATHING, HEIGHT_DRIFT, NORMAL_STRESS_L2, PRESSURE_L2, RMS_SPEED};
+use super::parameters::HydrostaticRun;
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
+use crate::input::FieldError;
+use crate::layer::foreign::unmeasured;
+use crate::layer::{DepthProfile, LayerObservation, TimeSeries};
+
+/// What a run may yield.
+pub(super) const FORM: ExternalSchema = ExternalSchema {
+    particles: &[],
+    series: &[
+        ExternalColumn::new("time", "s", "time since the start"),
+        ExternalColumn::new("rms_speed", "m/s", "root mean square of the speed"),
+        ExternalColumn::new("mean_height", "m", "mean over the mass of the height above the bed"),
+    ],
+    profile: &[
+        ExternalColumn::new("height", "m", "height above the bed, rising"),
+        ExternalColumn::new("pressure", "Pa", "pressure there, a mean over the last half second"),
+        ExternalColumn::new("normal_stress", "Pa", "stress across the layer p − s_yy there, compressive positive"),
+    ],
+    description: "The layer is prepared, or settles, before the start. pressure_l2 is the root of the summed squares of the errors of the \
+        pressure over that of the exact hydrostatic one, K (exp(ρ0 g (H − y)/K) − 1), for laws without a yield that carries \
+        stress; normal_stress_l2 is the same of p − s_yy for grains, whose pressure at rest is not unique. height_drift is the \
+        mean height from 1.8 to 2.2 s over that from 0.8 to 1.2 s, less 1; acoustic_breathing the range of the mean height over \
+        the last half second; rms_speed the last of the series.",
+};
+
+/// The observation from what another code gives.
+///
+/// # Errors
+/// None yet: columns that are missing make what needs them unmeasured.
+pub(super) fn observe(
+    run: &HydrostaticRun,
+    given: &ExternalData,
+) -> Result<ExternalObservation<LayerObservation>, FieldError> {
+    let mut measured = Vec::new();
+    let mut observation = unmeasured();
+    let height = given.profile("height");
+    let or_missing = |column: &[f64], count: usize| {
+        if column.is_empty() { vec![f64::NAN; count] } else { column.to_vec() }
+    };
+    if !height.is_empty() {
+        let [pressure, normal_stress] = ["pressure", "normal_stress"].map(|name| given.profile(name));
+        let count = height.len();
+        observation.profile = DepthProfile {
+            height: height.to_vec(),
+            velocity: vec![f64::NAN; count],
+            pressure: or_missing(pressure, count),
+            normal_stress: or_missing(normal_stress, count),
+            shear_stress: vec![f64::NAN; count],
+            samples: vec![1.0; count],
+        };
+        let pairs = [(PRESSURE_L2.name, pressure), (NORMAL_STRESS_L2.name, normal_stress)];
+        measured.extend(pairs.into_iter().filter(|(_, column)| !column.is_empty()).map(|(name, _)| name));
+    }
+    let time = given.series("time");
+    if time.len() > 1 {
+        let [speed, mean_height] = ["rms_speed", "mean_height"].map(|name| given.series(name));
+        observation.series = TimeSeries {
+            time: time.to_vec(),
+            mean_velocity: vec![f64::NAN; time.len()],
+            rms_speed: or_missing(speed, time.len()),
+            // only ratios of heights are judged
+            relative_height: or_missing(mean_height, time.len())
+                .iter()
+                .map(|height| 2.0 * height / run.height())
+                .collect(),
+            pressure_noise: Vec::new(),
+        };
+        if !speed.is_empty() {
+            measured.push(RMS_SPEED.name);
+        }
+        if !mean_height.is_empty() {
+            measured.extend([HEIGHT_DRIFT.name, ACOUSTIC_BREATHING.name]);
+        }
+    }
+    Ok(ExternalObservation { observation, measured })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{NamedColumns, Parameters, Tier};
+    use crate::layer::hydrostatic::HydrostaticParameters;
+
+    #[test]
+    fn the_exact_pressure_has_no_error_and_what_is_not_given_is_not_measured() {
+        let run = HydrostaticParameters::of_tier(Tier::Quick).runs().remove(0);
+        let height: Vec<f64> = (0..20).map(|k| (f64::from(k) + 0.5) / 20.0 * run.height()).collect();
+        let pressure = height.iter().map(|&y| run.pressure(y)).collect();
+        let profile: NamedColumns = [("height".to_owned(), height), ("pressure".to_owned(), pressure)].into();
+        let seen = observe(&run, &ExternalData { profile, ..ExternalData::default() }).expect("complete");
+        assert_eq!(seen.measured, ["pressure_l2"]);
+        let wrong = seen.observation.profile.pressure.iter().zip(&seen.observation.profile.height);
+        assert!(wrong.into_iter().all(|(pressure, &y)| *pressure == run.pressure(y)));
+        assert!(seen.observation.profile.normal_stress.iter().all(|stress| stress.is_nan()));
+    }
+
+    #[test]
+    fn a_history_of_heights_gives_drift_and_breathing() {
+        let run = HydrostaticParameters::of_tier(Tier::Quick).runs().remove(0);
+        let series: NamedColumns = [("time", vec![0.0, 1.0, 2.0]), ("mean_height", vec![0.5, 0.5, 0.5])]
+            .map(|(name, values)| (name.to_owned(), values))
+            .into();
+        let seen = observe(&run, &ExternalData { series, ..ExternalData::default() }).expect("complete");
+        assert_eq!(seen.measured, ["height_drift", "acoustic_breathing"]);
+    }
+}

@@ -1,0 +1,120 @@
+//! How the runs are judged.
+
+use super::HydrostaticRecord;
+use super::parameters::HydrostaticRun;
+use crate::case::Run;
+use crate::layer::{self, TimeSeries};
+use crate::metric::{Confidence, Limit, Metric, quantities};
+use crate::setup::energy_ledger;
+use crate::statistics::{mean, relative_l2};
+
+quantities! {
+    [layer::PARTICLES_LOST, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
+    PRESSURE_NOISE:
+        verified("pressure_noise", "-", "rms of the pressure less its local linear fit within 2h, over ρgH"),
+    NOISE_WITHOUT_COUPLING: verified("noise_without_coupling", "-", "pressure noise without (27) over that with it"),
+    PRESSURE_L2: verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one"),
+    NORMAL_STRESS_L2: verified("normal_stress_l2", "%", "relative L2 of p − s_yy against the hydrostatic pressure"),
+    PRESSURE_RATIO_LEAST: verified("pressure_ratio_least", "-", "least pressure over the hydrostatic one"),
+    PRESSURE_RATIO_MOST: verified("pressure_ratio_most", "-", "largest pressure over the hydrostatic one"),
+    HEIGHT_DRIFT: verified("height_drift", "%", "change of the mean height from 1 s to 2 s"),
+    ACOUSTIC_BREATHING: verified("acoustic_breathing", "%", "range of the mean height over the last 0.5 s"),
+    KERNEL_INTEGRAL_ERROR: verified("kernel_integral_error", "%", "integral of the kernel over its support, less 1"),
+    KERNEL_MOMENT_ERROR:
+        verified("kernel_moment_error", "%", "second moment of the kernel's gradient −∫ F r²/D dA, less 1"),
+    ELASTIC_SHEAR_ERROR:
+        verified("elastic_shear_error", "%", "shear stress of grains below their yield over G γ, less 1"),
+    STRESS_ROTATION_ERROR:
+        verified("stress_rotation_error", "%", "stress after an eighth of a turn less the turned stress, over its size"),
+    RMS_SPEED: verified("rms_speed", "m/s", "root mean square of the speed at the end"),
+}
+
+const EXACT: &str = "hydrostatic pressure of the equation of state, K (exp(ρ0 g (H − y)/K) − 1)";
+
+pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Metric> {
+    let (coupled, uncoupled): (Vec<&HydrostaticRecord>, Vec<&HydrostaticRecord>) =
+        records.iter().partition(|(run, _)| run.is_coupled());
+    let mut metrics: Vec<Metric> = coupled.iter().flat_map(|record| at_rest(record)).collect();
+    for record in uncoupled {
+        let partner = coupled.iter().find(|(other, _)| other.law == record.0.law);
+        metrics.extend(without_coupling(record, partner.copied()));
+    }
+    metrics
+}
+
+/// The noise of an uncoupled layer, against the coupled one of the same law.
+fn without_coupling((run, record): &HydrostaticRecord, partner: Option<&HydrostaticRecord>) -> Vec<Metric> {
+    let (variant, noise) = (run.variant(), mean(&record.data.series.pressure_noise));
+    let own = PRESSURE_NOISE.of(&variant, noise).exactly(0.0, "smooth pressure").with_snapshot_tolerance(0.2, 1e-6);
+    let factor = partner.map(|(_, partner)| {
+        NOISE_WITHOUT_COUPLING
+            .of(&variant, noise / mean(&partner.data.series.pressure_noise))
+            .against(None, "the same run with the coupling (27)", Confidence::Exact)
+            .gated(Limit::AtLeast(100.0), "two orders of magnitude: that the coupling removes the noise is the paper's claim, and that pressure noise can fail")
+            .with_snapshot_tolerance(0.3, 0.0)
+    });
+    [own].into_iter().chain(factor).collect()
+}
+
+fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
+    let (variant, series, profile) = (run.variant(), &record.data.series, &record.data.profile);
+    let (quantity, pressure) = match run.states_of_rest() {
+        None => (PRESSURE_L2, &profile.pressure),
+        Some(_) => (NORMAL_STRESS_L2, &profile.normal_stress),
+    };
+    let mut metrics = vec![
+        layer::particles_lost(&variant, record),
+        PRESSURE_NOISE
+            .of(&variant, mean(&series.pressure_noise))
+            .exactly(0.0, "smooth pressure")
+            .gated(Limit::AtMost(1e-3), "rms of p less its local linear fit within 2h, over ρgH")
+            .with_snapshot_tolerance(0.1, 1e-6),
+        quantity
+            .of(&variant, 100.0 * profile_l2(run, &profile.height, pressure))
+            .exactly(0.0, EXACT)
+            .gated(Limit::AtMost(1.0), "the project's aim: 1 % of the hydrostatic profile")
+            .with_snapshot_tolerance(0.02, 1e-3),
+    ];
+    let scale = energy_ledger::EnergyScale::AtRest(run.energy_scale());
+    metrics.extend(energy_ledger::metrics(&variant, &record.data.energy, scale));
+    if let Some((passive, active)) = run.states_of_rest() {
+        let (least, most) = record.data.pressure_ratio;
+        let ratios = [(PRESSURE_RATIO_LEAST, least, passive), (PRESSURE_RATIO_MOST, most, active)];
+        let source = "ρg(H − y)/(1 ± μ_s): passive and active state";
+        metrics.extend(ratios.map(|(quantity, value, bound)| {
+            quantity.of(&variant, value).exactly(bound, source).with_snapshot_tolerance(0.01, 0.0)
+        }));
+    }
+    // over 0.4 s about a time, several acoustic periods
+    let around = |time: f64| mean(&heights(series, |t| (t - time).abs() <= 0.2));
+    let last = heights(series, |t| t > record.simulated_time - 0.5);
+    let range = last.iter().copied().fold(f64::NEG_INFINITY, f64::max) - last.into_iter().fold(f64::INFINITY, f64::min);
+    let speed = series.rms_speed.last().copied().unwrap_or(f64::NAN);
+    metrics.extend([
+        HEIGHT_DRIFT
+            .of(&variant, 100.0 * (around(2.0) / around(1.0) - 1.0))
+            .exactly(0.0, "a layer at rest keeps its height")
+            .gated(Limit::Within(-0.1, 0.1), "mean height from 1 s to 2 s")
+            .with_snapshot_tolerance(0.1, 1e-4),
+        ACOUSTIC_BREATHING
+            .of(&variant, 100.0 * range)
+            .exactly(0.0, "range of the mean height over the last 0.5 s")
+            .with_snapshot_tolerance(0.2, 1e-3),
+        RMS_SPEED.of(&variant, speed).exactly(0.0, "rest").with_snapshot_tolerance(0.5, 1e-5),
+    ]);
+    metrics
+}
+
+/// Relative L2 of a time-averaged depth profile against the exact pressure `[-]`.
+///
+/// The displaced particles settle by a part of a per cent at once, which leaves the layer breathing at its acoustic
+/// frequency c/4H for a long time, as it would in an inviscid liquid: the mean over many periods is what is at rest.
+fn profile_l2(run: &HydrostaticRun, heights: &[f64], values: &[f64]) -> f64 {
+    let filled = heights.iter().zip(values).filter(|(y, _)| y.is_finite());
+    relative_l2(filled.map(|(y, pressure)| (*pressure, run.pressure(*y))))
+}
+
+/// Relative heights at the times `[s]` that belong.
+fn heights(series: &TimeSeries, belongs: impl Fn(f64) -> bool) -> Vec<f64> {
+    series.curve(&series.relative_height).filter(|(time, _)| belongs(*time)).map(|(_, height)| height).collect()
+}

@@ -1,0 +1,137 @@
+//! The drag laws of dense suspensions beside beads whose settling was measured. The runs of the case meet the roots of these laws
+//! within hundredths of a per cent, so that what a law says here is what particles with it do.
+
+use super::drag_curves::{label, slot};
+use super::quantities::{DEPOSIT_RISE_OVER_MEASURED, SINKING_OVER_MEASURED};
+use crate::figure::{Axis, Figure, Panel};
+use crate::metric::{Limit, Metric, Origin, Variant};
+use crate::reference::settling::{SETTLING_BEADS, SettlingBeads, SettlingGrains};
+use bagnold_solver::material::drag::DragLaw;
+
+/// The laws that speak of dense suspensions.
+const LAWS: [DragLaw; 4] = [DragLaw::WenYu, DragLaw::Ergun, DragLaw::Gidaspow, DragLaw::DiFelice];
+/// Factor by which a law may be off `[-]`.
+const FACTOR: f64 = 2.0;
+/// Half of a pixel of the images `[m]`.
+const HALF_PIXEL: f64 = 0.39e-3;
+
+const PRINTED: &str = "half of the last printed digit that is no trailing zero, evenly spread; how the sizes of the beads differ is not told";
+
+/// Velocity at which a law lets the beads sink `[m/s]`, and its relative uncertainty from the fraction `[-]`.
+fn sinking(beads: &SettlingBeads, law: DragLaw) -> Option<(f64, f64)> {
+    let phi = beads.suspension;
+    let at = |fraction: f64| beads.grains.hindered_velocity(law, fraction);
+    let own = at(phi.value)?;
+    let (low, high) = (at(phi.value + phi.standard_error)?, at(phi.value - phi.standard_error)?);
+    Some((own, 0.5 * (high - low) / own))
+}
+
+/// Relative standard uncertainty of a law's velocity by each number of beads and oil `[-]`.
+fn by_numbers(beads: &SettlingBeads, law: DragLaw, own: f64) -> Vec<(&'static str, f64)> {
+    let at = |grains: &SettlingGrains| grains.hindered_velocity(law, beads.suspension.value);
+    let effect = |(name, low, high): &(&'static str, SettlingGrains, SettlingGrains)| {
+        Some((*name, (at(high)? - at(low)?).abs() / own / 12.0_f64.sqrt()))
+    };
+    beads.ends.iter().filter_map(effect).collect()
+}
+
+pub(super) fn metrics() -> Vec<Metric> {
+    let beads = &*SETTLING_BEADS;
+    let of_law = |&law: &DragLaw| -> Option<[Metric; 2]> {
+        let (velocity, by_fraction) = sinking(beads, law)?;
+        let variant = Variant::of("law", law.name());
+        let numbers = by_numbers(beads, law, velocity);
+        let with_numbers = |metric: Metric| {
+            numbers.iter().fold(metric, |metric, (name, relative)| {
+                let standard = metric.value * relative;
+                metric.known_to(Origin::Input, Some(standard), &format!("{name} ({PRINTED})"))
+            })
+        };
+        let sunk = velocity / beads.sinking.value;
+        let risen = beads.rise_under(velocity) / beads.rise.value;
+        let metric = |metric: Metric| {
+            metric
+                .against(Some(1.0), &beads.source, beads.confidence)
+                .gated(
+                    Limit::Within(1.0 / FACTOR, FACTOR),
+                    "a factor of two: at half the space filled the laws themselves, each fitted to experiments of its own, differ by nearly as much",
+                )
+                .with_snapshot_tolerance(1e-6, 0.0)
+                .known_to(Origin::Numerical, Some(1e-3), "particles meet the root of a law within 0.1 %, by the case's own gates")
+        };
+        Some([
+            with_numbers(metric(SINKING_OVER_MEASURED.of(&variant, sunk)))
+                .known_to(
+                    Origin::Experiment,
+                    Some(sunk * beads.sinking.standard_error / beads.sinking.value),
+                    "standard error of the line through the heights of the interface",
+                )
+                .known_to(
+                    Origin::Input,
+                    Some(sunk * by_fraction),
+                    "solid fraction (standard deviation over the height at first)",
+                ),
+            with_numbers(metric(DEPOSIT_RISE_OVER_MEASURED.of(&variant, risen)))
+                .known_to(
+                    Origin::Experiment,
+                    Some(risen * beads.rise.standard_error / beads.rise.value),
+                    "standard error of the line through the heights of the deposit",
+                )
+                .known_to(
+                    Origin::Input,
+                    Some(risen * by_fraction.hypot(beads.rise_known_to())),
+                    "solid fractions (standard deviations of both over the height, for the velocity and for the volumes)",
+                ),
+        ])
+    };
+    LAWS.iter().filter_map(of_law).flatten().collect()
+}
+
+/// Both interfaces over time, with every law.
+pub(super) fn figure() -> Figure {
+    let beads = &*SETTLING_BEADS;
+    let mut panel = Panel::new("", Axis::linear("t [min]"), Axis::linear("height [mm]").between(0.0, 60.0));
+    let scaled = |points: &[(f64, f64)]| points.iter().map(|(t, z)| (t / 60.0, 1e3 * z)).collect::<Vec<_>>();
+    let bars = vec![1e3 * HALF_PIXEL; beads.upper.len()];
+    panel.points("measured upper interface", 6, scaled(&beads.upper)).error.clone_from(&bars);
+    panel.points("measured deposit", 7, scaled(&beads.deposit)).error = bars;
+    for law in LAWS {
+        let Some((velocity, _)) = sinking(beads, law) else { continue };
+        let (top, bottom) = (beads.upper[0].1, beads.deposit[0].1);
+        let rise = beads.rise_under(velocity);
+        let meet = (top - bottom) / (velocity + rise);
+        panel.line(label(law), slot(law), scaled(&[(0.0, top), (meet, top - velocity * meet)]));
+        panel.line("", slot(law), scaled(&[(0.0, bottom), (meet, bottom + rise * meet)]));
+    }
+    Figure::new(
+        "beads",
+        "Polystyrene beads that settle in silicone oil, half of the space filled: measured heights of their upper interface and of their \
+         deposit, with half a pixel, and what the drag laws of dense suspensions say until both meet, from the measured fractions. The \
+         beads had begun to settle before time 0; below the suspension they were denser already.",
+        vec![panel],
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn beads_in_stokes_regime_sink_as_by_hand() {
+        // Ergun at R → 0: K = 150 φ² ν ρ/((1 − φ) d²), u_s = (1 − φ)³ Δρ g d²/(150 φ ν ρ) without a flux
+        let beads = &*SETTLING_BEADS;
+        let phi = beads.suspension.value;
+        let grains = &beads.grains;
+        let weight = (grains.grain_density - grains.fluid_density) * grains.gravity * grains.grain_diameter.powi(2);
+        let by_hand = (1.0 - phi).powi(3) * weight / (150.0 * phi * grains.kinematic_viscosity * grains.fluid_density);
+        let (own, _) = sinking(beads, DragLaw::Ergun).expect("in range");
+        assert!((own / by_hand - 1.0).abs() < 1e-3, "{own} for {by_hand}");
+        assert_eq!(metrics().len(), 2 * LAWS.len());
+        // in this regime the velocity goes with d², Δρ, and 1/(ν ρ_f): ±5 µm of 290, ±5 kg/m³ of 100, half of the last digit of ν
+        let numbers = by_numbers(beads, DragLaw::Ergun, own);
+        let expected = [10.0 / 290.0, 0.05, 0.05 + 5.0 / 950.0, 5e-9 / 2.105e-5].map(|half| half / 3.0_f64.sqrt());
+        for ((name, found), expected) in numbers.iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 5e-3, "{name}: {found} for {expected}");
+        }
+    }
+}

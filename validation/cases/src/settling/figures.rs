@@ -1,0 +1,161 @@
+//! The case's figures.
+
+use super::formulation::GrainFormulation;
+use super::probe::{SettlingObservation, SettlingSeries};
+use super::runs::SettlingRun;
+use super::suspension::SuspensionRun;
+use super::{SettlingRecord, drag_curves};
+use crate::figure::{Axis, Figure, Panel};
+use crate::reference::settling::{GrainForm, richardson_zaki_exponent};
+use bagnold_solver::material::drag::DragLaw;
+
+/// The formulations that single grains have, in the order of their panels.
+const FORMULATIONS: [GrainFormulation; 2] = [GrainFormulation::Paper, GrainFormulation::Stabilised];
+
+/// The formulation of suspensions.
+const CONTINUUM: &str = "continuum";
+
+/// Densest suspension drawn `[-]`.
+const DENSEST: f64 = 0.6;
+
+pub(super) fn all(records: &[SettlingRecord]) -> Vec<Figure> {
+    let suspensions: Vec<_> = suspensions(records).collect();
+    let mut figures = vec![approach(records)];
+    let alone = alone(records);
+    if !alone.is_empty() {
+        figures.push(terminal(&alone));
+    }
+    if !suspensions.is_empty() {
+        figures.push(hindered(&suspensions));
+    }
+    figures.extend([super::beads::figure(), drag_curves::drag_coefficients(), drag_curves::hindrance()]);
+    figures
+}
+
+/// The suspensions among the records.
+fn suspensions(records: &[SettlingRecord]) -> impl Iterator<Item = (&SuspensionRun, &SettlingObservation)> {
+    records.iter().filter_map(|(run, record)| match run {
+        SettlingRun::Grain(_) => None,
+        SettlingRun::Suspension(run) => Some((run, &record.data)),
+    })
+}
+
+fn approach(records: &[SettlingRecord]) -> Figure {
+    let title = |run: &SettlingRun| match run {
+        SettlingRun::Grain(run) => format!("one grain, {}", run.formulation.name()),
+        SettlingRun::Suspension(run) => format!("suspension, φ = {}", run.solid_fraction),
+    };
+    let mut fractions: Vec<f64> = suspensions(records).map(|(run, _)| run.solid_fraction).collect();
+    fractions.sort_by(f64::total_cmp);
+    fractions.dedup();
+    let titles = FORMULATIONS.map(|formulation| format!("one grain, {}", formulation.name())).into_iter();
+    let titles = titles.chain(fractions.into_iter().map(|fraction| format!("suspension, φ = {fraction}")));
+    let mut named: Vec<DragLaw> = Vec::new();
+    let mut panels = Vec::new();
+    for name in titles {
+        let y = Axis::linear("slip over the root [-]").between(0.0, 1.2);
+        let mut panel = Panel::new(&name, Axis::linear("t [s]"), y);
+        for (run, record) in records.iter().filter(|(run, _)| title(run) == name) {
+            let (series, root) = (&record.data.series, run.root());
+            let points = series.time.iter().zip(&series.slip).map(|(t, slip)| (*t, slip / root));
+            // a law has its name where it is drawn first
+            let label =
+                if named.contains(&run.experiment().law) { "" } else { drag_curves::label(run.experiment().law) };
+            named.push(run.experiment().law);
+            panel.line(label, drag_curves::slot(run.experiment().law), points);
+        }
+        let end = panel.series.iter().flat_map(|series| series.points.last()).fold(0.0, |end: f64, p| end.max(p.0));
+        if end > 0.0 {
+            let label = if panels.is_empty() { "root" } else { "" };
+            panel.reference(label, [(0.0, 1.0), (end, 1.0)]);
+            panels.push(panel);
+        }
+    }
+    let columns = if panels.len() > 4 { 3 } else { panels.len().clamp(1, 2) };
+    Figure::new(
+        "approach",
+        "Grains released at rest get to the slip at which their drag carries their weight: one grain in a periodic \
+         box of fluid, and a uniform suspension in a column without a flux of the mixture. The fluid that a grain \
+         alone has set in motion meets it again across the periods, so that its slip keeps fluctuating about the \
+         root; means are taken over the last 0.6 of a run.",
+        panels,
+    )
+    .in_columns(columns)
+}
+
+/// Grains alone, and suspensions so dilute that they stand for one: formulation, root `[m/s]`, what was seen.
+fn alone<'a>(records: &'a [SettlingRecord]) -> Vec<(&'static str, f64, &'a SettlingObservation)> {
+    let root = |run: &SettlingRun| match run {
+        SettlingRun::Grain(run) => Some((run.formulation.name(), run.terminal_velocity())),
+        SettlingRun::Suspension(run) => run.dilute.then(|| (CONTINUUM, run.terminal_velocity())),
+    };
+    let of = |(run, record): &'a SettlingRecord| root(run).map(|(name, root)| (name, root, &record.data));
+    records.iter().filter_map(of).collect()
+}
+
+fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
+    let mut panel = Panel::new("", Axis::linear("root of the balance [m/s]"), Axis::linear("error of the slip [%]"));
+    let roots = || records.iter().map(|&(_, root, _)| root);
+    let (low, high) = (roots().fold(f64::INFINITY, f64::min), roots().fold(0.0, f64::max));
+    let (low, high) = (low - 0.05 * high, 1.05 * high);
+    panel.band("gate, 1 %", [(low, -1.0, 1.0), (high, -1.0, 1.0)]);
+    for (slot, name) in FORMULATIONS.map(GrainFormulation::name).into_iter().chain([CONTINUUM]).enumerate() {
+        let measured = |&(_, root, data): &(&str, f64, &SettlingObservation)| {
+            let (mean, noise) = data.series.mean(&data.series.slip);
+            ((root, 100.0 * (mean / root - 1.0)), 100.0 * noise / root)
+        };
+        let (points, error): (Vec<(f64, f64)>, Vec<f64>) =
+            records.iter().filter(|record| record.0 == name).map(measured).unzip();
+        if !points.is_empty() {
+            panel.points(name, slot, points).error = error;
+        }
+    }
+    Figure::new(
+        "terminal-velocity",
+        "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of the \
+         mean: one planar grain (c = ½) as printed and stabilised, spheres (c = ¾) of a very dilute suspension by \
+         volume fractions. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann.",
+        vec![panel],
+    )
+}
+
+fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
+    let mut slip = Panel::new("slip", Axis::linear("φ [-]"), Axis::linear("u_r [m/s]"));
+    let mut sinking = Panel::new("sinking velocity", Axis::linear("φ [-]"), Axis::linear("(1 − φ) u_r [m/s]"));
+    let mut laws: Vec<DragLaw> = Vec::new();
+    for (run, _) in records {
+        if !laws.contains(&run.experiment.law) {
+            laws.push(run.experiment.law);
+        }
+    }
+    let grains = records[0].0.experiment.grains;
+    let fractions = || (1..=120).map(|k| DENSEST * f64::from(k) / 120.0);
+    for &law in &laws {
+        let slot = drag_curves::slot(law);
+        let root = |phi| Some((phi, grains.hindered_slip(law, phi)?));
+        let curve: Vec<(f64, f64)> =
+            fractions().filter(|&phi| super::suspension::covers(law, phi)).filter_map(root).collect();
+        let sunk = curve.iter().map(|&(phi, slip)| (phi, (1.0 - phi) * slip));
+        sinking.line("", slot, sunk);
+        slip.line("", slot, curve);
+        let measured = |of: fn(&SettlingSeries) -> &[f64]| -> Vec<(f64, f64)> {
+            let of_law = records.iter().filter(|(run, _)| run.experiment.law == law);
+            of_law.map(|(run, data)| (run.solid_fraction, data.series.mean(of(&data.series)).0)).collect()
+        };
+        // one legend serves both panels
+        slip.points(drag_curves::label(law), slot, measured(|series| &series.slip));
+        sinking.points("", slot, measured(|series| &series.sinking));
+    }
+    let alone = grains.terminal_velocity(DragLaw::WenYu, GrainForm::Sphere).unwrap_or(f64::NAN);
+    let exponent = richardson_zaki_exponent(grains.reynolds(alone));
+    let published = |exponent: f64| fractions().map(move |phi| (phi, alone * libm::pow(1.0 - phi, exponent)));
+    slip.reference("Richardson–Zaki (unverified)", published(exponent - 1.0));
+    sinking.reference("", published(exponent));
+    Figure::new(
+        "hindered-settling",
+        "Slip of a uniform suspension and the velocity at which it sinks in a vessel: particles (points) and roots \
+         of the balance (lines) for every law. Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above. \
+         Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged.",
+        vec![slip, sinking],
+    )
+}

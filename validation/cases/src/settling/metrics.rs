@@ -1,0 +1,99 @@
+//! How the runs are judged.
+
+use super::SettlingRecord;
+use super::grain::GrainRun;
+use super::probe::{SettlingObservation, SettlingSeries};
+use super::quantities::{
+    MOMENTUM_ERROR, ROOT_MEAN_SQUARE_SLIP_ERROR, SINKING_ERROR, SINKING_OVER_RICHARDSON_ZAKI, SLIP_ERROR,
+    SLIP_OF_MEANS_ERROR, TERMINAL_VELOCITY_ERROR, UNEVENNESS,
+};
+use super::runs::SettlingRun;
+use super::suspension::SuspensionRun;
+use crate::case::Run;
+use crate::metric::{Limit, Metric, Quantity, Variant};
+use crate::reference::settling::{richardson_zaki_confidence, richardson_zaki_exponent};
+
+const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
+const SPHERE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ¾ for a sphere";
+const HINDERED: &str = "root of φ (1 − φ)(ρ_s − ρ_f) g = K |u_r|";
+const VESSEL: &str = "u_s = −(1 − φ) |u_r| without a flux of the mixture";
+
+pub(super) fn all(records: &[SettlingRecord]) -> Vec<Metric> {
+    let judged = |(run, record): &SettlingRecord| match run {
+        SettlingRun::Grain(own) => alone(own, &run.variant(), &record.data),
+        SettlingRun::Suspension(own) => together(own, &run.variant(), &record.data),
+    };
+    records.iter().flat_map(judged).chain(super::laws::all()).chain(super::beads::metrics()).collect()
+}
+
+/// Mean of an array over its reference less one `[%]`, observed; its own error is what it may drift by.
+fn error(
+    quantity: Quantity,
+    variant: &Variant,
+    series: &SettlingSeries,
+    array: &[f64],
+    (root, source): (f64, &str),
+) -> Metric {
+    let (mean, noise) = series.mean(array);
+    // displaced particles move chaotically: a mean over the window moves by its own error after any change
+    let tolerance = 300.0 * noise / root + 1e-3;
+    quantity.of(variant, 100.0 * (mean / root - 1.0)).exactly(0.0, source).with_snapshot_tolerance(0.0, tolerance)
+}
+
+fn alone(run: &GrainRun, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
+    let (series, root) = (&data.series, run.terminal_velocity());
+    let error = |quantity, array: &[f64]| error(quantity, variant, series, array, (root, ALONE));
+    let reason = "the project's aim: 1 % of a root of one equation, mean over the last 0.6 of the run";
+    vec![
+        error(TERMINAL_VELOCITY_ERROR, &series.slip).gated(Limit::Within(-1.0, 1.0), reason),
+        error(SLIP_OF_MEANS_ERROR, &series.slip_of_means),
+        error(ROOT_MEAN_SQUARE_SLIP_ERROR, &series.root_mean_square_slip),
+        momentum(variant, data.momentum_error),
+    ]
+}
+
+fn together(run: &SuspensionRun, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
+    let series = &data.series;
+    let (slip, alone, fluid) = (run.slip(), run.terminal_velocity(), 1.0 - run.solid_fraction);
+    let error = |quantity, array: &[f64], root| error(quantity, variant, series, array, root);
+    let within = Limit::Within(-0.1, 0.1);
+    let reason = "a uniform suspension is a root of one equation, and displacements of its grains by a tenth of their distance change \
+                  their mean velocity in second order, by some hundredths of a per cent; mean over the last 0.6 of the run";
+    let mut metrics = vec![
+        error(SLIP_ERROR, &series.slip, (slip, HINDERED)).gated(within, reason),
+        error(SINKING_ERROR, &series.sinking, (fluid * slip, VESSEL)).gated(within, reason),
+    ];
+    if run.dilute {
+        let reason = "the project's aim: 1 %, of which φ = 0.002 itself hinders by 0.1 to 0.6 %";
+        let terminal = error(TERMINAL_VELOCITY_ERROR, &series.slip, (alone, SPHERE));
+        metrics.insert(0, terminal.gated(Limit::Within(-1.0, 1.0), reason));
+    } else {
+        let exponent = richardson_zaki_exponent(run.experiment.grains.reynolds(alone));
+        let published = alone * libm::pow(fluid, exponent);
+        metrics.push(
+            SINKING_OVER_RICHARDSON_ZAKI
+                .of(variant, series.mean(&series.sinking).0 / published)
+                .against(Some(1.0), "Richardson & Zaki 1954, u/u_t = (1 − φ)ⁿ", richardson_zaki_confidence())
+                .with_snapshot_tolerance(0.01, 0.0),
+        );
+    }
+    metrics.extend([
+        UNEVENNESS
+            .of(variant, 100.0 * series.mean(&series.unevenness).0 / slip)
+            .exactly(0.0, "grains of a uniform suspension sink alike")
+            .with_snapshot_tolerance(0.5, 0.01),
+        momentum(variant, data.momentum_error),
+    ]);
+    metrics
+}
+
+fn momentum(variant: &Variant, error: f64) -> Metric {
+    MOMENTUM_ERROR
+        .of(variant, error)
+        .exactly(0.0, "change of momentum = impulse of gravity and floor, in every step")
+        .gated(
+            Limit::AtMost(2e-11),
+            "2e-11 of the grains' weight, the rounding of a thousand particles; pairs exchange equal and opposite impulses",
+        )
+        .with_snapshot_tolerance(0.0, 1e-10)
+}

@@ -1,0 +1,339 @@
+//! Parameters, tiers and runs.
+
+use crate::case::recording::{self, SimulationStage, Watched};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
+use crate::metric::{FlowRegime, Variant};
+use crate::observation::{EnergyBook, Recorded};
+use crate::reference::water::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
+use crate::setup::front::FrontLine;
+use crate::setup::rules;
+use crate::setup::{Lattice, displaced_flow, wall_rows};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
+use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::gate::Gate;
+use bagnold_solver::weakly_compressible::boundary::wall::fill;
+use bagnold_solver::weakly_compressible::boundary::{Surface, Wall};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
+
+/// Thickness at the front over the column's width `[-]`.
+const FRONT_THICKNESS: f64 = 0.02;
+/// Width over which the height at the symmetry plane is taken, over the column's `[-]`.
+const WALL_STRIP: f64 = 0.1;
+/// End of the bed over the column's width `[-]`.
+const BED_END: f64 = 6.0;
+/// Observations a run.
+const SAMPLES: f64 = 400.0;
+
+/// The surface of a bed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BedSurface {
+    /// Without friction.
+    Smooth,
+    /// The water sticks to it, in a layer that may be thinner than a spacing.
+    Rough,
+}
+
+/// A square column behind a gate that is lifted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GatedColumn {
+    /// Width and height of the column `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.6"))]
+    pub width: f64,
+    /// Speed at which the gate is lifted `[m/s]`.
+    #[schemars(transform = positive("give it in m/s, such as 4.53"))]
+    pub gate_speed: f64,
+    /// Numbers of particles over the width; none for no such column.
+    #[schemars(transform = each(rules::rows()))]
+    #[schemars(transform = unique("name every resolution once"))]
+    pub resolutions: Vec<usize>,
+}
+
+/// Parameters of the case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WaterColumnParameters {
+    /// Width a of the column from its symmetry plane `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 0.05715"))]
+    pub width: f64,
+    /// Height over width `[-]`; 2 was measured.
+    #[schemars(transform = between(0.5, 4.0, "2 was measured"))]
+    pub aspect_ratio: f64,
+    /// Gravity `[m/s²]`.
+    #[schemars(transform = rules::gravity())]
+    pub gravity: f64,
+    /// Density of the water `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
+    pub density: f64,
+    /// Viscosity of the water `[Pa·s]`.
+    #[schemars(transform = not_negative("give it in Pa·s, such as 0.001"))]
+    pub viscosity: f64,
+    /// Bulk modulus over ρ0 g and the height `[-]`.
+    #[schemars(transform = between(50.0, 1e4, "200 make sound seven times as fast as the fall"))]
+    pub stiffness: f64,
+    /// Numbers of particles over the width.
+    #[schemars(transform = each(rules::rows()))]
+    #[schemars(transform = unique("name every resolution once"))]
+    pub resolutions: Vec<usize>,
+    /// Surfaces of the bed.
+    #[schemars(transform = filled("one or both of \"smooth\" and \"rough\"", "name every surface once"))]
+    #[schemars(transform = unique("name every surface once"))]
+    pub surfaces: Vec<BedSurface>,
+    /// Whether the coarsest columns are repeated with a pressure that may become negative.
+    pub with_tension: bool,
+    /// The column behind a gate, on a smooth bed.
+    pub gated: GatedColumn,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Simulated time over √(a/(2g)) `[-]`.
+    #[schemars(transform = between(2.6, 4.0, "the measured front ends at 2.51"))]
+    pub duration: f64,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+impl Parameters for WaterColumnParameters {
+    type Run = WaterColumnRun;
+
+    fn of_tier(tier: Tier) -> Self {
+        let momentum_operator = MomentumOperator::UncorrectedDivergence;
+        let quick = Self {
+            width: 0.05715,
+            aspect_ratio: 2.0,
+            gravity: 9.81,
+            density: 1000.0,
+            viscosity: 1e-3,
+            stiffness: 200.0,
+            resolutions: vec![20],
+            surfaces: vec![BedSurface::Smooth, BedSurface::Rough],
+            with_tension: true,
+            gated: GatedColumn { width: 0.6, gate_speed: 4.53, resolutions: vec![40] },
+            jitter: 0.05,
+            seed: 1,
+            duration: 2.8,
+            numerics: Numerics { momentum_operator, ..Numerics::default() },
+        };
+        match tier {
+            Tier::Quick => quick,
+            Tier::Paper => Self {
+                resolutions: vec![20, 40],
+                gated: GatedColumn { resolutions: vec![40, 80], ..quick.gated.clone() },
+                ..quick
+            },
+            Tier::Fine => Self {
+                resolutions: vec![20, 40, 80],
+                gated: GatedColumn { resolutions: vec![40, 80, 160], ..quick.gated.clone() },
+                ..quick
+            },
+        }
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let law = Rheology::Newtonian(Newtonian { viscosity: self.viscosity });
+        rules::viscous_step("numerics", &self.numerics, &law)
+    }
+
+    fn check_runs(&self, runs: &[&WaterColumnRun]) -> Result<(), ParameterError> {
+        let is_smooth = runs.iter().any(|run| run.surface == BedSurface::Smooth);
+        if is_smooth { rules::gate("numerics", &self.numerics) } else { Ok(()) }
+    }
+
+    fn runs(&self) -> Vec<WaterColumnRun> {
+        let new = |resolution, surface, tension| WaterColumnRun {
+            column: self.clone(),
+            resolution,
+            surface,
+            tension,
+            gate_speed: 0.0,
+        };
+        let coarsest = self.resolutions.iter().copied().min();
+        let mut runs = Vec::new();
+        for &resolution in &self.resolutions {
+            runs.extend(self.surfaces.iter().map(|&surface| new(resolution, surface, Tension::Cut)));
+        }
+        if let Some(resolution) = coarsest.filter(|_| self.with_tension) {
+            runs.extend(self.surfaces.iter().map(|&surface| new(resolution, surface, Tension::Kept)));
+        }
+        let gated = Self { width: self.gated.width, aspect_ratio: 1.0, ..self.clone() };
+        runs.extend(self.gated.resolutions.iter().map(|&resolution| WaterColumnRun {
+            column: gated.clone(),
+            resolution,
+            surface: BedSurface::Smooth,
+            tension: Tension::Cut,
+            gate_speed: self.gated.gate_speed,
+        }));
+        runs
+    }
+}
+
+/// One column.
+#[derive(Debug, Clone, Serialize)]
+pub struct WaterColumnRun {
+    /// Water, numerics and size.
+    pub column: WaterColumnParameters,
+    /// Particles over the width.
+    pub resolution: usize,
+    /// Surface of the bed.
+    pub surface: BedSurface,
+    /// What becomes of a negative pressure.
+    pub tension: Tension,
+    /// Speed at which a gate is lifted `[m/s]`; 0 without one.
+    pub gate_speed: f64,
+}
+
+/// What a run leaves behind; every array has the shape `[samples]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ColumnObservation {
+    /// Times over √(a/(2g)) `[-]`.
+    pub time: Vec<f64>,
+    /// Places of the front over a `[-]`.
+    pub front: Vec<f64>,
+    /// Heights at the symmetry plane over that of the column at first `[-]`; none where another code gives only a front.
+    pub height: Vec<f64>,
+    /// The energy ledger.
+    pub energy: EnergyBook,
+}
+
+impl Run for WaterColumnRun {
+    type Observation = ColumnObservation;
+
+    fn regime(&self, _: &ColumnObservation) -> FlowRegime {
+        FlowRegime { aspect_ratio: Some(self.column.aspect_ratio), slope_angle: Some(0.0), ..FlowRegime::default() }
+    }
+
+    fn laws(&self) -> Vec<Rheology> {
+        vec![self.rheology()]
+    }
+
+    fn variant(&self) -> Variant {
+        let surface = if self.surface == BedSurface::Smooth { "smooth" } else { "rough" };
+        let tension = if self.tension == Tension::Kept { "kept" } else { "cut" };
+        let start = if self.gate_speed > 0.0 { Variant::of("release", "gate") } else { Variant::default() };
+        start.and("bed", surface).and("tension", tension).and("resolution", self.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.column.aspect_ratio * (self.resolution as f64).powi(2)
+    }
+
+    fn seconds_per_particle_step(&self) -> f64 {
+        cost::WEAKLY_COMPRESSIBLE
+    }
+
+    fn particle_steps(&self) -> f64 {
+        let particles = self.column.aspect_ratio * (self.resolution as f64).powi(2);
+        let crossing = self.column.stiffness.sqrt() * self.resolution as f64;
+        particles * crossing * self.column.duration
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
+        let end = self.column.duration * self.time_scale();
+        let stage = SimulationStage { progress, end, interval: end / SAMPLES, context: &() };
+        let begin = |_: &_| ColumnObservation::default();
+        let watched = recording::watch(
+            stage,
+            |_| Ok(self.scene()),
+            begin,
+            |observation, snapshot| {
+                observation.time.push(snapshot.time / self.time_scale());
+                observation.front.push(self.front(snapshot) / self.column.width);
+                observation.height.push(self.height(snapshot) / (self.column.aspect_ratio * self.column.width));
+                if let Some(account) = &snapshot.energy {
+                    observation.energy.enter(snapshot.time, account, 0.0);
+                }
+                ControlFlow::Continue(())
+            },
+        )?;
+        let Watched { simulation, ending, kept } = watched;
+        Ok(ending.record(&simulation, |_| kept))
+    }
+}
+
+impl WaterColumnRun {
+    /// The front that it is compared with.
+    pub(super) fn measured(&self) -> &'static MeasuredFront {
+        if self.gate_speed > 0.0 { &GATED_WATER_FRONT } else { &WATER_FRONT }
+    }
+
+    /// √(a/(2g)) `[s]`.
+    pub(super) fn time_scale(&self) -> f64 {
+        (self.column.width / (2.0 * self.column.gravity)).sqrt()
+    }
+
+    fn rheology(&self) -> Rheology {
+        Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity })
+    }
+
+    fn spacing(&self) -> f64 {
+        self.column.width / self.resolution as f64
+    }
+
+    fn scene(&self) -> Scene<2> {
+        let WaterColumnParameters { gravity, density, stiffness, jitter, numerics, .. } = self.column;
+        let (spacing, height) = (self.spacing(), self.column.aspect_ratio * self.column.width);
+        let bulk_modulus = stiffness * density * gravity * height;
+        let equation_of_state = EquationOfState { reference_density: density, bulk_modulus, tension: self.tension };
+        let rows = (self.column.aspect_ratio * self.resolution as f64).round() as usize;
+        let lattice = Lattice { spacing, rows, columns: self.resolution, bottom: 0.0 };
+        let flow = displaced_flow(
+            lattice.sites(),
+            (jitter * spacing, self.column.seed),
+            |site| equation_of_state.density(density * gravity * (height - site[1])),
+            |_| density * (spacing * spacing),
+        );
+        let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
+        let mut bed = Wall::still(1, 0.0, 1.0);
+        bed.roughness = if self.surface == BedSurface::Smooth { Surface::Smooth } else { Surface::Rough };
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, height));
+        let rheology = self.rheology();
+        let rows = wall_rows(numerics.smoothing_ratio);
+        let mut walls = vec![bed];
+        let mut wall_particles = fill(&walls, &domain, extent, spacing, rows);
+        if self.gate_speed > 0.0 {
+            let above = rows as f64 * spacing;
+            let gate = Gate {
+                position: self.column.width,
+                edge: 0.0,
+                height: height + above,
+                speed: self.gate_speed,
+                lift: height + 2.0 * above,
+                rows,
+            };
+            let (faces, particles) = gate.build(spacing, walls.len());
+            walls.extend(faces);
+            wall_particles.extend(particles);
+        }
+        Scene {
+            wall_particles,
+            walls,
+            domain,
+            gravity: Vector::<2>::new(0.0, -gravity),
+            numerics,
+            ..Scene::unbounded(flow, spacing, equation_of_state, rheology)
+        }
+    }
+
+    /// Height of the water beside the symmetry plane, half a spacing above the highest particle there `[m]`. Its volume there would fall by
+    /// steps, for columns of particles leave the plane one after the other.
+    fn height(&self, snapshot: &Snapshot<2>) -> f64 {
+        let beside = snapshot.position.iter().filter(|place| place[0] < WALL_STRIP * self.column.width);
+        beside.fold(0.0_f64, |top, place| top.max(place[1])) + 0.5 * self.spacing()
+    }
+
+    /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`.
+    fn front(&self, snapshot: &Snapshot<2>) -> f64 {
+        let (from, to) = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, 0.0));
+        let line = FrontLine { from, to, section: FRONT_THICKNESS * self.column.width, strip: None };
+        line.reached(self.spacing(), snapshot)
+    }
+}

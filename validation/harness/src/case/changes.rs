@@ -1,0 +1,397 @@
+//! From defaults, a TOML file and `--set` to typed parameters, with errors that name the field.
+
+use super::error::{ParameterError, SettingError};
+use super::estimate::Limits;
+use super::fault;
+use crate::metric::Variant;
+use bagnold_solver::material::rheology::open::registered;
+use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
+use schemars::JsonSchema;
+use serde::{Serialize, de::DeserializeOwned};
+use serde_json::Value as Schema;
+use std::path::{Path, PathBuf};
+use toml::{Table, Value};
+
+/// What the user asks to differ from a tier's parameters.
+#[derive(Debug, Clone, Default)]
+pub struct Changes<'a> {
+    /// A file's fields, without `case` and `tier`, and where it stands.
+    pub file: Option<(&'a Path, Table)>,
+    /// `path=value` arguments, applied after the file; each gives fields of its own.
+    pub settings: &'a [String],
+    /// How much the runs may ask for.
+    pub limits: Limits,
+    /// Keys of the runs that are to be simulated; all runs where there are none. What concerns only other runs is not refused.
+    pub only: &'a [Variant],
+}
+
+/// Where a user has given parameters, for errors that come up once the changes are gone.
+#[derive(Debug, Default)]
+pub(super) struct ParameterSource {
+    file: Option<PathBuf>,
+    settings: Vec<String>,
+}
+
+impl ParameterSource {
+    /// An error whose field stands in the user's file says so.
+    pub(super) fn placed(&self, error: ParameterError) -> ParameterError {
+        match (&self.file, error.field_path()) {
+            (Some(file), Some(field)) if !is_set(&self.settings, field) => error.in_file(file),
+            _ => error,
+        }
+    }
+}
+
+impl Changes<'_> {
+    /// Where they come from.
+    pub(super) fn source(&self) -> ParameterSource {
+        ParameterSource {
+            file: self.file.as_ref().map(|(file, _)| file.to_path_buf()),
+            settings: self.settings.to_vec(),
+        }
+    }
+
+    /// The same, with lists empty that a file leaves out.
+    #[must_use]
+    pub(super) fn with_lists(&self, stated: &[&str]) -> Self {
+        let mut changes = self.clone();
+        if let Some((_, fields)) = &mut changes.file {
+            for list in stated {
+                fields.entry(*list).or_insert_with(|| Value::Array(Vec::new()));
+            }
+        }
+        changes
+    }
+}
+
+/// The parameters as a TOML table.
+pub(super) fn table_of<P: Serialize>(parameters: &P) -> Table {
+    Table::try_from(parameters).expect("a case's parameters are structs that TOML can hold")
+}
+
+/// Lays the changes over the defaults, checks each field along the schema, and types the result.
+pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError>
+where
+    P: Serialize + DeserializeOwned + JsonSchema + 'static,
+{
+    let schema = schema_of::<P>();
+    let defaults = table_of(defaults);
+    let mut table = defaults.clone();
+    if let Some((_, fields)) = &changes.file {
+        overlay(schema, &mut table, fields);
+    }
+    let mut settings = Table::new();
+    for (index, argument) in changes.settings.iter().enumerate() {
+        refuse_twice(&changes.settings[..index], argument)?;
+        add_setting(case, &defaults, &mut settings, argument)?;
+    }
+    let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
+    for (file, fields) in file.into_iter().chain([(None, &settings)]) {
+        if let Some(error) = wrong_angle(fields, "") {
+            return Err(match file {
+                Some(file) => error.in_file(file),
+                None => error,
+            });
+        }
+    }
+    // Together, so that a law and its parameters may come in any order.
+    overlay(schema, &mut table, &settings);
+    let value = Value::Table(table);
+    match first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
+        Some(fault) => Err(blame(fault, case, &defaults, changes)),
+        // What no schema can tell, such as what the maker of a law of the user's own says of its parameters.
+        None => value.try_into().map_err(|error: toml::de::Error| {
+            let remedy = format!("`bagnold show {case}` prints valid ones");
+            ParameterError::field("parameters", "not valid", error.message(), &remedy)
+        }),
+    }
+}
+
+/// A law that is neither the solver's nor one of the user's own: the schema leaves the names of the latter open.
+fn unknown_law(schema: &Schema, value: &Value, path: &str) -> Option<Fault> {
+    let below = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+    match (Shape::of(schema), value) {
+        (Shape::Tagged { tag, variants, open: true }, Value::Table(fields)) => {
+            let name = fields.get(tag)?.as_str()?;
+            let built_in = variants.iter().map(|variant| variant.name);
+            let names: Vec<String> = built_in.chain(registered()).map(str::to_owned).collect();
+            (!names.iter().any(|known| known == name)).then(|| Fault::Kind {
+                path: below(tag),
+                value: Some(format!("{name:?}")),
+                rule: format!("one of `{}`", names.join("`, `")),
+                choice: Some((name.to_owned(), names)),
+            })
+        }
+        (Shape::Fields { properties, .. }, Value::Table(fields)) => fields
+            .iter()
+            .find_map(|(name, value)| properties.get(name).and_then(|schema| unknown_law(schema, value, &below(name)))),
+        (Shape::List(item), Value::Array(values)) => {
+            values.iter().enumerate().find_map(|(index, value)| unknown_law(item, value, &format!("{path}[{index}]")))
+        }
+        _ => None,
+    }
+}
+
+/// The error for a fault: that of the `--set` which gives the field, else of the file.
+fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> ParameterError {
+    let known = paths(defaults);
+    let arguments = changes.settings.iter().rev().filter_map(|argument| parts(argument));
+    // A path that leads through a value: `depth.x` makes `depth` a table, and no number.
+    if let Fault::Kind { path: field, .. } = &fault
+        && let Some((path, value)) =
+            arguments.clone().find(|(path, _)| path.strip_prefix(field).is_some_and(|rest| rest.starts_with('.')))
+        && !find(defaults, field).is_some_and(Value::is_table)
+    {
+        return unknown_path(case, &[&known], path, value);
+    }
+    let exact = arguments.clone().find(|(path, _)| *path == fault.path());
+    match (fault, exact) {
+        (Fault::Unknown { known: beside, .. }, Some((path, value))) => {
+            unknown_path(case, &[&beside, &known], path, value)
+        }
+        (Fault::Kind { rule, choice, .. }, Some((path, value))) => SettingError::Value {
+            path: path.to_owned(),
+            value: value.to_owned(),
+            rule,
+            remedy: fault::remedy(choice.as_ref(), case),
+        }
+        .into(),
+        (fault, _) => {
+            let set = is_set(changes.settings, fault.path());
+            let error = fault::in_parameters(fault, case, &known);
+            match &changes.file {
+                Some((file, _)) if !set => error.in_file(file),
+                _ => error,
+            }
+        }
+    }
+}
+
+/// A path that does not exist; `known` are those that do, the ones beside it first.
+fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> ParameterError {
+    SettingError::Path {
+        path: path.to_owned(),
+        value: value.to_owned(),
+        nearest: fault::nearest_path(path, known),
+        case: case.to_owned(),
+    }
+    .into()
+}
+
+/// Whether one of the `--set` arguments gives `field`, so that the file is not to blame for its value.
+fn is_set(settings: &[String], field: &str) -> bool {
+    settings
+        .iter()
+        .filter_map(|argument| parts(argument))
+        .any(|(path, _)| field == path || field.strip_prefix(path).is_some_and(|rest| rest.starts_with(['.', '['])))
+}
+
+/// Path and value of a `--set` argument.
+fn parts(argument: &str) -> Option<(&str, &str)> {
+    argument.split_once('=').map(|(path, value)| (path.trim(), value.trim()))
+}
+
+/// Lays `changes` over `table`: tables field by field, everything else whole; another choice of an enum replaces the
+/// table's, whose fields are not its own.
+fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
+    let shape = Shape::of(schema);
+    let chosen = shape.chosen(&Value::Table(changes.clone())).or_else(|| shape.chosen(&Value::Table(table.clone())));
+    let in_degrees = with_friction(chosen.and_then(|variant| variant.content), changes);
+    if let Some(changes) = &in_degrees {
+        say_what_stays(table, changes);
+    }
+    let changes = in_degrees.as_ref().unwrap_or(changes);
+    if is_other_choice(&shape, table, changes) {
+        table.clone_from(changes);
+        return;
+    }
+    let content = |key: &str| match &shape {
+        Shape::Choice(_) => chosen.filter(|variant| variant.name == key).and_then(|variant| variant.content),
+        Shape::Tagged { .. } => chosen.and_then(|variant| variant.content?.get("properties")?.get(key)),
+        Shape::Fields { properties, .. } => properties.get(key),
+        _ => None,
+    };
+    for (key, change) in changes {
+        match (table.get_mut(key), change) {
+            (Some(Value::Table(inner)), Value::Table(changed)) => {
+                overlay(content(key).unwrap_or(&Schema::Null), inner, changed);
+            }
+            _ => {
+                table.insert(key.clone(), change.clone());
+            }
+        }
+    }
+}
+
+/// What a friction angle is called.
+const ANGLE: &str = "friction_angle";
+
+/// What it stands for.
+const COEFFICIENT: &str = "static_friction";
+
+/// The first friction angle `[°]` that has no tangent to stand for, or stands beside what it stands for.
+fn wrong_angle(fields: &Table, above: &str) -> Option<ParameterError> {
+    fields.iter().find_map(|(key, value)| {
+        let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
+        match value {
+            Value::Table(inner) => wrong_angle(inner, &path),
+            _ if key == ANGLE => {
+                let angle = value.as_float().or(value.as_integer().map(|angle| angle as f64))?;
+                if !(angle > 0.0 && angle < 90.0) {
+                    let remedy = "give the angle at which grains stop in degrees, such as 20.9 for glass beads";
+                    return Some(ParameterError::field(
+                        &path,
+                        angle,
+                        "between 0 and 90 degrees, ends excluded",
+                        remedy,
+                    ));
+                }
+                let coefficient = fields.get(COEFFICIENT)?;
+                let rule = format!(
+                    "alone: it is the angle whose tangent is `{COEFFICIENT}`, which is given too, as {coefficient}"
+                );
+                Some(ParameterError::field(&path, angle, &rule, "leave one of the two out"))
+            }
+            _ => None,
+        }
+    })
+}
+
+/// The changes with the coefficient of friction in place of a friction angle `[°]`, where the law has the one and knows
+/// nothing of the other: sand is as often told by its angle.
+fn with_friction(law: Option<&Schema>, changes: &Table) -> Option<Table> {
+    let properties = law?.get("properties")?.as_object()?;
+    let takes = properties.contains_key(COEFFICIENT) && !properties.contains_key(ANGLE);
+    let angle =
+        changes.get(ANGLE).and_then(|angle| angle.as_float().or(angle.as_integer().map(|angle| angle as f64)))?;
+    if !takes || changes.contains_key(COEFFICIENT) {
+        return None;
+    }
+    let mut changes = changes.clone();
+    changes.remove(ANGLE);
+    changes.insert(COEFFICIENT.to_owned(), Value::Float(libm::tan(angle.to_radians())));
+    Some(changes)
+}
+
+/// Says which parameters of friction keep their values where an angle has been given alone: what grains do in fast flow does not
+/// follow from the angle at which they stop.
+fn say_what_stays(table: &Table, changes: &Table) {
+    let keeps = |name: &&&str| !changes.contains_key(**name) && table.contains_key(**name);
+    let value = |name: &&str| table.get(*name).map(|value| format!("{name} = {value}"));
+    let stays: Vec<String> =
+        ["limiting_friction", "reference_inertia"].iter().filter(keeps).filter_map(value).collect();
+    if let Some(coefficient) = changes.get(COEFFICIENT).filter(|_| !stays.is_empty()) {
+        tracing::warn!("`{ANGLE}` sets {COEFFICIENT} = {coefficient}; {} as before", stays.join(" and "));
+    }
+}
+
+/// Whether `changes` picks another variant of an enum than `table`.
+fn is_other_choice(shape: &Shape<'_>, table: &Table, changes: &Table) -> bool {
+    match shape {
+        Shape::Choice(_) => !changes.keys().any(|key| table.contains_key(key)),
+        Shape::Tagged { tag, .. } => changes.get(*tag).is_some_and(|choice| table.get(*tag) != Some(choice)),
+        _ => false,
+    }
+}
+
+/// Refuses a `path=value` that gives a field which one before it gives: which is meant would be ambiguous.
+fn refuse_twice(before: &[String], argument: &str) -> Result<(), SettingError> {
+    let Some((path, value)) = parts(argument) else { return Ok(()) };
+    for earlier in before {
+        if let Some(field) = twice_given(earlier, argument) {
+            let (path, value, earlier) = (path.to_owned(), value.to_owned(), earlier.clone());
+            return Err(SettingError::Twice { path, value, field, earlier });
+        }
+    }
+    Ok(())
+}
+
+/// The field that a `path=value` gives which another one, before it, gives as well. A path that leads through a value is
+/// refused as a path that does not exist.
+pub fn twice_given(earlier: &str, argument: &str) -> Option<String> {
+    let ((path, value), (other, first)) = (parts(argument)?, parts(earlier)?);
+    let is_given_by = |field: &String| {
+        given_by(other, first).iter().any(|given| given == field || is_below(given, field) || is_below(field, given))
+    };
+    let twice = given_by(path, value).into_iter().find(is_given_by);
+    twice.filter(|_| !is_below(path, other) || value_of(first).is_table())
+}
+
+/// The fields that a setting gives: its path, or of a table those in it.
+fn given_by(path: &str, value: &str) -> Vec<String> {
+    match value_of(value) {
+        Value::Table(table) => leaves(&table).into_iter().map(|field| format!("{path}.{field}")).collect(),
+        _ => vec![path.to_owned()],
+    }
+}
+
+/// Whether a path leads through another one.
+fn is_below(path: &str, above: &str) -> bool {
+    path.strip_prefix(above).is_some_and(|rest| rest.starts_with('.'))
+}
+
+/// Adds one `path=value` to the table of all that are set.
+fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &str) -> Result<(), ParameterError> {
+    let Some((path, text)) = parts(argument).filter(|(path, text)| !path.is_empty() && !text.is_empty()) else {
+        let example = paths(defaults)
+            .into_iter()
+            .find_map(|path| {
+                find(defaults, &path).filter(|value| !value.is_table()).map(|value| format!("{path}={value}"))
+            })
+            .unwrap_or_else(|| "path=value".to_owned());
+        return Err(SettingError::Form { argument: argument.to_owned(), example }.into());
+    };
+    let mut keys: Vec<&str> = path.split('.').collect();
+    let last = keys.pop().unwrap_or(path);
+    let mut parent = settings;
+    for key in keys {
+        let inner = parent.entry(key).or_insert_with(|| Value::Table(Table::new()));
+        parent = match inner {
+            Value::Table(inner) => inner,
+            _ => return Err(unknown_path(case, &[&paths(defaults)], path, text)),
+        };
+    }
+    match (parent.get_mut(last), value_of(text)) {
+        (Some(Value::Table(inner)), Value::Table(change)) => overlay(&Schema::Null, inner, &change),
+        (_, value) => {
+            parent.insert(last.to_owned(), value);
+        }
+    }
+    Ok(())
+}
+
+/// A TOML value; what is not TOML is a word that the shell took the quotes from.
+fn value_of(text: &str) -> Value {
+    toml::from_str::<Table>(&format!("value = {text}"))
+        .ok()
+        // More than one key means that the text smuggled in a line of its own.
+        .filter(|table| table.len() == 1)
+        .and_then(|mut table| table.remove("value"))
+        .unwrap_or_else(|| Value::String(text.to_owned()))
+}
+
+/// The dotted paths of all values that are no tables.
+pub(super) fn leaves(table: &Table) -> Vec<String> {
+    paths(table).into_iter().filter(|path| find(table, path).is_some_and(|value| !value.is_table())).collect()
+}
+
+/// All dotted paths of a table, parents first.
+fn paths(table: &Table) -> Vec<String> {
+    table
+        .iter()
+        .flat_map(|(key, value)| {
+            let inner = value.as_table().map(paths).unwrap_or_default();
+            std::iter::once(key.clone()).chain(inner.into_iter().map(move |path| format!("{key}.{path}")))
+        })
+        .collect()
+}
+
+/// The value at a dotted path.
+pub(super) fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+    let mut keys = path.split('.');
+    let first = table.get(keys.next()?)?;
+    keys.try_fold(first, |value, key| value.as_table()?.get(key))
+}
+
+#[cfg(test)]
+mod tests;

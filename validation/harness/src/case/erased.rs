@@ -1,0 +1,368 @@
+//! Cases without their types: what the command line, the report and the tests work with.
+
+use super::causes::explained;
+use super::changes::{Changes, ParameterSource, resolve, table_of};
+use super::error::ParameterError;
+use super::finite::fail_broken_profiles;
+use super::foreign::ExternalResult;
+use super::guard::{Guard, with_changed};
+use super::notes::notes;
+use super::result::{CaseResult, RunSummary, microseconds_each};
+use super::{
+    Case, CaseFile, Estimate, ExternalData, ExternalSchema, Parameters, Progress, RecordOf, Run, RunOf, StateOutput,
+    Tier, schema,
+};
+use crate::checkpoint::{Checkpoints, is_interrupted};
+use crate::evidence::completed;
+use crate::figure::Figure;
+use crate::input::FieldError;
+use crate::metric::{Quantity, Variant};
+use crate::observation::Recorded;
+use crate::store::{CodeOrigin, Store};
+use bagnold_solver::parameter::schema_of;
+use sha2::{Digest, Sha256};
+use std::sync::OnceLock;
+
+/// A case whose types are hidden; every [`Case`] is one.
+pub trait AnyCase: Sync {
+    /// Name on the command line and in files.
+    fn name(&self) -> &'static str;
+    /// One line for `bagnold list`.
+    fn summary(&self) -> &'static str;
+    /// What its metrics are built from; empty for a case that does not declare it.
+    fn quantities(&self) -> &'static [Quantity];
+    /// Where its code stands.
+    fn origin(&self) -> CodeOrigin;
+    /// The tier's parameters as a complete, commented file for `bagnold run`.
+    fn show(&self, tier: Tier) -> String;
+    /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
+    fn schema(&self, tier: Tier) -> serde_json::Value;
+    /// The schema of its parameters, as their type has it.
+    fn parameter_schema(&self) -> &'static serde_json::Value;
+    /// What another code may give of a run, beside single numbers.
+    fn form(&self) -> &'static ExternalSchema;
+    /// Types and checks a tier's parameters with the user's changes.
+    ///
+    /// # Errors
+    /// The first field that is unknown, of the wrong type, or breaks a rule.
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError>;
+}
+
+/// Checked parameters and the runs that they ask for; each run's record is kept as it comes in.
+pub trait PreparedCase: Send + Sync {
+    /// Name of the case.
+    fn name(&self) -> &'static str;
+    /// Where the code of the case stands.
+    fn origin(&self) -> CodeOrigin;
+    /// The parameters: a complete file for `bagnold run`.
+    fn parameters_toml(&self) -> &str;
+    /// What the runs start from, drawn; none for a case that does not draw it.
+    fn setup(&self) -> Option<Figure>;
+    /// Number of runs.
+    fn run_count(&self) -> usize;
+    /// Full name of a run; empty where the case has a single one.
+    fn variant(&self, run: usize) -> Variant;
+    /// Everything that a run depends on, by the names of its fields; null if it cannot be written as JSON.
+    fn run_parameters(&self, run: usize) -> serde_json::Value;
+    /// Expected cost of a run in particle-steps.
+    fn particle_steps(&self, run: usize) -> f64;
+    /// Time of a run on one core that follows from its parameters alone `[s]`; limits are counted by it.
+    fn nominal_seconds(&self, run: usize) -> f64;
+    /// What all runs are expected to need.
+    fn estimate(&self) -> Estimate;
+    /// What a run is known by in a store: the same for the same simulation; none where the store is bypassed.
+    fn identity(&self, run: usize, store: &Store) -> Option<String>;
+    /// Takes a run's record from the store or simulates it, in the current rayon pool.
+    ///
+    /// # Errors
+    /// Parameters whose combination gives no valid scene.
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError>;
+    /// The same with some of its runs only, in this order.
+    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn PreparedCase>;
+    /// Judges and draws what another code gives, a run each; those of which it gives no files are left out.
+    ///
+    /// # Errors
+    /// Columns that are missing beside others, of the run of that number.
+    fn foreign(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
+    /// Judges and draws the records. Runs that were not simulated are left out.
+    fn finish(self: Box<Self>) -> CaseResult;
+}
+
+impl<C: Case> AnyCase for C {
+    fn name(&self) -> &'static str {
+        C::NAME
+    }
+
+    fn summary(&self) -> &'static str {
+        C::SUMMARY
+    }
+
+    fn quantities(&self) -> &'static [Quantity] {
+        C::QUANTITIES
+    }
+
+    fn origin(&self) -> CodeOrigin {
+        C::ORIGIN
+    }
+
+    fn form(&self) -> &'static ExternalSchema {
+        &C::FORM
+    }
+
+    fn show(&self, tier: Tier) -> String {
+        file_text::<C>(tier, &C::Parameters::of_tier(tier))
+    }
+
+    fn schema(&self, tier: Tier) -> serde_json::Value {
+        let defaults = table_of(&C::Parameters::of_tier(tier));
+        schema::of_file(C::NAME, C::SUMMARY, tier, schema_of::<C::Parameters>(), &defaults)
+    }
+
+    fn parameter_schema(&self) -> &'static serde_json::Value {
+        schema_of::<C::Parameters>()
+    }
+
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
+        let defaults = C::Parameters::of_tier(tier);
+        let changes = changes.with_lists(C::STATED);
+        let parameters = resolve(C::NAME, &defaults, &changes)?;
+        let guard = Guard::new((C::NAME, tier), &changes, (&defaults, &parameters));
+        let runs = guard.runs()?;
+        let differs = guard.changed();
+        let changed = table_of(&parameters) != table_of(&defaults);
+        Ok(Box::new(CasePlan::<C> {
+            tier,
+            command: if changed {
+                "bagnold run case.toml".to_owned()
+            } else {
+                format!("bagnold run {} --tier {tier}", C::NAME)
+            },
+            parameters_toml: file_text::<C>(tier, &parameters),
+            slots: runs.into_iter().map(|run| (run, OnceLock::new())).collect(),
+            differs,
+            source: changes.source(),
+            parameters,
+        }))
+    }
+}
+
+/// The progress of a run that keeps checkpoints.
+struct CheckpointedProgress<'a> {
+    progress: &'a dyn Progress,
+    checkpoints: Option<Checkpoints>,
+}
+
+impl Progress for CheckpointedProgress<'_> {
+    fn advance(&self, simulated: f64, total: f64, particle_steps: f64) {
+        self.progress.advance(simulated, total, particle_steps);
+    }
+
+    fn resumed(&self, simulated: f64) {
+        self.progress.resumed(simulated);
+    }
+
+    fn checkpoints(&self) -> Option<&Checkpoints> {
+        self.checkpoints.as_ref()
+    }
+
+    fn output(&self) -> Option<&dyn StateOutput> {
+        self.progress.output()
+    }
+}
+
+/// A run and, once it is done, its record and whether that came from the store.
+type Slot<R> = (R, OnceLock<(Recorded<<R as Run>::Observation>, bool)>);
+
+struct CasePlan<C: Case> {
+    tier: Tier,
+    parameters: C::Parameters,
+    parameters_toml: String,
+    command: String,
+    /// Fields that differ from the tier's, with their values.
+    differs: Vec<(String, String)>,
+    /// Where they were given.
+    source: ParameterSource,
+    slots: Vec<Slot<RunOf<C::Parameters>>>,
+}
+
+impl<C: Case> PreparedCase for CasePlan<C> {
+    fn name(&self) -> &'static str {
+        C::NAME
+    }
+
+    fn origin(&self) -> CodeOrigin {
+        C::ORIGIN
+    }
+
+    fn parameters_toml(&self) -> &str {
+        &self.parameters_toml
+    }
+
+    fn setup(&self) -> Option<Figure> {
+        C::setup(&self.parameters)
+    }
+
+    fn run_count(&self) -> usize {
+        self.slots.len()
+    }
+
+    fn variant(&self, run: usize) -> Variant {
+        self.slots[run].0.variant()
+    }
+
+    fn run_parameters(&self, run: usize) -> serde_json::Value {
+        as_json(&self.slots[run].0)
+    }
+
+    fn particle_steps(&self, run: usize) -> f64 {
+        self.slots[run].0.particle_steps()
+    }
+
+    fn nominal_seconds(&self, run: usize) -> f64 {
+        Estimate::of(&self.slots[run].0).core_seconds
+    }
+
+    fn estimate(&self) -> Estimate {
+        self.slots.iter().map(|(run, _)| Estimate::of(run)).fold(Estimate::default(), Estimate::and)
+    }
+
+    fn identity(&self, run: usize, store: &Store) -> Option<String> {
+        store.key(C::ORIGIN, self.name(), &self.slots[run].0).map(|key| key.to_string())
+    }
+
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
+        let (description, slot) = &self.slots[run];
+        if is_interrupted() {
+            return Err(ParameterError::Interrupted);
+        }
+        let key = store.key(C::ORIGIN, self.name(), description);
+        // states on the way are nowhere but in the run itself, from its start
+        let anew = progress.output().is_some();
+        if let Some(record) = key.as_ref().filter(|_| !anew).and_then(|key| store.fetch(key)) {
+            slot.get_or_init(|| (record, true));
+            return Ok(());
+        }
+        let checkpoints = key.as_ref().filter(|_| !anew).map(|key| store.checkpoints(key));
+        let simulated = description.simulate(&CheckpointedProgress { progress, checkpoints });
+        let record = match simulated {
+            // what was cut short may look like something that is refused
+            Err(_) if is_interrupted() => return Err(ParameterError::Interrupted),
+            simulated => {
+                let placed = |error| self.source.placed(with_changed(error, &self.differs));
+                simulated.map(explained).map_err(placed)?
+            }
+        };
+        if let Some(key) = &key {
+            store.keep(key, &record);
+        }
+        slot.get_or_init(|| (record, false));
+        Ok(())
+    }
+
+    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn PreparedCase> {
+        let mut plan = *self;
+        let mut slots: Vec<Option<Slot<RunOf<C::Parameters>>>> = plan.slots.into_iter().map(Some).collect();
+        plan.slots = runs.iter().filter_map(|&run| slots.get_mut(run)?.take()).collect();
+        Box::new(plan)
+    }
+
+    fn foreign(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
+        let mut records: Vec<RecordOf<C::Parameters>> = Vec::new();
+        let mut measured = Vec::new();
+        for (number, (given, (run, _))) in given.iter().zip(&self.slots).enumerate() {
+            if given.is_empty() {
+                continue;
+            }
+            if let Some(foreign) = C::foreign(run, given).map_err(|error| (number, error))? {
+                measured.push((run.variant(), foreign.measured));
+                records.push((run.clone(), given.record(foreign.observation)));
+            }
+        }
+        Ok(ExternalResult {
+            metrics: C::metrics(&self.parameters, &records),
+            figures: C::figures(&self.parameters, &records),
+            tables: C::tables(&self.parameters, &records),
+            measured,
+        })
+    }
+
+    fn finish(self: Box<Self>) -> CaseResult {
+        let plan = *self;
+        let (mut summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Parameters>>) = plan
+            .slots
+            .into_iter()
+            .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
+            .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
+            .unzip();
+        let metrics = completed(C::NAME, C::metrics(&plan.parameters, &records));
+        let figures = C::figures(&plan.parameters, &records);
+        let animations = C::animations(&plan.parameters, &records);
+        let tables = C::tables(&plan.parameters, &records);
+        let regimes = records.iter().map(|(run, record)| run.regime(&record.data)).collect();
+        let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
+        let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
+        fail_broken_profiles(&mut summaries, &tables);
+        CaseResult {
+            name: C::NAME.to_owned(),
+            origin: C::ORIGIN,
+            summary: C::SUMMARY.to_owned(),
+            description: C::DESCRIPTION.to_owned(),
+            tier: plan.tier,
+            parameters_toml: plan.parameters_toml,
+            command: plan.command,
+            metrics,
+            figures,
+            animations,
+            tables,
+            state_hash: hash_of_states(&summaries),
+            runs: summaries,
+            run_parameters,
+            regimes,
+            frames,
+            first_bad,
+        }
+    }
+}
+
+/// A run by the names of its fields, with the laws that it makes of them.
+fn as_json(run: &impl Run) -> serde_json::Value {
+    let mut fields = serde_json::to_value(run).unwrap_or_default();
+    let laws: Vec<serde_json::Value> = run.laws().iter().filter_map(|law| serde_json::to_value(law).ok()).collect();
+    if let Some(fields) = fields.as_object_mut().filter(|_| !laws.is_empty()) {
+        fields.insert("laws_of_scene".to_owned(), laws.into());
+    }
+    fields
+}
+
+fn file_text<C: Case>(tier: Tier, parameters: &C::Parameters) -> String {
+    let text = toml::to_string(parameters).expect("a case's parameters are structs that TOML can hold");
+    CaseFile::text(C::NAME, tier, &text, &notes(schema_of::<C::Parameters>(), &table_of(parameters)))
+}
+
+fn summary<R: Run>(run: &R, record: &Recorded<R::Observation>, from_store: bool) -> RunSummary {
+    RunSummary {
+        variant: run.variant(),
+        outcome: record.outcome.clone(),
+        particles: record.particles,
+        steps: record.steps,
+        simulated_time: record.simulated_time,
+        wall_seconds: record.wall_seconds,
+        threads: record.threads,
+        microseconds_per_particle_step: microseconds_each(
+            record.wall_seconds,
+            record.particles as f64 * record.steps as f64,
+        ),
+        state_hash: record.state_hash.clone(),
+        from_store,
+    }
+}
+
+fn hash_of_states(runs: &[RunSummary]) -> String {
+    let mut hash = Sha256::new();
+    for run in runs {
+        hash.update(run.state_hash.as_bytes());
+        // A separator, so that no two lists of hashes run together to the same bytes.
+        hash.update([0]);
+    }
+    crate::store::hexadecimal(&hash.finalize())
+}

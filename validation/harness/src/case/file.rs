@@ -1,0 +1,215 @@
+//! A case as a TOML file: `case` and `tier` on top, the parameters below.
+
+use super::error::ParameterError;
+use super::{OutputPlan, Tier, meshes, rates};
+use crate::input::{WRITTEN_BY_HAND, nearest, position, read_text};
+use crate::output::FileError;
+use bagnold_solver::parameter::shortened;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use toml::{Table, Value};
+
+/// A file that was read, its parameters still untyped.
+#[derive(Debug, Clone)]
+pub struct CaseFile {
+    /// Where it stands.
+    pub path: PathBuf,
+    /// The case that it describes.
+    pub case: String,
+    /// The tier whose parameters fill what the file leaves out.
+    pub tier: Option<Tier>,
+    /// Files with measurements to be drawn into its figures; beside the file, unless they say otherwise.
+    pub overlay: Vec<PathBuf>,
+    /// States of its runs to be written on their way.
+    pub output: Option<OutputPlan>,
+    /// Everything else.
+    pub fields: Table,
+}
+
+impl CaseFile {
+    /// Reads a file; its parameters are checked when the case takes them.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is not TOML, or does not name its case.
+    pub fn read(path: &Path) -> Result<Self, ParameterError> {
+        let text = read_text(path, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(path, &error))?;
+        Self::parse(path, &text)
+    }
+
+    fn parse(path: &Path, text: &str) -> Result<Self, ParameterError> {
+        let mut fields: Table = toml::from_str(text).map_err(|error| {
+            let (line, column) = position(text, error.span().map_or(0, |span| span.start));
+            ParameterError::Syntax { file: path.to_owned(), line, column, message: error.message().to_owned() }
+        })?;
+        let wrong = |field: &str, value: &Value, rule: &str, remedy: &str| {
+            ParameterError::field(field, value, rule, remedy).in_file(path)
+        };
+        let case = match fields.remove("case") {
+            Some(Value::String(case)) => shortened(case),
+            Some(other) => return Err(wrong("case", &other, "the name of a case", "`bagnold list` prints the names")),
+            None if fields.contains_key("study") => {
+                let (rule, remedy) =
+                    ("absent from the file of a case", "`bagnold run` takes a study; here name its base");
+                return Err(ParameterError::field("study", "given", rule, remedy).in_file(path));
+            }
+            None => return Err(ParameterError::NoCase { file: path.to_owned() }),
+        };
+        let tier = match fields.remove("tier") {
+            None => None,
+            Some(value) => Some(value.clone().try_into::<Tier>().map_err(|_| {
+                let rule = "one of `quick`, `paper`, `fine`";
+                let guess = value.as_str().and_then(|name| nearest(name, ["quick", "paper", "fine"]));
+                let remedy = guess
+                    .map_or_else(|| "leave it out for `quick`".to_owned(), |guess| format!("did you mean `{guess}`?"));
+                wrong("tier", &value, rule, &remedy)
+            })?),
+        };
+        let overlay = match fields.remove("overlay") {
+            None => Vec::new(),
+            Some(value) => value.clone().try_into::<Vec<PathBuf>>().map_err(|_| {
+                let rule = "a list of CSV files with measurements";
+                wrong("overlay", &value, rule, "such as overlay = [\"mine.csv\"]; their paths begin at this file")
+            })?,
+        };
+        let beside = path.parent().unwrap_or(Path::new(""));
+        let overlay = overlay.into_iter().map(|file| beside.join(file)).collect();
+        let output = OutputPlan::taken(&mut fields, path)?;
+        meshes::read_beside(&mut fields, path)?;
+        rates::read_beside(&mut fields, path)?;
+        Ok(Self { path: path.to_owned(), case, tier, overlay, output, fields })
+    }
+
+    /// Parameters that stand in a file of another form; files that they name stand beside it.
+    ///
+    /// # Errors
+    /// A file of triangles that cannot be read.
+    pub fn of_parameters(
+        path: &Path,
+        case: &str,
+        tier: Option<Tier>,
+        mut fields: Table,
+    ) -> Result<Self, ParameterError> {
+        meshes::read_beside(&mut fields, path)?;
+        rates::read_beside(&mut fields, path)?;
+        let case = shortened(case.to_owned());
+        Ok(Self { path: path.to_owned(), case, tier, overlay: Vec::new(), output: None, fields })
+    }
+
+    /// Lays fields over its own: tables field by field, everything else as a whole.
+    pub fn lay_over(&mut self, over: &Table) {
+        lay_over(&mut self.fields, over);
+    }
+
+    /// The text of a complete file: the parameters in the order of their struct, each with its note.
+    #[must_use]
+    pub(super) fn text(case: &str, tier: Tier, parameters: &str, notes: &BTreeMap<String, String>) -> String {
+        let mut text = format!("case = \"{case}\"\ntier = \"{tier}\"\n");
+        if !parameters.starts_with('[') {
+            text.push('\n');
+        }
+        let mut section = String::new();
+        for line in parameters.lines() {
+            let path = if line.starts_with('[') {
+                section = line.trim_matches(['[', ']']).to_owned();
+                if !text.ends_with("\n\n") {
+                    text.push('\n');
+                }
+                Some(section.clone())
+            } else {
+                let key = line.split_once(" = ").map(|(key, _)| key);
+                key.map(|key| if section.is_empty() { key.to_owned() } else { format!("{section}.{key}") })
+            };
+            text.push_str(line);
+            if let Some(note) = path.and_then(|path| notes.get(&path)) {
+                text.push_str("  # ");
+                text.push_str(note);
+            }
+            text.push('\n');
+        }
+        // The serialiser already parts its tables by an empty line, and so does the loop above.
+        text.replace("\n\n\n", "\n\n")
+    }
+}
+
+/// Lays fields over others: tables field by field, everything else as a whole.
+fn lay_over(base: &mut Table, over: &Table) {
+    for (key, value) in over {
+        match (base.get_mut(key), value) {
+            (Some(toml::Value::Table(below)), toml::Value::Table(above)) => lay_over(below, above),
+            _ => {
+                base.insert(key.clone(), value.clone());
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(text: &str) -> String {
+        CaseFile::parse(Path::new("case.toml"), text).expect_err("bad file").to_string()
+    }
+
+    #[test]
+    fn a_file_must_be_toml_and_name_its_case() {
+        assert_eq!(
+            message("depth = 1.0"),
+            "case.toml: `case` is missing, but must name the case that the file describes; add `case = \"…\"` (`bagnold list` prints the names)"
+        );
+        assert_eq!(
+            message("case = 3"),
+            "case.toml: `case` is 3, but must be the name of a case; `bagnold list` prints the names"
+        );
+        assert_eq!(
+            message("case = \"film\"\ntier = \"papre\""),
+            "case.toml: `tier` is \"papre\", but must be one of `quick`, `paper`, `fine`; did you mean `paper`?"
+        );
+        assert!(message("study = \"mine\"").contains("`study` is given, but must be absent from the file of a case"));
+        assert!(message("case = \"film\"\ndepth = = 1").starts_with("case.toml: line 2, column 9: "));
+    }
+
+    #[test]
+    fn measurements_are_files_beside_it() {
+        let read = |text: &str| CaseFile::parse(Path::new("mine/case.toml"), text);
+        let file = read("case = \"film\"\noverlay = [\"a.csv\", \"/b.csv\"]").expect("a case file");
+        assert_eq!(file.overlay, [Path::new("mine/a.csv"), Path::new("/b.csv")]);
+        assert!(file.fields.is_empty());
+        assert_eq!(
+            read("case = \"film\"\noverlay = 3").expect_err("no list").to_string(),
+            "mine/case.toml: `overlay` is 3, but must be a list of CSV files with measurements; such as overlay = [\"mine.csv\"]; their paths begin at this file"
+        );
+    }
+
+    #[test]
+    fn an_unreadable_file_is_named_with_the_reason() {
+        let error = CaseFile::read(Path::new("no/such/case.toml")).expect_err("no such file");
+        assert_eq!(
+            error.to_string(),
+            "no/such/case.toml: cannot be read (no such file or directory); check the path and its permissions"
+        );
+    }
+
+    #[test]
+    fn notes_stand_behind_their_fields() {
+        let text = CaseFile::text(
+            "film",
+            Tier::Paper,
+            "depth = 0.01\n\n[fluid]\ndensity = 1000.0\n",
+            &[("depth", "height of the layer [m]"), ("fluid", "water"), ("fluid.density", "[kg/m³]")]
+                .map(|(path, note)| (path.to_owned(), note.to_owned()))
+                .into(),
+        );
+        assert_eq!(
+            text,
+            "case = \"film\"\ntier = \"paper\"\n\ndepth = 0.01  # height of the layer [m]\n\n[fluid]  # water\ndensity = 1000.0  # [kg/m³]\n"
+        );
+    }
+
+    #[test]
+    fn fields_are_laid_over_others_table_by_table() {
+        let mut base: Table = toml::from_str("a = 1\n[b]\nc = 1\nd = [1]").expect("TOML");
+        lay_over(&mut base, &toml::from_str("e = 2\n[b]\nd = [2, 3]").expect("TOML"));
+        assert_eq!(base, toml::from_str::<Table>("a = 1\ne = 2\n[b]\nc = 1\nd = [2, 3]").expect("TOML"));
+    }
+}

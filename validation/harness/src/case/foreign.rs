@@ -1,0 +1,245 @@
+//! What another code may give of a run, so that its numbers are taken and judged as our own are.
+
+use crate::figure::Figure;
+use crate::input::{FieldError, did_you_mean, nearest};
+use crate::metric::{Metric, Variant};
+use crate::observation::{Frame, Outcome, Recorded};
+use crate::output::Table;
+use std::collections::BTreeMap;
+
+/// Named columns of one length, in the SI units of their [`ExternalColumn`].
+pub type NamedColumns = BTreeMap<String, Vec<f64>>;
+
+/// Particles, or cells, at one time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ParticleFrame {
+    /// Time `[s]`.
+    pub time: f64,
+    /// What is known of each.
+    pub columns: NamedColumns,
+}
+
+/// All that another code gives of one run, each part optional.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ExternalData {
+    /// Particles at times that rise.
+    pub pictures: Vec<ParticleFrame>,
+    /// Time series.
+    pub series: NamedColumns,
+    /// One profile.
+    pub profile: NamedColumns,
+}
+
+/// A column that a case can use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExternalColumn {
+    /// Its name.
+    pub name: &'static str,
+    /// SI unit, `-` for none.
+    pub unit: &'static str,
+    /// What it is, one phrase.
+    pub description: &'static str,
+}
+
+impl ExternalColumn {
+    /// A column that a case can use.
+    #[must_use]
+    pub const fn new(name: &'static str, unit: &'static str, description: &'static str) -> Self {
+        Self { name, unit, description }
+    }
+}
+
+/// What a run of a case may yield, beside single numbers, which every case takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExternalSchema {
+    /// Columns of particles.
+    pub particles: &'static [ExternalColumn],
+    /// Columns of time series.
+    pub series: &'static [ExternalColumn],
+    /// Columns of the profile.
+    pub profile: &'static [ExternalColumn],
+    /// How the measurements are taken from them, in prose.
+    pub description: &'static str,
+}
+
+impl ExternalSchema {
+    /// Single numbers only.
+    pub const NUMBERS: Self = Self { particles: &[], series: &[], profile: &[], description: "" };
+
+    /// The column of that name among those of one part.
+    ///
+    /// # Errors
+    /// A name that the case does not know; `field` is where it stands.
+    pub fn find(
+        items: &'static [ExternalColumn],
+        field: &str,
+        name: &str,
+    ) -> Result<&'static ExternalColumn, FieldError> {
+        items.iter().find(|item| item.name == name).ok_or_else(|| {
+            let names: Vec<&str> = items.iter().map(|item| item.name).collect();
+            let (rule, remedy) = if names.is_empty() {
+                ("absent: this case takes no such files".to_owned(), "give single numbers".to_owned())
+            } else {
+                let question = did_you_mean(&nearest(name, names.iter().copied()));
+                (format!("one of {}", names.join(", ")), format!("{question}`bagnold judge --template` explains them"))
+            };
+            FieldError::new(&format!("{field}.{name}"), "given", &rule, &remedy)
+        })
+    }
+}
+
+/// A run's observation from what another code gives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExternalObservation<O> {
+    /// The observation; what was not given is not a number, or empty.
+    pub observation: O,
+    /// Names of the metrics that what was given suffices for; no other is judged.
+    pub measured: Vec<&'static str>,
+}
+
+/// What another code's runs of a case come to.
+#[derive(Debug, Clone)]
+pub struct ExternalResult {
+    /// Numbers, of which those in `measured` may be judged.
+    pub metrics: Vec<Metric>,
+    /// Figures of its runs alone.
+    pub figures: Vec<Figure>,
+    /// Tables of its runs.
+    pub tables: Vec<Table>,
+    /// The runs, each with the names of the metrics that what was given suffices for.
+    pub measured: Vec<(Variant, Vec<&'static str>)>,
+}
+
+impl ExternalResult {
+    /// Whether a metric may be judged: what was given suffices for it in its run, or in any where it is of several.
+    #[must_use]
+    pub fn is_measured(&self, metric: &Metric) -> bool {
+        let suffices = |names: &[&str]| names.contains(&metric.name.as_str());
+        let own: Vec<_> = self.measured.iter().filter(|(variant, _)| metric.variant.includes(variant)).collect();
+        let (mut own, mut all) = (own.iter(), self.measured.iter());
+        match own.len() {
+            0 => all.any(|(_, names)| suffices(names)),
+            _ => own.any(|(_, names)| suffices(names)),
+        }
+    }
+}
+
+impl ExternalData {
+    /// The record of a run that another code made.
+    pub fn record<O>(&self, observation: O) -> Recorded<O> {
+        let mut frames: Vec<Frame> = self.pictures.iter().map(ParticleFrame::frame).collect();
+        // a picture whose particles are not those of the first cannot be compared with it one by one
+        let count = frames.last().map_or(0, |frame| frame.position.len());
+        if frames.iter().any(|frame| frame.position.len() != count) {
+            frames.clear();
+        }
+        Recorded {
+            outcome: Outcome::Finished,
+            state_hash: String::new(),
+            particles: count,
+            steps: 0,
+            simulated_time: self
+                .pictures
+                .last()
+                .map(|picture| picture.time)
+                .or(self.series("time").last().copied())
+                .unwrap_or(f64::NAN),
+            wall_seconds: 0.0,
+            threads: 0,
+            frames,
+            first_bad: None,
+            data: observation,
+        }
+    }
+
+    /// Whether there is nothing but, perhaps, single numbers.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.pictures.is_empty() && self.series.is_empty() && self.profile.is_empty()
+    }
+
+    /// A column of the series; empty where it was not given.
+    #[must_use]
+    pub fn series(&self, name: &str) -> &[f64] {
+        self.series.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// A column of the profile; empty where it was not given.
+    #[must_use]
+    pub fn profile(&self, name: &str) -> &[f64] {
+        self.profile.get(name).map_or(&[], Vec::as_slice)
+    }
+}
+
+impl ParticleFrame {
+    /// As our own runs take them.
+    fn frame(&self) -> Frame {
+        let at = |name: &str, particle: usize| self.column(name).get(particle).copied();
+        let count = self.column("x").len();
+        let place = |axes: [&str; 3], particle: usize| axes.map(|axis| at(axis, particle).unwrap_or(0.0));
+        let or_unknown = |name: &str| (0..count).map(|particle| at(name, particle).unwrap_or(f64::NAN)).collect();
+        let scalar = |(name, unit): (&str, &str)| (name.to_owned(), unit.to_owned(), or_unknown(name));
+        let speeds = (0..count).map(|particle| place(["vx", "vy", "vz"], particle)).collect();
+        Frame {
+            time: self.time,
+            position: (0..count).map(|particle| place(["x", "y", "z"], particle)).collect(),
+            scalars: [("pressure", "Pa"), ("density", "kg/m³")].into_iter().map(scalar).collect(),
+            vectors: vec![("velocity".to_owned(), "m/s".to_owned(), speeds)],
+        }
+    }
+
+    /// A column; empty where it was not given.
+    #[must_use]
+    pub fn column(&self, name: &str) -> &[f64] {
+        self.columns.get(name).map_or(&[], Vec::as_slice)
+    }
+
+    /// Rejects implausible coordinates.
+    ///
+    /// # Errors
+    /// The first particle that is further away than `reach` `[m]`, or below `least` `[m]` on an axis.
+    pub fn within(&self, reach: f64, least: [f64; 3], remedy: &str) -> Result<(), FieldError> {
+        for (axis, least) in ["x", "y", "z"].into_iter().zip(least) {
+            let is_outside = |place: &f64| !(*place >= least && place.abs() <= reach);
+            if let Some(particle) = self.column(axis).iter().position(is_outside) {
+                let field = format!("particles.columns.{axis}, particle {} at {} s", particle + 1, self.time);
+                let value = format!("{} m", self.column(axis)[particle]);
+                let rule = format!("between {} and {reach} m", least.max(-reach));
+                return Err(FieldError::new(&field, value, &rule, remedy));
+            }
+        }
+        Ok(())
+    }
+
+    /// A column that the measurement needs.
+    ///
+    /// # Errors
+    /// A column that was not given.
+    pub fn needed(&self, name: &str, remedy: &str) -> Result<&[f64], FieldError> {
+        let column = self.columns.get(name).map(Vec::as_slice);
+        column.ok_or_else(|| FieldError::new(&format!("particles.columns.{name}"), "missing", "given", remedy))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ITEMS: &[ExternalColumn] =
+        &[ExternalColumn::new("front", "m", "place of the front"), ExternalColumn::new("height", "m", "height")];
+
+    #[test]
+    fn a_column_that_a_case_does_not_know_is_refused_by_name() {
+        assert_eq!(ExternalSchema::find(ITEMS, "series.columns", "front").map(|item| item.unit), Ok("m"));
+        let message =
+            |items, name| ExternalSchema::find(items, "series.columns", name).expect_err("unknown").to_string();
+        assert_eq!(
+            message(ITEMS, "frnt"),
+            "`series.columns.frnt` is given, but must be one of front, height; did you mean `front`? `bagnold judge --template` explains them"
+        );
+        assert_eq!(
+            message(&[], "front"),
+            "`series.columns.front` is given, but must be absent: this case takes no such files; give single numbers"
+        );
+    }
+}

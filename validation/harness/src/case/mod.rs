@@ -1,0 +1,236 @@
+//! What a case is: typed parameters → independent runs → observations → metrics and figures.
+
+mod causes;
+mod changes;
+pub mod cost;
+mod erased;
+mod error;
+mod estimate;
+mod expectation;
+mod fault;
+mod features;
+mod file;
+mod finite;
+mod foreign;
+mod guard;
+mod meshes;
+mod notes;
+mod output;
+#[cfg(test)]
+pub(crate) mod pendulum;
+mod rates;
+pub mod recording;
+mod registry;
+mod request;
+mod result;
+mod schedule;
+mod schema;
+
+pub use changes::Changes;
+pub use changes::twice_given;
+pub use erased::{AnyCase, PreparedCase};
+pub use error::{ParameterError, SettingError};
+pub use estimate::{Estimate, Limits};
+pub use expectation::{speed_up, wall_time};
+pub use features::{FeatureOption, Features};
+pub use file::CaseFile;
+pub use foreign::{
+    ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,
+};
+pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
+pub use registry::Registry;
+pub use request::{Request, Requested};
+pub use result::{CaseResult, RunSummary};
+pub use schedule::{Monitor, Silent, execute, share_out};
+
+use crate::checkpoint::Checkpoints;
+use crate::figure::{Animation, Figure};
+use crate::input::FieldError;
+use crate::metric::{FlowRegime, Metric, Quantity, Variant};
+use crate::observation::Recorded;
+use crate::store::CodeOrigin;
+use bagnold_solver::material::rheology::Rheology;
+use schemars::JsonSchema;
+use serde::{Serialize, de::DeserializeOwned};
+
+/// How much a case may cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize, JsonSchema, clap::ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum Tier {
+    /// Seconds a case.
+    Quick,
+    /// Minutes a case.
+    Paper,
+    /// As long as it takes.
+    Fine,
+}
+
+impl Tier {
+    /// Name on the command line and in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Paper => "paper",
+            Self::Fine => "fine",
+        }
+    }
+}
+
+impl std::fmt::Display for Tier {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+/// The parameters of a case, each declared once: a field with its doc comment, unit and range (`bagnold_solver::parameter`).
+/// The top-level names `case` and `tier` are taken by the file format.
+pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send + Sync + 'static {
+    /// One independent simulation.
+    type Run: Run;
+
+    /// A tier's parameters.
+    fn of_tier(tier: Tier) -> Self;
+    /// The rules between fields; called once every field is in its own range.
+    ///
+    /// # Errors
+    /// The first field that breaks a rule, by its dotted TOML path.
+    fn check(&self) -> Result<(), ParameterError> {
+        Ok(())
+    }
+    /// The rules that concern some runs only; `runs` are those that are to be simulated, all or those that the user has
+    /// chosen. Called after [`Self::check`]; until then [`Self::runs`] must not panic.
+    ///
+    /// # Errors
+    /// The first field that breaks a rule of one of these runs, by its dotted TOML path.
+    fn check_runs(&self, _runs: &[&Self::Run]) -> Result<(), ParameterError> {
+        Ok(())
+    }
+    /// The rules between fields and those of every run.
+    ///
+    /// # Errors
+    /// The first field that breaks a rule, by its dotted TOML path.
+    fn check_all(&self) -> Result<(), ParameterError> {
+        self.check()?;
+        let runs = self.runs();
+        self.check_runs(&runs.iter().collect::<Vec<_>>())
+    }
+    /// The independent simulations that these parameters ask for, in report order.
+    fn runs(&self) -> Vec<Self::Run>;
+}
+
+/// One independent simulation of a case. Its serialised form is its identity in the store, so it
+/// holds everything that the simulation depends on.
+pub trait Run: Serialize + Clone + Send + Sync {
+    /// What it leaves behind: plain data, stored and shared by tests and report. Stored as postcard,
+    /// which needs serde's plain derive: no untagged or internally tagged enums, no `flatten`.
+    type Observation: Serialize + DeserializeOwned + Send + Sync;
+
+    /// Full name of the run, `key=value,…` in the case's fixed order; unique within the case.
+    fn variant(&self) -> Variant;
+    /// Expected cost in particle-steps, for scheduling the longest first and for the progress bar; all alike, if nothing is
+    /// known.
+    fn particle_steps(&self) -> f64 {
+        1e6
+    }
+    /// Particles, or cells, that it holds at once `[-]`: what its memory is estimated from. 0, if nothing is known.
+    fn particles(&self) -> f64 {
+        0.0
+    }
+    /// Memory that one of them takes while the run goes on `[bytes]`.
+    fn bytes_per_particle(&self) -> f64 {
+        estimate::BYTES_WHILE_RUNNING
+    }
+    /// What a particle-step costs on one core `[s]`, for estimates.
+    fn seconds_per_particle_step(&self) -> f64 {
+        1e-6
+    }
+    /// The regime of the flow that it leaves behind; nothing, unless a case tells.
+    fn regime(&self, _: &Self::Observation) -> FlowRegime {
+        FlowRegime::default()
+    }
+    /// Constitutive laws of its scene that its own fields do not name, because they hold a law's numbers alone.
+    fn laws(&self) -> Vec<Rheology> {
+        Vec::new()
+    }
+    /// Simulates it. A divergence is part of the record, not an error.
+    ///
+    /// # Errors
+    /// Parameters whose combination gives no valid scene.
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, ParameterError>;
+}
+
+/// How far a run has come; called often, must be cheap.
+pub trait Progress: Sync {
+    /// `simulated` of `total` seconds are done, with `particle_steps` particle-steps so far.
+    fn advance(&self, simulated: f64, total: f64, particle_steps: f64);
+    /// The run resumes from a checkpoint at a simulated time `[s]`.
+    fn resumed(&self, simulated: f64);
+    /// Where the run keeps its checkpoints; none where nothing is kept.
+    fn checkpoints(&self) -> Option<&Checkpoints> {
+        None
+    }
+    /// What takes states during the run; none where none are asked for.
+    fn output(&self) -> Option<&dyn StateOutput> {
+        None
+    }
+}
+
+/// A run of a case with these parameters.
+pub type RunOf<P> = <P as Parameters>::Run;
+
+/// What such a run leaves behind.
+pub type ObservationOf<P> = <RunOf<P> as Run>::Observation;
+
+/// A run with what it left behind.
+pub type RecordOf<P> = (RunOf<P>, Recorded<ObservationOf<P>>);
+
+/// A canonical case. Implementors hold no state: everything comes from the parameters.
+pub trait Case: Sync + 'static {
+    /// Name on the command line and in files, kebab-case.
+    const NAME: &'static str;
+    /// One line for `bagnold list`.
+    const SUMMARY: &'static str;
+    /// A paragraph for the report: what is simulated and what it is judged against.
+    const DESCRIPTION: &'static str = Self::SUMMARY;
+    /// The quantities that its metrics are built from, each declared once; empty for a case that does not declare them.
+    const QUANTITIES: &'static [Quantity] = &[];
+    /// Where its code stands. Leave it as it is: no hash of sources covers a case of another crate, so its results are known
+    /// by the program that computed them.
+    const ORIGIN: CodeOrigin = CodeOrigin::ELSEWHERE;
+    /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
+    const STATED: &'static [&'static str] = &[];
+    /// What another code may give of a run, beside single numbers.
+    const FORM: ExternalSchema = ExternalSchema::NUMBERS;
+    /// Typed parameters.
+    type Parameters: Parameters;
+
+    /// Judges the observations.
+    fn metrics(parameters: &Self::Parameters, records: &[RecordOf<Self::Parameters>]) -> Vec<Metric>;
+    /// Draws the observations.
+    fn figures(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<Figure> {
+        Vec::new()
+    }
+    /// Draws what the runs start from; scenes do.
+    fn setup(_: &Self::Parameters) -> Option<Figure> {
+        None
+    }
+    /// Moving pictures of the observations; few cases have any.
+    fn animations(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<Animation> {
+        Vec::new()
+    }
+    /// The observation of a run from what another code gives of it; none where the case takes single numbers only.
+    ///
+    /// # Errors
+    /// Columns that are missing beside others.
+    fn foreign(
+        _: &RunOf<Self::Parameters>,
+        _: &ExternalData,
+    ) -> Result<Option<ExternalObservation<ObservationOf<Self::Parameters>>>, FieldError> {
+        Ok(None)
+    }
+    /// Tables for `run`'s output folder: profiles and time series.
+    fn tables(_: &Self::Parameters, _: &[RecordOf<Self::Parameters>]) -> Vec<crate::output::Table> {
+        Vec::new()
+    }
+}

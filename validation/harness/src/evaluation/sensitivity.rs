@@ -1,0 +1,126 @@
+//! A case at both ends of the ranges of its inputs, one at a time: what `validation/harness/sensitivities` is made of.
+
+use crate::case::{AnyCase, CaseResult, Changes, Limits, ParameterError, PreparedCase, Tier};
+use crate::evidence::{RangeEnd, SensitivityRow, StatedUncertainty};
+use crate::metric::{Metric, MetricKind};
+use std::collections::BTreeMap;
+
+/// A case with an input at an end of its range.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Step {
+    input: String,
+    end: RangeEnd,
+    repeat: usize,
+    settings: Vec<String>,
+}
+
+/// What is to be run of a case.
+#[derive(Debug)]
+pub struct SensitivityPlan {
+    steps: Vec<Step>,
+}
+
+impl SensitivityPlan {
+    /// What propagates the ranges that are stated of a case; empty where there are none.
+    #[must_use]
+    pub fn of(case: &str) -> Self {
+        let Some(stated) = StatedUncertainty::of(case) else { return Self { steps: Vec::new() } };
+        if stated.ranges.is_empty() && stated.spacings.is_empty() {
+            return Self { steps: Vec::new() };
+        }
+        let mut ends: Vec<(&str, RangeEnd, &[String])> = vec![("", RangeEnd::Own, &[])];
+        for range in &stated.ranges {
+            ends.push((&range.name, RangeEnd::Low, &range.low));
+            ends.push((&range.name, RangeEnd::High, &range.high));
+        }
+        ends.extend(stated.spacings.iter().map(|own| (own.name.as_str(), RangeEnd::Refined, &own.refined[..])));
+        let mut seeds: Vec<Vec<String>> = stated.runs.seeds.iter().map(|seed| vec![format!("seed={seed}")]).collect();
+        if seeds.is_empty() {
+            seeds.push(Vec::new());
+        }
+        let of_end = |(input, end, changes): &(&str, RangeEnd, &[String])| {
+            let of_seed = |(repeat, seed): (usize, &Vec<String>)| Step {
+                input: (*input).to_owned(),
+                end: *end,
+                repeat,
+                settings: [&stated.runs.settings[..], seed, changes].concat(),
+            };
+            seeds.iter().enumerate().map(of_seed).collect::<Vec<Step>>()
+        };
+        Self { steps: ends.iter().flat_map(of_end).collect() }
+    }
+
+    /// Whether there is nothing to run.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+
+    /// The runs, in the plan's order.
+    ///
+    /// # Errors
+    /// A setting of the ranges that the case refuses.
+    pub fn prepare(
+        &self,
+        case: &'static dyn AnyCase,
+        limits: Limits,
+    ) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
+        let only = StatedUncertainty::of(case.name()).map_or(&[][..], |stated| &stated.runs.only);
+        let prepare = |step: &Step| {
+            case.prepare(Tier::Quick, &Changes { file: None, settings: &step.settings, limits, only }).map(|prepared| {
+                let is_chosen =
+                    |run: &usize| only.is_empty() || only.iter().any(|keys| prepared.variant(*run).includes(keys));
+                let chosen: Vec<usize> = (0..prepared.run_count()).filter(is_chosen).collect();
+                prepared.choose(&chosen)
+            })
+        };
+        self.steps.iter().map(prepare).collect()
+    }
+
+    /// The table of the results. A changed input may change the name of a run and take its reference away, so that the validations
+    /// of one name are matched by their order.
+    #[must_use]
+    pub fn rows(&self, results: &[CaseResult]) -> Vec<SensitivityRow> {
+        let mut own = results.first().map(validations).unwrap_or_default();
+        own.retain(|_, metrics| metrics.iter().any(|metric| metric.compared_with().is_some()));
+        let mut rows = Vec::new();
+        for (step, result) in self.steps.iter().zip(results) {
+            let here = validations(result);
+            for (name, named) in &own {
+                let found = here.get(name).map_or(&[][..], Vec::as_slice);
+                if found.len() != named.len() {
+                    tracing::warn!(
+                        "{} {:?}: {} of {} values of {name}",
+                        step.input,
+                        step.end,
+                        found.len(),
+                        named.len()
+                    );
+                    continue;
+                }
+                for (metric, named) in found.iter().zip(named).filter(|(metric, _)| metric.value.is_finite()) {
+                    let Some(reference) = named.compared_with() else { continue };
+                    rows.push(SensitivityRow {
+                        input: step.input.clone(),
+                        end: step.end,
+                        repeat: step.repeat,
+                        quantity: named.name.clone(),
+                        variant: named.variant.clone(),
+                        value: metric.value,
+                        reference: metric.compared_with().unwrap_or(reference),
+                    });
+                }
+            }
+        }
+        rows
+    }
+}
+
+/// What a case compares with something from outside, whether it has a number for it or not, by name, in the case's order.
+fn validations(result: &CaseResult) -> BTreeMap<&str, Vec<&Metric>> {
+    let mut named: BTreeMap<&str, Vec<&Metric>> = BTreeMap::new();
+    for metric in result.metrics.iter().filter(|metric| metric.kind == MetricKind::Validation) {
+        named.entry(&metric.name).or_default().push(metric);
+    }
+    named
+}

@@ -1,0 +1,54 @@
+//! The tables of `reference-data` that the program carries: texts by name, and what is read from them once.
+
+use super::{MeasuredData, ReferenceError};
+
+include!(concat!(env!("OUT_DIR"), "/reference_data.rs"));
+
+/// Names and texts of all tables, such as `bagnold/friction.csv`, in the order of their names.
+pub fn shipped_tables() -> impl Iterator<Item = (&'static str, &'static str)> {
+    FILES.iter().copied()
+}
+
+/// A table by its name.
+///
+/// # Errors
+/// If there is no such table, or it is malformed.
+pub fn shipped_table(name: &str) -> Result<MeasuredData, ReferenceError> {
+    let found = FILES.iter().find(|(own, _)| *own == name);
+    let (_, text) = found.ok_or_else(|| ReferenceError::NotShipped { name: name.to_owned() })?;
+    MeasuredData::parse(&format!("reference-data/{name}"), text)
+}
+
+/// What `read` makes of a table.
+///
+/// # Panics
+/// If the table is not what `read` expects. No user can bring that about: the tables are part of the program, and tests
+/// read every one of them.
+pub fn read_shipped<T>(name: &str, read: impl FnOnce(&MeasuredData) -> Result<T, ReferenceError>) -> T {
+    match shipped_table(name).and_then(|table| read(&table)) {
+        Ok(value) => value,
+        Err(error) => panic!("failed to {error}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::Confidence;
+
+    #[test]
+    fn every_table_is_read_and_no_row_is_surer_than_it_can_be() {
+        assert!(FILES.len() > 15, "{} tables", FILES.len());
+        for (name, _) in shipped_tables() {
+            let table = shipped_table(name).unwrap_or_else(|error| panic!("failed to {error}"));
+            let rows = table.confidences().unwrap_or_else(|error| panic!("failed to {error}"));
+            assert!(!rows.contains(&Confidence::Exact), "{name}: a printed number is not exact");
+        }
+    }
+
+    #[test]
+    fn a_table_that_is_not_there_is_named() {
+        let error = shipped_table("bagnold/no.csv").expect_err("absent").to_string();
+        assert_eq!(error, "read the reference data bagnold/no.csv: the program carries no such table");
+    }
+}

@@ -1,0 +1,19 @@
+//! What a user writes: its fields, the names in it and the places, so that an error can point at them.
+
+mod escape;
+mod field;
+mod mesh;
+mod name;
+mod place;
+mod reading;
+mod table;
+
+pub(crate) use escape::origin;
+pub use escape::{escaped, escaped_lines, is_control, shown};
+pub use field::FieldError;
+pub(crate) use mesh::{MOST_TRIANGLES, read_mesh};
+pub use name::nearest;
+pub use name::{check_name, check_text, did_you_mean};
+pub(crate) use place::position;
+pub use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, read_bytes, read_own, read_text};
+pub use table::{comma_fault, is_comment, number_remedy, row_remedy, text_fault};

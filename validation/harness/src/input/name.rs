@@ -1,0 +1,73 @@
+//! Names that a user gives, and names that he may have meant, in the words of an error.
+
+use super::escape::is_control;
+use super::field::FieldError;
+
+/// Longest name `[characters]`: files, columns and legends are named after it, and no file system takes more than 255 bytes.
+pub(crate) const LONGEST_NAME: usize = 100;
+
+/// Refuses a name that is empty, too long, or holds characters that control a terminal.
+///
+/// # Errors
+/// The field that holds the name.
+pub fn check_name(field: &str, name: &str) -> Result<(), FieldError> {
+    let refused = |rule: &str, remedy: &str| Err(FieldError::new(field, format!("\"{name}\""), rule, remedy));
+    let length = name.chars().count();
+    if name.trim().is_empty() {
+        return refused("a name of at least one letter", "give a name");
+    }
+    if length > LONGEST_NAME {
+        let rule = format!("a name of at most {LONGEST_NAME} characters, not of {length}");
+        return refused(&rule, "shorten it: files, columns and legends are named after it");
+    }
+    check_text(field, name)
+}
+
+/// Refuses a text with characters that control a terminal, which no picture and no page could show either.
+///
+/// # Errors
+/// The field that holds the text.
+pub fn check_text(field: &str, text: &str) -> Result<(), FieldError> {
+    if text.chars().any(is_control) {
+        let rule = "free of control characters and changes of the direction of writing";
+        let remedy = "remove them: a terminal would obey them instead of showing them";
+        return Err(FieldError::new(field, format!("\"{text}\""), rule, remedy));
+    }
+    Ok(())
+}
+
+/// The name that is most like `name`, if any is like it at all.
+#[must_use]
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    // Jaro–Winkler forgives a wrong tail and swapped letters; below 0.7 a suggestion would be a guess.
+    known
+        .into_iter()
+        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
+        .filter(|(likeness, _)| *likeness >= 0.7)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, candidate)| candidate.to_owned())
+}
+
+/// The question that goes with a suggestion, or nothing.
+pub fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |name| format!("did you mean `{name}`? "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_is_short_and_can_be_printed() {
+        for name in ["a", "sand 2 mm", "Größe/µ", &"ä".repeat(LONGEST_NAME)] {
+            assert_eq!(check_name("name", name), Ok(()));
+        }
+        let message = |name: &str| check_name("name", name).expect_err("refused").to_string();
+        assert_eq!(message(" "), "`name` is \" \", but must be a name of at least one letter; give a name");
+        assert!(message(&"a".repeat(5000)).contains("a name of at most 100 characters, not of 5000; shorten it"));
+        for letter in ['\0', '\u{1b}', '\u{7f}', '\u{9b}', '\u{202e}', '\u{2066}', '\u{200f}', '\n'] {
+            let message = message(&format!("a{letter}b"));
+            assert!(message.contains("free of control characters") && !message.contains(letter), "{message}");
+        }
+    }
+}

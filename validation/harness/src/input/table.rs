@@ -1,0 +1,200 @@
+//! What may be wrong with the text of a table, whoever reads it: quotes, control characters, separators, decimals.
+
+use super::escape::is_control;
+use super::field::FieldError;
+
+/// What a table's text breaks, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TableFault {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column of the table, from 1, as far as commas tell.
+    pub column: usize,
+    /// What the line is: "`line 3` is …".
+    value: String,
+    /// The rule, completing "must be …".
+    rule: &'static str,
+    remedy: &'static str,
+}
+
+impl TableFault {
+    /// As the error of a field of which the line is one.
+    pub(crate) fn field_error(&self) -> FieldError {
+        FieldError::new(&format!("line {}", self.line), &self.value, self.rule, self.remedy)
+    }
+
+    /// After the line was named: what it is, must be, and what to do.
+    pub fn in_words(&self) -> String {
+        format!("the line is {}, but must be {}; {}", self.value, self.rule, self.remedy)
+    }
+}
+
+/// The first unclosed quote or control character of a text. A quoted word ends on its line: nothing in a table of numbers
+/// goes over several.
+pub fn text_fault(text: &str) -> Option<TableFault> {
+    text.split('\n').enumerate().find_map(|(index, line)| {
+        let fault = |before: &str, value, rule, remedy| {
+            Some(TableFault { line: index + 1, column: before.matches(',').count() + 1, value, rule, remedy })
+        };
+        // a byte that is no text, as in files of two bytes a letter
+        if let Some(place) = line.find(|letter: char| is_control(letter) && !matches!(letter, '\t' | '\r')) {
+            let letter = line[place..].chars().next().map_or(0, u32::from);
+            let rule = "free of control characters and changes of the direction of writing";
+            let remedy = "remove it, or write the file as plain text in UTF-8";
+            return fault(&line[..place], format!("with the character U+{letter:04X}"), rule, remedy);
+        }
+        let open = if is_comment(line) { None } else { open_quote(line) };
+        open.and_then(|place| {
+            let rule = "one in which every quote that opens is closed";
+            fault(&line[..place], "with a quote that is not closed".to_owned(), rule, "close the quote, or remove it")
+        })
+    })
+}
+
+/// Where the quote opens that a line does not close. Quotes open at the beginning of a word; two in a quoted word are one
+/// that is meant.
+fn open_quote(line: &str) -> Option<usize> {
+    let mut open = None;
+    let mut begins = true;
+    let mut letters = line.char_indices().peekable();
+    while let Some((place, letter)) = letters.next() {
+        match (open, letter) {
+            (None, '"') if begins => open = Some(place),
+            (Some(_), '"') if letters.next_if(|(_, next)| *next == '"').is_none() => open = None,
+            _ => {}
+        }
+        begins = matches!(letter, ',' | ';') || letter.is_whitespace();
+    }
+    open
+}
+
+/// A heading whose columns are parted otherwise than by commas; `line` is its number, from 1.
+pub fn comma_fault(heading: &str, line: usize) -> Option<TableFault> {
+    const RULE: &str = "of columns that are parted by commas";
+    const REMEDY: &str = "part the columns by commas, and write decimals with a point";
+    let parted_by = if heading.contains(',') {
+        return None;
+    } else if heading.contains(';') {
+        "semicolons"
+    } else if heading.contains('\t') {
+        "tabs"
+    } else if heading.matches('[').count() > 1 {
+        "blanks"
+    } else {
+        return None;
+    };
+    Some(TableFault { line, column: 1, value: format!("parted by {parted_by}"), rule: RULE, remedy: REMEDY })
+}
+
+/// What to do about a word where a number should be.
+pub fn number_remedy(word: &str) -> &'static str {
+    let are_numbers = |separator: char| {
+        word.contains(separator) && word.split(separator).all(|part| is_number(part) || has_decimal_comma(part))
+    };
+    if is_missing(word) {
+        "leave out rows in which a value is missing"
+    } else if are_numbers(';') {
+        "these are values that semicolons part: part all columns by one kind of separator, and write decimals with a point"
+    } else if are_numbers('\t') || (word.contains(' ') && word.split_whitespace().all(is_number)) {
+        "these are values that blanks or tabs part: part all columns by one kind of separator"
+    } else {
+        "write decimals with a point"
+    }
+}
+
+/// What to do about a row of so many values where the table has so many columns.
+pub fn row_remedy(row: &str, values: usize, columns: usize) -> &'static str {
+    if [';', '\t'].iter().any(|separator| row.matches(*separator).count() + 1 == columns) {
+        "its values are parted by another separator than the heading: part all columns by one kind of separator"
+    } else if columns > 0 && values == 2 * columns {
+        "if commas are decimal here, write decimals with a point; otherwise complete or shorten the row"
+    } else {
+        "complete or shorten the row"
+    }
+}
+
+fn is_number(word: &str) -> bool {
+    word.trim().parse::<f64>().is_ok()
+}
+
+fn has_decimal_comma(word: &str) -> bool {
+    word.matches(',').count() == 1 && is_number(&word.replace(',', "."))
+}
+
+/// Whether a word stands for no value.
+fn is_missing(word: &str) -> bool {
+    ["", "-", "--", "na", "n/a", "null", "none"].contains(&word.to_ascii_lowercase().as_str())
+}
+
+/// Whether a line is a comment.
+pub fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with(['#', '%'])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quote_that_is_not_closed_is_named_by_its_line() {
+        for sound in
+            ["", "a,b\n1,2\n", "\"x, [m]\",u\n1,\"2\"\n", "5\",3\n", "# it is 5\" or \"so\n1\n", "\"a \"\"b\"\"\",1\n"]
+        {
+            assert_eq!(text_fault(sound), None, "{sound}");
+        }
+        for (text, line, column) in [
+            ("\"x,u\n1,2\n", 1, 1),
+            ("x,u\n1,\"2\n3,4\n", 2, 2),
+            ("x;u\n1; \"2\n\"3\";4\n", 2, 1),
+            ("x,u\n1,2\n3,\"4", 3, 2),
+            ("x,u\n1,\"a \"\" b\n", 2, 2),
+        ] {
+            let fault = text_fault(text).expect(text);
+            assert_eq!((fault.line, fault.column), (line, column), "{text}");
+            assert_eq!(
+                fault.field_error().to_string(),
+                format!(
+                    "`line {line}` is with a quote that is not closed, but must be one in which every quote that opens is \
+                     closed; close the quote, or remove it"
+                )
+            );
+        }
+    }
+
+    #[test]
+    fn control_characters_are_named_by_their_number() {
+        let fault = text_fault("x,u\r\n1\t,\u{1b}[2J2\n").expect("an escape");
+        assert_eq!((fault.line, fault.column), (2, 2));
+        assert!(
+            fault
+                .in_words()
+                .starts_with("the line is with the character U+001B, but must be free of control characters")
+        );
+        assert!(text_fault("# source: a\u{202e}b\n").is_some());
+        // two bytes a letter
+        assert_eq!(text_fault("x\0,\0u\0\n\0").map(|fault| fault.line), Some(1));
+    }
+
+    #[test]
+    fn other_separators_and_decimals_are_told() {
+        assert_eq!(comma_fault("height [m],u [m/s]", 8), None);
+        assert_eq!(comma_fault("height [m]", 8), None);
+        for (heading, by) in [("y [m];u [m/s]", "semicolons"), ("y [m]\tu [m/s]", "tabs"), ("y [m]  u [m/s]", "blanks")]
+        {
+            let words = comma_fault(heading, 8).expect("no commas").in_words();
+            let expected = format!(
+                "the line is parted by {by}, but must be of columns that are parted by commas; part the columns by commas, \
+                 and write decimals with a point"
+            );
+            assert_eq!(words, expected);
+        }
+        assert!(number_remedy("1;2").starts_with("these are values that semicolons part"));
+        assert!(number_remedy("1,5;2").starts_with("these are values that semicolons part"));
+        assert!(number_remedy("1 2").starts_with("these are values that blanks or tabs part"));
+        assert_eq!(number_remedy("1,5"), "write decimals with a point");
+        assert_eq!(number_remedy("N/A"), "leave out rows in which a value is missing");
+        assert!(row_remedy("1,5,2,5", 4, 2).starts_with("if commas are decimal here"));
+        assert!(row_remedy("1;2", 1, 2).starts_with("its values are parted by another separator"));
+        assert_eq!(row_remedy("1,2,3", 3, 2), "complete or shorten the row");
+    }
+}

@@ -1,0 +1,114 @@
+//! Which column of a foreign file is what, and in which unit.
+
+use super::unit;
+use crate::case::ExternalColumn;
+use crate::input::FieldError;
+
+/// Where a quantity comes from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ColumnSource {
+    /// A column of the file.
+    Heading {
+        /// The text as given, which may be the heading itself, unit and all.
+        text: String,
+        /// The heading without its unit.
+        name: String,
+        /// Unit.
+        unit: String,
+    },
+    /// The same for all.
+    Constant {
+        /// Value in the unit.
+        value: f64,
+        /// Unit.
+        unit: String,
+    },
+}
+
+/// Reads [`ColumnSource`]s.
+pub struct ColumnText;
+
+impl ColumnText {
+    /// `"x [cm]"` for a column, `{ value = 0.25, unit = "cm^2" }` for what is the same for all.
+    pub fn parse(value: &toml::Value, field: &str) -> Result<ColumnSource, FieldError> {
+        const REMEDY: &str =
+            "such as \"x [cm]\" for a column with its unit, or { value = 0.25, unit = \"cm^2\" } for all";
+        let wrong = |text: String| FieldError::new(field, text, "a heading with its unit in brackets", REMEDY);
+        match value {
+            toml::Value::String(text) => {
+                let parted = text.trim().strip_suffix(']').and_then(|text| text.rsplit_once('['));
+                let (name, unit) = parted.ok_or_else(|| wrong(format!("\"{text}\"")))?;
+                Ok(ColumnSource::Heading {
+                    text: text.clone(),
+                    name: name.trim().to_owned(),
+                    unit: unit.trim().to_owned(),
+                })
+            }
+            toml::Value::Table(table) => {
+                let number =
+                    table.get("value").and_then(|value| value.as_float().or(value.as_integer().map(|n| n as f64)));
+                let unit = table.get("unit").and_then(toml::Value::as_str);
+                match (number, unit, table.len()) {
+                    (Some(value), Some(unit), 2) if value.is_finite() => {
+                        Ok(ColumnSource::Constant { value, unit: unit.to_owned() })
+                    }
+                    _ => Err(wrong(value.to_string())),
+                }
+            }
+            other => Err(wrong(other.to_string())),
+        }
+    }
+}
+
+impl ColumnSource {
+    fn unit(&self) -> &str {
+        match self {
+            Self::Heading { unit, .. } | Self::Constant { unit, .. } => unit,
+        }
+    }
+
+    /// The factor to the unit of an item.
+    ///
+    /// # Errors
+    /// A unit that is unknown or measures something else.
+    pub fn factor(&self, item: &ExternalColumn, field: &str) -> Result<f64, FieldError> {
+        unit::factor(self.unit(), item.unit).ok_or_else(|| {
+            let rule = format!("a unit of the same kind as {}", item.unit);
+            let remedy = "such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, Pa, N, J with prefixes";
+            FieldError::new(field, format!("[{}]", self.unit()), &rule, remedy)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<ColumnSource, FieldError> {
+        let table: toml::Table = toml::from_str(&format!("x = {text}")).expect("TOML");
+        ColumnText::parse(&table["x"], "columns.x")
+    }
+
+    #[test]
+    fn a_heading_has_its_unit_in_brackets_and_a_constant_beside_it() {
+        let heading = parse("\"X position [cm]\"").expect("a heading");
+        let item = ExternalColumn::new("x", "m", "place");
+        assert_eq!(heading.factor(&item, "columns.x"), Ok(1e-2));
+        assert!(matches!(heading, ColumnSource::Heading { name, .. } if name == "X position"));
+        let constant = ColumnSource::Constant { value: 2.0, unit: "mm".to_owned() };
+        assert_eq!(parse("{ value = 2, unit = \"mm\" }"), Ok(constant));
+    }
+
+    #[test]
+    fn a_column_without_a_unit_or_with_another_kind_of_unit_is_refused() {
+        for text in ["\"x\"", "3", "{ value = 1.0 }", "{ value = nan, unit = \"m\" }"] {
+            let message = parse(text).expect_err("no unit").to_string();
+            assert!(message.contains("but must be a heading with its unit in brackets"), "{message}");
+        }
+        let wrong = parse("\"t [s]\"").expect("a heading").factor(&ExternalColumn::new("x", "m", "place"), "columns.x");
+        assert_eq!(
+            wrong.expect_err("not a length").to_string(),
+            "`columns.x` is [s], but must be a unit of the same kind as m; such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, Pa, N, J with prefixes"
+        );
+    }
+}

@@ -1,0 +1,203 @@
+//! Tables of numbers as programs write them: comma, semicolon, tab or blanks between the columns, comments before.
+
+use crate::input::{FieldError, did_you_mean, is_comment, nearest, number_remedy, row_remedy, text_fault};
+use std::path::Path;
+
+/// A table that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextTable {
+    /// Headings, or `1`, `2`, … where the file has none.
+    pub headings: Vec<String>,
+    /// Column by column.
+    pub columns: Vec<Vec<f64>>,
+}
+
+/// Separators in the order in which they are tried; blanks are what is left.
+const SEPARATORS: [char; 3] = [',', ';', '\t'];
+
+impl TextTable {
+    /// Reads a table. Lines that begin with `#` or `%` are comments, the last of which is the heading if it has as many
+    /// words as there are columns and no other heading follows.
+    ///
+    /// # Errors
+    /// No numbers, a quote that is not closed, a line with another number of columns, or a word where a number should be.
+    pub fn parse(text: &str, file: &Path) -> Result<Self, FieldError> {
+        // a byte-order mark, as spreadsheets write it
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        if let Some(fault) = text_fault(text) {
+            return Err(fault.field_error().in_file(file));
+        }
+        let wrong = |line: usize, value: &str, rule: &str, remedy: &str| {
+            FieldError::new(&format!("line {}", line + 1), value, rule, remedy).in_file(file)
+        };
+        let mut comment = "";
+        let mut heading: Option<Vec<String>> = None;
+        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let separator = text
+            .lines()
+            .find(|line| !line.trim().is_empty() && !is_comment(line))
+            .and_then(|line| SEPARATORS.into_iter().find(|separator| line.contains(*separator)));
+        for (number, line) in text.lines().enumerate() {
+            if line.trim().is_empty() {
+                continue;
+            }
+            if is_comment(line) {
+                comment = line.trim_start_matches(['#', '%', ' ']);
+                continue;
+            }
+            let words = words(line, separator);
+            if columns.is_empty() {
+                if heading.is_none() && words.iter().any(|word| word.parse::<f64>().is_err()) {
+                    heading = Some(words.iter().map(|word| (*word).to_owned()).collect());
+                    continue;
+                }
+                // blanks also part the words of a heading
+                if let Some(heading) = heading.as_ref().filter(|own| separator.is_some() && own.len() != words.len()) {
+                    let rule = format!("of {} columns, as the heading", heading.len());
+                    return Err(wrong(
+                        number,
+                        &format!("of {} columns", words.len()),
+                        &rule,
+                        row_remedy(line, words.len(), heading.len()),
+                    ));
+                }
+                columns = vec![Vec::new(); words.len()];
+            }
+            if words.len() != columns.len() {
+                let rule = format!("of {} columns, as the lines before", columns.len());
+                return Err(wrong(
+                    number,
+                    &format!("of {} columns", words.len()),
+                    &rule,
+                    row_remedy(line, words.len(), columns.len()),
+                ));
+            }
+            for (place, (column, word)) in columns.iter_mut().zip(words).enumerate() {
+                let value = word.parse::<f64>().map_err(|_| {
+                    let name = heading.as_ref().and_then(|own| own.get(place).cloned());
+                    let name = name.unwrap_or_else(|| (place + 1).to_string());
+                    let value = format!("\"{}\" in column {}", shortened(word), shortened(&name));
+                    wrong(number, &value, "a number", number_remedy(word))
+                })?;
+                column.push(value);
+            }
+        }
+        if columns.is_empty() {
+            return Err(wrong(0, "without numbers", "the first of a table", "give a file with columns of numbers"));
+        }
+        let headings = heading
+            .or_else(|| Some(words(comment, separator).into_iter().map(str::to_owned).collect()))
+            .filter(|headings: &Vec<String>| headings.len() == columns.len())
+            .unwrap_or_else(|| (1..=columns.len()).map(|column| column.to_string()).collect());
+        Ok(Self { headings, columns })
+    }
+
+    /// A column by its heading.
+    ///
+    /// # Errors
+    /// A heading that the file does not have; `field` is where it is asked for.
+    pub fn column(&self, heading: &str, field: &str, file: &Path) -> Result<&[f64], FieldError> {
+        let place = self.headings.iter().position(|own| own == heading);
+        place.map(|place| self.columns[place].as_slice()).ok_or_else(|| {
+            let guess = did_you_mean(&nearest(heading, self.headings.iter().map(String::as_str)));
+            let rule = format!("a column of {}: {}", file.display(), shortened(&self.headings.join(", ")));
+            FieldError::new(field, format!("\"{heading}\""), &rule, &format!("{guess}headings are taken as they stand"))
+        })
+    }
+}
+
+fn words(line: &str, separator: Option<char>) -> Vec<&str> {
+    match separator {
+        Some(separator) => line.trim_end_matches(['\r', '\n']).split(separator).map(bare).collect(),
+        None => line.split_whitespace().map(bare).collect(),
+    }
+}
+
+fn bare(word: &str) -> &str {
+    word.trim().trim_matches('"')
+}
+
+/// Enough of a text to recognise it.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 200;
+    if text.chars().count() <= LONGEST { text.to_owned() } else { text.chars().take(LONGEST).chain(['…']).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<TextTable, FieldError> {
+        TextTable::parse(text, Path::new("a.csv"))
+    }
+
+    #[test]
+    fn separators_headings_and_comments_are_told() {
+        let expected = [vec![1.0, 3.0], vec![2.0, -4e-3]];
+        for text in [
+            "x [m],u\n1,2\n3,-4e-3\n",
+            "# made by a program\nx [m];u\n1;2\n3;-4e-3",
+            "\"x [m]\"\tu\r\n1\t2\r\n\r\n3\t-4e-3\r\n",
+        ] {
+            let table = parse(text).expect("a table");
+            assert_eq!(
+                (table.headings.join("|").as_str(), table.columns.as_slice()),
+                ("x [m]|u", &expected[..]),
+                "{text}"
+            );
+        }
+        let table = parse("# y u\n  1   2\n 3 -4e-3").expect("a table");
+        assert_eq!((table.headings.join("|").as_str(), table.columns.as_slice()), ("y|u", &expected[..]));
+        assert_eq!(parse("1 2\n3 4").expect("a table").headings, ["1", "2"]);
+    }
+
+    #[test]
+    fn what_is_no_table_is_refused_by_line() {
+        let message = |text: &str| parse(text).expect_err("no table").to_string();
+        assert_eq!(
+            message(""),
+            "a.csv: `line 1` is without numbers, but must be the first of a table; give a file with columns of numbers"
+        );
+        assert_eq!(
+            message("x,y\n1,2\n3\n"),
+            "a.csv: `line 3` is of 1 columns, but must be of 2 columns, as the lines before; complete or shorten the row"
+        );
+        assert_eq!(
+            message("x,y\n1,2\n3,b\n"),
+            "a.csv: `line 3` is \"b\" in column y, but must be a number; write decimals with a point"
+        );
+        assert_eq!(
+            message("x,y\n1,\n3,2\n"),
+            "a.csv: `line 2` is \"\" in column y, but must be a number; leave out rows in which a value is missing"
+        );
+        assert_eq!(
+            message("x,y,z\n1,2\n"),
+            "a.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; complete or shorten the row"
+        );
+        assert_eq!(
+            message("x,y\n1,2\n\"3,4\n"),
+            "a.csv: `line 3` is with a quote that is not closed, but must be one in which every quote that opens is closed; close the quote, or remove it"
+        );
+        assert!(message("x,y\n1,5,2,5\n").ends_with(
+            "if commas are decimal here, write decimals with a point; otherwise complete or shorten the row"
+        ));
+        assert!(message("x,y\n1,\u{202e}2\n").contains("U+202E"));
+        assert_eq!(parse("\u{feff}x,y\n1,2\n").expect("a table").headings, ["x", "y"]);
+        let table = parse("x,velocity\n1,2\n").expect("a table");
+        assert_eq!(
+            table.column("velocty", "columns.vx", Path::new("a.csv")).expect_err("no such column").to_string(),
+            "`columns.vx` is \"velocty\", but must be a column of a.csv: x, velocity; did you mean `velocity`? headings are taken as they stand"
+        );
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn any_text_is_a_whole_table_or_refused(text in "[-0-9a-c.,;\\t e#\"\n\r]{0,80}") {
+            if let Ok(table) = parse(&text) {
+                let rows = table.columns.first().map_or(0, Vec::len);
+                proptest::prop_assert!(rows > 0 && table.columns.iter().all(|column| column.len() == rows));
+                proptest::prop_assert_eq!(table.headings.len(), table.columns.len());
+            }
+        }
+    }
+}

@@ -1,0 +1,408 @@
+//! A metric: one number that a case is judged by, with what it is judged against.
+
+mod quantity;
+mod regime;
+mod steadiness;
+mod uncertainty;
+pub mod variant;
+
+pub use quantity::quantities;
+pub use quantity::{Quantity, undeclared};
+pub use regime::{FlowRegime, PredictionInterval, REGIME_NUMBERS};
+pub use steadiness::unsteadiness;
+pub use uncertainty::{ComparisonPart, Origin, Uncertainty, UncertaintyComponent};
+pub use variant::{Value, Variant};
+
+use serde::{Deserialize, Serialize};
+
+/// What a verdict rests on; the four are never mixed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MetricKind {
+    /// The run's own account: nothing is lost, and mass, momentum and energy add up. It says nothing of the physics.
+    Bookkeeping,
+    /// Against an exact solution of the model's own equations, or a convergence order.
+    Verification,
+    /// Against an experiment, a published fit or other people's simulations.
+    Validation,
+    /// Against a sentence, a figure or a number of one of the two papers that the models come from.
+    Statement,
+}
+
+/// The outcome of a gate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// The gate holds.
+    Pass,
+    /// The gate does not hold.
+    Fail,
+    /// There is no gate: the value is reported only.
+    Observed,
+}
+
+/// How sure the project is of a reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Confidence {
+    /// Exact for the model.
+    Exact,
+    /// Read in two or more independent documents.
+    High,
+    /// Read in one document that quotes the original.
+    Medium,
+    /// Sources conflict.
+    Low,
+    /// Known in the field, no document at hand; never gates.
+    Unverified,
+}
+
+/// The rule of a gate, in the metric's unit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Limit {
+    /// value ≤ bound.
+    AtMost(f64),
+    /// value ≥ bound.
+    AtLeast(f64),
+    /// lower ≤ value ≤ upper.
+    Within(f64, f64),
+}
+
+impl Limit {
+    /// Whether `value` respects the limit. What is not a finite number never does, and a bound that is not one holds
+    /// nothing: both say that something was not measured or not known.
+    #[must_use]
+    pub fn holds(self, value: f64) -> bool {
+        let bounds_are_finite = match self {
+            Self::AtMost(bound) | Self::AtLeast(bound) => bound.is_finite(),
+            Self::Within(lower, upper) => lower.is_finite() && upper.is_finite(),
+        };
+        value.is_finite() && bounds_are_finite && self.admits(value)
+    }
+
+    fn admits(self, value: f64) -> bool {
+        match self {
+            Self::AtMost(bound) => value <= bound,
+            Self::AtLeast(bound) => value >= bound,
+            Self::Within(lower, upper) => value >= lower && value <= upper,
+        }
+    }
+
+    /// Distance of `value` to the nearest bound, in the metric's unit; negative where the limit is broken.
+    #[must_use]
+    pub fn margin(self, value: f64) -> f64 {
+        match self {
+            Self::AtMost(bound) => bound - value,
+            Self::AtLeast(bound) => value - bound,
+            Self::Within(lower, upper) => (value - lower).min(upper - value),
+        }
+    }
+}
+
+/// Who states a gate. The order is that of a page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GateOwner {
+    /// The user: a check of a study, or measurements with a limit.
+    User,
+    /// The case.
+    #[default]
+    Case,
+}
+
+/// A gate: the limit and the reason why it is where it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Gate {
+    /// The rule.
+    pub limit: Limit,
+    /// Why the limit stands where it does, one sentence.
+    pub reason: String,
+    /// Who states it.
+    #[serde(default)]
+    pub owner: GateOwner,
+    /// Half width in the metric's unit where scatter alone sets it, of repetitions or of a measurement; none for a limit
+    /// that has another reason.
+    #[serde(default)]
+    pub statistical: Option<f64>,
+}
+
+/// What a value is compared with.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Reference {
+    /// The reference's value in the metric's unit, where it is a number.
+    pub value: Option<f64>,
+    /// Where it comes from: equation, paper or solver.
+    pub source: String,
+    /// How sure the project is of it.
+    pub confidence: Confidence,
+}
+
+/// Standard uncertainties that an expanded one has, for 95 % `[-]`.
+pub const COVERAGE: f64 = 2.0;
+
+/// One judged or observed number.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Metric {
+    /// Stable snake_case name, such as `velocity_l2`.
+    pub name: String,
+    /// Which run or runs; empty where the case has a single run.
+    pub variant: Variant,
+    /// The value.
+    pub value: f64,
+    /// Its unit, `-` for none, `%` for percent.
+    pub unit: String,
+    /// What it is compared with, if anything.
+    pub reference: Option<Reference>,
+    /// What the verdict rests on.
+    pub kind: MetricKind,
+    /// The gate, if there is one; a metric without a gate is observed.
+    pub gate: Option<Gate>,
+    /// Whether a page opens with it, right behind what fails: what its reader asked for, where nothing judges it.
+    #[serde(default)]
+    pub leads: bool,
+    /// Why it is no value of a steady state, although it should be one: it then has no value.
+    pub not_steady: Option<String>,
+    /// What value and reference are known to, as far as it is known.
+    #[serde(default)]
+    pub uncertainty: Uncertainty,
+    /// Where the true value lies by how far such values were off where they were measured; none where nothing of the kind was.
+    #[serde(default)]
+    pub prediction: Option<PredictionInterval>,
+    /// Relative tolerance of the drift snapshot: how far the value may move before a change is reported `[-]`.
+    pub snapshot_tolerance: f64,
+    /// Absolute floor of that tolerance, in the metric's unit: the value's own noise.
+    pub snapshot_floor: f64,
+}
+
+impl Metric {
+    /// An observed verification metric; the `with_…` methods and fields refine it.
+    #[must_use]
+    pub fn observed(name: &str, variant: &Variant, value: f64, unit: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            variant: variant.clone(),
+            value,
+            unit: unit.to_owned(),
+            reference: None,
+            kind: MetricKind::Verification,
+            gate: None,
+            leads: false,
+            not_steady: None,
+            uncertainty: Uncertainty::default(),
+            prediction: None,
+            snapshot_tolerance: 1e-6,
+            snapshot_floor: 0.0,
+        }
+    }
+
+    /// Adds a gate with its reason.
+    #[must_use]
+    pub fn gated(mut self, limit: Limit, reason: &str) -> Self {
+        self.gate = Some(Gate { limit, reason: reason.to_owned(), owner: GateOwner::Case, statistical: None });
+        self
+    }
+
+    /// Says that its gate, if it has one, is as wide as scatter alone makes it: half its width, in the metric's unit. Where the
+    /// spacing is known to move the value by more, the gate does not judge it.
+    #[must_use]
+    pub fn as_wide_as_scatter(mut self, half_width: Option<f64>) -> Self {
+        if let Some(gate) = &mut self.gate {
+            gate.statistical = half_width;
+        }
+        self
+    }
+
+    /// Whether the spacing may move the value, twice its standard uncertainty, by more than the scatter that its gate is as
+    /// wide as: the gate then says nothing of the physics.
+    #[must_use]
+    pub fn is_coarser_than_gate(&self) -> bool {
+        let width = self.gate.as_ref().and_then(|gate| gate.statistical);
+        width.zip(self.uncertainty.of_spacing()).is_some_and(|(width, spacing)| COVERAGE * spacing > width)
+    }
+
+    /// Makes its gate, if it has one, one that the user states.
+    #[must_use]
+    pub fn of_user(mut self) -> Self {
+        if let Some(gate) = &mut self.gate {
+            gate.owner = GateOwner::User;
+        }
+        self
+    }
+
+    /// Who states its gate; the case where it has none.
+    #[must_use]
+    pub fn gate_owner(&self) -> GateOwner {
+        self.gate.as_ref().map_or(GateOwner::Case, |gate| gate.owner)
+    }
+
+    /// Adds a gate where there is a limit; else it stays observed.
+    #[must_use]
+    pub fn gated_by(self, limit: Option<Limit>, reason: &str) -> Self {
+        match limit {
+            Some(limit) => self.gated(limit, reason),
+            None => self,
+        }
+    }
+
+    /// Adds a reference.
+    #[must_use]
+    pub fn against(mut self, value: Option<f64>, source: &str, confidence: Confidence) -> Self {
+        self.reference = Some(Reference { value, source: source.to_owned(), confidence });
+        self
+    }
+
+    /// Adds a reference that is exact for the model: what its equations, a conservation law or its definition give.
+    #[must_use]
+    pub fn exactly(self, value: f64, source: &str) -> Self {
+        self.against(Some(value), source, Confidence::Exact)
+    }
+
+    /// Adds a part of what value and reference are known to, as a standard uncertainty in the metric's unit, with the
+    /// sentence that it comes from. What is not known, or is not a positive number, adds nothing.
+    #[must_use]
+    pub fn known_to(mut self, origin: Origin, standard: Option<f64>, source: &str) -> Self {
+        self.uncertainty.add(origin, standard, source);
+        self
+    }
+
+    /// Says that a part of what value and reference are known to is known to be nothing beside the others, and why.
+    #[must_use]
+    pub fn known_exactly(mut self, origin: Origin, source: &str) -> Self {
+        self.uncertainty.add_none(origin, source);
+        self
+    }
+
+    /// The reference's value where the metric is a comparison with something from outside: a measurement, a published fit or
+    /// another's simulation, whose number is known and verified.
+    #[must_use]
+    pub fn compared_with(&self) -> Option<f64> {
+        let reference = self.reference.as_ref().filter(|_| self.kind == MetricKind::Validation)?;
+        let is_from_outside = !matches!(reference.confidence, Confidence::Exact | Confidence::Unverified);
+        reference.value.filter(|value| is_from_outside && value.is_finite())
+    }
+
+    /// Adds where the true value lies, if that can be told.
+    #[must_use]
+    pub fn predicted(self, prediction: Option<PredictionInterval>) -> Self {
+        Self { prediction, ..self }
+    }
+
+    /// Lets a page open with it.
+    #[must_use]
+    pub fn leading(mut self) -> Self {
+        self.leads = true;
+        self
+    }
+
+    /// Adds all that is known of the uncertainty of a metric that this one is read from.
+    #[must_use]
+    pub fn known_as(mut self, other: &Uncertainty) -> Self {
+        for part in other.parts() {
+            self.uncertainty.add(part.origin, Some(part.standard), &part.source);
+        }
+        self
+    }
+
+    /// Takes its value away where there is a reason why it is not that of a steady state: a gate then does not hold.
+    #[must_use]
+    pub fn unless(mut self, not_steady: Option<&String>) -> Self {
+        if let Some(reason) = not_steady {
+            (self.value, self.not_steady) = (f64::NAN, Some(reason.clone()));
+        }
+        self
+    }
+
+    /// Sets what the verdict rests on.
+    #[must_use]
+    pub fn of_kind(mut self, kind: MetricKind) -> Self {
+        self.kind = kind;
+        self
+    }
+
+    /// Sets the drift snapshot's relative tolerance `[-]` and absolute floor (metric's unit).
+    #[must_use]
+    pub fn with_snapshot_tolerance(mut self, relative: f64, floor: f64) -> Self {
+        self.snapshot_tolerance = relative;
+        self.snapshot_floor = floor;
+        self
+    }
+
+    /// The gate's outcome. An unverified reference never gates, nor does a width of scatter that the spacing exceeds.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let unverified =
+            self.reference.as_ref().is_some_and(|reference| reference.confidence == Confidence::Unverified);
+        match &self.gate {
+            Some(gate) if !unverified && !self.is_coarser_than_gate() => {
+                if gate.limit.holds(self.value) {
+                    Verdict::Pass
+                } else {
+                    Verdict::Fail
+                }
+            }
+            _ => Verdict::Observed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BROKEN: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+    #[test]
+    fn what_is_not_a_number_passes_no_gate() {
+        let limits = [Limit::AtMost(1.0), Limit::AtLeast(-1.0), Limit::Within(-1.0, 1.0)];
+        for limit in limits {
+            assert!(limit.holds(0.0), "{limit:?}");
+            for value in BROKEN {
+                assert!(!limit.holds(value), "{limit:?} holds {value}");
+                let metric = Metric::observed("front", &Variant::default(), value, "m").gated(limit, "a reason");
+                assert_eq!(metric.verdict(), Verdict::Fail);
+            }
+        }
+    }
+
+    #[test]
+    fn a_width_of_scatter_does_not_judge_what_the_spacing_moves_by_more() {
+        let metric = |spacing: Option<f64>| {
+            Metric::observed("run_out", &Variant::default(), 1.3, "-")
+                .gated(Limit::Within(0.8, 1.2), "twice the scatter")
+                .as_wide_as_scatter(Some(0.2))
+                .known_to(Origin::Repeat, Some(0.5), "five seeds")
+                .known_to(Origin::Numerical, spacing, "a study")
+        };
+        assert_eq!(metric(None).verdict(), Verdict::Fail);
+        assert_eq!(metric(Some(0.09)).verdict(), Verdict::Fail);
+        assert_eq!(metric(Some(0.11)).verdict(), Verdict::Observed);
+        // a limit of physics holds for every spacing
+        assert_eq!(metric(Some(0.11)).as_wide_as_scatter(None).verdict(), Verdict::Fail);
+    }
+
+    #[test]
+    fn a_metric_is_read_back_from_the_binary_form_that_trials_leave() {
+        for reason in [None, Some("not steady: it rises".to_owned())] {
+            let metric = Metric::observed("front", &Variant::default(), 0.5, "m").unless(reason.as_ref());
+            let bytes = postcard::to_allocvec(&metric).expect("plain data");
+            let read: Metric = postcard::from_bytes(&bytes).expect("the same");
+            assert_eq!((read.name, read.not_steady), (metric.name, reason));
+        }
+    }
+
+    #[test]
+    fn a_gate_without_finite_edges_holds_nothing() {
+        for edge in BROKEN {
+            for limit in [
+                Limit::AtMost(edge),
+                Limit::AtLeast(edge),
+                Limit::Within(edge, 1.0),
+                Limit::Within(-1.0, edge),
+                Limit::Within(edge, edge),
+            ] {
+                assert!(!limit.holds(0.0), "{limit:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! The page of one case: its verdicts, figures, parameters and runs. `run` writes it alone, `report` among others.
+
+use super::accepted::tier_name;
+use super::judgement::{JudgedCase, Severity};
+use super::origin::{provenance, seconds};
+use super::rows::{mark, rows, vanished};
+use super::template::fill;
+use super::view::{CasePage, CaseView, FigureView, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
+use super::{DrawnFigure, Report};
+use crate::case::RunSummary;
+use crate::evidence::shipped_tables;
+use crate::metric::{MetricKind, Verdict};
+use crate::number::{count, four_digits};
+use crate::observation::Outcome;
+
+/// Fills the template for one case: in its report's folder `cases/CASE` if it has neighbours there, else in a folder of its
+/// own.
+pub(super) fn render(
+    report: &Report,
+    judged: &JudgedCase<'_>,
+    drawn: &[DrawnFigure],
+    neighbours: Option<Neighbours>,
+) -> Result<String, minijinja::Error> {
+    let page = CasePage {
+        title: report.title.clone(),
+        tier: tier_name(report.tier),
+        case: case(judged, drawn),
+        compared: !report.baseline.is_empty(),
+        report: neighbours,
+        provenance: provenance(&report.generated),
+        script: include_str!("template/page.js"),
+    };
+    fill("case.html", &page)
+}
+
+/// Names, within the case's folder, and texts of the tables of reference data that belong to a case.
+pub(super) fn tables(case: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    shipped_tables().filter_map(move |(name, text)| {
+        let own = name.strip_prefix(case)?.strip_prefix('/')?;
+        Some((own, text))
+    })
+}
+
+fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
+    let case = judged.case;
+    let mut rows = rows(&case.name, &judged.metrics);
+    for (row, judged) in rows.iter_mut().zip(&judged.metrics) {
+        if judged.metric.kind != MetricKind::Bookkeeping {
+            row.figure = figure(row, drawn);
+        }
+    }
+    CaseView {
+        name: case.name.clone(),
+        summary: case.summary.clone(),
+        description: case.description.split("\n\n").map(str::to_owned).collect(),
+        mark: if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
+        statement: case_statement(judged),
+        opening: if judged.metrics.iter().any(|judged| judged.metric.leads) { opening(drawn) } else { Vec::new() },
+        rows,
+        vanished: judged.vanished.iter().map(vanished).collect(),
+        figures: drawn.iter().map(picture).collect(),
+        tables: tables(&case.name).map(|(name, _)| name).collect(),
+        parameters: case.parameters_toml.clone(),
+        command: typed(&case.command),
+        runs: case.runs.iter().map(run).collect(),
+    }
+}
+
+/// The figures beside the metrics that a page opens with: the case's first, and its first that moves.
+fn opening(drawn: &[DrawnFigure]) -> Vec<FigureView> {
+    let shown: Vec<FigureView> = drawn.iter().filter(|drawn| drawn.failure.is_none()).map(picture).collect();
+    let moves = shown.iter().skip(1).find(|figure| figure.moves).cloned();
+    shown.into_iter().take(1).chain(moves).collect()
+}
+
+/// The figure that is named like a value of a metric's variant, else the one that shares most words with its name; nothing where none does.
+fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
+    let is_word_of = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|other| other == word);
+    let shared = |drawn: &DrawnFigure| {
+        let caption = drawn.caption.to_lowercase();
+        let weight = |word: &str| match word {
+            _ if word.len() < 4 => 0,
+            _ if is_word_of(&drawn.name, word) => 3,
+            _ if is_word_of(&caption, word) => 1,
+            _ => 0,
+        };
+        row.metric.split('_').map(weight).sum::<usize>()
+    };
+    // a figure `heap` is that of a run `heap`, or else of one `local-heap`
+    let of_run = |drawn: &DrawnFigure| {
+        let by_value = |value: &str| match value {
+            _ if value == drawn.name => 2,
+            _ if value.split('-').any(|word| word == drawn.name) => 1,
+            _ => 0,
+        };
+        let values = row.variant.iter().filter_map(|part| part.split_once('='));
+        values.map(|(_, value)| by_value(value)).max().unwrap_or_default()
+    };
+    let fit = |drawn: &DrawnFigure| (of_run(drawn), shared(drawn));
+    // the first of equals
+    let best = drawn.iter().filter(|drawn| drawn.failure.is_none()).rev().max_by_key(|drawn| fit(drawn));
+    best.filter(|best| fit(best) > (0, 0)).map(|best| best.name.clone()).unwrap_or_default()
+}
+
+/// How many metrics of a case are what.
+pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
+    let drifted = judged.metrics.iter().filter(|metric| metric.drift.is_failure()).count();
+    let parts = [
+        (judged.count(Severity::Failure), "failing"),
+        (judged.count(Severity::KnownFailure), "known to fail"),
+        (judged.metrics.iter().filter(|metric| metric.verdict == Verdict::Pass).count(), "holding"),
+        (judged.count(Severity::Observed), "observed"),
+        (drifted, "drifted"),
+        (judged.vanished.len(), "vanished"),
+        (judged.diverged.len(), "diverged"),
+    ];
+    let words: Vec<String> =
+        parts.iter().filter(|(number, _)| *number > 0).map(|(number, word)| format!("{number} {word}")).collect();
+    if words.is_empty() { "no metrics".to_owned() } else { words.join(" · ") }
+}
+
+fn run(run: &RunSummary) -> RunView {
+    let (mark, outcome) = match &run.outcome {
+        Outcome::Finished => (VerdictMark { word: "finished", ..VerdictMark::PASS }, String::new()),
+        Outcome::Stopped { criterion } => (VerdictMark { word: "stopped", ..VerdictMark::PASS }, criterion.clone()),
+        Outcome::Diverged { message, expected: true } => {
+            (VerdictMark { word: "diverged as expected", ..VerdictMark::OBSERVED }, message.clone())
+        }
+        Outcome::Diverged { message, expected: false } => {
+            (VerdictMark { word: "diverged", ..VerdictMark::FAIL }, message.clone())
+        }
+    };
+    RunView {
+        variant: run.variant.to_string(),
+        mark,
+        outcome,
+        particles: count(run.particles as u64),
+        steps: count(run.steps),
+        simulated_time: four_digits(run.simulated_time),
+        wall_seconds: seconds(run.wall_seconds),
+        threads: run.threads,
+        pace: run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), four_digits),
+        hash: run.state_hash.clone(),
+        short_hash: run.state_hash.chars().take(12).collect(),
+        from_store: run.from_store,
+    }
+}

@@ -1,0 +1,322 @@
+//! Verdicts → one self-contained folder with a page, figures and the numbers behind them.
+
+pub mod accepted;
+mod case_page;
+pub mod comparison;
+mod comparison_page;
+pub mod coverage;
+mod coverage_page;
+mod drawing;
+pub mod drift;
+mod earlier;
+mod error;
+mod gate_list;
+pub mod history;
+mod history_page;
+pub mod judgement;
+mod junit;
+pub mod known_failures;
+mod origin;
+mod overview;
+mod page;
+pub mod papers;
+mod papers_page;
+mod print;
+
+mod rows;
+pub mod scatter;
+mod shipped;
+mod snapshot_text;
+mod speed_history;
+mod template;
+mod validated_page;
+mod view;
+mod width;
+
+#[cfg(test)]
+mod pages_tests;
+#[cfg(test)]
+mod tests;
+
+use print::Chapter;
+
+pub use accepted::{Baseline, Drift, MetricKey};
+pub use error::{BaselineError, EarlierError, ReportError};
+pub use gate_list::GateList;
+pub use history::History;
+pub use judgement::{Judgement, judge};
+pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
+pub use snapshot_text::description;
+pub use speed_history::{SpeedHistory, SpeedRow};
+
+use crate::case::{Features, Tier};
+use crate::evidence::Paper;
+use crate::figure::{self, Animation, Figure, FigureError};
+use crate::metric::Metric;
+use crate::store::{Drawings, provenance};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// Everything that a report shows.
+#[derive(Debug, Clone)]
+pub struct Report {
+    /// Heading of the page.
+    pub title: String,
+    /// The tier that all cases ran at.
+    pub tier: Tier,
+    /// How the report came about.
+    pub generated: ReportProvenance,
+    /// The cases in the order of their registry.
+    pub cases: Vec<CaseReport>,
+    /// The values to compare with, accepted ones or those of an earlier report; may be empty.
+    pub baseline: Baseline,
+    /// Folder of the earlier report that the baseline is; none where it is the accepted values.
+    pub against: Option<String>,
+    /// What accepted figures were at earlier times; may be empty.
+    pub history: History,
+    /// What a particle-step took at earlier times; may be empty.
+    pub speeds: SpeedHistory,
+    /// The gates that are known to fail; may be empty.
+    pub known_failures: KnownFailures,
+    /// The papers whose elements are accounted for; none for no page of them.
+    pub papers: &'static [Paper],
+    /// The options whose coverage is shown; none for no page of them.
+    pub features: Option<Features>,
+}
+
+/// How a report came about.
+#[derive(Debug, Clone, Default)]
+pub struct ReportProvenance {
+    /// Version of the program.
+    pub version: String,
+    /// Commit of the sources, empty if unknown.
+    pub commit: String,
+    /// Threads used.
+    pub threads: usize,
+    /// Wall time of everything `[s]`.
+    pub wall_seconds: f64,
+    /// The command that makes the report again.
+    pub command: String,
+    /// Day and time, shown in the footer only; `None` where the page must be the same every time.
+    pub date: Option<String>,
+}
+
+impl ReportProvenance {
+    /// What this program made in `wall` time, by `command` where it is to be shown.
+    #[must_use]
+    pub fn of_this_program(wall: Duration, command: String) -> Self {
+        Self {
+            version: provenance::version().to_owned(),
+            commit: provenance::commit().to_owned(),
+            threads: rayon::current_num_threads(),
+            wall_seconds: wall.as_secs_f64(),
+            command,
+            date: None,
+        }
+    }
+}
+
+/// One case of a report.
+#[derive(Debug, Clone)]
+pub struct CaseReport {
+    /// Name, also of its folders.
+    pub name: String,
+    /// One line.
+    pub summary: String,
+    /// A paragraph: what is simulated and what it is judged against.
+    pub description: String,
+    /// The parameters as run; written as `case.toml`.
+    pub parameters_toml: String,
+    /// The command that reproduces the case.
+    pub command: String,
+    /// Judged and observed numbers.
+    pub metrics: Vec<Metric>,
+    /// Figures in reading order.
+    pub figures: Vec<Figure>,
+    /// Moving pictures, shown after the figures.
+    pub animations: Vec<Animation>,
+    /// The simulations behind the metrics.
+    pub runs: Vec<crate::case::RunSummary>,
+    /// What each of them depends on, by the names of its fields.
+    pub run_parameters: Vec<serde_json::Value>,
+    /// The text of `metrics.json`, written as it is.
+    pub metrics_json: String,
+}
+
+/// A figure or animation as the page refers to it.
+#[derive(Debug, Clone)]
+struct DrawnFigure {
+    caption: String,
+    name: String,
+    /// A GIF, instead of an SVG with a PNG.
+    moves: bool,
+    /// Width and height of the picture `[px]`.
+    size: Option<(u32, u32)>,
+    /// Why there is no picture, or nothing.
+    failure: Option<String>,
+}
+
+/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,gif}`, in
+/// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
+/// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left
+/// alone.
+///
+/// What was drawn before is taken from `drawings`. A figure that cannot be drawn does not spoil the report: the page says so in its place.
+///
+/// # Errors
+/// If a case name is no folder name, or a file cannot be written.
+pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
+    if let Some(case) = report.cases.iter().find(|case| !figure::is_file_name(&case.name)) {
+        return Err(ReportError::Name { name: case.name.clone() });
+    }
+    make(folder)?;
+    let drawn: Vec<Vec<DrawnFigure>> = report
+        .cases
+        .par_iter()
+        .map(|case| draw(case, &folder.join("figures").join(&case.name), drawings))
+        .collect::<Result<_, _>>()?;
+    let judgement = judge(report);
+    let mut chapters = Vec::new();
+    for judged in &judgement.cases {
+        let name = &judged.case.name;
+        let place = folder.join("cases").join(name);
+        put_case(judged.case, &place)?;
+        let pictures = page::pictures(report, &drawn, judged.case);
+        let text = case_page::render(report, judged, pictures, Some(neighbours(report, name)))?;
+        chapters.push(Chapter::of(format!("case-{name}"), &text));
+        put(place.join("index.html"), &text)?;
+    }
+    let mut add = |name: &str, text: String| {
+        chapters.push(Chapter::of(name, &text));
+        put(folder.join(format!("{name}.html")), &text)
+    };
+    if !judgement.papers.is_empty() {
+        add("papers", papers_page::render(report, &judgement.papers)?)?;
+        put(folder.join("papers.json"), &papers_page::json(report.tier, &judgement.papers))?;
+    }
+    if let Some(features) = &report.features {
+        add("coverage", coverage_page::render(report, features)?)?;
+        let maps = folder.join("figures").join(validated_page::FOLDER);
+        let maps = draw_figures(&validated_page::figures(report), &maps, drawings)?;
+        add("validated", validated_page::render(report, &maps)?)?;
+        add("history", history_page::render(report, &judgement)?)?;
+    }
+    let beside = draw_figures(
+        &comparison_page::figures(report),
+        &folder.join("figures").join(comparison_page::FOLDER),
+        drawings,
+    )?;
+    if let Some(text) = comparison_page::render(report, &beside) {
+        add("comparisons", text?)?;
+    }
+    let quantities = scatter::quantities(report);
+    let compared =
+        draw_figures(&scatter::figures(&quantities), &folder.join("figures").join(scatter::FOLDER), drawings)?;
+    put(folder.join("metrics.json"), &scatter::json(&quantities))?;
+    let comparisons = scatter::rows(&quantities, &compared);
+    let overview = page::render(report, &judgement, &drawn, comparisons)?;
+    chapters.insert(0, Chapter::of("index", &overview));
+    put(folder.join("print.html"), &print::render(&report.title, &chapters)?)?;
+    put(folder.join("index.html"), &overview)
+}
+
+/// Writes the page of each case of `report`, which is one as a rule, straight into `folder`: what [`write()`] puts into
+/// `cases/CASE/`, and the figures in `figures/NAME.{svg,png,gif}`.
+///
+/// # Errors
+/// If a file cannot be written.
+pub fn write_alone(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
+    for judged in &judge(report).cases {
+        let drawn = draw(judged.case, &folder.join("figures"), drawings)?;
+        put_case(judged.case, folder)?;
+        put(folder.join("index.html"), &case_page::render(report, judged, &drawn, None)?)?;
+    }
+    Ok(())
+}
+
+/// Writes the verdicts as JUnit's XML, for programs that show tests: one per gate.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_junit(report: &Report, path: &Path) -> Result<(), ReportError> {
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        make(folder)?;
+    }
+    put(path.to_owned(), &junit::text(report, &judge(report)))
+}
+
+/// A case's numbers and parameters, and the tables of reference data that it has.
+fn put_case(case: &CaseReport, folder: &Path) -> Result<(), ReportError> {
+    make(folder)?;
+    put(folder.join("metrics.json"), &case.metrics_json)?;
+    put(folder.join("case.toml"), &case.parameters_toml)?;
+    for (name, text) in case_page::tables(&case.name) {
+        let path = folder.join("reference").join(name);
+        make(path.parent().unwrap_or(folder))?;
+        put(path, text)?;
+    }
+    Ok(())
+}
+
+/// The cases before and after one, in the report's order.
+fn neighbours(report: &Report, name: &str) -> view::Neighbours {
+    let place = report.cases.iter().position(|case| case.name == name).unwrap_or(0);
+    let name_at = |place: Option<usize>| report.cases.get(place?).map(|case| case.name.clone());
+    view::Neighbours {
+        has_papers: !report.papers.is_empty(),
+        previous: name_at(place.checked_sub(1)),
+        next: name_at(Some(place + 1)),
+    }
+}
+
+fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
+    let mut drawn = draw_figures(&case.figures, folder, drawings)?;
+    if !case.animations.is_empty() {
+        make(folder)?;
+    }
+    let animations = case.animations.par_iter().map(|animation| {
+        let written = drawing::write_animation(animation, folder, drawings);
+        as_drawn(&animation.name, &animation.caption, true, written)
+    });
+    drawn.extend(animations.collect::<Result<Vec<DrawnFigure>, ReportError>>()?);
+    Ok(drawn)
+}
+
+fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
+    if !figures.is_empty() {
+        make(folder)?;
+    }
+    let draw = |figure: &Figure| {
+        let written = drawing::write_figure(figure, folder, drawings);
+        as_drawn(&figure.name, &figure.caption, false, written)
+    };
+    figures.par_iter().map(draw).collect()
+}
+
+/// What the page shows of a figure. One that was not drawn is named there and in the log; a file that cannot be written is
+/// an error of the whole report.
+fn as_drawn(
+    name: &str,
+    caption: &str,
+    moves: bool,
+    written: Result<PathBuf, FigureError>,
+) -> Result<DrawnFigure, ReportError> {
+    let (size, failure) = match written {
+        Ok(path) => (figure::size_of(&path), None),
+        Err(error @ FigureError::Write { .. }) => return Err(error.into()),
+        Err(error) => {
+            tracing::error!("figure {name}: failed to {error}");
+            (None, Some(error.to_string()))
+        }
+    };
+    Ok(DrawnFigure { caption: caption.to_owned(), name: name.to_owned(), moves, size, failure })
+}
+
+fn make(folder: &Path) -> Result<(), ReportError> {
+    std::fs::create_dir_all(folder).map_err(|source| ReportError::Write { path: folder.to_owned(), source })
+}
+
+fn put(path: PathBuf, text: &str) -> Result<(), ReportError> {
+    std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source })
+}

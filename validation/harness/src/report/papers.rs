@@ -1,0 +1,195 @@
+//! What became of every element of the papers, by the metrics of a report.
+
+use super::CaseReport;
+use crate::case::RunSummary;
+use crate::evidence::{Element, MetricName, PAPERS, Paper, RunName, Settled};
+use crate::metric::{Metric, Verdict};
+use crate::observation::Outcome;
+
+/// What became of an element; the worst of several metrics is the first here.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Status {
+    /// A number of ours lies outside of what the paper prints.
+    Contradicted,
+    /// A gate on it fails, or our number falls short of what the paper shows.
+    NotReproduced,
+    /// Gates hold, numbers agree, or tests hold it.
+    Reproduced,
+    /// Something else stands in its place.
+    Replaced,
+    /// The paper, or what is left of it, can be read in more than one way.
+    NotStatedClearly,
+    /// Nothing here speaks of it.
+    NotCovered,
+    /// What speaks of it is not run, or not judged, at this tier.
+    NotInThisTier,
+}
+
+impl Status {
+    /// All, in the order of the page.
+    pub const ALL: [Self; 7] = [
+        Self::Reproduced,
+        Self::NotReproduced,
+        Self::Contradicted,
+        Self::Replaced,
+        Self::NotStatedClearly,
+        Self::NotCovered,
+        Self::NotInThisTier,
+    ];
+
+    /// Its name.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Contradicted => "contradicted",
+            Self::NotReproduced => "not reproduced",
+            Self::Reproduced => "reproduced",
+            Self::Replaced => "replaced",
+            Self::NotStatedClearly => "not stated clearly",
+            Self::NotCovered => "not covered",
+            Self::NotInThisTier => "not in this tier",
+        }
+    }
+
+    /// What a metric says of an element that names it: the paper's number decides where there is one, else the gate; none
+    /// of an observed metric.
+    #[must_use]
+    pub fn of(name: &MetricName, metric: &Metric) -> Option<Self> {
+        match (name.printed, metric.verdict()) {
+            (Some(printed), _) if printed.agrees(metric.value) => Some(Self::Reproduced),
+            (Some(printed), _) if printed.contradicts && metric.value.is_finite() => Some(Self::Contradicted),
+            (Some(_), _) | (None, Verdict::Fail) => Some(Self::NotReproduced),
+            (None, Verdict::Pass) => Some(Self::Reproduced),
+            (None, Verdict::Observed) => None,
+        }
+    }
+}
+
+/// A metric that shows an element.
+#[derive(Debug, Clone)]
+pub struct Shown<'r> {
+    /// How the element names it.
+    pub name: &'r MetricName,
+    /// The metric.
+    pub metric: &'r Metric,
+    /// What it says; none if it is observed only.
+    pub status: Option<Status>,
+}
+
+/// A run that has to end without diverging.
+#[derive(Debug, Clone)]
+pub struct Ended<'r> {
+    /// How the element names it.
+    pub name: &'r RunName,
+    /// The run.
+    pub run: &'r RunSummary,
+    /// Reproduced, or not where it diverged, whether the case declares that or not.
+    pub status: Status,
+}
+
+impl<'r> Ended<'r> {
+    fn of(name: &'r RunName, run: &'r RunSummary) -> Self {
+        let diverged = matches!(run.outcome, Outcome::Diverged { .. });
+        Self { name, run, status: if diverged { Status::NotReproduced } else { Status::Reproduced } }
+    }
+}
+
+/// What became of one element.
+#[derive(Debug, Clone)]
+pub struct ElementOutcome<'r> {
+    /// The element.
+    pub element: &'r Element,
+    /// What became of it.
+    pub status: Status,
+    /// The metrics of this report that show it.
+    pub shown: Vec<Shown<'r>>,
+    /// The runs of this report that it names.
+    pub ended: Vec<Ended<'r>>,
+}
+
+impl<'r> ElementOutcome<'r> {
+    fn of(element: &'r Element, cases: &'r [CaseReport]) -> Self {
+        let of_name = |name: &'r MetricName| {
+            let metrics = cases.iter().filter(|case| case.name == name.case).flat_map(|case| &case.metrics);
+            let named = metrics.filter(|metric| name.names(&metric.name, &metric.variant));
+            named.map(|metric| Shown { name, metric, status: Status::of(name, metric) })
+        };
+        let shown: Vec<Shown<'r>> = element.metrics.iter().flat_map(of_name).collect();
+        let of_run = |name: &'r RunName| {
+            let runs = cases.iter().filter(|case| case.name == name.case).flat_map(|case| &case.runs);
+            runs.filter(|run| name.names(&run.variant)).map(|run| Ended::of(name, run))
+        };
+        let ended: Vec<Ended<'r>> = element.runs.iter().flat_map(of_run).collect();
+        let status = match &element.settled {
+            Some((Settled::Replaced, _)) => Status::Replaced,
+            Some((Settled::NotStatedClearly, _)) => Status::NotStatedClearly,
+            Some((Settled::NotCovered, _)) => Status::NotCovered,
+            None if element.metrics.is_empty() && element.runs.is_empty() => Status::Reproduced,
+            None => Self::computed(element, &shown, &ended),
+        };
+        Self { element, status, shown, ended }
+    }
+
+    /// The worst of all that the element names; where none of it is bad and some of it is not run, or not judged, at this tier, that
+    /// is what is said: half of a statement does not reproduce it.
+    fn computed(element: &Element, shown: &[Shown<'_>], ended: &[Ended<'_>]) -> Status {
+        let judged = shown.iter().filter_map(|shown| shown.status).chain(ended.iter().map(|ended| ended.status));
+        let is_judged = |name: &MetricName| shown.iter().any(|shown| shown.name == name && shown.status.is_some());
+        let has_run = |name: &RunName| ended.iter().any(|ended| ended.name == name);
+        let is_whole = element.metrics.iter().all(is_judged) && element.runs.iter().all(has_run);
+        match judged.min() {
+            Some(Status::Reproduced) | None if !is_whole => Status::NotInThisTier,
+            Some(worst) => worst,
+            None => Status::NotInThisTier,
+        }
+    }
+
+    /// Whether tests alone hold it: nothing of it is computed in a report.
+    #[must_use]
+    pub fn rests_on_tests(&self) -> bool {
+        self.status == Status::Reproduced && self.shown.is_empty() && self.ended.is_empty()
+    }
+}
+
+/// What became of a paper.
+#[derive(Debug, Clone)]
+pub struct Account<'r> {
+    /// The paper.
+    pub paper: &'r Paper,
+    /// Its elements in order.
+    pub elements: Vec<ElementOutcome<'r>>,
+}
+
+impl<'r> Account<'r> {
+    /// The account of a paper by the metrics of these cases.
+    #[must_use]
+    pub fn of(paper: &'r Paper, cases: &'r [CaseReport]) -> Self {
+        Self { paper, elements: paper.elements.iter().map(|element| ElementOutcome::of(element, cases)).collect() }
+    }
+
+    /// How many elements have this status.
+    #[must_use]
+    pub fn count(&self, status: Status) -> usize {
+        self.elements.iter().filter(|fate| fate.status == status).count()
+    }
+}
+
+/// How many elements have this status, over all papers.
+#[must_use]
+pub fn count(accounts: &[Account<'_>], status: Status) -> usize {
+    accounts.iter().map(|account| account.count(status)).sum()
+}
+
+/// The papers that a report of these cases accounts for: none where no element names any of the cases.
+#[must_use]
+pub fn accounted(cases: &[CaseReport]) -> &'static [Paper] {
+    let is_named = |case: &CaseReport| {
+        let elements = PAPERS.iter().flat_map(|paper| &paper.elements);
+        elements.flat_map(|element| &element.metrics).any(|name| name.case == case.name)
+    };
+    if cases.iter().any(is_named) { &PAPERS } else { &[] }
+}
+
+#[cfg(test)]
+#[path = "papers_tests.rs"]
+mod tests;

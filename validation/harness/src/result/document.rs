@@ -1,0 +1,195 @@
+//! `metrics.json`: a case's numbers and where they come from, for other programs.
+
+use crate::case::{CaseResult, RunSummary, Tier};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Uncertainty, Variant, Verdict};
+use crate::store;
+use serde::{Deserialize, Serialize};
+
+/// The whole file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MetricsDocument {
+    /// Name of the case.
+    pub case: String,
+    /// Tier that the parameters started from.
+    pub tier: Tier,
+    /// SHA-256 over the runs' final states: the same on any machine and number of threads.
+    pub state_hash: String,
+    /// How the numbers came about.
+    pub provenance: Provenance,
+    /// The runs and how they ended.
+    pub runs: Vec<RunSummary>,
+    /// The numbers.
+    pub metrics: Vec<MetricEntry>,
+}
+
+/// How the numbers came about.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Provenance {
+    /// Version of Bagnold.
+    pub version: String,
+    /// Commit that the program was built from, with `+changes` if its sources differ from it, or `unknown`.
+    pub commit: String,
+    /// Hash of sources, locked dependencies, compiler, profile and instruction set, and of the program's own file where it has
+    /// laws or cases of another crate.
+    pub source_hash: String,
+    /// Cargo's profile, and how the solver is optimised in it.
+    pub profile: String,
+    /// Instruction set that the loops over particles run with, chosen at run time; empty in results of earlier versions.
+    #[serde(default)]
+    pub instruction_set: String,
+    /// Instruction set extensions that the compiler could count on everywhere else.
+    pub target_features: String,
+    /// Command that repeats the case.
+    pub command: String,
+    /// Threads at hand for all runs together.
+    pub threads: usize,
+    /// Sum of the runs' wall times, also of those taken from the store `[s]`.
+    pub wall_seconds: f64,
+    /// Mean wall time per particle and step `[µs]`; null if no step was taken.
+    pub microseconds_per_particle_step: Option<f64>,
+    /// Runs taken from the store instead of simulated.
+    pub runs_from_store: usize,
+}
+
+/// One number with its verdict.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct MetricEntry {
+    /// Stable snake_case name.
+    pub name: String,
+    /// Which run, `key=value,…`.
+    pub variant: Variant,
+    /// The value; null if it is not a finite number.
+    pub value: Option<f64>,
+    /// Its unit.
+    pub unit: String,
+    /// The reference's value in the same unit.
+    pub reference: Option<f64>,
+    /// Where the reference comes from.
+    pub source: Option<String>,
+    /// How sure the project is of the reference.
+    pub confidence: Option<Confidence>,
+    /// What the verdict rests on.
+    pub kind: MetricKind,
+    /// The gate's limit, such as `{"at_most": 0.7}`; null if the number is only observed.
+    pub limit: Option<Limit>,
+    /// Why the limit stands where it does.
+    pub reason: Option<String>,
+    /// Distance to the limit in the metric's unit, negative where it is broken.
+    pub margin: Option<f64>,
+    /// The gate's outcome.
+    pub verdict: Verdict,
+    /// Why it has no value although it should be one of a steady state; absent where it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub not_steady: Option<String>,
+    /// Parts of what value and reference are known to; absent where nothing is known.
+    #[serde(default, skip_serializing_if = "Uncertainty::is_empty")]
+    pub uncertainty: Uncertainty,
+    /// Where the true value lies by how far such values were off where they were measured; absent where nothing of the kind was.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub prediction: Option<PredictionInterval>,
+    /// Relative tolerance of the drift snapshot `[-]`.
+    pub snapshot_tolerance: f64,
+    /// Absolute floor of that tolerance, in the metric's unit.
+    pub snapshot_floor: f64,
+}
+
+impl Provenance {
+    /// The provenance of a result that was computed on `threads` threads.
+    #[must_use]
+    pub fn of(result: &CaseResult, threads: usize) -> Self {
+        Self {
+            version: store::version().to_owned(),
+            commit: store::commit().to_owned(),
+            source_hash: store::identity_or_unique(result.origin).to_owned(),
+            profile: store::profile().to_owned(),
+            instruction_set: store::instruction_set().to_owned(),
+            target_features: store::target_features().to_owned(),
+            command: result.command.clone(),
+            threads,
+            wall_seconds: result.wall_seconds(),
+            microseconds_per_particle_step: result.microseconds_per_particle_step(),
+            runs_from_store: result.runs.iter().filter(|run| run.from_store).count(),
+        }
+    }
+}
+
+impl From<&Metric> for MetricEntry {
+    fn from(metric: &Metric) -> Self {
+        let reference = metric.reference.as_ref();
+        let gate = metric.gate.as_ref();
+        let finite = |value: f64| Some(value).filter(|value| value.is_finite());
+        Self {
+            name: metric.name.clone(),
+            variant: metric.variant.clone(),
+            value: finite(metric.value),
+            unit: metric.unit.clone(),
+            reference: reference.and_then(|reference| reference.value).and_then(finite),
+            source: reference.map(|reference| reference.source.clone()),
+            confidence: reference.map(|reference| reference.confidence),
+            kind: metric.kind,
+            limit: gate.map(|gate| gate.limit),
+            reason: gate.map(|gate| gate.reason.clone()),
+            margin: gate.and_then(|gate| finite(gate.limit.margin(metric.value))),
+            verdict: metric.verdict(),
+            not_steady: metric.not_steady.clone(),
+            uncertainty: metric.uncertainty.clone(),
+            prediction: metric.prediction.clone(),
+            snapshot_tolerance: metric.snapshot_tolerance,
+            snapshot_floor: metric.snapshot_floor,
+        }
+    }
+}
+
+impl MetricsDocument {
+    /// The document of a result that was computed on `threads` threads.
+    #[must_use]
+    pub fn of(result: &CaseResult, threads: usize) -> Self {
+        Self {
+            case: result.name.clone(),
+            tier: result.tier,
+            state_hash: result.state_hash.clone(),
+            provenance: Provenance::of(result, threads),
+            runs: result.runs.clone(),
+            metrics: result.metrics.iter().map(MetricEntry::from).collect(),
+        }
+    }
+
+    /// The document as text that ends with a line feed.
+    #[must_use]
+    pub fn text(&self) -> String {
+        pretty(self)
+    }
+}
+
+/// Indented JSON that ends with a line feed.
+pub fn pretty<T: Serialize>(value: &T) -> String {
+    let mut text = serde_json::to_string_pretty(value).expect("plain data without maps always serialises");
+    text.push('\n');
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_entry_has_the_agreed_keys_and_null_for_what_is_not_a_number() {
+        let metric = Metric::observed("velocity_l2", &Variant::of("resolution", 40), f64::NAN, "%")
+            .against(Some(0.0), "exact", Confidence::Exact)
+            .gated(Limit::AtMost(0.7), "first order");
+        let text = serde_json::to_string(&MetricEntry::from(&metric)).expect("serialises");
+        assert_eq!(
+            text,
+            r#"{"name":"velocity_l2","variant":"resolution=40","value":null,"unit":"%","reference":0.0,"source":"exact","confidence":"exact","kind":"verification","limit":{"at_most":0.7},"reason":"first order","margin":null,"verdict":"fail","snapshot_tolerance":1e-6,"snapshot_floor":0.0}"#
+        );
+    }
+
+    #[test]
+    fn an_entry_is_read_back_as_written() {
+        let metric = Metric::observed("final_height", &Variant::default(), 0.1 + 0.2, "m")
+            .gated(Limit::Within(0.2, 0.4), "band");
+        let entry = MetricEntry::from(&metric);
+        let text = serde_json::to_string(&entry).expect("serialises");
+        assert_eq!(serde_json::from_str::<MetricEntry>(&text).expect("reads back"), entry);
+    }
+}

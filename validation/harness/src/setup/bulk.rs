@@ -1,0 +1,50 @@
+//! How dense a material is in bulk: from its law, where that knows its grains, or as given.
+
+use crate::case::ParameterError;
+use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::parameter::{between, not_negative};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The density of a material in bulk, whatever its law.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Bulk {
+    /// Solid fraction φ `[-]`: the bulk density is φ times the grain density.
+    #[schemars(transform = between(0.01, 1.0, "grains fill 0.5 to 0.64 of the space; 1 where a law gives the density of the bulk"))]
+    pub solid_fraction: f64,
+    /// Bulk density `[kg/m³]` of a law without a grain density; 0 with one that has it.
+    #[schemars(transform = not_negative("give it in kg/m³, such as 1500, or 0 with a law of grains"))]
+    pub bulk_density: f64,
+}
+
+impl Bulk {
+    /// Grains of a solid fraction, with a law that has their density.
+    #[must_use]
+    pub fn of_grains(solid_fraction: f64) -> Self {
+        Self { solid_fraction, bulk_density: 0.0 }
+    }
+
+    /// Bulk density `[kg/m³]` of a law's material.
+    #[must_use]
+    pub fn density(&self, law: &Rheology) -> f64 {
+        law.grain_density().map_or(self.bulk_density, |grains| self.solid_fraction * grains)
+    }
+
+    /// Refuses a bulk density beside that of the grains, and a law that leaves it open.
+    pub fn check(&self, law: &Rheology) -> Result<(), ParameterError> {
+        let refused = |rule: &str, remedy: &str| {
+            let rule = format!("{rule} \"{}\"", law.name());
+            Err(ParameterError::field("bulk_density", self.bulk_density, &rule, remedy))
+        };
+        match law.grain_density() {
+            Some(_) if self.bulk_density != 0.0 => {
+                refused("0 with the law", "it follows from `solid_fraction` and the law's grain density")
+            }
+            None if self.bulk_density <= 0.0 => refused(
+                "positive with the law",
+                "the law has no grain density: give that of the bulk in kg/m³, such as 1500",
+            ),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! How the energy of a run by the weakly compressible model is judged: its ledger closes, and it never rises.
+
+use crate::metric::{Limit, Metric, Variant, quantities};
+use crate::observation::EnergyBook;
+
+quantities! {
+    shared pub
+    ENERGY_RESIDUAL:
+        accounted("energy_residual", "%", "largest change of the energy that its ledger does not explain, over a scale"),
+    ENERGY_RISE: accounted("energy_rise", "%", "largest rise of the total energy above its least before, over a scale"),
+    WALL_WORK: accounted("wall_work", "%", "work of walls over that scale: of those at rest an error, or slip along them"),
+    CORRECTION_WORK:
+        accounted("correction_work", "%", "energy fed in by the kernel correction of the forces, over that scale"),
+}
+
+/// What energies are compared with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EnergyScale {
+    /// The work that the run is about: half a per cent may stay open.
+    Work,
+    /// The same, where a run may last as long as its user likes: more by what the length Δt of its steps leaves in a time
+    /// √(H/g) of its height H, both in `[s]`, as often as all that work was kinetic energy for such a time, and by half of
+    /// what the last step has changed. What stands
+    /// still does hardly any: a tenth of the weight times H `[J]`, in two dimensions `[J/m]`, is the least that counts.
+    WorkOver {
+        /// √(H/g) `[s]`.
+        fall_time: f64,
+        /// Weight times H `[J]`, in two dimensions `[J/m]`.
+        weight_by_height: f64,
+        /// Δt `[s]`.
+        time_step: f64,
+    },
+    /// An energy `[J]`, in two dimensions `[J/m]`, of a layer at rest, in which hardly any work is done: 1e-5 of it may stay
+    /// open.
+    AtRest(f64),
+}
+
+impl EnergyScale {
+    /// The energy of the scale, the limit of what may stay open of it `[%]`, and what it is called.
+    pub fn of(self, book: &EnergyBook) -> (f64, f64, &'static str) {
+        match self {
+            Self::Work => (book.turnover(), OPEN, WORK),
+            Self::WorkOver { fall_time, weight_by_height, time_step } => {
+                let work = book.turnover().max(LEAST_WORK * weight_by_height);
+                let falls = book.motion / (work * fall_time);
+                let open = STEPS * falls * time_step / fall_time + time_step / book.last.0;
+                (work, OPEN + 100.0 * open, WORK_OR_WEIGHT)
+            }
+            Self::AtRest(energy) => (energy, OPEN_AT_REST, "of ρ0 g H² times the layer's length"),
+        }
+    }
+}
+
+/// What may stay open of the work, and of a layer's energy at rest `[%]`.
+const OPEN: f64 = 0.5;
+const OPEN_AT_REST: f64 = 1e-3;
+
+const WORK: &str = "of the largest work done: by gravity, by walls, or dissipated";
+
+const WORK_OR_WEIGHT: &str = "of the largest work done, by gravity, by walls, or dissipated; at least of a tenth of the \
+     weight times the scene's height";
+
+/// Least work that counts, over the weight times the height `[-]`.
+const LEAST_WORK: f64 = 0.1;
+
+/// What is left open of the kinetic energy in a time √(H/g), over the length of a step as a share of that time `[-]`: water
+/// that swings in a tank has 2.6, all else less.
+const STEPS: f64 = 4.0;
+
+const OPEN_REASON: &str = "an error of one per cent in the term that does most cannot hide in half a per cent; what is left is the \
+     length of a step, within which forces change";
+const OPEN_REASON_OVER_TIME: &str = "half a per cent, in which an error of one per cent in the term that does most cannot hide, and \
+     what the length Δt of a step leaves: 4 Δt/√(H/g) for each √(H/g) in which all of that work was motion, and at the end \
+     Δt over the time of the run";
+
+/// The residual over a scale.
+pub fn residual(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Metric {
+    let (energy, open, named) = scale.of(book);
+    let reason = match scale {
+        EnergyScale::WorkOver { .. } => OPEN_REASON_OVER_TIME,
+        EnergyScale::Work | EnergyScale::AtRest(_) => OPEN_REASON,
+    };
+    ENERGY_RESIDUAL
+        .of(variant, 100.0 * book.residual() / energy)
+        .exactly(0.0, &format!("every term of the scheme books its work; in per cent {named}"))
+        .gated(Limit::AtMost(open), reason)
+        .with_snapshot_tolerance(0.2, 1e-3)
+}
+
+/// Residual, rise, and the two entries that ought to be small; none without a ledger.
+pub fn metrics(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Vec<Metric> {
+    if book.total.is_empty() {
+        return Vec::new();
+    }
+    let (energy, _, named) = scale.of(book);
+    let share = |value: f64| 100.0 * value / energy;
+    vec![
+        residual(variant, book, scale),
+        ENERGY_RISE
+            .of(variant, share(book.rise()))
+            .exactly(0.0, &format!("no wall and no term may feed energy into the flow; in per cent {named}"))
+            .gated(
+                Limit::AtMost(0.1),
+                "a thousandth for waves of sound, whose energy a symplectic step only keeps on average: of all runs a collapse behind a gate has most, \
+                 a quarter of it, and what has no waves has none",
+            )
+            .with_snapshot_tolerance(0.2, 1e-3),
+        WALL_WORK
+            .of(variant, share(book.walls))
+            .exactly(0.0, &format!("walls at rest do no work; in per cent {named}"))
+            .with_snapshot_tolerance(0.2, 0.1),
+        CORRECTION_WORK
+            .of(variant, share(book.correction))
+            .exactly(0.0, &format!("the same stress does the same work on forces and on strain; in per cent {named}"))
+            .with_snapshot_tolerance(0.2, 0.1),
+    ]
+}

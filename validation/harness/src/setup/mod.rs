@@ -1,0 +1,27 @@
+//! What simulations of several cases start from: the sites of a lattice, displacements from them, a weight above them, and the
+//! walls around them; and what several of them measure: fronts and the ledger of energies.
+
+mod bulk;
+pub mod energy_ledger;
+mod filling;
+pub mod front;
+mod lattice;
+pub mod rules;
+
+pub use bulk::Bulk;
+pub use filling::{displaced, displaced_flow, hydrostatic_pressure};
+pub use lattice::Lattice;
+
+use bagnold_solver::weakly_compressible::numerics::Numerics;
+
+/// Rows of dummy particles that the kernel reaches behind a wall, and one for what moves between two searches.
+#[must_use]
+pub fn wall_rows(smoothing_ratio: f64) -> usize {
+    (2.0 * smoothing_ratio).ceil() as usize + 1
+}
+
+/// Acoustic bound of the time step `[s]` at a spacing `[m]` and a speed of sound `[m/s]`, for estimates before a run.
+#[must_use]
+pub fn acoustic_step(numerics: &Numerics, spacing: f64, sound_speed: f64) -> f64 {
+    numerics.acoustic_courant * numerics.smoothing_ratio * spacing / sound_speed
+}

@@ -1,0 +1,146 @@
+//! What this program was built from: what the program's own package declares when it starts, because only that package is built
+//! after everything that a result depends on.
+
+use bagnold_solver::lanes::InstructionSet;
+use std::path::Path;
+use std::sync::OnceLock;
+
+/// Sources and build of a program.
+#[derive(Debug, Clone, Copy)]
+pub struct Build {
+    /// SHA-256 of everything that a result depends on: sources, locked dependencies, compiler, profile, instruction set.
+    pub source_hash: &'static str,
+    /// Commit, with `+changes` after it if the sources differ from it; `unknown` without a repository.
+    pub commit: &'static str,
+    /// Cargo's profile.
+    pub profile: &'static str,
+    /// Optimisation level of the solver.
+    pub solver_opt_level: &'static str,
+    /// Instruction set extensions that the compiler could count on.
+    pub target_features: &'static str,
+}
+
+static BUILD: OnceLock<Build> = OnceLock::new();
+
+/// Build of a program that declares nothing: its results are known by its own file.
+const UNDECLARED: Build =
+    Build { source_hash: "", commit: "unknown", profile: "unknown", solver_opt_level: "", target_features: "" };
+
+/// Declares what the program is built from. The first declaration counts.
+pub fn declare(build: Build) {
+    let _: &Build = BUILD.get_or_init(|| build);
+}
+
+/// What was declared.
+fn build() -> Build {
+    BUILD.get().copied().unwrap_or(UNDECLARED)
+}
+
+/// Whether the program has declared what it is built from.
+pub(super) fn is_declared() -> bool {
+    BUILD.get().is_some()
+}
+
+/// Version of the package.
+#[must_use]
+pub fn version() -> &'static str {
+    env!("CARGO_PKG_VERSION")
+}
+
+/// SHA-256 of everything that a result depends on; empty where nothing was declared. Laws and cases of another crate are no part
+/// of it; see [`identity`](super::identity).
+#[must_use]
+pub fn source_hash() -> &'static str {
+    build().source_hash
+}
+
+/// Cargo's profile, and how the solver is optimised in it: what drives and judges it is built faster.
+#[must_use]
+pub fn profile() -> String {
+    let Build { profile, solver_opt_level, .. } = build();
+    format!("{profile}, solver at opt-level {solver_opt_level}")
+}
+
+/// What to say of a program whose solver is not optimised; nothing of any other.
+#[must_use]
+pub fn unoptimised() -> Option<String> {
+    unoptimised_at(build().solver_opt_level)
+}
+
+fn unoptimised_at(level: &str) -> Option<String> {
+    (level == "0").then(|| {
+        "the solver of this program is not optimised (opt-level 0) and takes many times longer, to the same bits; set \
+         `opt-level = 3` for the package `bagnold-solver` in the profile that it is built with"
+            .to_owned()
+    })
+}
+
+/// The instruction set that the loops over particles run with on this processor, chosen as the program runs.
+#[must_use]
+pub fn instruction_set() -> &'static str {
+    InstructionSet::best().name()
+}
+
+/// Instruction set extensions that the compiler could count on everywhere else.
+#[must_use]
+pub fn target_features() -> &'static str {
+    build().target_features
+}
+
+/// The workspace that this program was built in, if the current folder lies in it. Elsewhere an installed program must
+/// neither read nor write a checkout that happens to be there still.
+#[must_use]
+pub fn workspace() -> Option<&'static Path> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2)?;
+    is_worked_in(root, &std::env::current_dir().ok()?).then_some(root)
+}
+
+/// Whether a folder is a workspace and holds the current one, which has no links in its path.
+fn is_worked_in(root: &Path, current: &Path) -> bool {
+    root.join("Cargo.lock").is_file() && root.canonicalize().is_ok_and(|root| current.starts_with(root))
+}
+
+/// Commit that this program was built from, with `+changes` after it if what it was built from differs from that commit;
+/// `unknown` for a program built from no repository. That of the build, whichever folder one works in: what is committed
+/// later without a change of the sources makes no other program.
+#[must_use]
+pub fn commit() -> &'static str {
+    build().commit
+}
+
+/// The first digits of a commit, as many as a page needs, with what stands after it.
+#[must_use]
+pub fn short_commit(commit: &str) -> String {
+    let (id, rest) = commit.split_once('+').map_or((commit, String::new()), |(id, rest)| (id, format!("+{rest}")));
+    id.chars().take(12).collect::<String>() + &rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_workspace_counts_where_one_works_in_it() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let root = folder.path().canonicalize().expect("there");
+        assert!(!is_worked_in(&root, &root), "no workspace");
+        std::fs::write(root.join("Cargo.lock"), "").expect("writable");
+        assert!(is_worked_in(&root, &root) && is_worked_in(&root, &root.join("tests")));
+        assert!(!is_worked_in(&root, root.parent().expect("a temporary folder lies somewhere")));
+        assert!(workspace().is_some(), "tests are run in the workspace");
+    }
+
+    #[test]
+    fn the_solvers_optimisation_is_told() {
+        assert!(unoptimised_at("0").is_some_and(|text| text.contains("bagnold-solver")));
+        assert_eq!(unoptimised_at("3"), None);
+    }
+
+    #[test]
+    fn a_commit_is_shortened_and_its_mark_is_kept() {
+        let id = "0123456789abcdef0123456789abcdef01234567";
+        assert_eq!(short_commit(id), "0123456789ab");
+        assert_eq!(short_commit(&format!("{id}+changes")), "0123456789ab+changes");
+        assert_eq!(short_commit("unknown"), "unknown");
+    }
+}

@@ -1,0 +1,15 @@
+//! Bed load: onset of motion, transport formulas and measurements, and measured profiles.
+
+mod layer_statement;
+mod lowest_velocity;
+mod motion_thresholds;
+mod onset;
+mod profiles;
+mod transport;
+
+pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
+pub use lowest_velocity::{LowestVelocity, SHEET_FLOW_LOWEST_VELOCITY};
+pub use motion_thresholds::{MOTION_THRESHOLDS, MotionThresholds, ThresholdBand};
+pub use onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
+pub use profiles::MeasuredBedLoad;
+pub use transport::{MEASURED_BAND, MEASURED_TRANSPORT, MeasuredRates, TransportFormula, measured_rates_about};

@@ -1,0 +1,250 @@
+//! Published formulas of bed-load transport, which `reference-data/bed-load/formulas.csv` lists: fits to experiments,
+//! q* = c (τ* − τ*_c)^n with q* = q_s/√((s − 1) g d³), 0 below the critical Shields number τ*_c.
+
+use crate::evidence::read_shipped;
+use crate::evidence::{MeasuredData, ReferenceError, ReferenceKind};
+use crate::metric::Confidence;
+use std::sync::LazyLock;
+
+/// A formula.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TransportFormula {
+    /// Meyer-Peter & Müller 1948.
+    MeyerPeterMuller,
+    /// Wong & Parker 2006 with the exponent 1.6: what their data ask for.
+    WongParker,
+    /// Wong & Parker 2006 with the exponent 1.5 kept.
+    WongParkerThreeHalves,
+    /// Ribberink 1998.
+    Ribberink,
+    /// Fernandez Luque & van Beek 1976.
+    FernandezLuque,
+}
+
+/// Shields number from which runs count for [`MEASURED_BAND`] `[-]`: below it they are near the threshold of motion, where a formula with
+/// any critical number is off by any factor.
+const WELL_ABOVE_THRESHOLD: f64 = 0.1;
+
+/// Shields number and transport q* of every measured run of `reference-data/bed-load/measured-transport.csv` `[-]`.
+pub static MEASURED_TRANSPORT: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    read_shipped("bed-load/measured-transport.csv", |table| {
+        let (shields, transport) = (table.numbers("Shields number")?, table.numbers("transport")?);
+        Ok(shields.iter().copied().zip(transport.iter().copied()).collect())
+    })
+});
+
+/// Factors on Wong & Parker's 1.6 form between which nine tenths of the measured runs well above the threshold of motion lie: the
+/// width that a comparison with a formula can claim.
+pub static MEASURED_BAND: LazyLock<(f64, f64)> = LazyLock::new(|| {
+    let own = TransportFormula::WongParker;
+    let runs = MEASURED_TRANSPORT.iter().filter(|(shields, _)| *shields >= WELL_ABOVE_THRESHOLD);
+    let mut ratios: Vec<f64> = runs.map(|(shields, transport)| transport / own.transport(*shields)).collect();
+    ratios.sort_by(f64::total_cmp);
+    (quantile(&ratios, 0.05), quantile(&ratios, 0.95))
+});
+
+/// Factor in the Shields number within which runs count as of the same `[-]`.
+const SAME_SHIELDS: f64 = 1.3;
+/// Fewest runs that say something together.
+const FEWEST_RUNS: usize = 10;
+
+/// What runs of about one Shields number say together, each over Wong & Parker's 1.6 form `[-]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredRates {
+    /// Half of them carried less.
+    pub median: f64,
+    /// Nine tenths lie between these.
+    pub bounds: (f64, f64),
+    /// Half of the width of the middle two thirds, a standard deviation.
+    pub deviation: f64,
+    /// How many they are.
+    pub number: usize,
+    /// Where they are from.
+    pub source: String,
+    /// How sure the project is of them.
+    pub confidence: Confidence,
+}
+
+/// The measured runs within a factor of 1.3 of a Shields number `[-]`; none of too few.
+#[must_use]
+pub fn measured_rates_about(shields_number: f64) -> Option<MeasuredRates> {
+    let own = TransportFormula::WongParker;
+    let range = shields_number / SAME_SHIELDS..=shields_number * SAME_SHIELDS;
+    let runs =
+        MEASURED_TRANSPORT.iter().filter(|(shields, _)| range.contains(shields) && own.transport(*shields) > 0.0);
+    let mut ratios: Vec<f64> = runs.map(|(shields, transport)| transport / own.transport(*shields)).collect();
+    ratios.sort_by(f64::total_cmp);
+    let (source, confidence) = read_shipped("bed-load/measured-transport.csv", |table| {
+        Ok((table.metadata.source.clone(), table.metadata.confidence))
+    });
+    (ratios.len() >= FEWEST_RUNS).then(|| MeasuredRates {
+        median: quantile(&ratios, 0.5),
+        bounds: (quantile(&ratios, 0.05), quantile(&ratios, 0.95)),
+        deviation: 0.5 * (quantile(&ratios, 5.0 / 6.0) - quantile(&ratios, 1.0 / 6.0)),
+        number: ratios.len(),
+        source,
+        confidence,
+    })
+}
+
+/// The quantile of values in ascending order, linear between them; NaN without values.
+pub(super) fn quantile(ascending: &[f64], share: f64) -> f64 {
+    let place = share * ascending.len().saturating_sub(1) as f64;
+    let (below, part) = (place as usize, place.fract());
+    match (ascending.get(below), ascending.get(below + 1)) {
+        (Some(low), Some(high)) => low + part * (high - low),
+        (Some(only), None) => *only,
+        _ => f64::NAN,
+    }
+}
+
+/// What the table says of a formula.
+#[derive(Debug, Clone, PartialEq)]
+struct FormulaCoefficients {
+    source: String,
+    confidence: Confidence,
+    origin: ReferenceKind,
+    coefficient: f64,
+    critical: f64,
+    exponent: f64,
+}
+
+/// In the order of [`TransportFormula::ALL`].
+static ROWS: LazyLock<Vec<FormulaCoefficients>> = LazyLock::new(|| read_shipped("bed-load/formulas.csv", rows));
+
+fn rows(table: &MeasuredData) -> Result<Vec<FormulaCoefficients>, ReferenceError> {
+    let (sources, confidences) = (table.labels("source")?, table.confidences()?);
+    let row = |formula: TransportFormula| {
+        let row = table.row("formula", formula.key())?;
+        Ok(FormulaCoefficients {
+            source: sources[row].clone(),
+            confidence: confidences[row],
+            origin: table.metadata.origin,
+            coefficient: table.numbers("coefficient")?[row],
+            critical: table.numbers("critical Shields number")?[row],
+            exponent: table.numbers("exponent")?[row],
+        })
+    };
+    TransportFormula::ALL.into_iter().map(row).collect()
+}
+
+impl TransportFormula {
+    /// All formulas.
+    pub const ALL: [Self; 5] =
+        [Self::MeyerPeterMuller, Self::WongParker, Self::WongParkerThreeHalves, Self::Ribberink, Self::FernandezLuque];
+
+    /// Coefficient c `[-]`, critical Shields number τ*_c `[-]` and exponent n `[-]`.
+    #[must_use]
+    pub fn parameters(self) -> (f64, f64, f64) {
+        let row = self.row();
+        (row.coefficient, row.critical, row.exponent)
+    }
+
+    /// Its name in the table.
+    fn key(self) -> &'static str {
+        match self {
+            Self::MeyerPeterMuller => "meyer-peter-mueller",
+            Self::WongParker => "wong-parker-1.6",
+            Self::WongParkerThreeHalves => "wong-parker-1.5",
+            Self::Ribberink => "ribberink",
+            Self::FernandezLuque => "fernandez-luque",
+        }
+    }
+
+    fn row(self) -> &'static FormulaCoefficients {
+        &ROWS[self as usize]
+    }
+
+    /// Transport rate q* `[-]` at a Shields number τ* `[-]`.
+    #[must_use]
+    pub fn transport(self, shields_number: f64) -> f64 {
+        let (coefficient, critical, exponent) = self.parameters();
+        let excess = shields_number - critical;
+        if excess > 0.0 { coefficient * libm::pow(excess, exponent) } else { 0.0 }
+    }
+
+    /// Authors, year and formula.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        &self.row().source
+    }
+
+    /// What it is.
+    #[must_use]
+    pub fn origin(self) -> ReferenceKind {
+        self.row().origin
+    }
+
+    /// How sure the project is of it: read in two or more documents, or in one besides the coefficients.
+    #[must_use]
+    pub fn confidence(self) -> Confidence {
+        self.row().confidence
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::evidence::shipped_table;
+
+    #[test]
+    fn formulas_give_the_printed_table() {
+        let table = shipped_table("bed-load/transport.csv").expect("readable");
+        let names = table.labels("formula").expect("labels");
+        let column = |name| table.numbers(name).expect("numbers");
+        let (shields, transport) = (column("Shields number"), column("transport"));
+        let of = |name: &str| TransportFormula::ALL.into_iter().find(|formula| formula.key() == name).expect(name);
+        assert_eq!(names.len(), 15);
+        for ((name, shields), printed) in names.iter().zip(shields).zip(transport) {
+            // three digits after the point
+            let computed = of(name).transport(*shields);
+            assert!((computed - printed).abs() < 5.5e-4, "{name} at {shields}: {computed} for {printed}");
+        }
+    }
+
+    #[test]
+    fn nothing_moves_below_the_critical_shields_number() {
+        for formula in TransportFormula::ALL {
+            let (_, critical, _) = formula.parameters();
+            assert_eq!(formula.transport(critical), 0.0);
+            assert_eq!(formula.transport(0.0), 0.0);
+            assert!(formula.transport(critical + 1e-6) > 0.0);
+            assert_eq!(formula.origin(), ReferenceKind::Fit);
+            assert_eq!(formula.origin().kind(), crate::metric::MetricKind::Validation);
+            assert!(formula.confidence() != Confidence::Unverified, "{}", formula.name());
+        }
+    }
+
+    #[test]
+    fn quantiles_lie_between_the_values() {
+        assert_eq!([0.0, 0.25, 0.5, 1.0].map(|share| quantile(&[1.0, 2.0, 4.0], share)), [1.0, 1.5, 2.0, 4.0]);
+        assert_eq!(quantile(&[3.0], 0.7), 3.0);
+        assert!(quantile(&[], 0.5).is_nan());
+    }
+
+    #[test]
+    fn the_formula_runs_through_the_runs_of_each_shields_number() {
+        for shields in [0.115, 0.173] {
+            let rates = measured_rates_about(shields).expect("runs");
+            assert!((0.4..1.2).contains(&rates.median), "{shields}: {rates:?}");
+            assert!(
+                rates.bounds.0 < rates.median && rates.median < rates.bounds.1 && rates.deviation > 0.0,
+                "{rates:?}"
+            );
+        }
+        assert_eq!(measured_rates_about(5.0), None);
+    }
+
+    #[test]
+    fn the_band_holds_nine_tenths_of_the_runs_well_above_the_threshold() {
+        assert_eq!(MEASURED_TRANSPORT.len(), 105);
+        let own = TransportFormula::WongParker;
+        let ratio = |&(shields, transport): &(f64, f64)| transport / own.transport(shields);
+        let well_above: Vec<f64> = MEASURED_TRANSPORT.iter().filter(|run| run.0 >= 0.1).map(ratio).collect();
+        let inside = well_above.iter().filter(|ratio| (MEASURED_BAND.0..=MEASURED_BAND.1).contains(*ratio)).count();
+        println!("{MEASURED_BAND:?}: {inside} of {}", well_above.len());
+        assert_eq!((well_above.len(), inside), (32, 28));
+        // and it is no wider than the factor of two by which the formula is said to scatter
+        assert!(MEASURED_BAND.0 > 0.45 && MEASURED_BAND.1 < 2.0);
+    }
+}

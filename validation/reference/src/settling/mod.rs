@@ -1,0 +1,9 @@
+//! Settling grains: drag, hindered settling and measured suspensions.
+
+mod beads;
+mod drag_tables;
+mod grains;
+
+pub use beads::{SETTLING_BEADS, SettlingBeads};
+pub use drag_tables::{HINDERED_SLIPS, HinderedSlip, STANDARD_DRAG, StandardDrag};
+pub use grains::{GrainForm, SettlingGrains, richardson_zaki_confidence, richardson_zaki_exponent};

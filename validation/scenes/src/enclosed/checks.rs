@@ -1,0 +1,163 @@
+//! Rules between the fields of a scene.
+
+use super::parameters::Setting;
+use super::periods::Periods;
+use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector};
+use super::{Measurand, SceneParameters, names, sides::SceneSides};
+use crate::case::ParameterError;
+use crate::setup::rules;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::Surface;
+use bagnold_solver::weakly_compressible::boundary::enclosure::Enclosure;
+use bagnold_solver::weakly_compressible::boundary::shell::Motion;
+use bagnold_solver::weakly_compressible::numerics::Contact;
+
+impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+    /// Everything that is refused beyond the ranges of single fields.
+    pub(super) fn checked(&self) -> Result<(), ParameterError> {
+        let walls = self.walls.iter().map(SceneWall::name);
+        let inlets = self.inlets.iter().map(SceneInlet::name);
+        names::check(&self.name, walls, inlets, self.gauges.iter().map(SceneGauge::name))?;
+        if self.bodies.is_empty() && self.inlets.is_empty() {
+            return Err(ParameterError::field("bodies", "[]", "at least one body", S::ADD_A_BODY));
+        }
+        rules::material("material", &self.material)?;
+        self.bulk.check(&self.material).map_err(|error| error.within("bulk"))?;
+        self.sides.check()?;
+        for (k, body) in self.bodies.iter().enumerate() {
+            body.check().map_err(|error| error.within(&format!("bodies[{k}]")))?;
+        }
+        for (k, wall) in self.walls.iter().enumerate() {
+            let sound = wall.check(self.spacing).and_then(|()| check_motion(&wall.shell().motion, S::Wall::GIVEN_BY));
+            sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
+        }
+        self.check_scales()?;
+        self.check_inlets()?;
+        self.check_gauges()?;
+        self.check_numerics()
+    }
+
+    /// Numerics that the material and the walls need.
+    fn check_numerics(&self) -> Result<(), ParameterError> {
+        rules::viscous_step("numerics", &self.numerics, &self.material)?;
+        let shells: Vec<_> = self.walls.iter().map(SceneWall::shell).collect();
+        if shells.iter().any(|shell| shell.roughness == Surface::Smooth) {
+            rules::gate("numerics", &self.numerics)?;
+        }
+        let enclosure =
+            Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds(), side_walls: self.side_walls };
+        rules::refuse("numerics", enclosure.numerics_problem(&self.numerics))?;
+        if let Some(problem) = self.side_walls.and_then(|walls| walls.problem(D)) {
+            return Err(problem.into());
+        }
+        if self.numerics.contact == Contact::None && !(self.walls.is_empty() && self.inlets.is_empty()) {
+            let remedy = format!("contact keeps particles in front of walls of {}; leave it as it is", S::Wall::FACETS);
+            return Err(ParameterError::field("numerics.contact", "none", "\"half-spacing\" with walls", &remedy));
+        }
+        Ok(())
+    }
+
+    fn check_gauges(&self) -> Result<(), ParameterError> {
+        let down = self.down();
+        for (k, gauge) in self.gauges.iter().enumerate() {
+            if let Measurand::Force { wall } = gauge.measure(&down) {
+                names::check_wall(&format!("gauges[{k}].wall"), wall, self.barriers().map(|(name, _)| name))?;
+            }
+            gauge.check(self.spacing, &down).map_err(|error| error.within(&format!("gauges[{k}]")))?;
+            self.check_direction(k, gauge)?;
+        }
+        names::check_measured(&self.measured, |name| self.gauges.iter().any(|gauge| gauge.name() == name))
+    }
+
+    /// What a thickness is measured along: one direction, which leaves the material somewhere.
+    fn check_direction(&self, k: usize, gauge: &S::Gauge) -> Result<(), ParameterError> {
+        let within = |error: ParameterError| Err(error.within(&format!("gauges[{k}]")));
+        let (given, wall) = gauge.along();
+        if let Some(wall) = wall {
+            names::check_wall(&format!("gauges[{k}].normal_to"), wall, self.walls.iter().map(SceneWall::name))?;
+        }
+        if let Some(given) = given {
+            let shown = shown(given.iter());
+            if wall.is_some() {
+                let rule = "absent beside `normal_to`";
+                return within(ParameterError::field("direction", shown, rule, "one of the two says it"));
+            }
+            if !(given.norm() > 0.0 && given.norm().is_finite()) {
+                let rule = "a direction of some length";
+                return within(ParameterError::field(
+                    "direction",
+                    shown,
+                    rule,
+                    "leave it out to measure along gravity",
+                ));
+            }
+        }
+        let direction = self.direction_of(gauge);
+        let is_depth = matches!(gauge.measure(&direction), Measurand::Depth(_));
+        if is_depth && !Periods::of(&self.sides.axes()).are_crossed_by(&direction) {
+            let rule = "a direction that crosses the layer between the periodic sides";
+            let remedy = "along periodic sides the material never ends: give another direction, or `normal_to` a wall";
+            return within(ParameterError::field("direction", shown(direction.iter()), rule, remedy));
+        }
+        Ok(())
+    }
+
+    /// Times and lengths that fit to each other.
+    fn check_scales(&self) -> Result<(), ParameterError> {
+        names::check_times(self.interval, self.duration)?;
+        rules::count("pictures", self.pictures, 1, 100, "three or four are usual")?;
+        if vector(&self.gravity).norm() == 0.0 {
+            let none = shown(&[0.0; D]);
+            let level = "0, ".repeat(D - 1);
+            let remedy = format!("the stiffness is measured by it; give it in m/s², such as [{level}-9.81]");
+            return Err(ParameterError::field("gravity", &none, &format!("unlike {none}"), &remedy));
+        }
+        let (lower, upper) = self.extent();
+        let most = (upper - lower).max() / 4.0;
+        if self.spacing > most {
+            let rule = format!("at most a quarter of the scene's size, {most}");
+            return Err(ParameterError::field("spacing", self.spacing, &rule, "make the particles smaller"));
+        }
+        Ok(())
+    }
+}
+
+/// Refuses tables that do not begin at rest, and times that do not rise. `given_by` names the places that a wall is given by.
+fn check_motion<const D: usize>(motion: &Motion<D>, given_by: &str) -> Result<(), ParameterError> {
+    let start = motion.times.first().zip(motion.displacements.first());
+    if let Some((&time, place)) = start.filter(|(time, place)| **time != 0.0 || **place != Vector::<D>::zeros()) {
+        let row = |time: f64, place: &Vector<D>| shown(std::iter::once(&time).chain(place));
+        let (value, rest) = (row(time, place), row(0.0, &Vector::zeros()));
+        let remedy = format!("the {given_by} are where the wall is at the start");
+        return Err(ParameterError::field("motion[0]", value, &rest, &remedy));
+    }
+    if motion.times.len() == 1 || !motion.is_sound() {
+        let value = format!("{} rows", motion.times.len());
+        let rule = "rows with rising times, two or more";
+        return Err(ParameterError::field("motion", value, rule, "sort the rows by their times"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_begin_at_rest_and_go_on() {
+        let motion = |rows: &[[f64; 4]]| Motion {
+            times: rows.iter().map(|row| row[0]).collect(),
+            displacements: rows.iter().map(|row| Vector::<3>::new(row[1], row[2], row[3])).collect(),
+        };
+        let checked = |rows: &[[f64; 4]]| check_motion(&motion(rows), "corners").map_err(|error| error.to_string());
+        assert_eq!(checked(&[]), Ok(()));
+        assert_eq!(checked(&[[0.0; 4], [1.0, 0.0, 0.0, 0.5]]), Ok(()));
+        let early =
+            "`motion[0]` is (0, 0, 0.5, 0), but must be (0, 0, 0, 0); the corners are where the wall is at the start";
+        assert_eq!(checked(&[[0.0, 0.0, 0.5, 0.0]]), Err(early.to_owned()));
+        let late = checked(&[[0.5, 0.0, 0.0, 0.0]]).expect_err("starts late");
+        assert!(late.starts_with("`motion[0]` is (0.5, 0, 0, 0)"), "{late}");
+        let alone = checked(&[[0.0; 4]]).expect_err("one row");
+        assert!(alone.starts_with("`motion` is 1 rows, but must be rows with rising times, two or more"), "{alone}");
+    }
+}

@@ -1,0 +1,213 @@
+//! Where particles start: on the sites of lattices that bodies hold, as dense as the material above them makes them.
+
+use super::behind_walls::{Permissions, Site};
+use super::lattice::{LatticeGroup, SiteLattice, groups};
+use super::parameters::Setting;
+use super::setting::{SceneBody, SceneInlet, SceneWall, vector};
+use super::sides::SceneSides;
+use super::surfaces::{Surfaces, is_taken};
+use super::{SceneParameters, shapes};
+use crate::case::ParameterError;
+use crate::setup::displaced_flow;
+use bagnold_solver::material::equation_of_state::EquationOfState;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::scene::Flow;
+
+/// Steps by which depths are felt, a spacing `[-]`.
+const STEPS: f64 = 8.0;
+
+impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+    /// Particles on the sites of lattices that bodies hold and that are free of walls, under the pressure of the material above
+    /// them; and the share of the sites of bodies that walls take `[-]`.
+    ///
+    /// # Errors
+    /// A body of which walls take more than they may.
+    pub(super) fn fill(
+        &self,
+        walls: &Surfaces<D>,
+        equation_of_state: &EquationOfState,
+    ) -> Result<(Flow<D>, f64), ParameterError> {
+        let Self { spacing, jitter, ref bodies, .. } = *self;
+        let groups = groups(bodies, &self.sides, spacing);
+        for remark in misfits(bodies, &groups, spacing) {
+            tracing::warn!("{remark}");
+        }
+        let gravity = vector(&self.gravity);
+        let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
+        let (mut all, mut free) = (0, Vec::new());
+        for LatticeGroup { lattice, bodies: members } in &groups {
+            let sites = self.held(lattice, members, walls);
+            let behind = self.permissions(self.cut_at_most).behind(&sites)?;
+            let is_free = |site: &Site<D>| !site.nearest.is_some_and(|nearest| is_taken(&nearest, lattice.shortest()));
+            all += sites.len();
+            let pairs = sites.into_iter().zip(behind);
+            free.extend(pairs.filter(|(site, behind)| !behind && is_free(site)).map(|(site, _)| (site, *lattice)));
+        }
+        let share = if all == 0 { 0.0 } else { (all - free.len()) as f64 / all as f64 };
+        let mut flow = displaced_flow(
+            free.iter().map(|(site, _)| site.place),
+            (jitter * spacing, self.seed),
+            |site| equation_of_state.density(weight * depth(bodies, site, &up, spacing)),
+            |_| 0.0,
+        );
+        flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();
+        flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();
+        Ok((flow, share))
+    }
+}
+
+impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+    /// The sites of a lattice that some bodies hold.
+    fn held(&self, lattice: &SiteLattice<D>, members: &[usize], walls: &Surfaces<D>) -> Vec<Site<D>> {
+        let bodies = &self.bodies;
+        let corners = members.iter().flat_map(|&body| <[Vector<D>; 2]>::from(bodies[body].extent()));
+        let held = lattice.sites(shapes::around(corners)).filter_map(|(cell, place)| {
+            let body = holder(bodies, &place).filter(|body| members.contains(body) && self.sides.hold(&place))?;
+            Some(Site { cell, place, body, nearest: walls.nearest(&place) })
+        });
+        held.collect()
+    }
+
+    fn permissions(&self, most: f64) -> Permissions<'_> {
+        Permissions {
+            walls: self.barriers().collect(),
+            inlets: (self.walls.len(), S::Inlet::TURN),
+            most,
+            turn: S::Wall::TURN,
+        }
+    }
+
+    /// All sites that bodies hold, with what becomes of each, also where walls take more of a body than they may.
+    pub(super) fn survey(&self, walls: &Surfaces<D>) -> Vec<(Vector<D>, SiteFate)> {
+        let mut fates = Vec::new();
+        for LatticeGroup { lattice, bodies: members } in &groups(&self.bodies, &self.sides, self.spacing) {
+            let sites = self.held(lattice, members, walls);
+            // of a body on both sides of a wall it is not known what is behind, but where it is near
+            let near = |site: &Site<D>| site.nearest.is_some_and(|wall| wall.distance < 0.0);
+            let behind = self.permissions(1.0).behind(&sites).unwrap_or_else(|_| sites.iter().map(near).collect());
+            fates.extend(sites.iter().zip(behind).map(|(site, behind)| {
+                let is_near = site.nearest.is_some_and(|nearest| is_taken(&nearest, lattice.shortest()));
+                let fate = match (behind, is_near) {
+                    (true, _) => SiteFate::Behind,
+                    (false, true) => SiteFate::AtAWall,
+                    (false, false) => SiteFate::Particle,
+                };
+                (site.place, fate)
+            }));
+        }
+        fates
+    }
+}
+
+/// What becomes of a site that a body holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum SiteFate {
+    /// A particle starts there.
+    Particle,
+    /// It is too near to a wall.
+    AtAWall,
+    /// It is behind a wall.
+    Behind,
+}
+
+/// Share of a body's mass that its particles may have too much or too little before it is said `[-]`.
+const MISFIT: f64 = 0.02;
+
+/// What is to be said of bodies on the common lattice that are no whole number of its spacings: their particles have another mass
+/// than they.
+fn misfits<const D: usize>(bodies: &[impl SceneBody<D>], groups: &[LatticeGroup<D>], spacing: f64) -> Vec<String> {
+    let common = SiteLattice::<D>::common(spacing);
+    let of_cells = |body: &_| {
+        let cells = common.sites(SceneBody::extent(body)).filter(|(_, place)| SceneBody::holds(body, place));
+        cells.count() as f64 * common.mass(1.0)
+    };
+    let mut remarks = Vec::new();
+    for &number in groups.iter().filter(|group| group.lattice == common).flat_map(|group| &group.bodies) {
+        let share = of_cells(&bodies[number]) / bodies[number].volume();
+        // a body without a particle is refused elsewhere
+        if share > 0.0 && (share - 1.0).abs() > MISFIT {
+            remarks.push(format!(
+                "`bodies[{number}]`: its particles have {:.1} % of its mass, what the lattice of {spacing} m from the origin holds of it; put plane \
+                 faces on whole numbers of spacings, or make the spacing smaller",
+                100.0 * share
+            ));
+        }
+    }
+    remarks
+}
+
+/// The first body that holds a place, if any does, by its place among all.
+fn holder<const D: usize>(bodies: &[impl SceneBody<D>], place: &Vector<D>) -> Option<usize> {
+    bodies.iter().position(|body| body.holds(place))
+}
+
+/// Depth of a place below the surface of the material, against the direction `up`: as far as bodies reach `[m]`.
+pub(crate) fn depth<const D: usize>(
+    bodies: &[impl SceneBody<D>],
+    place: &Vector<D>,
+    up: &Vector<D>,
+    spacing: f64,
+) -> f64 {
+    let step = spacing / STEPS;
+    let mut steps = 0.0;
+    while holder(bodies, &(place + up * ((steps + 0.5) * step))).is_some() {
+        steps += 1.0;
+    }
+    steps * step
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Tier;
+    use crate::scene::{Plane, PlaneBody};
+    use crate::scene_space::{Space, SpaceBody};
+    use bagnold_solver::material::equation_of_state::Tension;
+
+    #[test]
+    fn a_body_of_broken_spacings_is_said_to_lose_mass() {
+        let velocity = (0.0, 0.0);
+        let misfits = |bodies: &[PlaneBody]| {
+            let sides = Plane::of_tier(Tier::Quick).sides;
+            misfits(bodies, &groups(bodies, &sides, 0.0025), 0.0025)
+        };
+        let new = |height: f64| PlaneBody::Polygon {
+            points: vec![(0.0, 0.0), (0.1, 0.0), (0.1, height), (0.0, height)],
+            velocity,
+        };
+        assert_eq!(misfits(&[new(0.03)]), Vec::<String>::new());
+        // 12.5 rows: the middle of the last lies on the edge and is not held
+        let remarks = misfits(&[new(0.03), new(0.03125)]);
+        assert!(remarks.len() == 1 && remarks[0].starts_with("`bodies[1]`: its particles have 96.0 %"), "{remarks:?}");
+        // a box has rows of its own
+        let cuboid = PlaneBody::Box { lower: (0.0, 0.0), upper: (0.1, 0.03125), velocity };
+        assert_eq!(misfits(&[cuboid]), Vec::<String>::new());
+    }
+
+    /// Volume of the particles that fill bodies without walls: their masses over their densities.
+    fn filled<S: Setting<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64 {
+        let scene = SceneParameters { bodies, spacing, walls: Vec::new(), ..S::of_tier(Tier::Quick) };
+        let law = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e6, tension: Tension::Cut };
+        let (flow, _) = scene.fill(&Surfaces::of(&[], &[], spacing), &law).expect("filled");
+        flow.mass.iter().zip(&flow.density).map(|(mass, density)| mass / density).sum()
+    }
+
+    #[test]
+    fn boxes_have_their_mass_whatever_the_spacing_is() {
+        let flat = |lower, upper| PlaneBody::Box { lower, upper, velocity: (0.0, 0.0) };
+        let velocity = (0.0, 0.0, 0.0);
+        for spacing in [0.0025, 0.0031, 0.0047, 0.0063] {
+            let plane = filled::<Plane, 2>(vec![flat((0.01, 0.0), (0.11, 0.03125))], spacing) / (0.1 * 0.03125);
+            let two = vec![flat((0.01, 0.0), (0.11, 0.03125)), flat((0.01, 0.03125), (0.0701, 0.0523))];
+            let two = filled::<Plane, 2>(two, spacing) / (0.1 * 0.03125 + 0.0601 * (0.0523 - 0.03125));
+            let space = vec![SpaceBody::Box { lower: (0.0, 0.0, 0.0), upper: (0.04, 0.033, 0.03125), velocity }];
+            let space = filled::<Space, 3>(space, spacing) / (0.04 * 0.033 * 0.03125);
+            for share in [plane, two, space] {
+                assert!((share - 1.0).abs() < 1e-9, "{spacing} m: {plane}, {two} and {space}");
+            }
+        }
+        // what is beyond a side does not count: the tier's plane of symmetry is at 0
+        let cut = filled::<Plane, 2>(vec![flat((-0.013, 0.0), (0.0501, 0.03125))], 0.0025) / (0.0501 * 0.03125);
+        assert!((cut - 1.0).abs() < 1e-9, "{cut}");
+    }
+}

@@ -1,0 +1,75 @@
+//! Reading the gauges of a scene, sample by sample.
+
+use super::Measurand;
+use super::periods::Periods;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use serde::{Deserialize, Serialize};
+
+/// What gauges remember from sample to sample; in the plane, masses and impulses are those per metre of depth.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub(crate) struct Memory<const D: usize> {
+    /// Time of the last sample `[s]`.
+    time: f64,
+    /// Places `[m]` and velocities `[m/s]` of the particles then, by their identity; NaN of those that have left.
+    places: Vec<(Vector<D>, Vector<D>)>,
+    /// Impulses of the walls then `[kg m/s]`.
+    impulses: Vec<Vector<D>>,
+    /// Mass that has crossed each gauge's opening `[kg]`.
+    crossed: Vec<f64>,
+}
+
+impl<const D: usize> Memory<D> {
+    /// The values of all gauges now, column by column, with the snapshot of the simulation; remembers the state for the next
+    /// sample. `known` particles have been there so far, between sides that repeat themselves by `periods`.
+    pub(crate) fn read_all(
+        &mut self,
+        measures: &[Measurand<'_, D>],
+        simulation: &Simulation<D>,
+        snapshot: &Snapshot<D>,
+        (known, periods): (usize, &Periods<D>),
+    ) -> Vec<f64> {
+        self.crossed.resize(measures.len(), 0.0);
+        let read = |(k, measure)| self.read((k, measure), simulation, snapshot, periods);
+        let values = measures.iter().enumerate().flat_map(read).collect();
+        let particles = simulation.particles();
+        self.places.clear();
+        self.places.resize(known, (Vector::repeat(f64::NAN), Vector::zeros()));
+        for (index, &identity) in particles.identity.iter().enumerate() {
+            self.places[identity as usize] = (particles.position[index], particles.velocity[index]);
+        }
+        self.impulses = simulation.shell_impulses().to_vec();
+        self.time = simulation.time();
+        values
+    }
+
+    /// The values of the gauge at this place among all, one a column.
+    fn read(
+        &mut self,
+        (gauge, measure): (usize, &Measurand<'_, D>),
+        simulation: &Simulation<D>,
+        snapshot: &Snapshot<D>,
+        periods: &Periods<D>,
+    ) -> Vec<f64> {
+        let elapsed = simulation.time() - self.time;
+        let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
+        match measure {
+            Measurand::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
+            Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
+            Measurand::Force { wall } => {
+                let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
+                    return vec![0.0; D];
+                };
+                let before = self.impulses.get(k).copied().unwrap_or_else(Vector::zeros);
+                // the wall feels the opposite of what it gives
+                (before - simulation.shell_impulses()[k]).iter().map(|&change| per_time(change)).collect()
+            }
+            Measurand::Flux(opening) => {
+                let crossed = opening.crossed(simulation, periods, &self.places, self.time);
+                self.crossed[gauge] += crossed;
+                vec![self.crossed[gauge], per_time(crossed)]
+            }
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! How scenes are judged: by their balances, and their gauges by what was measured.
+
+use super::parameters::Setting;
+use super::prediction;
+use super::series;
+use super::setting::{SceneInlet, vector};
+use super::sides::SceneSides;
+use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
+use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
+use crate::statistics::{Beyond, interpolated};
+use bagnold_solver::weakly_compressible::numerics::ViscousStep;
+
+/// Impulse that implicit viscous steps may leave out, over that of gravity `[%]`.
+const MOST_UNSOLVED: f64 = 0.5;
+
+/// Largest difference of the mass that was fed from the integral of the rate, over a row `[-]`.
+const FARTHEST: f64 = 0.7;
+
+quantities! { shared pub(super)
+    MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start and of what came in"),
+    MOMENTUM_RESIDUAL:
+        accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity"),
+    FORCE_RESIDUAL:
+        accounted("force_residual", "%", "impulse of all walls, wall by wall, less that of all particles, over that of gravity"),
+    UNSOLVED: accounted("unsolved", "%", "impulse that implicit viscous steps leave out, over that of gravity"),
+    THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
+    MASS_LEFT: accounted("mass_left", "%", "mass that has left by open sides"),
+    CUT_OFF: accounted("cut_off", "%", "material of the bodies that is behind walls or at them, and is left out at the start"),
+    FEED_ERROR:
+        accounted("feed_error", "-", "largest difference of the mass that an inlet has fed from the integral of its rate, over a row"),
+    FINAL_RMS_SPEED:
+        accounted("final_rms_speed", "m/s", "root mean square of the speed in the scene, mean over the last tenth of the run"),
+    FRONT: accounted("front", "m", "how far the material reaches along a gauge's line at the end"),
+    DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
+    GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
+}
+
+/// All quantities of a case of scenes, of which three have units of its own: [`Setting::MEAN_FORCE`],
+/// [`Setting::MASS_CROSSED`] and [`Setting::MASS_FED`].
+pub(crate) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 19] {
+    [
+        ENERGY_RESIDUAL,
+        ENERGY_RISE,
+        WALL_WORK,
+        CORRECTION_WORK,
+        MASS_RESIDUAL,
+        MOMENTUM_RESIDUAL,
+        FORCE_RESIDUAL,
+        UNSOLVED,
+        THROUGH_WALLS,
+        MASS_LEFT,
+        CUT_OFF,
+        FEED_ERROR,
+        FINAL_RMS_SPEED,
+        FRONT,
+        DEPTH,
+        GAUGE_ERROR,
+        S::MEAN_FORCE,
+        S::MASS_CROSSED,
+        S::MASS_FED,
+    ]
+}
+
+/// The metrics of all runs.
+pub(crate) fn all<S: Setting<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    records: &[SceneRecord<S, D>],
+) -> Vec<Metric> {
+    records.iter().flat_map(|record| of_run(parameters, record)).collect()
+}
+
+fn of_run<S: Setting<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    (run, record): &SceneRecord<S, D>,
+) -> Vec<Metric> {
+    let (variant, data) = (run.named(), &record.data);
+    let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
+    if parameters.numerics.viscous_step == ViscousStep::Implicit {
+        let share = 100.0 * data.unsolved_impulse / data.gravity_impulse;
+        metrics.push(
+            UNSOLVED
+                .of(&variant, share)
+                .exactly(0.0, "an exact solve leaves nothing")
+                .gated(
+                    Limit::AtMost(MOST_UNSOLVED),
+                    "half a per cent, as of the energy ledger; a smaller `viscous_tolerance` leaves less",
+                )
+                .with_snapshot_tolerance(1.0, 1e-3),
+        );
+    }
+    metrics.extend(feeds(&variant, data, parameters));
+    metrics.extend(energy(&variant, data, parameters));
+    metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
+    let all = series::of_run(parameters, data);
+    let front = all.iter().find_map(|series| match &series.measure {
+        Measurand::Front(line) => Some((line.clone(), series.values.first()?.clone())),
+        _ => None,
+    });
+    for series in all {
+        let own = variant.clone().and("gauge", series.gauge);
+        let first = series.values.first().map_or(&[][..], Vec::as_slice);
+        let last = first.last().copied().unwrap_or(f64::NAN);
+        let metric = match series.measure {
+            Measurand::Front(line) => {
+                FRONT.of(&own, last).predicted(prediction::of_front(parameters, data, &line, first))
+            }
+            Measurand::Depth(depth) => {
+                let front = front.as_ref().map(|(line, fronts)| (line, &fronts[..]));
+                DEPTH
+                    .of(&own, last)
+                    .predicted(front.and_then(|front| prediction::of_depth(parameters, data, &depth, front, last)))
+            }
+            Measurand::Force { .. } => {
+                let means: Vec<f64> = series.values.iter().map(|component| mean(component)).collect();
+                S::MEAN_FORCE.of(&own, size(&means))
+            }
+            Measurand::Flux(_) => S::MASS_CROSSED.of(&own, last),
+        };
+        metrics.push(metric.with_snapshot_tolerance(0.1, 0.1 * largest(first)));
+        metrics.extend(errors(&own, &data.time, first, &series.measured));
+    }
+    metrics
+}
+
+/// The balances of a run in which something can be missing; `has_mirror` tells of planes of symmetry, which are no walls.
+fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_mirror: bool) -> Vec<Metric> {
+    let mass = data.whole_mass();
+    let closed = "what is booked particle by particle adds up to the rounding of single precision, over as many steps as a scene lasts: 1e-7 % \
+                  after thousands of them";
+    let mut metrics = vec![
+        MASS_RESIDUAL
+            .of(variant, 100.0 * data.missing_mass / mass)
+            .exactly(0.0, "no particle is lost: it is inside, or has left by an open side")
+            .gated(
+                Limit::AtMost(1e-9),
+                "rounding of a sum over all particles, of which a scene may have millions; of thousands it is 1e-14",
+            )
+            .with_snapshot_tolerance(1.0, 1e-9),
+        MOMENTUM_RESIDUAL
+            .of(variant, 100.0 * data.missing_impulse / data.gravity_impulse)
+            .exactly(0.0, "what gravity, walls and sides give is the change of the momentum")
+            .gated(Limit::AtMost(1e-4), closed)
+            .with_snapshot_tolerance(1.0, 1e-7),
+        THROUGH_WALLS
+            .of(variant, data.behind as f64)
+            .exactly(0.0, "walls hold")
+            .gated(Limit::AtMost(0.0), "a particle that has passed a wall is a divergence; none may be left behind one")
+            .with_snapshot_tolerance(0.0, 0.0),
+        MASS_LEFT
+            .of(variant, 100.0 * data.left.iter().map(|side| side.mass).sum::<f64>() / mass)
+            .with_snapshot_tolerance(0.1, 1.0),
+        CUT_OFF.of(variant, 100.0 * data.cut_off).with_snapshot_tolerance(0.1, 1.0),
+    ];
+    if !has_mirror {
+        metrics.push(
+            FORCE_RESIDUAL
+                .of(variant, 100.0 * data.unassigned_impulse / data.gravity_impulse)
+                .exactly(0.0, "the forces on the walls are all that the particles feel of them")
+                .gated(Limit::AtMost(1e-4), closed)
+                .with_snapshot_tolerance(1.0, 1e-7),
+        );
+    }
+    metrics
+}
+
+/// What inlets have fed, and how far it is from what they were to feed.
+fn feeds<S: Setting<D>, const D: usize>(
+    variant: &Variant,
+    data: &SceneObservation<D>,
+    parameters: &SceneParameters<S, D>,
+) -> Vec<Metric> {
+    let of_inlet = |(inlet, fed): (&S::Inlet, &FedMass)| {
+        let own = variant.clone().and("inlet", inlet.name());
+        [
+            S::MASS_FED.of(&own, fed.mass).with_snapshot_tolerance(1e-6, 0.0),
+            FEED_ERROR
+                .of(&own, fed.farthest)
+                .exactly(0.0, "the integral of the rate; material comes in row by row")
+                .gated(
+                    Limit::AtMost(FARTHEST),
+                    "half a row, and what rows move in a step at a fifth of the speed of sound",
+                )
+                .with_snapshot_tolerance(0.5, 0.1),
+        ]
+    };
+    parameters.inlets.iter().zip(&data.fed).flat_map(of_inlet).collect()
+}
+
+/// The energy's balance. What a wall of the scene gives may be meant, so that only what is not booked is judged.
+/// Gravity, height and stiffness of the scene give the scales of energy and time.
+fn energy<S: Setting<D>, const D: usize>(
+    variant: &Variant,
+    data: &SceneObservation<D>,
+    parameters: &SceneParameters<S, D>,
+) -> Vec<Metric> {
+    let book = &data.energy;
+    if book.total.is_empty() {
+        return Vec::new();
+    }
+    let (gravity, height) = (vector(&parameters.gravity).norm(), parameters.height());
+    let weight = data.whole_mass() * gravity;
+    let numerics = &parameters.numerics;
+    let smoothing_length = numerics.smoothing_ratio * parameters.spacing;
+    let sound_speed = (parameters.stiffness * gravity * height).sqrt();
+    let scale = EnergyScale::WorkOver {
+        fall_time: (height / gravity).sqrt(),
+        weight_by_height: weight * height,
+        time_step: numerics.acoustic_courant * smoothing_length / sound_speed,
+    };
+    let share = |value: f64| 100.0 * value / scale.of(book).0;
+    vec![
+        energy_ledger::residual(variant, book, scale),
+        ENERGY_RISE.of(variant, share(book.rise())).with_snapshot_tolerance(0.5, 0.1),
+        WALL_WORK.of(variant, share(book.walls)).with_snapshot_tolerance(0.2, 0.5),
+        CORRECTION_WORK.of(variant, share(book.correction)).with_snapshot_tolerance(0.2, 0.5),
+    ]
+}
+
+/// A gauge's series beside what was measured.
+fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&MeasuredSeries]) -> Vec<Metric> {
+    let error = |measured: &&MeasuredSeries| {
+        let limit = (measured.limit > 0.0).then_some(Limit::AtMost(measured.limit));
+        GAUGE_ERROR
+            .of(variant, 100.0 * error(time, series, &measured.points))
+            .against(Some(0.0), &measured.source, Confidence::Medium)
+            .gated_by(limit, "the limit that the scene's file gives")
+            .with_snapshot_tolerance(0.1, 1.0)
+    };
+    measured.iter().map(error).collect()
+}
+
+/// Size of a vector of some components; of two, as `hypot` rounds it.
+fn size(components: &[f64]) -> f64 {
+    match *components {
+        [one, other] => libm::hypot(one, other),
+        _ => components.iter().map(|component| component * component).sum::<f64>().sqrt(),
+    }
+}
+
+/// Mean over all samples but the first, before which nothing has been.
+fn mean(series: &[f64]) -> f64 {
+    let series = series.get(1..).unwrap_or_default();
+    series.iter().sum::<f64>() / series.len() as f64
+}
+
+/// Mean over the last tenth of the samples, one at least.
+fn final_mean(series: &[f64]) -> f64 {
+    let last = &series[series.len() - series.len().div_ceil(10)..];
+    last.iter().sum::<f64>() / last.len() as f64
+}
+
+fn largest(series: &[f64]) -> f64 {
+    series.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+}
+
+/// Root mean square of value/measured − 1 at the measured times; NaN where the series does not reach them.
+fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> f64 {
+    let samples: Vec<(f64, f64)> = time.iter().copied().zip(series.iter().copied()).collect();
+    let at = |time: f64| interpolated(&samples, time, (Beyond::Nothing, Beyond::Nothing)).unwrap_or(f64::NAN);
+    let square = |&(time, measured): &(f64, f64)| (at(time) / measured - 1.0).powi(2);
+    (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_is_that_at_the_measured_times() {
+        let (time, series) = ([0.0, 1.0, 2.0], [1.0, 2.0, 4.0]);
+        assert!(error(&time, &series, &[(0.0, 1.0), (0.5, 1.5), (2.0, 4.0)]) < 1e-15);
+        assert!((error(&time, &series, &[(1.5, 2.0)]) - 0.5).abs() < 1e-15);
+        assert!(error(&time, &series, &[(2.5, 4.0)]).is_nan(), "the run ended before");
+    }
+}

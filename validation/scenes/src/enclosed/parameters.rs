@@ -1,0 +1,225 @@
+//! Everything that a scene is, and what the plane and space each give of it in their own way: all else is written once, over
+//! [`Setting`].
+
+use super::given::PlainData;
+use super::measured::MeasuredSeries;
+use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, vector};
+use super::sides::SceneSides;
+use super::{BodyPreparation, Measurand, shapes};
+use crate::case::Tier;
+use crate::figure::{Figure, Panel};
+use crate::metric::Quantity;
+use crate::observation::Frame;
+use crate::setup::Bulk;
+use bagnold_solver::domain::Domain;
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::parameter::{between, positive};
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::SideWalls;
+use bagnold_solver::weakly_compressible::boundary::facet::Facet;
+use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
+
+/// The plane (D = 2) or space (D = 3).
+pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Sync + 'static {
+    /// Coordinates or components along the axes, as a case file gives them.
+    type Place: PlainData + Copy + Into<[f64; D]>;
+    /// The sides of the domain by their names.
+    type Sides: SceneSides<D>;
+    /// A piece of material.
+    type Body: SceneBody<D>;
+    /// A wall.
+    type Wall: SceneWall<D>;
+    /// An opening by which material comes in.
+    type Inlet: SceneInlet<D>;
+    /// A gauge.
+    type Gauge: SceneGauge<D>;
+
+    /// What to do about a scene without bodies.
+    const ADD_A_BODY: &'static str;
+    /// What a step of a particle costs of one in the plane `[-]`: its neighbours.
+    const COST: f64;
+    /// Mean force on a gauge's wall, in the unit that forces have here.
+    const MEAN_FORCE: Quantity;
+    /// Mass that has crossed a gauge's opening, in the unit that masses have here.
+    const MASS_CROSSED: Quantity;
+    /// Mass that an inlet has fed, in the unit that masses have here.
+    const MASS_FED: Quantity;
+    /// Unit of a mass per time.
+    const FLUX_UNIT: &'static str;
+
+    /// The scene of a tier.
+    fn of_tier(tier: Tier) -> SceneParameters<Self, D>;
+
+    /// Fills the space behind walls with `rows` of dummy particles at a `spacing` `[m]`.
+    fn lay(shells: &mut [Shell<D>], domain: &Domain<D>, spacing: f64, rows: usize);
+
+    /// Places of the start between walls, inlets and what is measured, with a value each from 0 to 1; a panel a view.
+    fn setup(parameters: &SceneParameters<Self, D>, sites: &[(Vector<D>, f64)]) -> Vec<Panel>;
+
+    /// Pictures of the material between its walls.
+    fn pictures(parameters: &SceneParameters<Self, D>, frames: &[Frame]) -> Figure;
+}
+
+/// Parameters of the cases `scene` and `scene-space`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(bound = "")]
+#[schemars(rename = "SceneParameters", bound = "")]
+pub struct SceneParameters<S: Setting<D>, const D: usize> {
+    /// Name of the scene, in figures and files.
+    pub name: String,
+    /// Gravity along each axis `[m/s²]`.
+    pub gravity: S::Place,
+    /// Particle spacing `[m]`.
+    #[schemars(transform = positive("give it in metres: a tenth to a twentieth of the smallest thing that matters"))]
+    pub spacing: f64,
+    /// Simulated time `[s]`.
+    #[schemars(transform = positive("give it in seconds"))]
+    pub duration: f64,
+    /// Time between two rows of the series `[s]`.
+    #[schemars(transform = positive("give it in seconds, such as a hundredth of the duration"))]
+    pub interval: f64,
+    /// Pictures over the duration.
+    pub pictures: usize,
+    /// Bulk modulus over ρ0 g and the height of the scene `[-]`.
+    #[schemars(transform = between(20.0, 1e4, "50 for grains; 200 make sound seven times as fast as a fall"))]
+    pub stiffness: f64,
+    /// What becomes of a negative pressure.
+    pub tension: Tension,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// What happens before the clock starts.
+    pub preparation: BodyPreparation,
+    /// Root mean square of the speed at which settled bodies count as being at rest, over √(g H) with the scene's height H `[-]`.
+    #[schemars(transform = between(1e-6, 0.1, "1e-4 is 0.1 mm/s in a scene of 0.1 m"))]
+    pub rest_speed: f64,
+    /// Largest share of a body that may stand behind walls, where it is left out `[-]`.
+    #[schemars(transform = between(0.0, 1.0, "0.1 allows for what corners and curved walls cut off"))]
+    pub cut_at_most: f64,
+    /// Constitutive law of the material.
+    pub material: Rheology,
+    /// Its density.
+    pub bulk: Bulk,
+    /// Sides of the domain.
+    pub sides: S::Sides,
+    /// Where the material is at the start; none where an inlet brings it.
+    pub bodies: Vec<S::Body>,
+    /// Walls; what is not held by one falls.
+    pub walls: Vec<S::Wall>,
+    /// Openings by which material comes in.
+    pub inlets: Vec<S::Inlet>,
+    /// Two plates beside a scene in the plane, which rub on its material; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side_walls: Option<SideWalls>,
+    /// What is measured.
+    pub gauges: Vec<S::Gauge>,
+    /// Measured series that gauges are compared with.
+    pub measured: Vec<MeasuredSeries>,
+    /// Numerics.
+    pub numerics: Numerics,
+}
+
+impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+    /// A scene without bodies, walls and gauges: glass beads under a gravity `[m/s²]` at a spacing `[m]`, of which the scenes of
+    /// the tiers are made.
+    pub(crate) fn of_beads(name: &str, gravity: S::Place, spacing: f64, sides: S::Sides) -> Self {
+        let beads = MuI {
+            static_friction: 0.382,
+            limiting_friction: 0.643,
+            reference_inertia: 0.279,
+            grain_diameter: 0.5e-3,
+            grain_density: 2500.0,
+        };
+        Self {
+            name: name.to_owned(),
+            gravity,
+            spacing,
+            duration: 0.4,
+            interval: 0.01,
+            pictures: 4,
+            stiffness: 50.0,
+            tension: Tension::Cut,
+            jitter: 0.05,
+            seed: 1,
+            preparation: BodyPreparation::None,
+            rest_speed: 1e-4,
+            material: Rheology::MuI(beads),
+            bulk: Bulk::of_grains(0.6),
+            sides,
+            bodies: Vec::new(),
+            cut_at_most: 0.1,
+            walls: Vec::new(),
+            inlets: Vec::new(),
+            side_walls: None,
+            gauges: Vec::new(),
+            measured: Vec::new(),
+            // a liquid comes to rest, grains keep the operator that they are verified with
+            numerics: Numerics { momentum_operator: MomentumOperator::ByLaw, ..Numerics::default() },
+        }
+    }
+
+    /// The unit vector along gravity `[-]`.
+    pub(super) fn down(&self) -> Vector<D> {
+        vector(&self.gravity).normalize()
+    }
+
+    /// What the gauges measure, gauge by gauge.
+    pub(super) fn measures(&self) -> Vec<Measurand<'_, D>> {
+        self.gauges.iter().map(|gauge| gauge.measure(&self.direction_of(gauge))).collect()
+    }
+
+    /// The unit vector along which a gauge measures a thickness: gravity, unless it says otherwise.
+    pub(crate) fn direction_of(&self, gauge: &S::Gauge) -> Vector<D> {
+        let of_wall = |name: &str| {
+            let wall = self.walls.iter().find(|wall| wall.name() == name)?;
+            let Measurand::Depth(depth) = gauge.measure(&self.down()) else { return None };
+            let facets = wall.shell().facets;
+            let distance = |facet: &Facet<D>| (facet.nearest(&depth.at) - depth.at).norm();
+            facets.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|facet| facet.normal)
+        };
+        let (given, wall) = gauge.along();
+        given.map(|given| given.normalize()).or(wall.and_then(of_wall)).unwrap_or_else(|| self.down())
+    }
+
+    /// Lower and upper corner of all material, walls and inlets `[m]`.
+    pub(crate) fn extent(&self) -> (Vector<D>, Vector<D>) {
+        let bodies = self.bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
+        let inlets = self.inlets.iter().flat_map(SceneInlet::corners);
+        shapes::around(bodies.chain(self.walls.iter().flat_map(SceneWall::hull)).chain(inlets))
+    }
+
+    /// Height of the scene along gravity, from the highest material, at the start or in inlets, to the lowest of walls and material
+    /// `[m]`; bodies count by their boxes.
+    pub(super) fn height(&self) -> f64 {
+        let up = -self.down();
+        let ends = |body: &S::Body| {
+            let (lower, upper) = body.extent();
+            let (one, other) = (up.component_mul(&lower), up.component_mul(&upper));
+            (one.inf(&other).sum(), one.sup(&other).sum())
+        };
+        let of_inlets: Vec<f64> =
+            self.inlets.iter().flat_map(SceneInlet::corners).map(|place| up.dot(&place)).collect();
+        let highest = self.bodies.iter().map(|body| ends(body).1).chain(of_inlets.iter().copied());
+        let highest = highest.fold(f64::NEG_INFINITY, f64::max);
+        let of_walls = self.walls.iter().flat_map(SceneWall::hull).map(|place| up.dot(&place));
+        let lowest = self.bodies.iter().map(|body| ends(body).0).chain(of_walls).chain(of_inlets);
+        highest - lowest.fold(f64::INFINITY, f64::min)
+    }
+
+    /// How dense the material is under a pressure.
+    pub(super) fn equation_of_state(&self) -> EquationOfState {
+        let reference_density = self.bulk.density(&self.material);
+        let fastest = self.bodies.iter().map(|body| body.velocity().norm_squared()).fold(0.0, f64::max);
+        let falls = vector(&self.gravity).norm() * self.height();
+        // what moves at the start must be as slow against sound as what falls
+        let bulk_modulus = self.stiffness * reference_density * falls.max(0.5 * fastest);
+        EquationOfState { reference_density, bulk_modulus, tension: self.tension }
+    }
+}

@@ -1,0 +1,94 @@
+//! Series of gauges: their columns, what they are compared with, and how they are written.
+
+use super::measured::MeasuredSeries;
+use super::parameters::Setting;
+use super::setting::SceneGauge;
+use super::{Measurand, SceneObservation, SceneParameters, SceneRecord};
+use crate::output::Table;
+
+/// One column of a series.
+pub(super) struct GaugeColumn {
+    /// Name and unit.
+    pub(super) heading: String,
+    /// Label of its axis.
+    pub(super) axis: String,
+}
+
+/// What a gauge has measured in a run.
+pub(super) struct GaugeSeries<'a, const D: usize> {
+    /// Name of the gauge.
+    pub(super) gauge: &'a str,
+    /// What it measures.
+    pub(super) measure: Measurand<'a, D>,
+    /// Its columns.
+    pub(super) columns: Vec<GaugeColumn>,
+    /// Their values, shape `[columns][samples]`.
+    pub(super) values: &'a [Vec<f64>],
+    /// What its first column is compared with.
+    pub(super) measured: Vec<&'a MeasuredSeries>,
+}
+
+/// The series of all gauges in a run, gauge by gauge.
+pub(super) fn of_run<'a, S: Setting<D>, const D: usize>(
+    parameters: &'a SceneParameters<S, D>,
+    data: &'a SceneObservation<D>,
+) -> Vec<GaugeSeries<'a, D>> {
+    let mut next = 0;
+    let with_values = |(gauge, measure): (&'a S::Gauge, Measurand<'a, D>)| {
+        let (gauge, columns) = (gauge.name(), columns::<S, D>(&measure));
+        let values = data.gauges.get(next..next + columns.len()).unwrap_or_default();
+        next += columns.len();
+        let measured = parameters.measured.iter().filter(|measured| measured.gauge == gauge).collect();
+        GaugeSeries { gauge, measure, columns, values, measured }
+    };
+    parameters.gauges.iter().zip(parameters.measures()).map(with_values).collect()
+}
+
+/// The gauges with the number of their columns, in order.
+pub(super) fn counts<S: Setting<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Vec<(&str, usize)> {
+    let count = |measure: &Measurand<'_, D>| columns::<S, D>(measure).len();
+    parameters
+        .gauges
+        .iter()
+        .zip(parameters.measures())
+        .map(|(gauge, measure)| (gauge.name(), count(&measure)))
+        .collect()
+}
+
+/// The columns of a gauge's series.
+fn columns<S: Setting<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<GaugeColumn> {
+    let (force, mass, flux) = (S::MEAN_FORCE.unit, S::MASS_CROSSED.unit, S::FLUX_UNIT);
+    let column = |what: &str, axis: &str, unit: &str| GaugeColumn {
+        heading: format!("{what} [{unit}]"),
+        axis: format!("{axis} [{unit}]"),
+    };
+    match measure {
+        Measurand::Front(_) => vec![column("front", "front", "m")],
+        Measurand::Depth(_) => vec![column("depth", "depth", "m")],
+        Measurand::Force { .. } => {
+            let along = |axis: &&str| column(&format!("force along {axis}"), "force", force);
+            ["x", "y", "z"].iter().take(D).map(along).collect()
+        }
+        Measurand::Flux(_) => {
+            vec![column("mass that has crossed", "mass", mass), column("mean flux since the last row", "flux", flux)]
+        }
+    }
+}
+
+/// The series of each run as a table: time, mass, and a column a gauge's column.
+pub(crate) fn tables<S: Setting<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    records: &[SceneRecord<S, D>],
+) -> Vec<Table> {
+    let mass = format!("mass in the scene [{}]", S::MASS_CROSSED.unit);
+    let of_run = |(run, record): &SceneRecord<S, D>| {
+        let (data, series) = (&record.data, of_run(parameters, &record.data));
+        let heading = |gauge: &str, column: &GaugeColumn| format!("{gauge}: {}", column.heading);
+        let headings: Vec<String> =
+            series.iter().flat_map(|one| one.columns.iter().map(|column| heading(one.gauge, column))).collect();
+        let mut columns = vec![("t [s]", &data.time[..]), (&mass, &data.mass)];
+        columns.extend(headings.iter().map(String::as_str).zip(data.gauges.iter().map(Vec::as_slice)));
+        Table::of_columns(format!("gauges-{}", run.named().file_name()), &columns)
+    };
+    records.iter().map(of_run).collect()
+}

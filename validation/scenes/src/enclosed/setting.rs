@@ -1,0 +1,128 @@
+//! Bodies, walls, inlets and gauges, which the plane and space each give in their own way.
+
+use super::given::PlainData;
+use super::{GivenRate, Measurand};
+use crate::case::ParameterError;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::Surface;
+use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, Supply};
+use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+
+/// A piece of the material at the start.
+pub trait SceneBody<const D: usize>: PlainData {
+    /// Velocity at the start `[m/s]`.
+    fn velocity(&self) -> Vector<D>;
+
+    /// Lower and upper corner of its box `[m]`.
+    fn extent(&self) -> (Vector<D>, Vector<D>);
+
+    /// Its area `[m²]` in the plane, its volume `[m³]` in space.
+    fn volume(&self) -> f64;
+
+    /// Whether it is a box along the axes, so that it fills what [`SceneBody::extent`] gives.
+    fn is_box(&self) -> bool;
+
+    /// Whether it holds a place.
+    fn holds(&self, place: &Vector<D>) -> bool;
+
+    /// Refuses an empty body.
+    ///
+    /// # Errors
+    /// The field that leaves it none.
+    fn check(&self) -> Result<(), ParameterError>;
+}
+
+/// A wall. It has one side: behind it is nothing.
+pub trait SceneWall<const D: usize>: PlainData {
+    /// What its facets are called.
+    const FACETS: &'static str;
+    /// What it is given by: the places where it is at the start.
+    const GIVEN_BY: &'static str;
+    /// How one is turned round that is seen from its back.
+    const TURN: &'static str;
+
+    /// Its name, by which gauges and messages call it.
+    fn name(&self) -> &str;
+
+    /// Whether material may stand behind it.
+    fn may_have_two_sides(&self) -> bool;
+
+    /// The wall for the solver, without its dummy particles.
+    fn shell(&self) -> Shell<D>;
+
+    /// Places that it lies between `[m]`.
+    fn hull(&self) -> Vec<Vector<D>>;
+
+    /// Its length or area `[m^(D-1)]`.
+    fn measure(&self) -> f64;
+
+    /// Refuses a wall that is none at this spacing `[m]`.
+    ///
+    /// # Errors
+    /// The field that breaks a rule. How it moves is checked elsewhere.
+    fn check(&self, spacing: f64) -> Result<(), ParameterError>;
+}
+
+/// An opening by which material comes in.
+pub trait SceneInlet<const D: usize>: PlainData {
+    /// The field by which its place is given.
+    const GIVEN_BY: &'static str;
+    /// How one is turned round that looks the wrong way.
+    const TURN: &'static str;
+
+    /// Its name, by which gauges and messages call it.
+    fn name(&self) -> &str;
+
+    /// The rate at which it feeds the flow.
+    fn rate(&self) -> GivenRate<'_>;
+
+    /// Its corners `[m]`.
+    fn corners(&self) -> Vec<Vector<D>>;
+
+    /// Lengths of its edges `[m]`.
+    fn edges(&self) -> Vec<f64>;
+
+    /// Refuses an opening of another form.
+    ///
+    /// # Errors
+    /// The field that gives it.
+    fn check(&self) -> Result<(), ParameterError>;
+
+    /// The inlet for the solver; none where its edges are in line.
+    fn feed(&self, supply: Supply) -> Option<Inlet<D>>;
+}
+
+/// What is measured while a scene runs.
+pub trait SceneGauge<const D: usize>: PlainData {
+    /// Its name.
+    fn name(&self) -> &str;
+
+    /// What a thickness is measured along, unless along gravity: a direction of any length, or the normal of the wall of a name.
+    fn along(&self) -> (Option<Vector<D>>, Option<&str>);
+
+    /// What it measures, where gravity, or what takes its place as the direction of a thickness, points along the unit vector
+    /// `down`.
+    fn measure(&self, down: &Vector<D>) -> Measurand<'_, D>;
+
+    /// Refuses lines and openings without a size, measured by the spacing `[m]`.
+    ///
+    /// # Errors
+    /// The field that breaks a rule. Names of walls are checked elsewhere.
+    fn check(&self, spacing: f64, down: &Vector<D>) -> Result<(), ParameterError>;
+}
+
+/// How walls are unless a file says otherwise.
+pub(crate) fn rough() -> Surface {
+    Surface::Rough
+}
+
+/// A place as a vector `[m]`, a velocity `[m/s]` or an acceleration `[m/s²]` likewise.
+pub(crate) fn vector<const D: usize>(place: &(impl Copy + Into<[f64; D]>)) -> Vector<D> {
+    Vector::<D>::from((*place).into())
+}
+
+/// A place, or a row of a table, as messages show it.
+pub(crate) fn shown<'a>(parts: impl IntoIterator<Item = &'a f64>) -> String {
+    let parts: Vec<String> = parts.into_iter().map(ToString::to_string).collect();
+    format!("({})", parts.join(", "))
+}

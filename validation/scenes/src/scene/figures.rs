@@ -1,0 +1,83 @@
+//! Pictures of the material between its walls.
+
+use super::PlaneParameters;
+use crate::enclosed::Measurand;
+use crate::enclosed::setting::{SceneGauge, SceneInlet, SceneWall};
+use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::observation::Frame;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::facet::Facet;
+
+/// One panel a picture, the particles in the colours of their speed and the walls where they stand.
+pub(super) fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure {
+    let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
+    let (lower, upper) = parameters.extent();
+    let margin = 2.0 * parameters.spacing;
+    let axis = |label: &str, k: usize| Axis::linear(label).between(lower[k] - margin, upper[k] + margin);
+    let panels = frames.iter().map(|frame| {
+        let mut panel = Panel::new(&format!("t = {:.3} s", frame.time), axis("x [m]", 0), axis("y [m]", 1));
+        let points: Vec<(f64, f64)> = frame.position.iter().map(|place| (place[0], place[1])).collect();
+        panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, frame.speeds()));
+        for wall in &parameters.walls {
+            let shell = wall.shell();
+            let moved = shell.motion.displacement(frame.time);
+            let place = |point: &Vector<2>| (point[0] + moved[0], point[1] + moved[1]);
+            let ends = shell.facets.first().map(|facet| place(&facet.corners[0]));
+            let points = ends.into_iter().chain(shell.facets.iter().map(|facet| place(&facet.corners[1]))).collect();
+            panel.series.push(Series::new("", Mark::Reference, 0, points));
+        }
+        panel
+    });
+    Figure::new("pictures", "The material in the colours of its speed, and its walls, dashed.", panels.collect())
+}
+
+/// The sites in the colours of their values between walls, inlets and the lines of gauges, each by its name.
+pub(super) fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {
+    let (lower, upper) = parameters.extent();
+    let margin = 4.0 * parameters.spacing;
+    let axis = |label: &str, k: usize| Axis::linear(label).between(lower[k] - margin, upper[k] + margin);
+    let mut panel = Panel::new(&parameters.name, axis("x [m]", 0), axis("y [m]", 1));
+    let points = sites.iter().map(|(place, _)| (place[0], place[1]));
+    let values = sites.iter().map(|(_, value)| *value);
+    if !sites.is_empty() {
+        panel.field = Some(Field::new("behind [-]", parameters.spacing, (0.0, 1.0), points, values));
+    }
+    let point = |place: &Vector<2>| (place[0], place[1]);
+    for (slot, wall) in parameters.walls.iter().enumerate() {
+        let facets = wall.shell().facets;
+        let first = facets.first().map(|facet| point(&facet.corners[0]));
+        let points: Vec<_> = first.into_iter().chain(facets.iter().map(|facet| point(&facet.corners[1]))).collect();
+        panel.series.push(Series::new(wall.name(), Mark::Line, slot, points));
+        // a short stroke from its longest segment to where the flow is
+        let longest = facets.iter().max_by(|a, b| {
+            let length = |facet: &Facet<2>| (facet.corners[1] - facet.corners[0]).norm();
+            length(a).total_cmp(&length(b))
+        });
+        if let Some(facet) = longest {
+            let middle = (facet.corners[0] + facet.corners[1]) * 0.5;
+            let stroke = vec![point(&middle), point(&(middle + facet.normal * (3.0 * parameters.spacing)))];
+            panel.series.push(Series::new("", Mark::Line, slot, stroke));
+        }
+    }
+    let walls = parameters.walls.len();
+    for (k, inlet) in parameters.inlets.iter().enumerate() {
+        let points = inlet.corners().iter().map(point).collect();
+        panel.series.push(Series::new(inlet.name(), Mark::LinePoints, walls + k, points));
+    }
+    for gauge in &parameters.gauges {
+        let points = match gauge.measure(&parameters.direction_of(gauge)) {
+            Measurand::Front(line) => vec![point(&line.from), point(&line.to)],
+            Measurand::Flux(opening) => {
+                let end = opening.edges.iter().fold(opening.corner, |end, (edge, _)| end + edge);
+                vec![point(&opening.corner), point(&end)]
+            }
+            Measurand::Depth(depth) => {
+                let way = depth.direction * (0.5 * margin);
+                vec![point(&(depth.at - way)), point(&(depth.at + way))]
+            }
+            Measurand::Force { .. } => continue,
+        };
+        panel.series.push(Series::new(gauge.name(), Mark::Reference, 0, points));
+    }
+    vec![panel]
+}

@@ -1,0 +1,63 @@
+//! Inlets of a scene in the plane: lines by which material comes in.
+
+use super::PlaneVector;
+use crate::case::ParameterError;
+use crate::enclosed::GivenRate;
+use crate::enclosed::setting::{self, vector};
+use bagnold_solver::parameter::not_negative;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, Supply};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// An opening by which material comes in, from the right of a line to its left, seen along it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneInlet {
+    /// Its name, by which gauges and messages call it.
+    pub name: String,
+    /// Start of the line x, y `[m]`.
+    pub from: PlaneVector,
+    /// End of the line x, y `[m]`.
+    pub to: PlaneVector,
+    /// Mass per time, where it is one for all times `[kg/(s m)]`.
+    #[serde(default)]
+    #[schemars(transform = not_negative("what flows out leaves by an open side"))]
+    pub rate: f64,
+    /// Mass per time as a table: time `[s]` and rate `[kg/(s m)]`, linear between the rows, of which the first is that of time 0; the
+    /// last goes on.
+    #[serde(default)]
+    pub rates: Vec<(f64, f64)>,
+    /// CSV file of these rows with a heading, whose path begins at the case file; empty without one.
+    #[serde(default)]
+    pub table: String,
+}
+
+impl setting::SceneInlet<2> for PlaneInlet {
+    const GIVEN_BY: &'static str = "to";
+    const TURN: &'static str = "exchange `from` and `to`, if material is to come in the other way";
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn rate(&self) -> GivenRate<'_> {
+        GivenRate { rate: self.rate, rates: &self.rates, table: &self.table }
+    }
+
+    fn corners(&self) -> Vec<Vector<2>> {
+        vec![vector(&self.from), vector(&self.to)]
+    }
+
+    fn edges(&self) -> Vec<f64> {
+        vec![(vector::<2>(&self.to) - vector::<2>(&self.from)).norm()]
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        Ok(())
+    }
+
+    fn feed(&self, supply: Supply) -> Option<Inlet<2>> {
+        Inlet::segment(&self.name, vector(&self.from), vector(&self.to), supply)
+    }
+}

@@ -1,0 +1,162 @@
+//! Walls of a scene: polylines, rough or smooth, at rest or moved by a table; and the sides of its domain.
+
+use super::PlaneVector;
+use crate::case::ParameterError;
+use crate::enclosed::setting::{self, vector};
+use crate::enclosed::{DomainSide, sides};
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::Surface;
+use bagnold_solver::weakly_compressible::boundary::shell::{Motion, Shell, Side};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// On which side of a polyline the flow is, seen along its points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FlowSide {
+    /// To the left.
+    Left,
+    /// To the right.
+    Right,
+}
+
+/// A wall. It has one side: behind it is nothing, so that a plate in the flow is given all around.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WallLine {
+    /// Its name, by which gauges and messages call it.
+    pub name: String,
+    /// Its points x, y `[m]`.
+    pub points: Vec<PlaneVector>,
+    /// Whether its last point is joined to the first.
+    #[serde(default)]
+    pub closed: bool,
+    /// Side of the flow, seen along the points.
+    #[serde(default = "left")]
+    pub flow: FlowSide,
+    /// Whether the flow sticks to it or slides.
+    #[serde(default = "setting::rough")]
+    pub surface: Surface,
+    /// Whether material may stand behind it, farther away than it is thick.
+    #[serde(default)]
+    pub both_sides: bool,
+    /// How it moves: time `[s]`, displacement along x `[m]` and along y `[m]`, linear between the rows; empty for a wall
+    /// at rest.
+    #[serde(default)]
+    pub motion: Vec<(f64, f64, f64)>,
+}
+
+fn left() -> FlowSide {
+    FlowSide::Left
+}
+
+impl setting::SceneWall<2> for WallLine {
+    const FACETS: &'static str = "segments";
+    const GIVEN_BY: &'static str = "points";
+    const TURN: &'static str = "turn the wall round by `flow`, if it is seen from its back";
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn may_have_two_sides(&self) -> bool {
+        self.both_sides
+    }
+
+    fn shell(&self) -> Shell<2> {
+        let mut points: Vec<Vector<2>> = self.points.iter().map(vector).collect();
+        if self.closed {
+            points.extend(points.first().copied());
+        }
+        let side = match self.flow {
+            FlowSide::Left => Side::Left,
+            FlowSide::Right => Side::Right,
+        };
+        let mut shell = Shell::polyline(&self.name, &points, side);
+        shell.roughness = self.surface;
+        shell.motion = Motion {
+            times: self.motion.iter().map(|row| row.0).collect(),
+            displacements: self.motion.iter().map(|row| Vector::<2>::new(row.1, row.2)).collect(),
+        };
+        shell
+    }
+
+    fn hull(&self) -> Vec<Vector<2>> {
+        self.points.iter().map(vector).collect()
+    }
+
+    fn measure(&self) -> f64 {
+        self.shell().facets.iter().map(|facet| (facet.corners[1] - facet.corners[0]).norm()).sum()
+    }
+
+    fn check(&self, spacing: f64) -> Result<(), ParameterError> {
+        let least = if self.closed { 3 } else { 2 };
+        if self.points.len() < least || self.measure() <= spacing {
+            let rule = if self.closed {
+                "three points or more, farther apart than the spacing"
+            } else {
+                "two points or more, farther apart than the spacing"
+            };
+            let value = format!("{} points", self.points.len());
+            return Err(ParameterError::field("points", value, rule, "give the wall's corners in their order"));
+        }
+        Ok(())
+    }
+}
+
+/// The sides of the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneSides {
+    /// At small x.
+    pub left: DomainSide,
+    /// At large x.
+    pub right: DomainSide,
+    /// At small y.
+    pub bottom: DomainSide,
+    /// At large y.
+    pub top: DomainSide,
+}
+
+impl sides::SceneSides<2> for PlaneSides {
+    const NAMES: [(&'static str, &'static str); 2] = [("left", "right"), ("bottom", "top")];
+
+    fn pairs(&self) -> [sides::SidePair; 2] {
+        [(self.left, self.right), (self.bottom, self.top)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::enclosed::setting::SceneWall;
+
+    #[test]
+    fn a_wall_whose_points_run_the_other_way_has_its_flow_on_the_right() {
+        let points = vec![(0.0, 0.0), (0.2, 0.1), (0.3, 0.4)];
+        let wall = |points: Vec<PlaneVector>, flow| WallLine {
+            name: "bed".to_owned(),
+            points,
+            closed: false,
+            flow,
+            surface: Surface::Rough,
+            both_sides: false,
+            motion: Vec::new(),
+        };
+        let normals = |points, flow| -> Vec<Vector<2>> {
+            let mut normals: Vec<Vector<2>> =
+                wall(points, flow).shell().facets.iter().map(|facet| facet.normal).collect();
+            normals.sort_by(|one, other| one[1].abs().total_cmp(&other[1].abs()));
+            normals
+        };
+        let reversed: Vec<PlaneVector> = points.iter().rev().copied().collect();
+        let left = normals(points.clone(), FlowSide::Left);
+        let (right, turned) = (normals(reversed, FlowSide::Right), normals(points, FlowSide::Right));
+        assert_eq!((left.len(), right.len(), turned.len()), (2, 2, 2));
+        for ((left, right), turned) in left.iter().zip(&right).zip(&turned) {
+            assert!((left - right).norm() < 1e-15, "{left:?} and {right:?}");
+            // it is another wall if its side alone changes
+            assert!((left + turned).norm() < 1e-15, "{left:?} and {turned:?}");
+        }
+    }
+}

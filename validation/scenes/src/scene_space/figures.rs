@@ -1,0 +1,161 @@
+//! Pictures of the material from the side and from above, between the edges of its walls.
+
+use super::SpaceParameters;
+use crate::enclosed::setting::{SceneInlet, SceneWall};
+use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::observation::Frame;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::facet::Facet;
+use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+use std::collections::BTreeMap;
+
+/// Most edges that are drawn of the walls: a fine mesh would cover what it holds.
+const MOST_EDGES: usize = 400;
+/// Cosine of the angle between two triangles from which on their common edge is drawn `[-]`: 20°.
+const SHARP: f64 = 0.94;
+
+/// From where the scene is seen: the axes to the right and up in the picture, and the one towards the eye with its sign.
+struct ViewDirection {
+    name: &'static str,
+    right: usize,
+    up: usize,
+    towards: (usize, f64),
+}
+
+const VIEWS: [ViewDirection; 2] = [
+    ViewDirection { name: "from the side", right: 0, up: 2, towards: (1, -1.0) },
+    ViewDirection { name: "from above", right: 0, up: 1, towards: (2, 1.0) },
+];
+
+/// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
+pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
+    let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
+    let walls: Vec<(Shell<3>, Vec<[Vector<3>; 2]>)> = parameters
+        .walls
+        .iter()
+        .map(|wall| {
+            let shell = wall.shell();
+            let edges = sharp_edges(&shell.facets);
+            (shell, edges)
+        })
+        .collect();
+    let panels = frames.iter().flat_map(|frame| VIEWS.iter().map(move |view| (frame, view)));
+    let panels = panels.map(|(frame, view)| {
+        let mut panel = material(parameters, frame, view, fastest);
+        let moved = walls.iter().flat_map(|(shell, edges)| {
+            let moved = shell.motion.displacement(frame.time);
+            edges.iter().map(move |edge| edge.map(|end| end + moved))
+        });
+        for edge in moved.take(MOST_EDGES) {
+            let points = edge.iter().map(|end| (end[view.right], end[view.up])).collect();
+            panel.series.push(Series::new("", Mark::Reference, 0, points));
+        }
+        panel
+    });
+    let caption = "The material in the colours of its speed, from the side and from above, what is nearer before what is \
+                   farther; dashed the edges of the walls.";
+    Figure::new("pictures", caption, panels.collect()).in_columns(2)
+}
+
+/// The particles as one view shows them, those nearest to the eye last.
+fn material(parameters: &SpaceParameters, frame: &Frame, view: &ViewDirection, fastest: f64) -> Panel {
+    let (lower, upper) = parameters.extent();
+    let margin = 2.0 * parameters.spacing;
+    let axis = |k: usize| {
+        let label = ["x [m]", "y [m]", "z [m]"][k];
+        Axis::linear(label).between(lower[k] - margin, upper[k] + margin)
+    };
+    let title = format!("t = {:.3} s, {}", frame.time, view.name);
+    let mut panel = Panel::new(&title, axis(view.right), axis(view.up));
+    let mut order: Vec<usize> = (0..frame.position.len()).collect();
+    let nearness = |particle: usize| view.towards.1 * frame.position[particle][view.towards.0];
+    order.sort_by(|&one, &other| nearness(one).total_cmp(&nearness(other)));
+    let points: Vec<(f64, f64)> =
+        order.iter().map(|&k| (frame.position[k][view.right], frame.position[k][view.up])).collect();
+    let speeds = frame.speeds();
+    let values: Vec<f64> = order.iter().filter_map(|&k| speeds.get(k).copied()).collect();
+    panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, values));
+    panel
+}
+
+/// The sites in the colours of their values between the edges of walls and openings, from the side and from above.
+pub(super) fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
+    let (lower, upper) = parameters.extent();
+    let margin = 4.0 * parameters.spacing;
+    let view = |view: &ViewDirection| {
+        let axis =
+            |k: usize| Axis::linear(["x [m]", "y [m]", "z [m]"][k]).between(lower[k] - margin, upper[k] + margin);
+        let mut panel = Panel::new(view.name, axis(view.right), axis(view.up));
+        let mut order: Vec<&(Vector<3>, f64)> = sites.iter().collect();
+        // what is behind walls is seen through the rest
+        order.sort_by(|a, b| {
+            let nearness = |site: &(Vector<3>, f64)| view.towards.1 * site.0[view.towards.0];
+            a.1.total_cmp(&b.1).then(nearness(a).total_cmp(&nearness(b)))
+        });
+        let points = order.iter().map(|(place, _)| (place[view.right], place[view.up]));
+        let values = order.iter().map(|(_, value)| *value);
+        if !sites.is_empty() {
+            panel.field = Some(Field::new("behind [-]", parameters.spacing, (0.0, 1.0), points, values));
+        }
+        for (slot, wall) in parameters.walls.iter().enumerate() {
+            for (k, edge) in sharp_edges(&wall.shell().facets).iter().take(MOST_EDGES).enumerate() {
+                let points = edge.iter().map(|end| (end[view.right], end[view.up])).collect();
+                let label = if k == 0 { wall.name() } else { "" };
+                panel.series.push(Series::new(label, Mark::Line, slot, points));
+            }
+        }
+        for (k, inlet) in parameters.inlets.iter().enumerate() {
+            let corners = inlet.corners();
+            let points = corners.iter().chain(corners.first()).map(|place| (place[view.right], place[view.up]));
+            panel.series.push(Series::new(
+                inlet.name(),
+                Mark::LinePoints,
+                parameters.walls.len() + k,
+                points.collect(),
+            ));
+        }
+        panel
+    };
+    VIEWS.iter().map(view).collect()
+}
+
+/// An edge of a triangle.
+struct TriangleEdge {
+    ends: [Vector<3>; 2],
+    /// Of the triangle `[-]`.
+    normal: Vector<3>,
+}
+
+/// Edges at which triangles end or fold.
+fn sharp_edges(facets: &[Facet<3>]) -> Vec<[Vector<3>; 2]> {
+    let bits = |corner: &Vector<3>| [0, 1, 2].map(|axis| (corner[axis] as f32 + 0.0).to_bits());
+    let mut edges: BTreeMap<[[u32; 3]; 2], Vec<TriangleEdge>> = BTreeMap::new();
+    for Facet { corners: [a, b, c], normal } in facets.iter().copied() {
+        for ends in [[a, b], [b, c], [c, a]] {
+            let mut key = ends.each_ref().map(bits);
+            key.sort_unstable();
+            edges.entry(key).or_default().push(TriangleEdge { ends, normal });
+        }
+    }
+    let sharp = |edges: &Vec<TriangleEdge>| match edges.as_slice() {
+        [one, other] => one.normal.dot(&other.normal) < SHARP,
+        _ => true,
+    };
+    edges.into_values().filter(sharp).filter_map(|edges| edges.first().map(|edge| edge.ends)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_diagonals_of_faces_are_not_drawn() {
+        let corner = |x: f64, y: f64, z: f64| Vector::<3>::new(x, y, z);
+        let (a, b, c, d) = (corner(0.0, 0.0, 0.0), corner(1.0, 0.0, 0.0), corner(1.0, 1.0, 0.0), corner(0.0, 1.0, 0.0));
+        let (e, f) = (corner(0.0, 0.0, 1.0), corner(1.0, 0.0, 1.0));
+        let folded: Vec<_> =
+            [[a, b, c], [a, c, d], [b, a, e], [b, e, f]].into_iter().filter_map(Facet::triangle).collect();
+        assert_eq!(sharp_edges(&folded[..2]).len(), 4);
+        assert_eq!(sharp_edges(&folded).len(), 7, "and the fold once");
+    }
+}

@@ -1,0 +1,106 @@
+//! Inlets of a scene in space: rectangles by which material comes in.
+
+use super::SpaceVector;
+use crate::case::ParameterError;
+use crate::enclosed::GivenRate;
+use crate::enclosed::setting::{self, vector};
+use bagnold_solver::parameter::not_negative;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, Supply};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Cosine of the angle between two edges that counts as a right one `[-]`.
+const RIGHT: f64 = 1e-6;
+
+/// An opening by which material comes in, towards those who see its three corners against the clock.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpaceInlet {
+    /// Its name, by which gauges and messages call it.
+    pub name: String,
+    /// A corner of the rectangle and the two next to it x, y, z `[m]`.
+    pub corners: (SpaceVector, SpaceVector, SpaceVector),
+    /// Mass per time, where it is one for all times `[kg/s]`.
+    #[serde(default)]
+    #[schemars(transform = not_negative("what flows out leaves by an open side"))]
+    pub rate: f64,
+    /// Mass per time as a table: time `[s]` and rate `[kg/s]`, linear between the rows, of which the first is that of time 0; the last
+    /// goes on.
+    #[serde(default)]
+    pub rates: Vec<(f64, f64)>,
+    /// CSV file of these rows with a heading, whose path begins at the case file; empty without one.
+    #[serde(default)]
+    pub table: String,
+}
+
+impl SpaceInlet {
+    /// The corner, and the ways to the two next to it `[m]`.
+    fn frame(&self) -> [Vector<3>; 3] {
+        let (corner, one, other) = &self.corners;
+        let corner: Vector<3> = vector(corner);
+        [corner, vector::<3>(one) - corner, vector::<3>(other) - corner]
+    }
+}
+
+impl setting::SceneInlet<3> for SpaceInlet {
+    const GIVEN_BY: &'static str = "corners";
+    const TURN: &'static str = "exchange the last two corners, if material is to come in the other way";
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn rate(&self) -> GivenRate<'_> {
+        GivenRate { rate: self.rate, rates: &self.rates, table: &self.table }
+    }
+
+    fn corners(&self) -> Vec<Vector<3>> {
+        let [corner, one, other] = self.frame();
+        vec![corner, corner + one, corner + one + other, corner + other]
+    }
+
+    fn edges(&self) -> Vec<f64> {
+        let [_, one, other] = self.frame();
+        vec![one.norm(), other.norm()]
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let [_, one, other] = self.frame();
+        let cosine = one.dot(&other) / (one.norm() * other.norm());
+        if cosine.abs() <= RIGHT {
+            return Ok(());
+        }
+        let value = format!("edges at an angle of {:.1}°", libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees());
+        let rule = "those of a rectangle, whose edges from the first are at right angles";
+        Err(ParameterError::field("corners", value, rule, "give a corner and the two next to it"))
+    }
+
+    fn feed(&self, supply: Supply) -> Option<Inlet<3>> {
+        let [corner, one, other] = self.frame();
+        Inlet::rectangle(&self.name, corner, [corner + one, corner + other], supply)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::enclosed::setting::SceneInlet as _;
+
+    #[test]
+    fn an_opening_is_a_rectangle() {
+        let inlet = |last: SpaceVector| SpaceInlet {
+            name: "feed".to_owned(),
+            corners: ((0.0, 0.0, 0.0), (0.0, 0.1, 0.0), last),
+            rate: 1.0,
+            rates: Vec::new(),
+            table: String::new(),
+        };
+        assert!(inlet((0.0, 0.0, 0.1)).check().is_ok());
+        assert_eq!(
+            inlet((0.0, 0.05, 0.1)).check().expect_err("slanted").to_string(),
+            "`corners` is edges at an angle of 63.4°, but must be those of a rectangle, whose edges from the first are at right angles; \
+             give a corner and the two next to it"
+        );
+    }
+}

@@ -1,0 +1,211 @@
+//! Walls of a scene in space: triangles from a file, quadrilaterals and boxes; and the sides of its domain.
+
+use super::SpaceVector;
+use crate::case::ParameterError;
+use crate::enclosed::setting::{self, shown, vector};
+use crate::enclosed::{DomainSide, shapes, sides};
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::boundary::Surface;
+use bagnold_solver::weakly_compressible::boundary::shell::{Motion, Shell};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A wall. Its corners are seen against the clock from the side of the flow, and behind it is nothing. Where walls meet, they
+/// end at their common edge.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpaceWall {
+    /// Its name, by which gauges and messages call it.
+    pub name: String,
+    /// STL file of its triangles `[m]`, whose path begins at the case file; empty without one. The triangles are read with
+    /// the case file; where `triangles` are given, this says where they come from.
+    #[serde(default)]
+    pub mesh: String,
+    /// Triangles, each by its corners x, y, z `[m]`.
+    #[serde(default)]
+    pub triangles: Vec<(SpaceVector, SpaceVector, SpaceVector)>,
+    /// Plane quadrilaterals, each by its corners x, y, z `[m]` in their order.
+    #[serde(default)]
+    pub quads: Vec<(SpaceVector, SpaceVector, SpaceVector, SpaceVector)>,
+    /// Boxes along the axes with the flow around them, each by its lower and its upper corner x, y, z `[m]`.
+    #[serde(default)]
+    pub boxes: Vec<(SpaceVector, SpaceVector)>,
+    /// Whether the flow sticks to it or slides.
+    #[serde(default = "setting::rough")]
+    pub surface: Surface,
+    /// Whether material may stand behind it, farther away than it is thick.
+    #[serde(default)]
+    pub both_sides: bool,
+    /// How it moves: time `[s]`, displacement along x, y and z `[m]`, linear between the rows; empty for a wall at rest.
+    #[serde(default)]
+    pub motion: Vec<(f64, f64, f64, f64)>,
+}
+
+impl SpaceWall {
+    /// A rough wall of quadrilaterals at rest.
+    pub(super) fn of_quads(name: &str, quads: Vec<(SpaceVector, SpaceVector, SpaceVector, SpaceVector)>) -> Self {
+        Self {
+            name: name.to_owned(),
+            mesh: String::new(),
+            triangles: Vec::new(),
+            quads,
+            boxes: Vec::new(),
+            surface: Surface::Rough,
+            both_sides: false,
+            motion: Vec::new(),
+        }
+    }
+
+    /// All its triangles `[m]`.
+    fn corners(&self) -> Vec<[Vector<3>; 3]> {
+        let given = self.triangles.iter().map(|(a, b, c)| [vector(a), vector(b), vector(c)]);
+        let quads = self.quads.iter().map(|(a, b, c, d)| [vector(a), vector(b), vector(c), vector(d)]);
+        let boxes = self.boxes.iter().flat_map(|(lower, upper)| faces(&vector(lower), &vector(upper)));
+        given.chain(quads.chain(boxes).flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])).collect()
+    }
+}
+
+impl setting::SceneWall<3> for SpaceWall {
+    const FACETS: &'static str = "triangles";
+    const GIVEN_BY: &'static str = "corners";
+    const TURN: &'static str =
+        "give all its corners, or the triangles of its file, in the opposite order, if it is seen from its back";
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn may_have_two_sides(&self) -> bool {
+        self.both_sides
+    }
+
+    fn shell(&self) -> Shell<3> {
+        let mut shell = Shell::mesh(&self.name, &self.corners());
+        shell.roughness = self.surface;
+        shell.motion = Motion {
+            times: self.motion.iter().map(|row| row.0).collect(),
+            displacements: self.motion.iter().map(|row| Vector::<3>::new(row.1, row.2, row.3)).collect(),
+        };
+        shell
+    }
+
+    /// The corners of its box: a mesh has many.
+    fn hull(&self) -> Vec<Vector<3>> {
+        let (lower, upper) = shapes::around(self.corners().into_iter().flatten());
+        faces(&lower, &upper)[..2].concat()
+    }
+
+    fn measure(&self) -> f64 {
+        self.corners().iter().map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum()
+    }
+
+    /// Refuses walls without an area, quadrilaterals that are not plane and empty boxes.
+    fn check(&self, spacing: f64) -> Result<(), ParameterError> {
+        let refused = |field: &str, value: String, rule: &str, remedy: &str| {
+            Err(ParameterError::field(field, value, rule, remedy))
+        };
+        if !self.mesh.is_empty() && self.triangles.is_empty() {
+            let rule = "read with the case file that names it";
+            return refused("mesh", format!("\"{}\"", self.mesh), rule, "name it in a case file, or give `triangles`");
+        }
+        for (k, (a, b, c, d)) in self.quads.iter().enumerate() {
+            let [a, b, c, d] = [a, b, c, d].map(vector::<3>);
+            let across = (c - a).cross(&(d - b));
+            let height = across.dot(&(b - a)).abs();
+            if height > 1e-6 * across.norm() * (c - a).norm() {
+                let field = format!("quads[{k}]");
+                return refused(&field, "not plane".to_owned(), "plane", "give two `triangles` instead");
+            }
+        }
+        for (k, (lower, upper)) in self.boxes.iter().enumerate() {
+            if !shapes::has_inside::<3>(&vector(lower), &vector(upper)) {
+                let value = shown(&vector::<3>(upper));
+                let rule = "a lower corner, and then one that is greater along x, y and z";
+                return refused(&format!("boxes[{k}]"), value, rule, "exchange what is not");
+            }
+        }
+        let area = self.measure();
+        if !(area > spacing * spacing && area.is_finite()) {
+            let value = format!("{} triangles", self.corners().len());
+            let rule = "a surface larger than the square of the spacing";
+            return refused("quads", value, rule, "give `mesh`, `triangles`, `quads` or `boxes`, in metres");
+        }
+        Ok(())
+    }
+}
+
+/// The faces of a box, seen from without.
+fn faces(lower: &Vector<3>, upper: &Vector<3>) -> [[Vector<3>; 4]; 6] {
+    let corner = |x: usize, y: usize, z: usize| {
+        let pick = |axis: usize, end: usize| if end == 0 { lower[axis] } else { upper[axis] };
+        Vector::<3>::new(pick(0, x), pick(1, y), pick(2, z))
+    };
+    let at = |corners: [[usize; 3]; 4]| corners.map(|[x, y, z]| corner(x, y, z));
+    [
+        at([[0, 0, 0], [0, 0, 1], [0, 1, 1], [0, 1, 0]]),
+        at([[1, 0, 0], [1, 1, 0], [1, 1, 1], [1, 0, 1]]),
+        at([[0, 0, 0], [1, 0, 0], [1, 0, 1], [0, 0, 1]]),
+        at([[0, 1, 0], [0, 1, 1], [1, 1, 1], [1, 1, 0]]),
+        at([[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0, 0]]),
+        at([[0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]),
+    ]
+}
+
+/// The sides of the domain.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpaceSides {
+    /// At small x.
+    pub left: DomainSide,
+    /// At large x.
+    pub right: DomainSide,
+    /// At small y.
+    pub front: DomainSide,
+    /// At large y.
+    pub back: DomainSide,
+    /// At small z.
+    pub bottom: DomainSide,
+    /// At large z.
+    pub top: DomainSide,
+}
+
+impl sides::SceneSides<3> for SpaceSides {
+    const NAMES: [(&'static str, &'static str); 3] = [("left", "right"), ("front", "back"), ("bottom", "top")];
+
+    fn pairs(&self) -> [sides::SidePair; 3] {
+        [(self.left, self.right), (self.front, self.back), (self.bottom, self.top)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::enclosed::setting::SceneWall as _;
+
+    #[test]
+    fn the_faces_of_a_box_look_outwards_and_close_it() {
+        let wall =
+            SpaceWall { boxes: vec![((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))], ..SpaceWall::of_quads("box", Vec::new()) };
+        let middle = Vector::<3>::new(0.5, 1.0, 1.5);
+        let shell = wall.shell();
+        assert_eq!(shell.facets.len(), 12);
+        assert!(shell.facets.iter().all(|facet| facet.height(&middle) < -0.4));
+        assert!((wall.measure() - 22.0).abs() < 1e-12 && wall.check(0.1).is_ok());
+    }
+
+    #[test]
+    fn walls_that_are_none_are_refused_by_their_field() {
+        let o = (0.0, 0.0, 0.0);
+        let bent = SpaceWall::of_quads("bent", vec![(o, (1.0, 0.0, 0.0), (1.0, 1.0, 0.2), (0.0, 1.0, 0.0))]);
+        assert!(bent.check(0.1).expect_err("bent").to_string().starts_with("`quads[0]` is not plane"));
+        let unread = SpaceWall { mesh: "a.stl".to_owned(), ..SpaceWall::of_quads("unread", Vec::new()) };
+        assert_eq!(
+            unread.check(0.1).expect_err("unread").to_string(),
+            "`mesh` is \"a.stl\", but must be read with the case file that names it; name it in a case file, or give `triangles`"
+        );
+        assert!(SpaceWall::of_quads("none", Vec::new()).check(0.1).is_err());
+        let inverse =
+            SpaceWall { boxes: vec![((1.0, 0.0, 0.0), (0.0, 1.0, 1.0))], ..SpaceWall::of_quads("box", Vec::new()) };
+        assert!(inverse.check(0.1).expect_err("no inside").to_string().starts_with("`boxes[0]` is (0, 1, 1)"));
+    }
+}

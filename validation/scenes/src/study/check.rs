@@ -1,0 +1,282 @@
+//! A check: what is measured, with its reference, limit and reason.
+
+use super::file::{CheckText, Distance, Reduction};
+use super::probe::ColumnWindow;
+use crate::input::{FieldError, check_text};
+use crate::measured::Measurements;
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
+use std::path::Path;
+
+/// What is read.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum CheckedQuantity {
+    /// A metric of the case itself.
+    Metric(String),
+    /// A value of a column.
+    Value(ColumnWindow, Reduction),
+    /// The distance of a column from a measured series.
+    Distance(ColumnWindow, Box<Measurements>, Distance),
+    /// The order in which another check shrinks with a varied parameter.
+    Order {
+        /// The other check.
+        of: String,
+        /// The parameter.
+        in_parameter: String,
+    },
+}
+
+/// A check whose fields are typed.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct StudyCheck {
+    pub(super) name: String,
+    /// Variants that are meant.
+    pub(super) only: Variant,
+    pub(super) read: CheckedQuantity,
+    reference: Option<f64>,
+    standard_uncertainty: Option<f64>,
+    source: Option<String>,
+    confidence: Confidence,
+    limit: Option<Limit>,
+    reason: String,
+    /// Half width of the limit where the reference's own uncertainty sets it.
+    scatter: Option<f64>,
+}
+
+impl StudyCheck {
+    /// Types a check; files that it names stand beside the study.
+    pub(super) fn of(text: &CheckText, beside: &Path) -> Result<Self, FieldError> {
+        check_metric_name(&text.name)?;
+        let read = read(text, beside)?;
+        let measured_source = match &read {
+            CheckedQuantity::Distance(_, measured, _) => Some(measured.source()),
+            _ => None,
+        };
+        let confidence = match &read {
+            CheckedQuantity::Distance(_, measured, _) => {
+                text.confidence.or(measured.confidence()).unwrap_or(Confidence::Low)
+            }
+            _ => text.confidence.unwrap_or(Confidence::Low),
+        };
+        for (field, value) in [("source", &text.source), ("reason", &text.reason)] {
+            value.as_ref().map_or(Ok(()), |value| check_text(field, value))?;
+        }
+        let (limit, reason) = limit(text)?;
+        if limit.is_some() && confidence == Confidence::Unverified {
+            let remedy = "observe it without a limit, or say where the reference can be checked";
+            return Err(FieldError::new("confidence", "unverified", "more than that beside a limit", remedy));
+        }
+        if text.reference.is_some() && text.source.is_none() {
+            let remedy = "say where the number comes from: instrument, author and year, or equation";
+            return Err(FieldError::new("source", "missing", "given beside `reference`", remedy));
+        }
+        Ok(Self {
+            name: text.name.clone(),
+            only: text.only.clone().unwrap_or_default(),
+            read,
+            reference: text.reference,
+            standard_uncertainty: text.standard_uncertainty,
+            source: text.source.clone().or(measured_source),
+            confidence,
+            limit,
+            reason,
+            scatter: text.within_uncertainties.zip(text.standard_uncertainty).map(|(factor, one)| factor * one),
+        })
+    }
+
+    /// The scalar reference with its standard uncertainty, if there is one.
+    pub(super) fn reference(&self) -> Option<(f64, Option<f64>)> {
+        Some((self.reference?, self.standard_uncertainty))
+    }
+
+    /// The metric of a value that was read.
+    pub(super) fn metric(&self, variant: &Variant, value: f64, unit: &str) -> Metric {
+        let metric = Metric::observed(&self.name, variant, value, unit)
+            .of_kind(match self.confidence {
+                Confidence::Exact => MetricKind::Verification,
+                _ if self.source.is_none() => MetricKind::Verification,
+                _ => MetricKind::Validation,
+            })
+            .gated_by(self.limit, &self.reason)
+            .as_wide_as_scatter(self.scatter)
+            .of_user();
+        match &self.source {
+            Some(source) => metric.against(self.expected(), source, self.confidence).known_to(
+                Origin::Experiment,
+                self.standard_uncertainty,
+                source,
+            ),
+            None => metric,
+        }
+    }
+
+    /// What the value would be if all agreed.
+    fn expected(&self) -> Option<f64> {
+        match self.read {
+            CheckedQuantity::Distance(..) => Some(0.0),
+            _ => self.reference,
+        }
+    }
+}
+
+fn check_metric_name(name: &str) -> Result<(), FieldError> {
+    let is_word = name.starts_with(|first: char| first.is_ascii_lowercase())
+        && name.chars().all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_');
+    if is_word && name.len() <= 60 {
+        return Ok(());
+    }
+    let rule = "a word of lower-case letters, digits and `_`, at most 60 of them";
+    Err(FieldError::new("name", format!("\"{name}\""), rule, "such as \"front_position\""))
+}
+
+/// What is read: exactly one of the four ways.
+fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> {
+    let ways = [
+        ("metric", text.metric.is_some()),
+        ("value", text.value.is_some()),
+        ("compare", text.compare.is_some()),
+        ("order_of", text.order_of.is_some()),
+    ];
+    let given: Vec<&str> = ways.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
+    let [way] = given[..] else {
+        let value = if given.is_empty() { "none of them".to_owned() } else { given.join(" and ") };
+        let rule = "exactly one of `metric`, `value`, `compare` and `order_of`";
+        let remedy = "such as value = \"last\" with table and column, or compare = \"measured.csv\"";
+        return Err(FieldError::new("value", value, rule, remedy));
+    };
+    let belongs = [
+        ("table", text.table.is_some(), "value and compare"),
+        ("column", text.column.is_some(), "value and compare"),
+        ("over", text.over.is_some(), "value and compare"),
+        ("from", text.from.is_some(), "value and compare"),
+        ("to", text.to.is_some(), "value and compare"),
+        ("distance", text.distance.is_some(), "compare"),
+        ("order_in", text.order_in.is_some(), "order_of"),
+    ];
+    if let Some((field, _, with)) = belongs.iter().find(|(_, given, with)| *given && !with.contains(way)) {
+        let rule = format!("absent beside `{way}`: it belongs to {with}");
+        return Err(FieldError::new(field, "given", &rule, "leave it out"));
+    }
+    match way {
+        "metric" => Ok(CheckedQuantity::Metric(text.metric.clone().unwrap_or_default())),
+        "order_of" => {
+            let missing = || {
+                let remedy = "name the parameter as [[vary]] does, such as \"spacing\"";
+                FieldError::new("order_in", "missing", "given beside `order_of`", remedy)
+            };
+            let in_parameter = text.order_in.clone().ok_or_else(missing)?;
+            Ok(CheckedQuantity::Order { of: text.order_of.clone().unwrap_or_default(), in_parameter })
+        }
+        _ => {
+            let column = column(text)?;
+            if let Some(reduction) = text.value {
+                if let Reduction::At(place) = reduction
+                    && !place.is_finite()
+                {
+                    return Err(FieldError::new("value.at", place, "a finite number", "give a place within the run"));
+                }
+                return Ok(CheckedQuantity::Value(column, reduction));
+            }
+            if text.reference.is_some() || text.standard_uncertainty.is_some() {
+                let remedy = "the file has values and uncertainties of its own";
+                return Err(FieldError::new("reference", "given", "absent beside `compare`", remedy));
+            }
+            let file = beside.join(text.compare.as_deref().unwrap_or(Path::new("")));
+            let measured = Measurements::read(&file).map_err(|error| {
+                let rule = "a table of three columns: what was varied, what was measured, its standard uncertainty";
+                FieldError::new("compare", format!("\"{}\"", file.display()), rule, &error.to_string())
+            })?;
+            Ok(CheckedQuantity::Distance(column, Box::new(measured), text.distance.unwrap_or(Distance::Residual)))
+        }
+    }
+}
+
+fn column(text: &CheckText) -> Result<ColumnWindow, FieldError> {
+    let needed = |field: &str, value: &Option<String>| {
+        let remedy = "run the case once: it writes tables/, whose files and headings are meant";
+        value.clone().ok_or_else(|| FieldError::new(field, "missing", "given beside `value` or `compare`", remedy))
+    };
+    let window = (text.from.unwrap_or(f64::NEG_INFINITY), text.to.unwrap_or(f64::INFINITY));
+    if window.0.is_nan() || window.1.is_nan() || window.0 > window.1 {
+        let value = format!("{} … {}", window.0, window.1);
+        return Err(FieldError::new("from", value, "at most `to`", "exchange them"));
+    }
+    Ok(ColumnWindow {
+        table: needed("table", &text.table)?,
+        column: needed("column", &text.column)?,
+        over: text.over.clone(),
+        window,
+    })
+}
+
+/// The limit and its reason.
+fn limit(text: &CheckText) -> Result<(Option<Limit>, String), FieldError> {
+    let limits = [
+        ("at_most", text.at_most.map(Limit::AtMost)),
+        ("at_least", text.at_least.map(Limit::AtLeast)),
+        ("within", text.within.map(|(lower, upper)| Limit::Within(lower, upper))),
+        ("within_uncertainties", text.within_uncertainties.map(Limit::AtMost)),
+    ];
+    let given: Vec<(&str, Limit)> =
+        limits.iter().filter_map(|(name, limit)| limit.map(|limit| (*name, limit))).collect();
+    if let Some(uncertainty) = text.standard_uncertainty
+        && !(uncertainty > 0.0 && uncertainty.is_finite())
+    {
+        let remedy = "give a standard deviation in the unit of the value";
+        return Err(FieldError::new("standard_uncertainty", uncertainty, "positive and finite", remedy));
+    }
+    if let Some(reference) = text.reference
+        && !reference.is_finite()
+    {
+        return Err(FieldError::new("reference", reference, "a finite number", "leave it out if it is not known"));
+    }
+    match given[..] {
+        [] if text.reason.is_some() => {
+            let remedy = "add at_most, at_least, within or within_uncertainties, or leave the reason out";
+            Err(FieldError::new("reason", "given", "beside a limit", remedy))
+        }
+        [] => Ok((None, String::new())),
+        [("within_uncertainties", Limit::AtMost(factor))] => {
+            let (Some(reference), Some(uncertainty)) = (text.reference, text.standard_uncertainty) else {
+                let rule = "beside `reference` and `standard_uncertainty`";
+                return Err(FieldError::new("within_uncertainties", factor, rule, "give both, or another limit"));
+            };
+            if !(factor > 0.0 && factor.is_finite()) {
+                let remedy = "2 is a common choice";
+                return Err(FieldError::new("within_uncertainties", factor, "positive and finite", remedy));
+            }
+            let width = factor * uncertainty;
+            let reason = format!("within {factor} standard uncertainties of the reference");
+            let reason = text.reason.as_ref().map_or(reason.clone(), |own| format!("{reason}: {own}"));
+            Ok((Some(Limit::Within(reference - width, reference + width)), reason))
+        }
+        [(field, limit)] => {
+            let (is_sound, value) = match limit {
+                Limit::AtMost(bound) | Limit::AtLeast(bound) => (bound.is_finite(), bound.to_string()),
+                Limit::Within(lower, upper) => {
+                    (lower.is_finite() && upper.is_finite() && lower <= upper, format!("{lower} … {upper}"))
+                }
+            };
+            if let Limit::AtMost(bound) = limit
+                && text.compare.is_some()
+                && bound < 0.0
+            {
+                let (rule, remedy) =
+                    ("0 or more", "a distance from measurements is never negative: give the largest that is good");
+                return Err(FieldError::new(field, value, rule, remedy));
+            }
+            if !is_sound {
+                return Err(FieldError::new(field, value, "finite, the smaller bound first", "mend the numbers"));
+            }
+            let missing = || {
+                let remedy = "say in a sentence why the limit stands where it does: readers of the report will ask";
+                FieldError::new("reason", "missing", "given beside a limit", remedy)
+            };
+            let reason = text.reason.clone().filter(|reason| !reason.trim().is_empty()).ok_or_else(missing)?;
+            Ok((Some(limit), reason))
+        }
+        [first, second, ..] => {
+            let value = format!("{} and {}", first.0, second.0);
+            Err(FieldError::new("at_most", value, "the only limit", "within = [lower, upper] has both bounds"))
+        }
+    }
+}

@@ -1,0 +1,318 @@
+//! A user's own study: a file that says what is simulated, what of it is measured, and what that is judged by.
+//!
+//! The simulation is that of any case: a scene of the user's own as well as a layer, a column or a channel. [`Study::read`]
+//! reads the file, [`Study::prepare`] gives the cases to be simulated, one per variant, and [`Study::judge`] makes of their
+//! results a single one, which is written, drawn and shown as that of a case is.
+//!
+//! ```toml
+//! study = "collapse-in-my-flume"
+//! summary = "Glass beads collapse in a flume of 10 cm"
+//! base = "flume.toml"                       # a case file; or case = "scene" and [parameters]
+//!
+//! [[vary]]
+//! path = "spacing"
+//! values = [0.01, 0.005]
+//!
+//! [[checks]]
+//! name = "front_at_rest"
+//! table = "gauges"                          # the tables that the case writes
+//! column = "front: front [m]"
+//! value = "last"
+//! reference = 0.31
+//! standard_uncertainty = 0.01
+//! source = "own flume, May 2026"
+//! within_uncertainties = 2.0
+//! ```
+
+mod check;
+mod drawn;
+mod figures;
+mod file;
+mod probe;
+mod reading;
+mod schema;
+mod suite;
+
+pub use schema::schema;
+pub use suite::Suite;
+
+use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
+use crate::evaluation::{PlanError, read_plan};
+use crate::figure::Figure;
+use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
+use crate::measured::Measurements;
+use crate::metric::{Metric, Variant};
+use check::{CheckedQuantity, StudyCheck};
+use file::{ChangedSettings, StudyText};
+use reading::{Reading, joined};
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+use toml::Table;
+
+/// A study that was read; nothing has been simulated.
+#[derive(Debug, Clone)]
+pub struct Study {
+    file: PathBuf,
+    text: StudyText,
+    base: CaseFile,
+    checks: Vec<StudyCheck>,
+    changes: Vec<ChangedSettings>,
+}
+
+/// What only studies have; one whose first line is misspelt is to be refused, not passed over.
+const KEYS: [&str; 4] = ["study", "checks", "vary", "variants"];
+
+/// Whether a file describes a study: it has the key `study`, or one that only studies have.
+#[must_use]
+pub fn is_study(path: &Path) -> bool {
+    let text = read_text(path, WRITTEN_BY_HAND).unwrap_or_default();
+    // a file with a slip in its syntax is a study as well, if a line says so
+    match text.parse::<Table>() {
+        Ok(table) => KEYS.iter().any(|key| table.contains_key(*key)),
+        Err(_) => text.lines().any(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == "study")),
+    }
+}
+
+impl Study {
+    /// Reads a file and those that it names.
+    ///
+    /// # Errors
+    /// A file that cannot be read or typed, or a field that breaks a rule.
+    pub fn read(file: &Path, registry: Registry) -> Result<Self, PlanError> {
+        let text: StudyText = read_plan(file, "run")?;
+        let in_file = |error: FieldError| error.in_file(file);
+        text.check().map_err(in_file)?;
+        if registry.find(&text.study).is_ok() {
+            let value = format!("\"{}\"", text.study);
+            let remedy = "choose another name: pages and accepted values are kept by it";
+            return Err(in_file(FieldError::new("study", value, "unlike the name of a case", remedy)).into());
+        }
+        let beside = file.parent().unwrap_or(Path::new(""));
+        let base = match (&text.case, &text.base) {
+            (Some(case), _) => CaseFile::of_parameters(file, case, text.tier, text.parameters.clone())?,
+            (None, Some(path)) => {
+                let mut base = CaseFile::read(&beside.join(path))?;
+                base.lay_over(&text.parameters);
+                base.tier = text.tier.or(base.tier);
+                base
+            }
+            (None, None) => unreachable!("checked above"),
+        };
+        let mut checks: Vec<StudyCheck> = Vec::new();
+        for (place, own) in text.checks.iter().enumerate() {
+            let within = |error: FieldError| in_file(error.within(&format!("checks[{place}]")));
+            let check = StudyCheck::of(own, beside).map_err(within)?;
+            if checks.iter().any(|other| other.name == check.name && other.only == check.only) {
+                let remedy = "give each a name of its own, or other variants by `only`";
+                return Err(within(FieldError::new("name", &check.name, "unlike the others", remedy)).into());
+            }
+            if let CheckedQuantity::Order { of, in_parameter } = &check.read {
+                if !checks.iter().any(|other| other.name == *of) {
+                    let remedy = "name a check that stands above this one";
+                    return Err(within(FieldError::new("order_of", of, "the name of an earlier check", remedy)).into());
+                }
+                let is_varied =
+                    |varied: &file::VariedParameter| varied.label() == in_parameter && varied.values.len() > 1;
+                if !text.vary.iter().any(is_varied) {
+                    let rule = "the name of a parameter that [[vary]] gives several values";
+                    return Err(
+                        within(FieldError::new("order_in", in_parameter, rule, "vary it, or name another")).into()
+                    );
+                }
+            }
+            checks.push(check);
+        }
+        let changes = text.changes();
+        Ok(Self { file: file.to_owned(), text, base, checks, changes })
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.text.study
+    }
+
+    /// The tier whose parameters fill what the file leaves out.
+    #[must_use]
+    pub fn tier(&self) -> Tier {
+        self.base.tier.unwrap_or(Tier::Quick)
+    }
+
+    /// The cases to be simulated, one per variant, with settings (`path=value`) of the command line over all of them.
+    ///
+    /// # Errors
+    /// A case that does not exist or refuses a variant's parameters.
+    pub fn prepare(
+        &self,
+        registry: Registry,
+        tier: Option<Tier>,
+        settings: &[String],
+        limits: Limits,
+    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
+        for setting in settings {
+            self.refuse_varied(setting)?;
+        }
+        let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
+        let prepare = |changed: &ChangedSettings| {
+            let settings: Vec<String> = changed.settings.iter().chain(settings).cloned().collect();
+            let file = Some((self.base.path.as_path(), self.base.fields.clone()));
+            let changes = Changes { file, settings: &settings, limits, only: &[] };
+            case.prepare(tier.unwrap_or(self.tier()), &changes)
+        };
+        let refused = |error: ParameterError| match settings {
+            [] => PlanError::of(error, &self.file),
+            _ => PlanError::Parameter(error.in_file(&self.file)),
+        };
+        self.changes.iter().map(|changed| prepare(changed).map_err(refused)).collect()
+    }
+
+    /// Refuses a setting of the command line for a parameter to which the study gives values itself.
+    fn refuse_varied(&self, setting: &str) -> Result<(), FieldError> {
+        let named = self.text.variants.iter().enumerate().flat_map(|(place, named)| {
+            named.set.iter().map(move |(path, value)| (format!("variants[{place}].set"), path, value))
+        });
+        let varied = self.text.vary.iter().enumerate().filter_map(|(place, varied)| {
+            varied.values.first().map(|value| (format!("vary[{place}].path"), &varied.path, value))
+        });
+        for (place, path, value) in named.chain(varied) {
+            if let Some(field) = twice_given(&format!("{path}={value}"), setting) {
+                let file = self.file.display();
+                let rule = format!("of another parameter: `{field}` is given twice, first by `{place}` in {file}");
+                let remedy = "change it there, or leave out --set";
+                return Err(FieldError::new("--set", setting, &rule, remedy));
+            }
+        }
+        Ok(())
+    }
+
+    /// The files with measurements that its checks compare with.
+    pub fn measurements(&self) -> impl Iterator<Item = &Measurements> {
+        self.checks.iter().filter_map(|check| match &check.read {
+            CheckedQuantity::Distance(_, measured, _) => Some(&**measured),
+            _ => None,
+        })
+    }
+
+    /// One result of all variants' results, in the order of [`Self::prepare`]: the checks first, then what the case says of
+    /// its runs itself.
+    ///
+    /// # Errors
+    /// A check that names a table, column, metric or variant that there is not.
+    pub fn judge(&self, results: Vec<CaseResult>) -> Result<CaseResult, PlanError> {
+        let tier = results.first().map_or(Tier::Quick, |result| result.tier);
+        let mut judged = self.without_runs(tier, &results);
+        for (place, check) in self.checks.iter().enumerate() {
+            let wrong = |error: FieldError| error.within(&format!("checks[{place}]")).in_file(&self.file);
+            let readings = self.readings(check, &results, &judged.metrics).map_err(wrong)?;
+            if readings.is_empty() {
+                let variants: Vec<String> =
+                    self.changes.iter().take(5).map(|changed| format!("\"{}\"", changed.variant)).collect();
+                let rule = format!("keys of a variant, such as {}", variants.join(", "));
+                let remedy = "leave it out to mean all";
+                return Err(wrong(FieldError::new("only", format!("\"{}\"", check.only), &rule, remedy)).into());
+            }
+            for reading in readings.iter().filter(|reading| reading.value.is_nan()) {
+                tracing::warn!(
+                    "{}: {}, {}: {}",
+                    self.text.study,
+                    check.name,
+                    reading.variant,
+                    reading.why_there_is_none()
+                );
+            }
+            let metric = |reading: &Reading| {
+                check.metric(&reading.variant, reading.value, &reading.unit).known_as(&reading.uncertainty)
+            };
+            judged.metrics.extend(readings.iter().map(metric));
+            figures::add(&mut judged.figures, check, &readings).map_err(wrong)?;
+        }
+        let own: Vec<Figure> = self.text.figures.iter().map(|figure| figure.draw(&judged.metrics)).collect();
+        let mut hash = Sha256::new();
+        for (changed, result) in self.changes.iter().zip(results) {
+            let suffix =
+                if changed.variant.is_empty() { String::new() } else { format!("-{}", changed.variant.file_name()) };
+            let caption = |caption: &str| match changed.variant.is_empty() {
+                true => caption.to_owned(),
+                false => format!("{}: {caption}", changed.variant),
+            };
+            hash.update(result.state_hash.as_bytes());
+            hash.update([0]);
+            let joined = |variant: &Variant| joined(&changed.variant, variant);
+            judged
+                .metrics
+                .extend(result.metrics.into_iter().map(|metric| Metric { variant: joined(&metric.variant), ..metric }));
+            judged.runs.extend(result.runs.into_iter().map(|mut run| {
+                run.variant = joined(&run.variant);
+                run
+            }));
+            judged.tables.extend(result.tables.into_iter().map(|mut table| {
+                table.name += &suffix;
+                table
+            }));
+            judged.figures.extend(result.figures.into_iter().map(|mut figure| {
+                figure.caption = caption(&figure.caption);
+                figure.name += &suffix;
+                figure
+            }));
+            judged.animations.extend(result.animations.into_iter().map(|mut animation| {
+                animation.caption = caption(&animation.caption);
+                animation.name += &suffix;
+                animation
+            }));
+            judged.run_parameters.extend(result.run_parameters);
+            judged.regimes.extend(result.regimes);
+            judged.frames.extend(result.frames);
+            judged.first_bad.extend(result.first_bad);
+        }
+        judged.state_hash = crate::store::hexadecimal(&hash.finalize());
+        for (place, figure) in own.iter().enumerate() {
+            if judged.figures.iter().any(|other| other.name == figure.name) {
+                let rule = "unlike the names of the figures of the checks' columns and of the case";
+                let error =
+                    FieldError::new(&format!("figures[{place}].name"), &figure.name, rule, "choose another name");
+                return Err(error.in_file(&self.file).into());
+            }
+        }
+        judged.figures.splice(0..0, own);
+        Ok(judged)
+    }
+
+    fn without_runs(&self, tier: Tier, results: &[CaseResult]) -> CaseResult {
+        CaseResult {
+            name: self.text.study.clone(),
+            origin: results.first().map_or(crate::store::CodeOrigin::PACKAGE, |result| result.origin),
+            summary: self.text.summary.clone(),
+            description: self.text.description.trim().to_owned(),
+            tier,
+            parameters_toml: self.complete(tier),
+            command: "bagnold run case.toml".to_owned(),
+            metrics: Vec::new(),
+            figures: Vec::new(),
+            animations: Vec::new(),
+            tables: Vec::new(),
+            runs: Vec::new(),
+            run_parameters: Vec::new(),
+            regimes: Vec::new(),
+            frames: Vec::new(),
+            first_bad: Vec::new(),
+            state_hash: String::new(),
+        }
+    }
+
+    /// The study as a file that needs no other but the copies of its measurements.
+    fn complete(&self, tier: Tier) -> String {
+        let mut text = StudyText {
+            case: Some(self.base.case.clone()),
+            base: None,
+            tier: Some(tier),
+            parameters: self.base.fields.clone(),
+            ..self.text.clone()
+        };
+        for (own, check) in text.checks.iter_mut().zip(&self.checks) {
+            if let CheckedQuantity::Distance(_, measured, _) = &check.read {
+                own.compare = Some(PathBuf::from(measured.kept()));
+            }
+        }
+        toml::to_string(&text).unwrap_or_else(|error| format!("# the study cannot be written as TOML: {error}\n"))
+    }
+}

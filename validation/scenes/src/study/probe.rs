@@ -1,0 +1,229 @@
+//! What a check reads of a finished case: a metric of the case itself, a value of a column, or its distance from a
+//! measured series.
+
+use super::file::{Distance, Reduction};
+use crate::case::CaseResult;
+use crate::input::{FieldError, nearest};
+use crate::measured::Measurements;
+use crate::metric::{Metric, Variant};
+use crate::output::Table;
+use crate::statistics::{Beyond, interpolated};
+
+/// A column of the tables that a case writes, and the part of it that counts.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ColumnWindow {
+    /// Name of the table, or the beginning of it.
+    pub(super) table: String,
+    /// Heading of what is measured.
+    pub(super) column: String,
+    /// Heading of what it is measured over; none for the first column.
+    pub(super) over: Option<String>,
+    /// First and last value of the latter that count.
+    pub(super) window: (f64, f64),
+}
+
+/// A column of one run.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct RunCurve {
+    /// The run; empty where the case has a single one.
+    pub(super) run: Variant,
+    /// Heading of the abscissa.
+    pub(super) over: String,
+    /// Finite points (abscissa, value) within the window, in ascending order.
+    pub(super) points: Vec<(f64, f64)>,
+}
+
+/// The unit at the end of a heading; `-` where there is none.
+pub(super) fn unit_of(heading: &str) -> &str {
+    let parted = heading.trim().strip_suffix(']').and_then(|heading| heading.rsplit_once('['));
+    parted.map_or("-", |(_, unit)| unit.trim())
+}
+
+impl ColumnWindow {
+    /// The column in every table of that name: one a run.
+    pub(super) fn curves(&self, result: &CaseResult) -> Result<Vec<RunCurve>, FieldError> {
+        let is_meant = |table: &&Table| {
+            table.name == self.table || table.name.strip_prefix(&self.table).is_some_and(|rest| rest.starts_with('-'))
+        };
+        let tables: Vec<&Table> = result.tables.iter().filter(is_meant).collect();
+        if tables.is_empty() {
+            let names: Vec<&str> = result.tables.iter().map(|table| table.name.as_str()).collect();
+            return Err(FieldError::new(
+                "table",
+                format!("\"{}\"", self.table),
+                &format!("a table of {}, or the beginning of its name: {}", result.name, listed(&names)),
+                &did_you_mean(&self.table, &names),
+            ));
+        }
+        tables.into_iter().map(|table| self.curve(result, table)).collect()
+    }
+
+    fn curve(&self, result: &CaseResult, table: &Table) -> Result<RunCurve, FieldError> {
+        let headings: Vec<&str> = table.columns.iter().map(String::as_str).collect();
+        let place = |field: &str, wanted: &str| {
+            table.columns.iter().position(|heading| heading == wanted).ok_or_else(|| {
+                let rule = format!("a heading of the table {}: {}", table.name, listed(&headings));
+                FieldError::new(field, format!("\"{wanted}\""), &rule, &did_you_mean(wanted, &headings))
+            })
+        };
+        let measured = place("column", &self.column)?;
+        let over = self.over.as_ref().map_or(Ok(0), |over| place("over", over))?;
+        let rows = table.rows.iter().map(|row| (row[over], row[measured]));
+        let (from, to) = self.window;
+        let mut points: Vec<(f64, f64)> = rows.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
+        points.retain(|(x, _)| *x >= from && *x <= to);
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let run = result.runs.iter().map(|run| &run.variant);
+        let run = run.filter(|variant| !variant.is_empty()).find(|variant| table.name.ends_with(&variant.file_name()));
+        Ok(RunCurve { run: run.cloned().unwrap_or_default(), over: table.columns[over].clone(), points })
+    }
+}
+
+impl RunCurve {
+    /// What a reduction takes of it; not a number where the run has left nothing to take.
+    pub(super) fn value(&self, reduction: Reduction) -> f64 {
+        let values = || self.points.iter().map(|point| point.1);
+        let found = match reduction {
+            Reduction::First => values().next(),
+            Reduction::Last => values().next_back(),
+            Reduction::Largest => values().reduce(f64::max),
+            Reduction::Smallest => values().reduce(f64::min),
+            Reduction::Mean => self.mean(),
+            Reduction::At(place) => self.at(place),
+        };
+        found.unwrap_or(f64::NAN)
+    }
+
+    /// Mean by the trapezoidal rule; of a single point its value.
+    fn mean(&self) -> Option<f64> {
+        let (first, last) = (self.points.first()?, self.points.last()?);
+        if last.0 <= first.0 {
+            return Some(first.1);
+        }
+        let area: f64 =
+            self.points.windows(2).map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0)).sum();
+        Some(area / (last.0 - first.0))
+    }
+
+    /// The value at a place, linear between points; none beyond the ends.
+    fn at(&self, place: f64) -> Option<f64> {
+        interpolated(&self.points, place, (Beyond::Nothing, Beyond::Nothing))
+    }
+
+    /// Its distance from measured points (abscissa, value, standard uncertainty) within a window, in the curve's units. It must
+    /// reach them all: a run that ends early would else be judged by its beginning, so it is not a number then.
+    pub(super) fn distance(&self, measured: &[[f64; 3]], window: (f64, f64), distance: Distance) -> f64 {
+        let meant = measured.iter().filter(|point| point[0] >= window.0 && point[0] <= window.1);
+        let differences: Option<Vec<[f64; 3]>> =
+            meant.map(|&[x, y, u]| self.at(x).map(|own| [own - y, y, u])).collect();
+        let Some(differences) = differences.filter(|differences| !differences.is_empty()) else { return f64::NAN };
+        let count = differences.len() as f64;
+        let mean = |of: fn(&[f64; 3]) -> f64| differences.iter().map(of).sum::<f64>() / count;
+        match distance {
+            Distance::Residual => mean(|[d, _, u]| (d / u) * (d / u)).sqrt(),
+            Distance::RelativeL2 => 100.0 * (mean(|[d, ..]| d * d) / mean(|[_, y, _]| y * y)).sqrt(),
+            Distance::Largest => differences.iter().map(|difference| difference[0].abs()).fold(0.0, f64::max),
+            Distance::Mean => mean(|difference| difference[0]),
+        }
+    }
+}
+
+/// The metrics of a name that a case gives itself.
+pub(super) fn metrics<'a>(result: &'a CaseResult, name: &str) -> Result<Vec<&'a Metric>, FieldError> {
+    let found: Vec<&Metric> = result.metrics.iter().filter(|metric| metric.name == name).collect();
+    if found.is_empty() {
+        let mut names: Vec<&str> = result.metrics.iter().map(|metric| metric.name.as_str()).collect();
+        names.dedup();
+        let rule = format!("a metric of {} in these runs: {}", result.name, listed(&names));
+        return Err(FieldError::new("metric", format!("\"{name}\""), &rule, &did_you_mean(name, &names)));
+    }
+    Ok(found)
+}
+
+/// Measured points in the units of a curve.
+pub(super) fn in_units_of(
+    measured: &Measurements,
+    column: &ColumnWindow,
+    curve: &RunCurve,
+) -> Result<Vec<[f64; 3]>, FieldError> {
+    measured.in_units(unit_of(&curve.over), unit_of(&column.column))
+}
+
+fn did_you_mean(wanted: &str, known: &[&str]) -> String {
+    match nearest(wanted, known.iter().copied()) {
+        Some(guess) => format!("did you mean \"{guess}\"?"),
+        None => "the runs are kept: correct it and give the same command again".to_owned(),
+    }
+}
+
+/// The first few of many names.
+fn listed(names: &[&str]) -> String {
+    const MOST: usize = 12;
+    let shown: Vec<String> = names.iter().take(MOST).map(|name| format!("\"{name}\"")).collect();
+    let more = names.len().saturating_sub(MOST);
+    match (shown.is_empty(), more) {
+        (true, _) => "it has none".to_owned(),
+        (false, 0) => shown.join(", "),
+        (false, more) => format!("{} and {more} more", shown.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(points: &[(f64, f64)]) -> RunCurve {
+        RunCurve { run: Variant::default(), over: "t [s]".to_owned(), points: points.to_vec() }
+    }
+
+    #[test]
+    fn values_are_taken_of_a_parabola() {
+        let points: Vec<(f64, f64)> = (0..=100).map(|k| f64::from(k) / 100.0).map(|t| (t, t * (1.0 - t))).collect();
+        let curve = curve(&points);
+        assert_eq!(curve.value(Reduction::First), 0.0);
+        assert_eq!(curve.value(Reduction::Largest), 0.25);
+        assert_eq!(curve.value(Reduction::Smallest), 0.0);
+        assert!((curve.value(Reduction::Mean) - 1.0 / 6.0).abs() < 2e-5, "the trapezoidal rule is 1/(6 · 100²) off");
+        assert!((curve.value(Reduction::At(0.255)) - 0.255 * 0.745).abs() < 3e-5);
+        assert!(curve.value(Reduction::At(1.01)).is_nan() && curve.value(Reduction::At(-0.01)).is_nan());
+    }
+
+    #[test]
+    fn the_mean_weighs_uneven_samples_by_their_time() {
+        // 1 for nine tenths of the time, sampled once; 2 for the last, sampled often
+        let mut points = vec![(0.0, 1.0), (0.9, 1.0)];
+        points.extend((0..=10).map(|k| (0.9 + 0.01 * f64::from(k), 2.0)));
+        assert!((curve(&points).value(Reduction::Mean) - 1.1).abs() < 1e-12);
+    }
+
+    #[test]
+    fn distances_are_those_of_an_offset() {
+        let curve = curve(&[(0.0, 1.0), (1.0, 3.0)]);
+        // the measured line lies 0.2 below the curve, known to 0.1
+        let measured = [[0.25, 1.3, 0.1], [0.5, 1.8, 0.1], [1.0, 2.8, 0.1]];
+        let distance = |distance| curve.distance(&measured, (f64::NEG_INFINITY, f64::INFINITY), distance);
+        assert!((distance(Distance::Residual) - 2.0).abs() < 1e-12);
+        assert!((distance(Distance::Largest) - 0.2).abs() < 1e-12);
+        assert!((distance(Distance::Mean) - 0.2).abs() < 1e-12);
+        let square: f64 = measured.iter().map(|point| point[1] * point[1]).sum::<f64>() / 3.0;
+        assert!((distance(Distance::RelativeL2) - 100.0 * 0.2 / square.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_curve_that_ends_early_has_no_distance() {
+        let measured = [[0.5, 1.0, 0.1], [1.5, 1.0, 0.1]];
+        let short = curve(&[(0.0, 1.0), (1.0, 1.0)]);
+        assert!(short.distance(&measured, (0.0, 2.0), Distance::Residual).is_nan());
+        assert_eq!(
+            short.distance(&measured, (0.0, 1.0), Distance::Residual),
+            0.0,
+            "what is beyond the window is not asked"
+        );
+        assert!(short.distance(&measured, (3.0, 4.0), Distance::Residual).is_nan(), "nothing is compared");
+    }
+
+    #[test]
+    fn the_unit_is_the_last_thing_of_a_heading() {
+        assert_eq!([unit_of("front: front [m]"), unit_of("a [b] c"), unit_of("q* [-]")], ["m", "-", "-"]);
+    }
+}

@@ -1,0 +1,283 @@
+//! What a model is compared with: single numbers, profiles from a CSV file, or synthetic data.
+
+use super::error::CalibrationError;
+use super::target::{Datum, DatumUncertainty, Target, parted};
+use crate::evidence::{MeasuredData, ReferenceColumn};
+use crate::input::FieldError;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// No datum is larger, in whatever unit; squares of such numbers are still finite.
+const LARGEST: f64 = 1e30;
+
+/// A group of data as a plan gives it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DatumText {
+    /// Metric of the case, by name.
+    metric: Option<String>,
+    /// Its variant; may be left out if there is one only.
+    variant: Option<String>,
+    /// Table of the case, by name.
+    table: Option<String>,
+    /// Column of the table that the data are given over.
+    x: Option<String>,
+    /// Column of the table that is compared.
+    y: Option<String>,
+    /// CSV file with the data, beside the plan.
+    file: Option<PathBuf>,
+    /// A single datum.
+    value: Option<f64>,
+    unit: Option<String>,
+    /// Its standard uncertainty.
+    uncertainty: Option<f64>,
+    /// Its standard uncertainty as a factor: the comparison is one of logarithms.
+    factor: Option<f64>,
+    source: Option<String>,
+    /// Synthetic data: relative standard deviation of their noise.
+    noise: Option<f64>,
+    /// Points of a synthetic profile.
+    bins: Option<usize>,
+}
+
+/// Synthetic data that are still to be made from the model itself.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Synthetic {
+    /// The block.
+    pub(super) block: usize,
+    /// Table or metric; the abscissa is set when the data are made.
+    pub(super) target: Target,
+    /// Relative standard deviation of the noise `[-]`.
+    pub(super) noise: f64,
+    /// Points of a profile.
+    pub(super) bins: usize,
+}
+
+/// A group of data that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Group {
+    /// Given data.
+    Given(Vec<Datum>),
+    /// Data to be made.
+    Synthetic(Synthetic),
+}
+
+impl DatumText {
+    /// Checks what is given and what is missing; `field` names the table.
+    pub(super) fn check(&self, field: &str) -> Result<(), FieldError> {
+        let wrong = |name: &str, value: &str, rule: &str, remedy: &str| {
+            Err(FieldError::new(&format!("{field}.{name}"), value, rule, remedy))
+        };
+        match (&self.metric, &self.table) {
+            (Some(_), Some(_)) | (None, None) => {
+                return wrong("metric", "missing or beside `table`", "the one or the other", "name what is compared");
+            }
+            (None, Some(_)) if self.x.is_none() || self.y.is_none() => {
+                return wrong("x", "missing, or y is", "given with y", "name the table's columns, such as \"y [m]\"");
+            }
+            _ => {}
+        }
+        for (name, column) in [("x", &self.x), ("y", &self.y)] {
+            if let Some(column) = column.as_ref().filter(|column| !column.contains('[') || !column.ends_with(']')) {
+                return wrong(
+                    name,
+                    column,
+                    "a column with its unit, as the table's heading has it",
+                    "such as \"y [m]\"",
+                );
+            }
+        }
+        let given = [
+            ("value", self.value.is_some()),
+            ("unit", self.unit.is_some()),
+            ("uncertainty", self.uncertainty.is_some()),
+            ("factor", self.factor.is_some()),
+            ("source", self.source.is_some()),
+        ];
+        let spare = given.iter().find(|(_, given)| *given).map(|(name, _)| *name);
+        if self.metric.is_some() && (self.x.is_some() || self.y.is_some()) {
+            return wrong("x", "given", "absent with a metric", "x and y are columns of a table");
+        }
+        if self.bins.is_some_and(|bins| !(1..=10_000).contains(&bins)) || (self.bins.is_some() && self.noise.is_none())
+        {
+            return wrong(
+                "bins",
+                "given",
+                "between 1 and 10000, and only with `noise`",
+                "bins are points of synthetic data",
+            );
+        }
+        if let Some(noise) = self.noise {
+            if !(noise > 0.0 && noise.is_finite()) {
+                return wrong("noise", &noise.to_string(), "positive", "0.01 is one per cent");
+            }
+            if let Some(name) = spare.or_else(|| self.file.is_some().then_some("file")) {
+                return wrong(
+                    name,
+                    "given",
+                    "absent with `noise`",
+                    "synthetic data need no measurement: keep one of the two",
+                );
+            }
+            return Ok(());
+        }
+        if self.file.is_some() {
+            return match spare {
+                Some(name) => wrong(name, "given", "absent with a `file`", "the file says it"),
+                None => Ok(()),
+            };
+        }
+        let Some(value) = self.value else {
+            return wrong("value", "missing", "a number", "or name a `file`, or a `noise` for synthetic data");
+        };
+        if self.table.is_some() {
+            return wrong("file", "missing", "given with a table", "a profile needs a CSV file, or a `noise`");
+        }
+        if value.abs() > LARGEST || value.is_nan() {
+            return wrong(
+                "value",
+                &value.to_string(),
+                "a number of a size up to 1e30",
+                "check the exponent and the unit",
+            );
+        }
+        if self.unit.is_none() {
+            return wrong("unit", "missing", "the unit of the value", "such as unit = \"m\"; \"-\" for none");
+        }
+        if self.source.is_none() {
+            return wrong("source", "missing", "the origin of the value", "such as source = \"own experiment, May\"");
+        }
+        self.uncertainty(value).map_or_else(
+            || {
+                let remedy = "give the standard deviation in the value's unit, or `factor` for one in logarithms; \
+                              Bagnold does not invent one";
+                wrong("uncertainty", "missing or not positive", "positive", remedy)
+            },
+            |_| Ok(()),
+        )
+    }
+
+    /// Whether both mean the same measurement.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        let same_file = self.file.is_some() && self.file == other.file;
+        let same_value = self.value.is_some() && (self.value, &self.source) == (other.value, &other.source);
+        let same_target = (&self.metric, &self.table, &self.y) == (&other.metric, &other.table, &other.y);
+        same_target && self.variant == other.variant && (same_file || same_value)
+    }
+
+    fn uncertainty(&self, value: f64) -> Option<DatumUncertainty> {
+        match (self.uncertainty, self.factor) {
+            (Some(sigma), None) if sigma > 0.0 && sigma.is_finite() => Some(DatumUncertainty::Absolute(sigma)),
+            (None, Some(factor)) if factor > 1.0 && factor.is_finite() && value > 0.0 => {
+                Some(DatumUncertainty::Factor(factor))
+            }
+            _ => None,
+        }
+    }
+
+    fn target(&self, at: f64) -> Target {
+        match (&self.metric, &self.table) {
+            (Some(name), _) => Target::Metric { name: name.clone(), variant: self.variant.clone() },
+            (None, table) => Target::Profile {
+                table: table.clone().unwrap_or_default(),
+                x: self.x.clone().unwrap_or_default(),
+                y: self.y.clone().unwrap_or_default(),
+                at,
+            },
+        }
+    }
+
+    /// Reads the data; `plan` is the file that names a CSV file relative to itself.
+    pub(super) fn read(&self, block: usize, plan: &Path) -> Result<Group, CalibrationError> {
+        if let Some(noise) = self.noise {
+            let bins = self.bins.unwrap_or(20).max(1);
+            return Ok(Group::Synthetic(Synthetic { block, target: self.target(0.0), noise, bins }));
+        }
+        if let Some(file) = &self.file {
+            let path = plan.parent().unwrap_or_else(|| Path::new("")).join(file);
+            return Ok(Group::Given(self.of_file(block, &path)?));
+        }
+        let value = self.value.unwrap_or(f64::NAN);
+        Ok(Group::Given(vec![Datum {
+            block,
+            target: self.target(0.0),
+            value,
+            unit: self.unit.clone().unwrap_or_default(),
+            uncertainty: self.uncertainty(value).unwrap_or(DatumUncertainty::Absolute(f64::NAN)),
+            source: self.source.clone().unwrap_or_default(),
+        }]))
+    }
+
+    fn of_file(&self, block: usize, path: &Path) -> Result<Vec<Datum>, CalibrationError> {
+        let data = MeasuredData::read(path)?;
+        let source = data.metadata.source.clone();
+        let (values, unit) = match &self.table {
+            // a profile: the columns have the table's names
+            Some(_) => {
+                let y = self.y.as_deref().unwrap_or_default();
+                let (name, unit) = parted(y);
+                (numbers(&data, path, name, Some(unit))?.0, unit.to_owned())
+            }
+            None => numbers(&data, path, "value", None)?,
+        };
+        let (sigmas, _) = numbers(&data, path, "uncertainty", Some(&unit)).map_err(|error| match error {
+            CalibrationError::Reference(_) => FieldError::new(
+                "uncertainty",
+                "missing",
+                "a column of standard deviations",
+                &format!("add `uncertainty [{unit}]`; Bagnold does not invent one"),
+            )
+            .in_file(path)
+            .into(),
+            other => other,
+        })?;
+        if let Some(row) = sigmas.iter().position(|sigma| *sigma <= 0.0) {
+            let field = format!("uncertainty, row {}", row + 1);
+            return Err(FieldError::new(&field, sigmas[row], "positive", "give the standard deviation")
+                .in_file(path)
+                .into());
+        }
+        let datum = |row: usize, target: Target| Datum {
+            block,
+            target,
+            value: values[row],
+            unit: unit.clone(),
+            uncertainty: DatumUncertainty::Absolute(sigmas[row]),
+            source: source.clone(),
+        };
+        if self.table.is_some() {
+            let (name, unit) = parted(self.x.as_deref().unwrap_or_default());
+            let (places, _) = numbers(&data, path, name, Some(unit))?;
+            return Ok((0..values.len()).map(|row| datum(row, self.target(places[row]))).collect());
+        }
+        let variants = data.labels("variant").map(<[String]>::to_vec).unwrap_or_default();
+        let target = |row: usize| match (self.target(0.0), variants.get(row)) {
+            (Target::Metric { name, .. }, Some(variant)) => Target::Metric { name, variant: Some(variant.clone()) },
+            (target, _) => target,
+        };
+        Ok((0..values.len()).map(|row| datum(row, target(row))).collect())
+    }
+}
+
+/// Values and unit of a number column; the unit must be the expected one.
+fn numbers(
+    data: &MeasuredData,
+    path: &Path,
+    wanted: &str,
+    expected: Option<&str>,
+) -> Result<(Vec<f64>, String), CalibrationError> {
+    let values = data.numbers(wanted)?.to_vec();
+    let unit = data.columns.iter().find_map(|column| match column {
+        ReferenceColumn::Numbers { name, unit, .. } if name == wanted => Some(unit.clone()),
+        _ => None,
+    });
+    let unit = unit.unwrap_or_default();
+    match expected {
+        Some(expected) if expected != unit => {
+            let remedy = "convert the column, or correct the unit in the plan: units are not guessed";
+            let rule = format!("in [{expected}], as the plan names the simulated quantity");
+            Err(FieldError::new(wanted, format!("in [{unit}]"), &rule, remedy).in_file(path).into())
+        }
+        _ => Ok((values, unit)),
+    }
+}

@@ -1,0 +1,114 @@
+//! What another code needs to run a case: geometry, material, initial particles, references and definitions.
+
+use super::blank::{blank, wrapped};
+use super::error::JudgeError;
+use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema};
+use crate::evidence::shipped_tables;
+use crate::observation::Frame;
+use crate::output::{FileError, Table};
+use crate::result::write_snapshots;
+use std::fmt::Write as _;
+use std::io;
+use std::path::Path;
+
+/// Writes `case.toml`, `definitions.md`, `submission.toml`, `particles/` and `reference/` into a folder, from the results of
+/// our own runs, whose first pictures are the initial particles.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn export(case: &'static dyn AnyCase, own: &CaseResult, folder: &Path) -> Result<(), JudgeError> {
+    let written = write(case, own, folder);
+    written.map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))?;
+    let submission = blank(case, own.tier).map_err(|error| crate::evaluation::PlanError::of(error, folder))?;
+    std::fs::write(folder.join("submission.toml"), submission)
+        .map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))
+}
+
+fn write(case: &'static dyn AnyCase, own: &CaseResult, folder: &Path) -> io::Result<()> {
+    std::fs::write(folder.join("case.toml"), &own.parameters_toml)?;
+    std::fs::write(folder.join("definitions.md"), definitions(case, own))?;
+    let particles = folder.join("particles");
+    for (run, frames) in own.runs.iter().zip(&own.frames) {
+        if let Some(first) = frames.first().filter(|frame| frame.time == 0.0) {
+            let name = if run.variant.is_empty() { "run".to_owned() } else { run.variant.file_name() };
+            write_snapshots(&particles, &name, std::slice::from_ref(first))?;
+            table(&name, first).write(&particles)?;
+        }
+    }
+    for (name, text) in shipped_tables() {
+        if let Some(own) = name.strip_prefix(case.name()).and_then(|rest| rest.strip_prefix('/')) {
+            let path = folder.join("reference").join(own);
+            std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
+            std::fs::write(path, text)?;
+        }
+    }
+    let curves = folder.join("bagnold");
+    std::fs::create_dir_all(&curves)?;
+    own.tables.iter().try_for_each(|table| table.write(&curves))
+}
+
+/// A picture as a table: places, and every scalar and vector with its unit.
+fn table(name: &str, frame: &Frame) -> Table {
+    let mut headings: Vec<String> = ["x [m]", "y [m]", "z [m]"].map(str::to_owned).to_vec();
+    headings.extend(frame.scalars.iter().map(|(name, unit, _)| format!("{name} [{unit}]")));
+    for (name, unit, _) in &frame.vectors {
+        headings.extend(["x", "y", "z"].map(|axis| format!("{name}_{axis} [{unit}]")));
+    }
+    let row = |particle: usize| {
+        let mut row = frame.position[particle].to_vec();
+        row.extend(frame.scalars.iter().map(|(_, _, values)| values[particle]));
+        row.extend(frame.vectors.iter().flat_map(|(_, _, values)| values[particle]));
+        row
+    };
+    let headings: Vec<&str> = headings.iter().map(String::as_str).collect();
+    Table::of_rows(name.to_owned(), &headings, (0..frame.position.len()).map(row))
+}
+
+/// The exact meaning of everything, as a page of prose.
+fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
+    let mut text = format!("# {}\n\n{}\n", case.name(), paragraph(&own.description));
+    text.push_str(
+        "\nGeometry, material and gravity are in `case.toml`, in SI units, angles in degrees; every key is explained there. Of a run's \
+         keys the resolution and the numerics are a code's own business. `particles/` holds the initial particles of our runs, \
+         `bagnold/` our profiles and histories, `reference/` the measured and published ones.\n",
+    );
+    text.push_str("\n## Runs\n\n");
+    for run in &own.runs {
+        let _ = writeln!(text, "- `{}`, {} particles, {} s", run.variant, run.particles, run.simulated_time);
+    }
+    let form = case.form();
+    if !form.description.is_empty() {
+        let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(form.description));
+    }
+    text.push_str(&items(form));
+    text.push_str("\n## Numbers\n\n");
+    for quantity in case.quantities() {
+        let _ = writeln!(text, "- `{}` [{}]: {}", quantity.name, quantity.unit, quantity.description);
+    }
+    text.push_str("\n## Limits\n\n");
+    for metric in own.metrics.iter().filter(|metric| metric.gate.is_some()) {
+        let Some(gate) = &metric.gate else { continue };
+        let source = metric.reference.as_ref().map(|of| format!(" Reference: {}.", of.source)).unwrap_or_default();
+        let _ =
+            writeln!(text, "- `{}` of `{}`: {:?}. {}.{source}", metric.name, metric.variant, gate.limit, gate.reason);
+    }
+    text
+}
+
+fn items(form: &ExternalSchema) -> String {
+    let mut text = String::new();
+    for (name, items) in [("Particles", form.particles), ("Time series", form.series), ("Profile", form.profile)] {
+        if items.is_empty() {
+            continue;
+        }
+        let _ = write!(text, "\n## {name}\n\n");
+        for ExternalColumn { name, unit, description } in items {
+            let _ = writeln!(text, "- `{name}` [{unit}]: {description}");
+        }
+    }
+    text
+}
+
+fn paragraph(text: &str) -> String {
+    wrapped(text).join("\n")
+}

@@ -1,0 +1,209 @@
+//! Other codes' results under the gates of our cases: `bagnold judge`.
+
+mod blank;
+mod document;
+mod error;
+mod export;
+mod overlay;
+mod page;
+mod reading;
+mod submission;
+mod verdicts;
+mod vtk;
+
+pub use blank::blank;
+pub use error::JudgeError;
+pub use export::export;
+pub use page::write;
+pub use submission::{Code, ForeignRun, ParticleFiles, Submission, TableFile};
+pub use verdicts::MetricComparison;
+
+use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCase, Registry};
+use crate::evaluation::PlanError;
+use crate::figure::Figure;
+use crate::input::FieldError;
+use crate::metric::{Variant, Verdict};
+use std::path::{Path, PathBuf};
+
+/// Submissions of one case, with the runs of ours that they are compared with.
+pub struct CaseSubmissions {
+    /// The runs of ours that any code gives something of.
+    pub prepared: Box<dyn PreparedCase>,
+    /// What the codes gave.
+    pub entries: Vec<CodeResults>,
+}
+
+/// One code's results.
+#[derive(Debug, Clone)]
+pub struct CodeResults {
+    /// The submission.
+    pub submission: Submission,
+    /// The runs that it gives, in the order of its file.
+    variants: Vec<Variant>,
+    /// What follows from the files that it gives.
+    pub result: ExternalResult,
+}
+
+/// A code's verdicts.
+#[derive(Debug, Clone)]
+pub struct JudgedCode {
+    /// The code.
+    pub code: Code,
+    /// Its file.
+    pub file: PathBuf,
+    /// Metrics in our order.
+    pub metrics: Vec<MetricComparison>,
+}
+
+/// All codes beside our own.
+#[derive(Debug, Clone)]
+pub struct CodeComparison {
+    /// Our case.
+    pub own: CaseResult,
+    /// The codes.
+    pub codes: Vec<JudgedCode>,
+    /// Our figures with theirs drawn in.
+    pub figures: Vec<Figure>,
+}
+
+impl JudgedCode {
+    /// Gates that hold, that fail, and that nothing was given for.
+    #[must_use]
+    pub fn counts(&self) -> (usize, usize, usize) {
+        let gated = self.metrics.iter().filter(|one| one.own.verdict() != Verdict::Observed);
+        gated.fold((0, 0, 0), |(held, failed, open), one| match one.verdict() {
+            Some(Verdict::Pass) => (held + 1, failed, open),
+            Some(Verdict::Fail) => (held, failed + 1, open),
+            Some(Verdict::Observed) | None => (held, failed, open + 1),
+        })
+    }
+}
+
+impl CaseSubmissions {
+    /// Reads submissions and everything that they name; nothing is simulated yet.
+    ///
+    /// # Errors
+    /// Submissions of different cases, tiers or parameters, runs that the case does not have or that are meant twice, files
+    /// that cannot be understood.
+    pub fn read(files: &[PathBuf], registry: Registry) -> Result<Self, JudgeError> {
+        let submissions: Vec<Submission> = files.iter().map(|file| Submission::read(file)).collect::<Result<_, _>>()?;
+        let Some(first) = submissions.first() else { return Err(JudgeError::Nothing) };
+        for (place, other) in submissions.iter().enumerate().skip(1) {
+            let same = (&other.case, other.tier, &other.with) == (&first.case, first.tier, &first.with);
+            if !same {
+                return Err(JudgeError::Different { first: first.path.clone(), other: other.path.clone() });
+            }
+            if let Some(twin) = submissions[..place].iter().find(|twin| twin.code == other.code) {
+                let value = format!("\"{} {}\"", other.code.name, other.code.version);
+                let rule = format!("another code than that of {}", twin.path.display());
+                return Err(FieldError::new("code", value, &rule, "give it a version").in_file(&other.path).into());
+            }
+        }
+        let case =
+            registry.find(&first.case).map_err(|error| PlanError::of(error.in_file(&first.path), &first.path))?;
+        let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[], ..Changes::default() };
+        let all = case.prepare(first.tier, &changes).map_err(|error| PlanError::of(error, &first.path))?;
+        // the runs of ours that any code gives something of, in our order
+        let places: Vec<Vec<usize>> =
+            submissions.iter().map(|submission| places(submission, all.as_ref())).collect::<Result<_, _>>()?;
+        let mut chosen: Vec<usize> = places.iter().flatten().copied().collect();
+        chosen.sort_unstable();
+        chosen.dedup();
+        let prepared = all.choose(&chosen);
+        let entries = submissions
+            .into_iter()
+            .zip(places)
+            .map(|(submission, places)| {
+                let own: Vec<usize> =
+                    places.iter().filter_map(|place| chosen.iter().position(|chosen| chosen == place)).collect();
+                entry(submission, &own, case.form(), prepared.as_ref())
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(Self { prepared, entries })
+    }
+}
+
+/// Reads what a code gives of some runs of ours and takes its measurements.
+fn entry(
+    submission: Submission,
+    places: &[usize],
+    form: &crate::case::ExternalSchema,
+    prepared: &dyn PreparedCase,
+) -> Result<CodeResults, JudgeError> {
+    let folder = submission.path.parent().unwrap_or_else(|| Path::new("")).to_owned();
+    let mut given = vec![ExternalData::default(); prepared.run_count()];
+    for (number, (run, &place)) in submission.runs.iter().zip(places).enumerate() {
+        let field = format!("run {}", number + 1);
+        given[place] = reading::read(run, form, &field, &folder).map_err(|error| error.in_file(&submission.path))?;
+    }
+    let result = prepared.foreign(&given).map_err(|(place, error)| {
+        let number = places.iter().position(|own| *own == place).map_or(0, |number| number + 1);
+        error.within(&format!("run {number}")).in_file(&submission.path)
+    })?;
+    let variants = places.iter().map(|&place| prepared.variant(place)).collect();
+    Ok(CodeResults { submission, variants, result })
+}
+
+/// Our run that each of a submission's is: of those that have all its keys the one with the fewest keys.
+fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<usize>, JudgeError> {
+    let variants: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
+    let mut places: Vec<usize> = Vec::new();
+    for (number, run) in submission.runs.iter().enumerate() {
+        let wrong = |rule: &str, remedy: &str| {
+            let field = format!("run {}.variant", number + 1);
+            let value = format!("\"{}\"", run.variant);
+            JudgeError::from(FieldError::new(&field, value, rule, remedy).in_file(&submission.path))
+        };
+        let matching: Vec<usize> =
+            (0..variants.len()).filter(|&place| variants[place].includes(&run.variant)).collect();
+        let keys = |place: usize| variants[place].parts().count();
+        let fewest = matching.iter().map(|&place| keys(place)).min();
+        let least: Vec<usize> = matching.into_iter().filter(|&place| Some(keys(place)) == fewest).collect();
+        match least[..] {
+            [place] if places.contains(&place) => {
+                return Err(wrong("another run than those before", "give each run once, in one table [[run]]"));
+            }
+            [place] => places.push(place),
+            [] => {
+                let listed: Vec<String> = variants.iter().take(6).map(|variant| format!("\"{variant}\"")).collect();
+                let rule = format!("keys of a run of this case and tier, such as {}", listed.join(", "));
+                return Err(wrong(&rule, "`bagnold judge --template` lists the runs"));
+            }
+            _ => {
+                let listed: Vec<String> =
+                    least.iter().take(4).map(|&place| format!("\"{}\"", variants[place])).collect();
+                return Err(wrong(
+                    &format!("one run, but is {}", listed.join(" and ")),
+                    "add a key that tells them apart",
+                ));
+            }
+        }
+    }
+    Ok(places)
+}
+
+/// Puts the codes beside our own results.
+///
+/// # Errors
+/// A single number that no metric of its run has.
+pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison, JudgeError> {
+    let codes: Vec<JudgedCode> = entries
+        .iter()
+        .map(|entry| {
+            let numbers: Vec<_> = entry
+                .variants
+                .iter()
+                .zip(&entry.submission.runs)
+                .enumerate()
+                .map(|(number, (variant, run))| (variant.clone(), run, format!("run {}", number + 1)))
+                .collect();
+            let metrics = verdicts::compare(&own.metrics, &entry.result, &numbers)
+                .map_err(|error| error.in_file(&entry.submission.path))?;
+            Ok(JudgedCode { code: entry.submission.code.clone(), file: entry.submission.path.clone(), metrics })
+        })
+        .collect::<Result<_, JudgeError>>()?;
+    let theirs: Vec<(&str, &[Figure])> =
+        entries.iter().map(|entry| (entry.submission.code.name.as_str(), entry.result.figures.as_slice())).collect();
+    let figures = overlay::overlay(&own.figures, &theirs);
+    Ok(CodeComparison { own, codes, figures })
+}

@@ -1,0 +1,197 @@
+//! Reads what a submission names: files of particles, series and profiles → columns in SI units.
+
+use super::submission::{ForeignRun, ParticleFiles, TableFile, rising, sources};
+use super::vtk::{self, PLACES, PointArrays};
+use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame};
+use crate::evaluation::PlanError;
+use crate::input::{self, FieldError, did_you_mean, nearest};
+use crate::measured::ColumnSource;
+use crate::measured::TextTable;
+use crate::output::FileError;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Largest file that is read `[bytes]`.
+const LARGEST_FILE: u64 = 1 << 30;
+/// Most pictures of a run.
+const MOST_PICTURES: usize = 10_000;
+
+/// Columns of a part with their meaning, ready to be taken from files.
+type ColumnAssignments = Vec<(&'static ExternalColumn, ColumnSource, f64, String)>;
+
+/// Reads all that is given of a run; paths are relative to `folder`.
+///
+/// # Errors
+/// Files that cannot be read, columns that are unknown or missing, units of another kind, numbers that are not finite, times
+/// that do not rise.
+pub(super) fn read(
+    run: &ForeignRun,
+    form: &ExternalSchema,
+    field: &str,
+    folder: &Path,
+) -> Result<ExternalData, PlanError> {
+    let mut given = ExternalData::default();
+    if let Some(files) = &run.particles {
+        let plan = plan(&files.columns, form.particles, &format!("{field}.particles"))?;
+        given.pictures = pictures(files, &plan, folder)?;
+    }
+    if let Some(table) = &run.series {
+        given.series = columns(table, form.series, &format!("{field}.series"), folder)?;
+        let names =
+            ["time", "relative_time"].into_iter().filter(|name| form.series.iter().any(|item| item.name == *name));
+        let Some(name) = names.clone().find(|name| !given.series(name).is_empty()) else {
+            let name = format!("{field}.series.columns.time");
+            let rule =
+                format!("given{} with every series", if names.count() > 1 { ", or `relative_time`," } else { "" });
+            return Err(FieldError::new(&name, "missing", &rule, "name the column of the times").into());
+        };
+        in_order(given.series(name), &format!("{field}.series.columns.{name}"), &folder.join(&table.file))?;
+    }
+    if let Some(table) = &run.profile {
+        given.profile = columns(table, form.profile, &format!("{field}.profile"), folder)?;
+        if let Some(first) = form.profile.first() {
+            in_order(
+                given.profile(first.name),
+                &format!("{field}.profile.columns.{}", first.name),
+                &folder.join(&table.file),
+            )?;
+        }
+    }
+    Ok(given)
+}
+
+fn in_order(numbers: &[f64], field: &str, file: &Path) -> Result<(), FieldError> {
+    rising(numbers).map_or(Ok(()), |number| {
+        let rule = "larger than the number before";
+        Err(FieldError::new(field, number, rule, "sort the rows and remove what stands twice").in_file(file))
+    })
+}
+
+/// What the columns of a part mean, each with its factor to SI and the field that it stands in.
+fn plan(
+    texts: &BTreeMap<String, toml::Value>,
+    items: &'static [ExternalColumn],
+    field: &str,
+) -> Result<ColumnAssignments, FieldError> {
+    let sources = sources(texts, field)?;
+    if sources.is_empty() {
+        return Err(FieldError::new(&format!("{field}.columns"), "empty", "given", "say which column is what"));
+    }
+    sources
+        .into_iter()
+        .map(|(name, source)| {
+            let item = ExternalSchema::find(items, &format!("{field}.columns"), &name)?;
+            let field = format!("{field}.columns.{name}");
+            let factor = source.factor(item, &field)?;
+            Ok((item, source, factor, field))
+        })
+        .collect()
+}
+
+fn columns(
+    table: &TableFile,
+    items: &'static [ExternalColumn],
+    field: &str,
+    folder: &Path,
+) -> Result<NamedColumns, PlanError> {
+    let plan = plan(&table.columns, items, field)?;
+    let file = folder.join(&table.file);
+    Ok(of_table(&read_text_table(&file)?, &plan, &file)?)
+}
+
+fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> Result<Vec<ParticleFrame>, PlanError> {
+    let named: Vec<(f64, PathBuf)> = if files.is_collection() {
+        let file = folder.join(&files.files[0]);
+        let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
+        let sets = vtk::collection(&text, &file)?;
+        let times: Vec<f64> = sets.iter().map(|(time, _)| *time).collect();
+        in_order(&times, "timestep", &file)?;
+        sets
+    } else {
+        files.times.iter().copied().zip(files.files.iter().map(|file| folder.join(file))).collect()
+    };
+    if named.len() > MOST_PICTURES {
+        let rule = format!("at most {MOST_PICTURES}");
+        return Err(FieldError::new("particles.files", named.len(), &rule, "give fewer pictures").into());
+    }
+    named
+        .into_iter()
+        .map(|(time, file)| {
+            let ending = file.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
+            let columns = if vtk::ENDINGS.contains(&ending.as_str()) {
+                of_points(&PointArrays::parse(&read_bytes(&file)?, &file)?, plan, &file)?
+            } else {
+                of_table(&read_text_table(&file)?, plan, &file)?
+            };
+            Ok(ParticleFrame { time, columns })
+        })
+        .collect()
+}
+
+fn read_bytes(file: &Path) -> Result<Vec<u8>, PlanError> {
+    Ok(input::read_bytes(file, LARGEST_FILE).map_err(|error| FileError::unreadable(file, &error))?)
+}
+
+fn read_text_table(file: &Path) -> Result<TextTable, PlanError> {
+    let bytes = read_bytes(file)?;
+    Ok(TextTable::parse(&String::from_utf8_lossy(&bytes), file)?)
+}
+
+fn of_table(table: &TextTable, plan: &ColumnAssignments, file: &Path) -> Result<NamedColumns, FieldError> {
+    let rows = table.columns.first().map_or(0, Vec::len);
+    let column = |source: &ColumnSource, field: &str| match source {
+        ColumnSource::Heading { text, name, .. } => {
+            // the heading may hold its unit itself
+            let heading = if table.headings.contains(text) { text } else { name };
+            table.column(heading, field, file).map(<[f64]>::to_vec)
+        }
+        ColumnSource::Constant { value, .. } => Ok(vec![*value; rows]),
+    };
+    in_si(plan, file, column)
+}
+
+fn of_points(points: &PointArrays, plan: &ColumnAssignments, file: &Path) -> Result<NamedColumns, FieldError> {
+    let count = points.arrays.get(&format!("{PLACES}:0")).map_or(0, Vec::len);
+    let column = |source: &ColumnSource, field: &str| match source {
+        ColumnSource::Heading { text, name, .. } => {
+            // `velocity [m/s]:0` is the first component of an array whose name holds its unit
+            let component = name.rsplit_once(':').filter(|(_, number)| number.parse::<u8>().is_ok());
+            let unit = text.trim().rsplit_once('[').map_or("", |(_, unit)| unit);
+            let with_unit = component.map(|(name, number)| format!("{name} [{unit}:{number}"));
+            let names = [Some(text.clone()), Some(name.clone()), with_unit];
+            let found = names.iter().flatten().find_map(|name| points.arrays.get(name));
+            found.cloned().ok_or_else(|| {
+                let guess = did_you_mean(&nearest(name, points.arrays.keys().map(String::as_str)));
+                let names: Vec<&str> = points.arrays.keys().map(String::as_str).collect();
+                let rule = format!("an array of {}: {}", file.display(), names.join(", "));
+                let remedy =
+                    format!("{guess}places are Points:0, Points:1, Points:2, parts of a vector NAME:0 and so on");
+                FieldError::new(field, format!("\"{text}\""), &rule, &remedy)
+            })
+        }
+        ColumnSource::Constant { value, .. } => Ok(vec![*value; count]),
+    };
+    in_si(plan, file, column)
+}
+
+/// All columns of a plan in SI units; every number must be finite.
+fn in_si(
+    plan: &ColumnAssignments,
+    file: &Path,
+    column: impl Fn(&ColumnSource, &str) -> Result<Vec<f64>, FieldError>,
+) -> Result<NamedColumns, FieldError> {
+    plan.iter()
+        .map(|(item, source, factor, field)| {
+            let mut values = column(source, field)?;
+            if let Some(row) = values.iter().position(|value| !value.is_finite()) {
+                let name = format!("{field}, row {}", row + 1);
+                let remedy = "mend the output, or leave the column out";
+                return Err(FieldError::new(&name, values[row], "a finite number", remedy).in_file(file));
+            }
+            for value in &mut values {
+                *value *= factor;
+            }
+            Ok((item.name.to_owned(), values))
+        })
+        .collect()
+}

@@ -1,0 +1,216 @@
+//! What another code submits: a TOML file that names its case, its runs, and what it gives of each.
+
+use crate::case::{CaseFile, Tier};
+use crate::evaluation::{PlanError, read_plan};
+use crate::input::{FieldError, check_name};
+use crate::measured::{ColumnSource, ColumnText};
+use crate::metric::Variant;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A submission as its file gives it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Submission {
+    /// The file.
+    #[serde(skip)]
+    pub path: PathBuf,
+    /// Name of the case.
+    pub case: String,
+    /// Tier whose runs are meant.
+    #[serde(default = "quick")]
+    pub tier: Tier,
+    /// A case file with the parameters, beside this one: a scene of one's own.
+    #[serde(default)]
+    pub base: Option<PathBuf>,
+    /// Parameters that differ from the tier's, or from those of `base`, as in a case's file.
+    #[serde(default)]
+    pub with: toml::Table,
+    /// The code.
+    pub code: Code,
+    /// Its runs.
+    #[serde(rename = "run", default)]
+    pub runs: Vec<ForeignRun>,
+}
+
+fn quick() -> Tier {
+    Tier::Quick
+}
+
+/// Another code.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Code {
+    /// Name, as it stands in tables and legends.
+    pub name: String,
+    /// Version, or what else tells it from others of its name.
+    #[serde(default)]
+    pub version: String,
+}
+
+/// What it gives of a run, each part optional.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ForeignRun {
+    /// Keys of the case's run that it is, such as `material=lagree,aspect_ratio=1`; those that are the code's own business,
+    /// such as the resolution, may be left out.
+    #[serde(default)]
+    pub variant: Variant,
+    /// Single numbers: metrics of the run by name, in their units.
+    #[serde(default)]
+    pub numbers: BTreeMap<String, f64>,
+    /// Particles, or cells, at times.
+    pub particles: Option<ParticleFiles>,
+    /// Time series.
+    pub series: Option<TableFile>,
+    /// A profile.
+    pub profile: Option<TableFile>,
+}
+
+/// Files of particles, one a time.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ParticleFiles {
+    /// The files, beside the submission: tables of numbers, `.vtu`, `.vtp` or `.vtk`, or a single `.pvd`.
+    pub files: Vec<PathBuf>,
+    /// Times of the files `[s]`; absent with a `.pvd`, which says them.
+    #[serde(default)]
+    pub times: Vec<f64>,
+    /// Which column of the files is what.
+    pub columns: BTreeMap<String, toml::Value>,
+}
+
+/// A file with a table of numbers.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TableFile {
+    /// The file, beside the submission.
+    pub file: PathBuf,
+    /// Which column of the file is what.
+    pub columns: BTreeMap<String, toml::Value>,
+}
+
+impl Submission {
+    /// Reads a submission; the files that it names are read later.
+    ///
+    /// # Errors
+    /// A file that cannot be read, is not TOML, or lacks something.
+    pub fn read(path: &Path) -> Result<Self, PlanError> {
+        let submission: Self = read_plan(path, "judge")?;
+        submission.check().map_err(|error| error.in_file(path))?;
+        let fields = submission.parameters(path)?;
+        Ok(Self { path: path.to_owned(), with: fields, ..submission })
+    }
+
+    /// The parameters: those of `base` with those of `with` laid over them.
+    fn parameters(&self, path: &Path) -> Result<toml::Table, PlanError> {
+        let own = CaseFile::of_parameters(path, &self.case, None, self.with.clone())?;
+        let Some(base) = &self.base else { return Ok(own.fields) };
+        let mut file = CaseFile::read(&path.parent().unwrap_or(Path::new("")).join(base))?;
+        let wrong = |field: &str, value: String, rule: String| {
+            let remedy = "name in both files what is judged";
+            Err(FieldError::new(field, value, &rule, remedy).in_file(path).into())
+        };
+        if file.case != self.case {
+            let rule = format!("the case of {}, \"{}\"", file.path.display(), file.case);
+            return wrong("case", format!("\"{}\"", self.case), rule);
+        }
+        if let Some(tier) = file.tier.filter(|tier| *tier != self.tier) {
+            return wrong("tier", self.tier.to_string(), format!("the tier of {}, {tier}", file.path.display()));
+        }
+        file.lay_over(&own.fields);
+        Ok(file.fields)
+    }
+
+    fn check(&self) -> Result<(), FieldError> {
+        if self.code.name.trim().is_empty() || self.code.name.chars().count() > 60 {
+            let rule = "a name of 1 to 60 letters";
+            return Err(FieldError::new("code.name", format!("\"{}\"", self.code.name), rule, "name the code"));
+        }
+        check_name("code.name", &self.code.name)?;
+        if !self.code.version.is_empty() {
+            check_name("code.version", &self.code.version)?;
+        }
+        if self.runs.is_empty() {
+            let remedy = "add a table [[run]] with what the code gives of it";
+            return Err(FieldError::new("run", "missing", "given once at least", remedy));
+        }
+        for (place, run) in self.runs.iter().enumerate() {
+            let field = format!("run {}", place + 1);
+            if let Some((name, value)) = run.numbers.iter().find(|(_, value)| value.is_nan()) {
+                let remedy = "leave out what was not measured";
+                return Err(FieldError::new(&format!("{field}.numbers.{name}"), value, "a number", remedy));
+            }
+            if let Some(files) = &run.particles {
+                files.check().map_err(|error| error.within(&field))?;
+            }
+            let is_empty = run.numbers.is_empty() && run.particles.is_none() && run.series.is_none();
+            if is_empty && run.profile.is_none() {
+                let rule = "a run of which something is given";
+                let remedy = "add numbers, particles, series or profile, or leave the run out";
+                return Err(FieldError::new(&field, "empty", rule, remedy));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl ParticleFiles {
+    fn check(&self) -> Result<(), FieldError> {
+        let wrong = |field: &str, value: String, rule: &str, remedy: &str| {
+            Err(FieldError::new(&format!("particles.{field}"), value, rule, remedy))
+        };
+        if self.files.is_empty() {
+            return wrong("files", "[]".to_owned(), "one file a time", "name the files");
+        }
+        if self.is_collection() {
+            return if self.times.is_empty() {
+                Ok(())
+            } else {
+                wrong("times", "given".to_owned(), "absent with a collection", "the .pvd says the times")
+            };
+        }
+        if self.times.len() != self.files.len() {
+            let value = format!("of {} numbers for {} files", self.times.len(), self.files.len());
+            return wrong("times", value, "one per file", "give the time of each file [s]");
+        }
+        rising(&self.times).map_or(Ok(()), |time| {
+            wrong(
+                "times",
+                time.to_string(),
+                "finite and larger than the one before",
+                "list the files in the order of time",
+            )
+        })
+    }
+
+    /// Whether one file names the others.
+    pub(super) fn is_collection(&self) -> bool {
+        matches!(self.files.as_slice(), [file] if file.extension().is_some_and(|ending| ending == "pvd"))
+    }
+}
+
+/// The first number that does not exceed the one before, or is not finite.
+pub(super) fn rising(numbers: &[f64]) -> Option<f64> {
+    let mut before = f64::NEG_INFINITY;
+    numbers.iter().copied().find(|&number| {
+        let is_wrong = !(number > before && number.is_finite());
+        before = number;
+        is_wrong
+    })
+}
+
+/// What the columns of a part mean.
+///
+/// # Errors
+/// A column that is neither a heading with its unit nor a constant; `field` is where it stands.
+pub(super) fn sources(
+    columns: &BTreeMap<String, toml::Value>,
+    field: &str,
+) -> Result<BTreeMap<String, ColumnSource>, FieldError> {
+    columns
+        .iter()
+        .map(|(name, value)| Ok((name.clone(), ColumnText::parse(value, &format!("{field}.columns.{name}"))?)))
+        .collect()
+}

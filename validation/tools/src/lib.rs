@@ -1,0 +1,14 @@
+//! What works on any case: calibrations, sweeps, judging of external codes, comparisons of folders, mutations.
+
+pub mod calibration;
+pub mod compare;
+pub mod judge;
+pub mod mutation;
+pub mod sweep;
+
+use bagnold_figure as figure;
+use bagnold_harness::{
+    case, evaluation, evidence, input, measured, metric, observation, output, page, report, result, store,
+};
+use bagnold_inference::{inference, sampling, statistics};
+use bagnold_number as number;

@@ -1,0 +1,99 @@
+//! The mutations, as a file beside the sources holds them.
+
+use super::Scope;
+use crate::evaluation::{PlanError, read_plan};
+use crate::input::FieldError;
+use serde::Deserialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// Where they stand in a checkout.
+pub const FILE: &str = "validation/tools/mutations.toml";
+
+/// An error that a programmer could make.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mutation {
+    /// Its name on the command line and in results.
+    pub name: String,
+    /// What is wrong, half a sentence.
+    pub description: String,
+    /// The cases that ought to notice, the likeliest first.
+    pub cases: Vec<String>,
+    /// Where the sources change.
+    pub places: Vec<SourceReplacement>,
+}
+
+/// A text of the sources and the text instead of it.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SourceReplacement {
+    /// File below `solver/src`.
+    pub file: String,
+    /// What stands right before the text, where the text alone is not unique.
+    #[serde(default)]
+    pub after: String,
+    /// An expression.
+    pub text: String,
+    /// The wrong expression.
+    pub instead: String,
+}
+
+/// All mutations of a checkout.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mutations {
+    /// What cases are cut to: settings of `--set`.
+    settings: BTreeMap<String, Vec<String>>,
+    #[serde(rename = "mutation")]
+    list: Vec<Mutation>,
+}
+
+impl SourceReplacement {
+    /// What is looked for in the file.
+    #[must_use]
+    pub fn needle(&self) -> String {
+        format!("{}{}", self.after, self.text)
+    }
+}
+
+impl Mutations {
+    /// Reads them from a checkout.
+    ///
+    /// # Errors
+    /// A file that cannot be read or typed, or two of the same name.
+    pub fn read(workspace: &Path) -> Result<Self, PlanError> {
+        let file = workspace.join(FILE);
+        let all: Self = read_plan(&file, "mutate")?;
+        let mut names = BTreeSet::new();
+        if let Some(twin) = all.list.iter().find(|mutation| !names.insert(&mutation.name)) {
+            let error = FieldError::new("mutation.name", &twin.name, "unlike the others", "rename one of them");
+            return Err(error.in_file(&file).into());
+        }
+        Ok(all)
+    }
+
+    /// All of them, in the file's order.
+    pub fn iter(&self) -> impl Iterator<Item = &Mutation> {
+        self.list.iter()
+    }
+
+    /// The one of that name.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<&Mutation> {
+        self.iter().find(|mutation| mutation.name == name)
+    }
+
+    /// The number by which a copy of the program chooses it, from 1.
+    #[must_use]
+    pub fn number(&self, mutation: &Mutation) -> usize {
+        self.list.iter().position(|other| other == mutation).map_or(0, |place| place + 1)
+    }
+
+    /// The cases that ought to notice it, cut to what matters.
+    #[must_use]
+    pub fn scopes(&self, mutation: &Mutation) -> Vec<Scope> {
+        let settings = |case: &String| self.settings.get(case).cloned().unwrap_or_default();
+        mutation.cases.iter().map(|case| Scope { case: case.clone(), settings: settings(case) }).collect()
+    }
+}
