@@ -47,6 +47,7 @@ fn main() {
         add(&mut hash, &format!("reference-data/{name}"), &std::fs::read(file).unwrap_or_default());
     }
     // no result depends on the plans
+    embed("studies", &texts(&package, &["studies"], &["toml"]));
     embed("plans", &texts(&package, &PLANS, &["toml", "csv", "stl"]));
     for name in ["Cargo.lock", "Cargo.toml"] {
         let file = workspace.join(name);

@@ -118,7 +118,7 @@ fn zero_for_help_version_list_and_show() {
         let finished = place.bagnold(arguments).assert().code(0).stderr("");
         assert!(!finished.get_output().stdout.is_empty());
     }
-    for case in bagnold_validation::REGISTRY.iter() {
+    for case in bagnold_validation::REGISTRY.cases() {
         let finished = place.bagnold(&["show", case.name()]).assert().code(0).stderr("");
         let text = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
         assert!(text.starts_with(&format!("case = \"{}\"\ntier = \"quick\"\n", case.name())), "{text}");

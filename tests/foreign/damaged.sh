@@ -4,11 +4,16 @@
 # `bash tests/foreign/damaged.sh [COUNT]`, 100 000 of each kind unless said otherwise, about a minute beyond the build.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-cargo test --package bagnold-validation --lib --no-run
-program=$(cargo test --package bagnold-validation --lib --no-run --message-format=json |
-    sed -n '/"name":"bagnold_validation"/s/.*"executable":"\([^"]*\)".*/\1/p' | tail -n 1)
-cd validation
+# The test program of a package of the validation.
+tests_of() {
+    cargo test --package "bagnold-$1" --lib --no-run --message-format=json |
+        sed -n "/\"name\":\"bagnold_$1\"/s/.*\"executable\":\"\([^\"]*\)\".*/\1/p" | tail -n 1
+}
+harness=$(tests_of harness)
+tools=$(tests_of tools)
 (
     ulimit -v $((2 * 1024 * 1024))
-    PROPTEST_CASES=${1:-100000} timeout 1800 "$program" judge::vtk judge::text_table metric::variant mesh::
+    export PROPTEST_CASES=${1:-100000}
+    (cd validation/harness && timeout 1800 "$harness" measured::text_table metric::variant mesh::)
+    (cd validation/tools && timeout 1800 "$tools" judge::vtk)
 )

@@ -21,7 +21,7 @@ pub(crate) fn owing_tier(entry: &KnownFailure) -> Option<Tier> {
         case.prepare(tier, &Changes::default()).is_ok_and(|prepared| {
             let runs: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
             let is_run: fn(&Variant, &Variant) -> bool =
-                if entry.variant.get(QUANTITY).is_some() { has_all } else { Variant::eq };
+                if case.is_study() || entry.variant.get(QUANTITY).is_some() { has_all } else { Variant::eq };
             runs_of(&entry.variant).iter().all(|wanted| runs.iter().any(|run| is_run(run, wanted)))
         })
     })

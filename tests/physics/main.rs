@@ -12,6 +12,7 @@ mod scene_texts;
 mod scenes;
 mod verdict;
 
+use bagnold_harness::case::Tier;
 use bagnold_validation::REGISTRY;
 
 /// Both tiers of each case. A name here is that of the registry with `_` for `-`.
@@ -41,8 +42,16 @@ macro_rules! cases {
 bagnold_validation::for_every_case!(cases);
 
 #[test]
+fn canonical_studies_hold_their_gates_at_the_quick_tier() {
+    // one after the other: each uses all cores
+    let holds = |name: &str| std::panic::catch_unwind(|| verdict::assert_gates(name, Tier::Quick)).is_ok();
+    let failed: Vec<&str> = REGISTRY.studies().map(|study| study.name()).filter(|name| !holds(name)).collect();
+    assert!(failed.is_empty(), "see above: {}", failed.join(", "));
+}
+
+#[test]
 fn every_registered_case_is_tested() {
-    let registered: Vec<&str> = REGISTRY.iter().map(|case| case.name()).collect();
+    let registered: Vec<&str> = REGISTRY.cases().map(|case| case.name()).collect();
     let tested: Vec<String> = TESTED.iter().map(|name| name.replace('_', "-")).collect();
     assert_eq!(tested, registered, "a case is named as its module, with `-` for `_`");
 }

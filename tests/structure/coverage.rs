@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 /// Options of all runs of all cases over their tiers.
 fn used(features: &Features) -> BTreeSet<FeatureOption> {
     let tiers = [Tier::Quick, Tier::Paper, Tier::Fine];
-    let plans = REGISTRY.iter().flat_map(|case| tiers.map(|tier| (case, tier)));
+    let plans = REGISTRY.cases().flat_map(|case| tiers.map(|tier| (case, tier)));
     let plans = plans.map(|(case, tier)| case.prepare(tier, &Changes::default()).expect("the tiers are valid"));
     let of_plan = |plan: Box<dyn bagnold_harness::case::PreparedCase>| {
         (0..plan.run_count()).flat_map(|run| features.chosen(&plan.run_parameters(run))).collect::<Vec<_>>()

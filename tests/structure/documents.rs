@@ -5,7 +5,7 @@ use bagnold_harness::evidence::shipped_tables;
 use bagnold_validation::REGISTRY;
 
 fn registered() -> Vec<&'static str> {
-    REGISTRY.iter().map(|case| case.name()).collect()
+    REGISTRY.cases().map(|case| case.name()).collect()
 }
 
 fn text(path: &str) -> String {

@@ -183,7 +183,7 @@ mod tests {
     fn the_shipped_times_can_be_read_and_name_every_case() {
         let shipped: Speeds = serde_json::from_str(SHIPPED).expect("readable");
         assert!(shipped.machine > 0.0);
-        for case in crate::REGISTRY.iter() {
+        for case in crate::REGISTRY.cases() {
             assert!(shipped.ratio(case.name(), &Variant::default()).is_some(), "{}", case.name());
             for command in ["run", "report"] {
                 assert!(shipped.beside(case.name(), command).is_some(), "{} {command}", case.name());

@@ -33,6 +33,10 @@ pub trait AnyCase: Sync {
     fn quantities(&self) -> &'static [Quantity];
     /// Where its code stands.
     fn origin(&self) -> CodeOrigin;
+    /// Whether it is a canonical study: runs of other cases under checks of its own.
+    fn is_study(&self) -> bool {
+        false
+    }
     /// The tier's parameters as a complete, commented file for `bagnold run`.
     fn show(&self, tier: Tier) -> String;
     /// The JSON Schema (2020-12) of a case file, with the tier's parameters as defaults.
@@ -85,7 +89,10 @@ pub trait PreparedCase: Send + Sync {
     /// Columns that are missing beside others, of the run of that number.
     fn foreign(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
     /// Judges and draws the records. Runs that were not simulated are left out.
-    fn finish(self: Box<Self>) -> CaseResult;
+    ///
+    /// # Errors
+    /// A check of a study that names what its runs do not give.
+    fn finish(self: Box<Self>) -> Result<CaseResult, ParameterError>;
 }
 
 impl<C: Case> AnyCase for C {
@@ -286,7 +293,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         })
     }
 
-    fn finish(self: Box<Self>) -> CaseResult {
+    fn finish(self: Box<Self>) -> Result<CaseResult, ParameterError> {
         let plan = *self;
         let (mut summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Parameters>>) = plan
             .slots
@@ -302,7 +309,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
         let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
         fail_broken_profiles(&mut summaries, &tables);
-        CaseResult {
+        Ok(CaseResult {
             name: C::NAME.to_owned(),
             origin: C::ORIGIN,
             summary: C::SUMMARY.to_owned(),
@@ -320,7 +327,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             regimes,
             frames,
             first_bad,
-        }
+        })
     }
 }
 

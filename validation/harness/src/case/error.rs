@@ -100,6 +100,9 @@ pub enum ParameterError {
     /// The case's file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A canonical study is refused: a check names what its runs do not give.
+    #[error("{0}")]
+    Study(String),
     /// A signal has asked the program to end; what the run has come to is kept where it can be.
     #[error("interrupted before it was done")]
     Interrupted,

@@ -16,7 +16,17 @@ impl Registry {
         Self(cases)
     }
 
-    /// All cases.
+    /// Cases with code of their own.
+    pub fn cases(self) -> impl Iterator<Item = &'static dyn AnyCase> {
+        self.iter().filter(|case| !case.is_study())
+    }
+
+    /// Canonical studies.
+    pub fn studies(self) -> impl Iterator<Item = &'static dyn AnyCase> {
+        self.iter().filter(|case| case.is_study())
+    }
+
+    /// All cases and canonical studies.
     pub fn iter(self) -> impl Iterator<Item = &'static dyn AnyCase> {
         self.0.iter().copied()
     }

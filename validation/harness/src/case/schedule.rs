@@ -154,7 +154,7 @@ pub fn execute(
         monitor.finished(job.number);
         outcome
     })?;
-    let results = cases.into_iter().map(PreparedCase::finish).collect();
+    let results = cases.into_iter().map(PreparedCase::finish).collect::<Result<_, _>>()?;
     // a reference that was cut short is none
     if is_interrupted() { Err(ParameterError::Interrupted) } else { Ok(results) }
 }

@@ -46,6 +46,17 @@ pub enum PlanError {
     Parameter(#[from] ParameterError),
 }
 
+impl From<PlanError> for ParameterError {
+    fn from(error: PlanError) -> Self {
+        match error {
+            PlanError::Field(error) => Self::Field(error),
+            PlanError::Parameter(error) => error,
+            PlanError::File(error) => Self::File(error),
+            other => Self::Study(other.to_string()),
+        }
+    }
+}
+
 impl PlanError {
     /// Says in which file a field stands, unless that is already known.
     #[must_use]
@@ -89,13 +100,21 @@ impl PlanError {
 /// A file that cannot be read, or whose text is not TOML or does not have the type's fields, with the place.
 pub fn read_plan<T: DeserializeOwned>(file: &Path, command: &'static str) -> Result<T, PlanError> {
     let text = read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?;
-    toml::from_str(&text).map_err(|error| {
-        let (line, column) = position(&text, error.span().map_or(0, |span| span.start));
+    parse_plan(file, &text, command)
+}
+
+/// Plan of a file with this text.
+///
+/// # Errors
+/// A text that is not TOML, or not a plan of its command.
+pub fn parse_plan<T: DeserializeOwned>(file: &Path, text: &str, command: &'static str) -> Result<T, PlanError> {
+    toml::from_str(text).map_err(|error| {
+        let (line, column) = position(text, error.span().map_or(0, |span| span.start));
         PlanError::Syntax {
             file: file.to_owned(),
             line,
             column,
-            message: in_plain_words(&text, line, error.message()),
+            message: in_plain_words(text, line, error.message()),
             command,
         }
     })

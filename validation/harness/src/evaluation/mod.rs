@@ -8,7 +8,7 @@ mod paths;
 mod record;
 mod sensitivity;
 
-pub use error::{PlanError, read_plan};
+pub use error::{PlanError, parse_plan, read_plan};
 pub use paths::Paths;
 pub use record::{EvaluationRecord, MetricValue};
 pub use sensitivity::SensitivityPlan;

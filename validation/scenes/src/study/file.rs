@@ -37,6 +37,10 @@ pub(super) struct StudyText {
     #[serde(default, skip_serializing_if = "Table::is_empty")]
     #[schemars(with = "Fields")]
     pub(super) parameters: Table,
+    /// Parameters that a canonical study has in their place at the paper tier.
+    #[serde(default, skip_serializing_if = "Table::is_empty")]
+    #[schemars(with = "Fields")]
+    pub(super) paper: Table,
     /// Named changes of the base values.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) variants: Vec<NamedVariant>,

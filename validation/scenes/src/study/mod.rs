@@ -24,6 +24,7 @@
 //! within_uncertainties = 2.0
 //! ```
 
+mod canonical;
 mod check;
 mod drawn;
 mod figures;
@@ -33,15 +34,17 @@ mod reading;
 mod schema;
 mod suite;
 
+pub use canonical::canonical;
 pub use schema::schema;
 pub use suite::Suite;
 
 use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
-use crate::evaluation::{PlanError, read_plan};
+use crate::evaluation::{PlanError, parse_plan};
 use crate::figure::Figure;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::measured::Measurements;
 use crate::metric::{Metric, Variant};
+use crate::output::FileError;
 use check::{CheckedQuantity, StudyCheck};
 use file::{ChangedSettings, StudyText};
 use reading::{Reading, joined};
@@ -79,14 +82,21 @@ impl Study {
     /// # Errors
     /// A file that cannot be read or typed, or a field that breaks a rule.
     pub fn read(file: &Path, registry: Registry) -> Result<Self, PlanError> {
-        let text: StudyText = read_plan(file, "run")?;
+        let text = read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?;
+        let study = Self::parse(file, &text)?;
+        if registry.find(study.name()).is_ok() {
+            let value = format!("\"{}\"", study.name());
+            let remedy = "choose another name: pages and accepted values are kept by it";
+            return Err(FieldError::new("study", value, "unlike the name of a case", remedy).in_file(file).into());
+        }
+        Ok(study)
+    }
+
+    /// The study of a file with this text, and of the files that it names.
+    fn parse(file: &Path, text: &str) -> Result<Self, PlanError> {
+        let text: StudyText = parse_plan(file, text, "run")?;
         let in_file = |error: FieldError| error.in_file(file);
         text.check().map_err(in_file)?;
-        if registry.find(&text.study).is_ok() {
-            let value = format!("\"{}\"", text.study);
-            let remedy = "choose another name: pages and accepted values are kept by it";
-            return Err(in_file(FieldError::new("study", value, "unlike the name of a case", remedy)).into());
-        }
         let beside = file.parent().unwrap_or(Path::new(""));
         let base = match (&text.case, &text.base) {
             (Some(case), _) => CaseFile::of_parameters(file, case, text.tier, text.parameters.clone())?,
@@ -136,6 +146,25 @@ impl Study {
     #[must_use]
     pub fn tier(&self) -> Tier {
         self.base.tier.unwrap_or(Tier::Quick)
+    }
+
+    /// The study at a tier: with the parameters that its file lays over the base values there.
+    fn of_tier(&self, tier: Tier) -> Self {
+        let mut study = self.clone();
+        if tier != Tier::Quick {
+            study.base.lay_over(&self.text.paper);
+        }
+        study
+    }
+
+    /// Leaves out the checks of variants that are not run.
+    fn drop_checks_without_runs(&mut self) {
+        let changes = &self.changes;
+        let of_study = |check: &StudyCheck| {
+            let variant = check.only.get("variant");
+            variant.is_none_or(|own| changes.iter().any(|changed| changed.variant.get("variant") == Some(own)))
+        };
+        self.checks.retain(of_study);
     }
 
     /// The cases to be simulated, one per variant, with settings (`path=value`) of the command line over all of them.

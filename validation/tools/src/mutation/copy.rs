@@ -224,7 +224,7 @@ mod tests {
 
     #[test]
     fn every_text_stands_once_and_becomes_a_choice() {
-        let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let mutations = Mutations::read(&workspace).expect("a file of mutations");
         let changed = changed_sources(&workspace, &mutations).expect("every text stands once");
         let all: String = changed.values().map(String::as_str).collect();

@@ -4,7 +4,7 @@ use super::PointArrays;
 use std::path::{Path, PathBuf};
 
 pub(super) fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/foreign/vtk")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/foreign/vtk")
 }
 
 /// All files that can be read, in the order of their names.

@@ -1,0 +1,214 @@
+//! Canonical studies: studies that the program carries and judges like any case.
+//!
+//! A study is a case whose runs are those of other cases and whose gates are its checks. It is found by its name, is part of the
+//! report, and has accepted values, a list of gates and known failures.
+
+use super::{Study, schema};
+use crate::case::{
+    AnyCase, CaseResult, Changes, Estimate, ExternalData, ExternalResult, ExternalSchema, ParameterError, PreparedCase,
+    Progress, Registry, Tier,
+};
+use crate::figure::Figure;
+use crate::input::FieldError;
+use crate::metric::{Quantity, Variant};
+use crate::store::{CodeOrigin, Store};
+use std::path::Path;
+use std::sync::OnceLock;
+
+/// A study of the program.
+struct CanonicalStudy {
+    /// Name, which is that of its file.
+    name: &'static str,
+    /// Text of its file.
+    text: &'static str,
+    /// Cases that its runs may be of.
+    cases: Registry,
+    read: OnceLock<Study>,
+}
+
+impl CanonicalStudy {
+    /// The study of a file `NAME.toml` with this text, whose runs are of these cases.
+    fn new(name: &'static str, text: &'static str, cases: Registry) -> Self {
+        Self { name, text, cases, read: OnceLock::new() }
+    }
+
+    /// The study.
+    ///
+    /// # Panics
+    /// A text that is no study, or has another name than its file: a test reads those of the program.
+    fn study(&self) -> &Study {
+        self.read.get_or_init(|| {
+            let study = Study::parse(Path::new(&format!("{}.toml", self.name)), self.text)
+                .unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(study.name(), self.name, "a canonical study has the name of its file");
+            study
+        })
+    }
+
+    fn base(&self) -> &'static dyn AnyCase {
+        let base = &self.study().base.case;
+        self.cases.find(base).unwrap_or_else(|error| panic!("{}: {error}", self.name))
+    }
+}
+
+impl AnyCase for CanonicalStudy {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn summary(&self) -> &'static str {
+        // the lists of all cases read no study
+        let line = self.text.lines().find_map(|line| line.strip_prefix("summary = \""));
+        line.and_then(|line| line.strip_suffix('"')).unwrap_or_default()
+    }
+
+    fn quantities(&self) -> &'static [Quantity] {
+        &[]
+    }
+
+    fn origin(&self) -> CodeOrigin {
+        self.base().origin()
+    }
+
+    fn is_study(&self) -> bool {
+        true
+    }
+
+    fn show(&self, _: Tier) -> String {
+        self.text.to_owned()
+    }
+
+    fn schema(&self, _: Tier) -> serde_json::Value {
+        schema()
+    }
+
+    fn parameter_schema(&self) -> &'static serde_json::Value {
+        self.base().parameter_schema()
+    }
+
+    fn form(&self) -> &'static ExternalSchema {
+        &ExternalSchema::NUMBERS
+    }
+
+    fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
+        let mut study = self.study().of_tier(tier);
+        if let Some((_, fields)) = &changes.file {
+            study.base.lay_over(fields);
+        }
+        let base_tier = study.tier();
+        let parts = study.prepare(self.cases, Some(base_tier), changes.settings, changes.limits)?;
+        let parameters_toml = study.complete(tier);
+        Ok(Box::new(StudyPlan { name: self.name, tier, study, parameters_toml, parts }))
+    }
+}
+
+/// A study whose cases are prepared, one per variant.
+struct StudyPlan {
+    name: &'static str,
+    tier: Tier,
+    study: Study,
+    parameters_toml: String,
+    parts: Vec<Box<dyn PreparedCase>>,
+}
+
+impl StudyPlan {
+    /// Runs in order, each by the number of its part and its own number there.
+    fn places(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.parts.iter().enumerate().flat_map(|(part, case)| (0..case.run_count()).map(move |run| (part, run)))
+    }
+
+    fn at(&self, run: usize) -> (&dyn PreparedCase, usize, usize) {
+        let (part, own) = self.places().nth(run).unwrap_or_default();
+        (&*self.parts[part], own, part)
+    }
+}
+
+impl PreparedCase for StudyPlan {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn origin(&self) -> CodeOrigin {
+        self.parts.iter().map(|part| part.origin()).fold(CodeOrigin::PACKAGE, CodeOrigin::and)
+    }
+
+    fn parameters_toml(&self) -> &str {
+        &self.parameters_toml
+    }
+
+    fn setup(&self) -> Option<Figure> {
+        self.parts.first()?.setup()
+    }
+
+    fn run_count(&self) -> usize {
+        self.places().count()
+    }
+
+    fn variant(&self, run: usize) -> Variant {
+        let (case, own, part) = self.at(run);
+        super::joined(&self.study.changes[part].variant, &case.variant(own))
+    }
+
+    fn run_parameters(&self, run: usize) -> serde_json::Value {
+        let (case, own, _) = self.at(run);
+        case.run_parameters(own)
+    }
+
+    fn particle_steps(&self, run: usize) -> f64 {
+        let (case, own, _) = self.at(run);
+        case.particle_steps(own)
+    }
+
+    fn nominal_seconds(&self, run: usize) -> f64 {
+        let (case, own, _) = self.at(run);
+        case.nominal_seconds(own)
+    }
+
+    fn estimate(&self) -> Estimate {
+        self.parts.iter().map(|part| part.estimate()).fold(Estimate::default(), Estimate::and)
+    }
+
+    fn identity(&self, run: usize, store: &Store) -> Option<String> {
+        let (case, own, _) = self.at(run);
+        case.identity(own, store)
+    }
+
+    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
+        let (case, own, _) = self.at(run);
+        case.simulate(own, store, progress)
+    }
+
+    fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn PreparedCase> {
+        let places: Vec<(usize, usize)> = self.places().collect();
+        let mut plan = *self;
+        let changes = std::mem::take(&mut plan.study.changes);
+        for (part, (case, change)) in std::mem::take(&mut plan.parts).into_iter().zip(changes).enumerate() {
+            let chosen = runs.iter().filter_map(|&run| places.get(run)).filter(|place| place.0 == part);
+            let chosen: Vec<usize> = chosen.map(|place| place.1).collect();
+            if !chosen.is_empty() {
+                plan.parts.push(case.choose(&chosen));
+                plan.study.changes.push(change);
+            }
+        }
+        plan.study.drop_checks_without_runs();
+        Box::new(plan)
+    }
+
+    fn foreign(&self, _: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
+        Ok(ExternalResult { metrics: Vec::new(), figures: Vec::new(), tables: Vec::new(), measured: Vec::new() })
+    }
+
+    fn finish(self: Box<Self>) -> Result<CaseResult, ParameterError> {
+        let Self { tier, study, parameters_toml, parts, .. } = *self;
+        let results = parts.into_iter().map(PreparedCase::finish).collect::<Result<_, _>>()?;
+        let judged = study.judge(results).map_err(ParameterError::from)?;
+        Ok(CaseResult { tier, parameters_toml, command: format!("bagnold run {} --tier {tier}", self.name), ..judged })
+    }
+}
+
+/// Canonical studies of embedded files, in the order of their names; other files are left alone.
+#[must_use]
+pub fn canonical(files: &'static [(&'static str, &'static str)], cases: Registry) -> Vec<&'static dyn AnyCase> {
+    let studies = files.iter().filter_map(|(name, text)| Some((name.strip_suffix(".toml")?, *text)));
+    studies.map(|(name, text)| &*Box::leak(Box::new(CanonicalStudy::new(name, text, cases))) as &dyn AnyCase).collect()
+}
