@@ -1,36 +1,72 @@
 #!/usr/bin/env bash
-# How large the project is: lines by folder, type names that several files declare. bash tests/counts.sh [COMMIT]
-# Circles of files have a test of their own (tests/structure/circles.rs), repeated passages none.
+# Lines of code by package, and type names that several files declare: bash tests/counts.sh [COMMIT]
+#
+# Counted: lines of Rust that are neither blank nor a comment; examples and build scripts are among them. Not counted: `#[cfg(test)]`
+# items and the files that `#[cfg(test)] mod x;` declares, `*_tests.rs`, and the folders `tests` and `benches`.
+# A package is a folder with a Cargo.toml; a file belongs to the innermost package around it. An indented row is part of the row above.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 commit=${1:-HEAD}
+tree=$(mktemp -d)
+trap 'rm -rf "$tree"' EXIT
+git archive "$commit" -- ':(glob)**/*.rs' ':(glob)**/Cargo.toml' | tar -x -C "$tree"
 
-# Lines of Rust, of pages' templates and of tiers below a path.
-lines() {
-    git ls-tree -r --name-only "$commit" -- "$1" | { grep -E '\.(rs|html)$' || true; } |
-        while read -r file; do git show "$commit:$file"; done | wc -l
-}
-
-printf '%s\n\n| folder | lines |\n|---|---|\n' "$(git log -1 --format='%h %s' "$commit")"
-for folder in solver/src validation/src/case validation/src/cases validation/src/setup validation/src/study validation/src/mutation \
-    validation/src validation/layer validation/inference validation/figure validation/number tests python .; do
-    printf '| %s | %s |\n' "$folder" "$(lines "$folder")"
-done
-
-printf '\n| case | lines |\n|---|---|\n'
-git ls-tree -d --name-only "$commit" -- validation/src/cases/ | while read -r folder; do
-    printf '| %s | %s |\n' "${folder##*/}" "$(lines "$folder")"
-done | sort -t'|' -k3 -n
+printf '%s\n\n| package | lines of code |\n|---|---|\n' "$(git log -1 --format='%h %s' "$commit")"
+(
+    cd "$tree"
+    find . -name Cargo.toml -printf '%h\n' | sed 's|^\./||' >packages
+    find . -name '*.rs' -printf '%P\n' | { grep -vE '(^|/)(tests|benches)/|_tests\.rs$' || true; } | sort >sources
+    mapfile -t sources <sources
+    awk '
+        # The modules of a file lie beside `mod.rs`, `lib.rs` and `main.rs`, and in the folder of its name for any other.
+        function parent(file) { return substr(file, 1, match(file, /[^\/]*$/) - 1) }
+        function folder(file) { return file ~ /(^|\/)(mod|lib|main)\.rs$/ ? parent(file) : substr(file, 1, length(file) - 3) "/" }
+        function count(file,    part, place) {
+            total++
+            part = file
+            do { if (!sub(/\/?[^\/]*$/, "", part)) break } while (part != "" && !(part in package))
+            code[part]++
+            for (place in within) if (index(file, place "/") == 1) code[place]++
+        }
+        BEGIN {
+            while ((getline line <"packages") > 0) package[line]
+            split("validation/src/cases solver/src/weakly_compressible", places, " ")
+            for (each in places) within[places[each]]
+        }
+        FNR == 1 {
+            state = "code"; comment = 0
+            skipped = pass == 2 && FILENAME in tests
+            for (each in hidden) if (pass == 2 && index(FILENAME, each) == 1) skipped = 1
+        }
+        skipped { next }
+        { text = $0; sub(/^[ \t]+/, "", text); indent = length($0) - length(text) }
+        comment { if (text ~ /\*\//) comment = 0; next }
+        text == "" || text ~ /^\/\// { next }
+        text ~ /^\/\*/ { if (text !~ /\*\//) comment = 1; next }
+        state == "code" && text ~ /^#\[cfg\(test\)\]/ { state = "item"; margin = indent; path = ""; next }
+        state == "item" && text ~ /^#\[path/ { split(text, quoted, "\""); path = quoted[2] }
+        state == "item" && text ~ /^#\[/ { next }
+        state == "item" {
+            if (text ~ /(^|[ )])mod [a-z_0-9]+;/) {
+                name = text; sub(/.*mod /, "", name); sub(/;.*/, "", name)
+                if (path != "") tests[parent(FILENAME) path]
+                else { tests[folder(FILENAME) name ".rs"]; hidden[folder(FILENAME) name "/"] }
+            }
+            state = text ~ /[;,}]$/ ? "code" : "body"; next
+        }
+        state == "body" { if (indent == margin && text ~ /^[})\]]|;$/) state = "code"; next }
+        pass == 2 { count(FILENAME) }
+        END {
+            for (part in code) if (!(part in within)) {
+                print part "\t0\t| " (part == "" ? "." : part) " | " code[part] " |"
+                for (place in within) if (part != place && index(place, part "/") == 1) print part "\t1\t|     " place " | " code[place] " |"
+            }
+            print "~\t0\t| all | " total " |"
+        }' pass=1 "${sources[@]}" pass=2 "${sources[@]}" | LC_ALL=C sort | cut -f3
+)
 
 # Type names of a commit, and those that several declarations share. An associated type inside of an `impl` or a trait declares no
 # name of its own: aliases count at the top level of a file only.
-type_names() {
-    local names
-    names=$(git grep -hE '^\s*(pub(\([a-z: ]+\))? )?(struct|enum|trait) [A-Z]\w*|^(pub(\([a-z: ]+\))? )?type [A-Z]\w*' "$1" -- \
-        'solver/src/*.rs' 'validation/**/*.rs' | sed -E 's/.*(struct|enum|trait|type) ([A-Z][A-Za-z0-9]*).*/\2/' | sort)
-    printf 'type names at %s: %s, of which several declarations share %s\n' \
-        "$(git rev-parse --short "$1")" "$(uniq <<<"$names" | wc -l)" "$(uniq -d <<<"$names" | wc -l)"
-}
-
-printf '\n'
-for each in $(printf '%s\n' HEAD "$commit" | uniq); do type_names "$each"; done
+names=$(git grep -hE '^\s*(pub(\([a-z: ]+\))? )?(struct|enum|trait) [A-Z]\w*|^(pub(\([a-z: ]+\))? )?type [A-Z]\w*' "$commit" -- \
+    'solver/src/*.rs' 'validation/**/*.rs' | sed -E 's/.*(struct|enum|trait|type) ([A-Z][A-Za-z0-9]*).*/\2/' | sort)
+printf '\ntype names: %s, of which several declarations share %s\n' "$(uniq <<<"$names" | wc -l)" "$(uniq -d <<<"$names" | wc -l)"
