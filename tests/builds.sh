@@ -7,6 +7,6 @@ target=${CARGO_TARGET_DIR:-target}
 for profile in unoptimised release; do
     cargo build --profile "$profile" --bin bagnold
     printf '%s:\n' "$profile"
-    "$target/$profile/bagnold" verify
+    "$target/$profile/bagnold" dev verify
 done
 echo "unoptimised and release builds give the same bits"

@@ -5,7 +5,9 @@ use crate::program::{Place, path};
 #[test]
 fn without_sources_there_is_nothing_to_change() {
     let place = Place::new();
-    for arguments in [&["mutate"][..], &["mutate", "list"], &["mutate", "trial", "von-karman", "film"]] {
+    for arguments in
+        [&["dev", "mutate"][..], &["dev", "mutate", "list"], &["dev", "mutate", "trial", "von-karman", "film"]]
+    {
         let finished = place.bagnold(arguments).assert().code(2).stdout("");
         let message = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
         assert!(message.contains("work in a checkout of bagnold"), "{message}");
@@ -16,13 +18,13 @@ fn without_sources_there_is_nothing_to_change() {
 #[test]
 fn a_checkout_lists_its_mutations() {
     let mut command = assert_cmd::Command::new(path());
-    command.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).args(["mutate", "list"]);
+    command.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).args(["dev", "mutate", "list"]);
     let listed = command.assert().code(0);
     let text = String::from_utf8_lossy(&listed.get_output().stdout).into_owned();
     assert!(text.lines().count() >= 60, "{text}");
     assert!(text.contains("von-karman") && text.contains("κ = 0.45 instead of 0.41; clear-water, bed-load"), "{text}");
     let mut command = assert_cmd::Command::new(path());
-    command.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).args(["mutate", "--errors", "von-karmann"]);
+    command.current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).args(["dev", "mutate", "--errors", "von-karmann"]);
     let refused = command.assert().code(2);
     let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
     assert!(message.contains("`von-karmann` is not among the mutations"), "{message}");

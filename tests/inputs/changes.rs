@@ -32,7 +32,7 @@ const COUNTS: [&str; 14] =
 /// What is of no number's type.
 const OTHERS: [&str; 7] = ["\"\"", "\"word\"", "true", "[]", "{}", "2024-01-01", "[[[]]]"];
 
-/// The list of `bagnold verify`: with its settings a case takes a moment.
+/// The list of `bagnold dev verify`: with its settings a case takes a moment.
 const SHORT_RUNS: &str = include_str!("../../validation/verify/short_runs.toml");
 
 /// The settings that cut a case short.

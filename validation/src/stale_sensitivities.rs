@@ -64,7 +64,7 @@ fn tables_are_of_the_program() {
     for (case, stated) in stating() {
         let rows: Vec<&ValidatedComparison> = accepted.comparisons.iter().filter(|row| row.case == case).collect();
         let found = stale(case, stated, sensitivity_table(case), &rows);
-        assert!(found.is_empty(), "run `bagnold sensitivities {case}` again:\n{}", found.join("\n"));
+        assert!(found.is_empty(), "run `bagnold dev sensitivities {case}` again:\n{}", found.join("\n"));
     }
 }
 

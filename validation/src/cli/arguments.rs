@@ -13,7 +13,9 @@ pub(super) use foreign::{CompareArguments, ExportArguments, JudgeArguments};
 pub(super) use new::Named;
 pub(super) use new::{NewArguments, NewCrate};
 pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
-pub(super) use upkeep::{MutateArguments, SensitivitiesArguments, StoreAction, StoreArguments, VerifyArguments};
+pub(super) use upkeep::{
+    DevCommand, MutateArguments, SensitivitiesArguments, StoreAction, StoreArguments, VerifyArguments,
+};
 pub(super) use work::{Allowance, Work};
 
 use crate::case::Tier;
@@ -150,14 +152,11 @@ pub enum Command {
     Calibrate(CalibrateArguments),
     /// Simulate cases at many points of their parameters, here or on a cluster.
     Sweep(Box<SweepArguments>),
-    /// Run every case for a moment and compare the final states with the committed hashes, bit by bit.
-    Verify(VerifyArguments),
-    /// Run a case with each input at both ends of its stated range: the table that uncertainties by inputs come from.
-    Sensitivities(SensitivitiesArguments),
     /// List what is stored, or delete what is old or too much of it.
     Store(StoreArguments),
-    /// Put errors into a copy of the solver, one at a time, and say which gates notice.
-    Mutate(MutateArguments),
+    /// Check bits, gates and sensitivity tables of Bagnold itself, for its developers.
+    #[command(subcommand)]
+    Dev(DevCommand),
 }
 
 /// `bagnold schema`

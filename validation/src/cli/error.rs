@@ -56,7 +56,7 @@ pub enum ProgramError {
     #[error(transparent)]
     Copy(#[from] CopyError),
     /// No mutation has this name.
-    #[error("`{name}` is not among the mutations; `bagnold mutate list` names them")]
+    #[error("`{name}` is not among the mutations; `bagnold dev mutate list` names them")]
     UnknownError {
         /// What was asked for.
         name: String,

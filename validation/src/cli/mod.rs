@@ -44,7 +44,7 @@ use crate::checkpoint::{self, InterruptedRuns};
 use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
 use crate::store::{Store, StorePolicy};
-use arguments::{Allowance, Work};
+use arguments::{Allowance, DevCommand, Work};
 use clap::Parser;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
@@ -172,13 +172,13 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
         Command::Export(command) => {
             in_pool(&command.work, || judge::export(command, registry, arguments.quiet, output))
         }
-        Command::Verify(command) => verify::verify(command, registry, output),
-        Command::Sensitivities(command) => {
-            in_pool(&command.work, || sensitivities::sensitivities(command, registry, arguments.quiet, output))
-        }
         Command::Store(command) => store::store(command, output),
         Command::Sweep(command) => in_pool(&command.work, || sweep::sweep(command, registry, arguments.quiet, output)),
-        Command::Mutate(command) => mutate::mutate(command, registry, arguments.quiet, output),
+        Command::Dev(DevCommand::Verify(command)) => verify::verify(command, registry, output),
+        Command::Dev(DevCommand::Sensitivities(command)) => {
+            in_pool(&command.work, || sensitivities::sensitivities(command, registry, arguments.quiet, output))
+        }
+        Command::Dev(DevCommand::Mutate(command)) => mutate::mutate(command, registry, arguments.quiet, output),
         Command::Report(command) => {
             in_pool(&command.work, || report::report(command, registry, arguments.quiet, output))
         }

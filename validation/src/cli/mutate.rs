@@ -1,4 +1,4 @@
-//! `bagnold mutate`: builds a copy of the program with all mutations, runs it with one at a time, and says who noticed.
+//! `bagnold dev mutate`: builds a copy of the program with all mutations, runs it with one at a time, and says who noticed.
 
 use super::arguments::MutateArguments;
 use super::arguments::upkeep::MutateAction;
@@ -84,7 +84,7 @@ fn named<'a>(mutations: &'a Mutations, name: &str) -> Result<&'a Mutation, Progr
 /// The copy, asked to run a case with the mutation of a number.
 fn trial(program: &Path, number: usize, scope: &Scope, threads: Option<u16>) -> Command {
     let mut command = Command::new(program);
-    command.env(CHOICE, number.to_string()).args(["--quiet", "mutate", "trial", NONE, &scope.case]);
+    command.env(CHOICE, number.to_string()).args(["--quiet", "dev", "mutate", "trial", NONE, &scope.case]);
     for setting in &scope.settings {
         command.args(["--set", setting]);
     }

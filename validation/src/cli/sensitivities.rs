@@ -1,4 +1,4 @@
-//! `bagnold sensitivities`: a case with each input at both ends of its stated range.
+//! `bagnold dev sensitivities`: a case with each input at both ends of its stated range.
 
 use super::arguments::SensitivitiesArguments;
 use super::error::ProgramError;

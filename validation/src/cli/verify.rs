@@ -1,4 +1,4 @@
-//! `bagnold verify`: short runs of every case end in the committed bits, on 1, 2 and 3 threads.
+//! `bagnold dev verify`: short runs of every case end in the committed bits, on 1, 2 and 3 threads.
 
 use super::arguments::VerifyArguments;
 use super::error::ProgramError;
@@ -16,8 +16,8 @@ const SHORT_RUNS: &str = include_str!("../../verify/short_runs.toml");
 
 const THREADS: [u16; 3] = [1, 2, 3];
 
-const HEADER: &str = "# What `bagnold verify` runs: every case at the quick tier, cut short by its settings, and the hash of its final states.\n\
-    # `bagnold verify --write validation/verify/short_runs.toml` writes the hashes anew, where bits are meant to change.\n\n";
+const HEADER: &str = "# What `bagnold dev verify` runs: every case at the quick tier, cut short by its settings, and the hash of its final states.\n\
+    # `bagnold dev verify --write validation/verify/short_runs.toml` writes the hashes anew, where bits are meant to change.\n\n";
 
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,14 +1,14 @@
-//! Arguments of the commands that look after the program itself: `verify`, `store`, `mutate`, `sensitivities`.
+//! Arguments of `store`, and of the commands below `dev`, for the development of Bagnold itself.
 
 use super::work::{Allowance, Work, positive};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
 const MUTATE_EXAMPLES: &str = "Examples:
-  bagnold mutate
-  bagnold mutate list                                    the errors, and the cases that ought to see them
-  bagnold mutate --errors von-karman,gravity-value       some of them
-  bagnold mutate trial von-karman clear-water            one case with one error, as `bagnold run` shows it
+  bagnold dev mutate
+  bagnold dev mutate list                                the errors, and the cases that ought to see them
+  bagnold dev mutate --errors von-karman,gravity-value   some of them
+  bagnold dev mutate trial von-karman clear-water        one case with one error, as `bagnold run` shows it
 
 Works in a checkout: a copy of the program, in target/mutations, is built with the errors of
 validation/tools/mutations.toml; this program has none of them. Each error is caught by a gate that
@@ -16,7 +16,18 @@ held without it, by a run that stops, only by the snapshot of accepted values, o
 
 Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or no checkout.";
 
-/// `bagnold verify`
+/// `bagnold dev`
+#[derive(Debug, Subcommand)]
+pub enum DevCommand {
+    /// Run every case for a moment and compare the final states with the committed hashes, bit by bit.
+    Verify(VerifyArguments),
+    /// Run a case with each input at both ends of its stated range: the table that uncertainties by inputs come from.
+    Sensitivities(SensitivitiesArguments),
+    /// Put errors into a copy of the solver, one at a time, and say which gates notice.
+    Mutate(MutateArguments),
+}
+
+/// `bagnold dev verify`
 #[derive(Debug, Args)]
 #[command(after_help = "Exit codes: 0 the same bits, 1 other bits, 2 bad input.")]
 pub struct VerifyArguments {
@@ -28,7 +39,7 @@ pub struct VerifyArguments {
     pub write: Option<PathBuf>,
 }
 
-/// `bagnold sensitivities`
+/// `bagnold dev sensitivities`
 #[derive(Debug, Args)]
 #[command(
     after_help = "The ranges and their sources stand in reference-data/CASE/uncertainty.toml; the program carries the tables of
@@ -78,7 +89,7 @@ pub enum StoreAction {
     },
 }
 
-/// `bagnold mutate`
+/// `bagnold dev mutate`
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
 pub struct MutateArguments {
@@ -96,7 +107,7 @@ pub struct MutateArguments {
     pub threads: Option<u16>,
 }
 
-/// What `bagnold mutate` does beside trying errors.
+/// What `bagnold dev mutate` does beside trying errors.
 #[derive(Debug, Subcommand)]
 pub enum MutateAction {
     /// List the errors and the cases that ought to see them.
@@ -110,7 +121,7 @@ pub enum MutateAction {
         /// Change one parameter; may be repeated.
         #[arg(long = "set", value_name = "path=value")]
         settings: Vec<String>,
-        /// File to write what the case said to, as `bagnold mutate` reads it, instead of printing it.
+        /// File to write what the case said to, as `bagnold dev mutate` reads it, instead of printing it.
         #[arg(long, value_name = "FILE", hide = true)]
         result: Option<PathBuf>,
         /// Threads to use [default: all cores].

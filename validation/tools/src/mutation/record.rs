@@ -64,7 +64,7 @@ impl Mutations {
     /// A file that cannot be read or typed, or two of the same name.
     pub fn read(workspace: &Path) -> Result<Self, PlanError> {
         let file = workspace.join(FILE);
-        let all: Self = read_plan(&file, "mutate")?;
+        let all: Self = read_plan(&file, "dev mutate")?;
         let mut names = BTreeSet::new();
         if let Some(twin) = all.list.iter().find(|mutation| !names.insert(&mutation.name)) {
             let error = FieldError::new("mutation.name", &twin.name, "unlike the others", "rename one of them");
