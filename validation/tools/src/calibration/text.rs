@@ -99,9 +99,9 @@ impl CalibrationText {
             (_, false) => Method::Design,
             (method, true) => method.unwrap_or(Method::TrustRegion),
         };
-        // a grid covers the whole range already, and generations of random points do
+        // a grid covers the whole range already
         let usual = if levels.is_empty() { 16 * parameters.len() } else { 0 };
-        let local = matches!(method, Method::TrustRegion | Method::NelderMead | Method::Posterior);
+        let local = matches!(method, Method::TrustRegion | Method::Posterior);
         let usual_starts = if local && !parameters.is_empty() { 2 * parameters.len() + 2 } else { 0 };
         budget.starts = self.starts.unwrap_or(usual_starts);
         let (blocks, data) = blocks(self.fit, self.hold_out)?;

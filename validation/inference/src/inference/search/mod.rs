@@ -3,8 +3,6 @@
 mod barrier;
 mod design;
 mod differences;
-mod evolution;
-mod nelder_mead;
 mod recorder;
 mod starts;
 mod trust_region;
@@ -22,10 +20,6 @@ use std::fmt;
 pub enum Method {
     /// Gauss–Newton steps in a trust region: the fewest evaluations where the model is smooth.
     TrustRegion,
-    /// A simplex that needs no derivatives.
-    NelderMead,
-    /// Generations of random points (CMA-ES): for a model with noise or several minima.
-    Evolution,
     /// Points spread over the whole cube, and the minimum of a polynomial through them.
     Design,
     /// The trust region, and then samples of the posterior.
@@ -38,8 +32,6 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::TrustRegion => "trust-region",
-            Self::NelderMead => "nelder-mead",
-            Self::Evolution => "evolution",
             Self::Design => "design",
             Self::Posterior => "posterior",
         }
@@ -238,8 +230,6 @@ pub fn continue_search<M: Evaluate>(
                 (descent.stopped.unwrap_or(Stopped::Converged), Some(minimum))
             })
         }
-        Method::NelderMead => nelder_mead::run(&mut recorder, start, &budget).map(|stopped| (stopped, None)),
-        Method::Evolution => evolution::run(&mut recorder, start, &budget).map(|stopped| (stopped, None)),
         Method::Design => {
             let points = crate::sampling::design::sobol((budget.evaluations - 1).max(1), start.len(), budget.seed);
             design::run(&mut recorder, &points, &budget).map(|stopped| (stopped, None))
