@@ -66,7 +66,6 @@ impl Parameters for InclineCollapseParameters {
                 initial_height: 0.14,
                 reservoir_length: 0.20,
                 channel_length: 3.0,
-                channel_width: 0.0,
                 resolution,
                 jitter: 0.05,
                 seed: 1,
@@ -110,10 +109,6 @@ impl Parameters for InclineCollapseParameters {
         }
         rules::material("material", &self.material)?;
         self.bulk.check(&self.material)?;
-        if self.reservoir.channel_width > 0.0 {
-            let remedy = "side walls add to the friction of μ(I): choose it, or set `channel_width` to 0";
-            rules::only_mu_i("material", &self.material, remedy)?;
-        }
         if !self.regularised_slope_angles.is_empty() {
             let remedy = "(35) regularises μ(I): choose it, or empty `regularised_slope_angles`";
             rules::only_mu_i("material", &self.material, remedy)?;

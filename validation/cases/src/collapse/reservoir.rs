@@ -1,7 +1,7 @@
 //! The reservoir of grains on a slope and its channel.
 
 use crate::setup::rules;
-use bagnold_solver::parameter::{between, not_negative, positive};
+use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -20,9 +20,6 @@ pub struct Reservoir {
     pub reservoir_length: f64,
     /// Length of the channel from the back of the reservoir `[m]`.
     pub channel_length: f64,
-    /// Width W of the channel `[m]`, whose side walls add the friction 0.18 h_0/W; 0 for none.
-    #[schemars(transform = not_negative("give it in metres, such as 0.1, or 0 for no side walls"))]
-    pub channel_width: f64,
     /// Particles over the length of the reservoir.
     #[schemars(transform = rules::rows())]
     pub resolution: usize,

@@ -6,13 +6,12 @@ use super::deposit::{Collapse, Surveyor};
 use super::reservoir::Reservoir;
 use super::watch::CollapseObserver;
 use crate::case::recording::{self, Ending, SimulationStage, Watched};
-use crate::case::{ParameterError, Progress, Run, cost};
+use crate::case::{ParameterError, Progress, Run};
 use crate::metric::{FlowRegime, Value, Variant};
 use crate::observation::Recorded;
-use crate::reference::collapse::SLOPE_EXPERIMENT;
 use crate::setup::{Lattice, acoustic_step};
 use bagnold_solver::domain::{AxisBoundary, Domain};
-use bagnold_solver::material::rheology::{MuI, Rheology};
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::boundary::gate::Gate;
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -37,7 +36,7 @@ pub struct SlopeRun {
     pub slope_angle: f64,
     /// Speed at which the gate is pulled up, normal to the slope `[m/s]`; 0 for no gate.
     pub gate_speed: f64,
-    /// Constitutive law of the grains, side walls not counted.
+    /// Constitutive law of the grains.
     pub law: Rheology,
     /// Bulk density `[kg/m³]`.
     pub bulk_density: f64,
@@ -87,10 +86,6 @@ impl Run for SlopeRun {
 
     fn particles(&self) -> f64 {
         Self::particles(self)
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {
@@ -163,30 +158,12 @@ impl SlopeRun {
         self.rows() >= 20
     }
 
-    /// Static friction that the flow feels, side walls included `[-]`: μ_s + 0.18 h_0/W.
-    #[must_use]
-    pub fn static_friction(&self) -> f64 {
-        self.law.contact_friction() + self.side_wall_friction()
-    }
-
-    fn side_wall_friction(&self) -> f64 {
-        if self.reservoir.channel_width > 0.0 {
-            SLOPE_EXPERIMENT.side_wall_friction * self.reservoir.initial_height / self.reservoir.channel_width
-        } else {
-            0.0
-        }
-    }
-
-    /// The law that is simulated: that of the grains, with the friction of the side walls, regularised where asked for.
+    /// The law that is simulated: that of the grains, regularised where asked for.
     fn rheology(&self) -> Rheology {
-        let Rheology::MuI(grains) = self.law else { return self.law };
-        let friction = self.side_wall_friction();
-        let law = MuI {
-            static_friction: grains.static_friction + friction,
-            limiting_friction: grains.limiting_friction + friction,
-            ..grains
-        };
-        self.regularisation_rate.map_or(Rheology::MuI(law), |rate| Rheology::RegularisedMuI(law.regularised(rate)))
+        match (self.law, self.regularisation_rate) {
+            (Rheology::MuI(grains), Some(rate)) => Rheology::RegularisedMuI(grains.regularised(rate)),
+            (law, _) => law,
+        }
     }
 
     fn rows(&self) -> usize {

@@ -6,7 +6,7 @@ use crate::evidence::read_shipped;
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
-/// What is known of the experiment on a slope (Mangeney et al. 2010) and of the side walls of such channels.
+/// What is known of the experiment on a slope (Mangeney et al. 2010).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlopeExperiment {
     /// Coefficients k of the run-out law `[-]`: the lower and the upper quotation.
@@ -15,8 +15,6 @@ pub struct SlopeExperiment {
     pub confidence: Confidence,
     /// Angle of repose of its beads `[°]`.
     pub repose_angle: f64,
-    /// Friction that side walls add, over the ratio of height to width `[-]` (Ionescu et al. 2015).
-    pub side_wall_friction: f64,
 }
 
 /// The experiment, from `reference-data/incline-collapse`.
@@ -27,9 +25,7 @@ pub static SLOPE_EXPERIMENT: LazyLock<SlopeExperiment> = LazyLock::new(|| {
     });
     let repose_angle =
         read_shipped("incline-collapse/experiment.csv", |table| table.number_of("what", "angle of repose", "value"));
-    let side_wall_friction =
-        read_shipped("incline-collapse/side-walls.csv", |table| table.number_of("part", "walls", "friction"));
-    SlopeExperiment { run_out_coefficients, confidence, repose_angle, side_wall_friction }
+    SlopeExperiment { run_out_coefficients, confidence, repose_angle }
 });
 
 /// Displacement of the front of a collapse on a slope, x_f = h_0 · 2k/(tanδ − tanθ), with friction tanδ and a
@@ -114,7 +110,6 @@ mod tests {
         let computed = glass().flow_thickness(0.14, 22f64.to_radians()).map(|thickness| 100.0 * thickness);
         assert!(computed.is_some_and(|computed| (computed - stated).abs() < 0.5), "{computed:?}");
         assert_eq!(SLOPE_EXPERIMENT.run_out_coefficients, (0.4, 0.5));
-        assert_eq!(SLOPE_EXPERIMENT.side_wall_friction, 0.18);
     }
 
     #[test]

@@ -102,7 +102,7 @@ fn thickness(records: &[InclineCollapseRecord]) -> Figure {
 fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("run-out from the gate [m]"));
     let Some((first, _)) = records.first() else { unreachable!("figures are drawn of records") };
-    let friction = first.static_friction();
+    let friction = first.law.contact_friction();
     let curve = |friction: f64, k: f64| -> Vec<(f64, f64)> {
         let angles = (0..=110).map(|step| 0.2 * f64::from(step));
         let value = |angle: f64| slope_run_out(first.reservoir.initial_height, angle.to_radians(), friction, k);

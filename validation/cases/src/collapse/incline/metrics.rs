@@ -48,7 +48,7 @@ pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
         quantity.of(variant, value).with_snapshot_tolerance(1e-3, 1e-3)
     };
     let mut metrics = conservation(&variant, data, &run.reservoir.numerics);
-    let (angle, friction) = (run.slope_angle.to_radians(), run.static_friction());
+    let (angle, friction) = (run.slope_angle.to_radians(), run.law.contact_friction());
     let law = |k: f64| slope_run_out(run.reservoir.initial_height, angle, friction, k);
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     if run.regularisation_rate.is_none()
