@@ -98,7 +98,7 @@ fn grains(position: Vec<Vector<2>>) -> Sediment<2> {
         load: SedimentLoad::Packed { level: 0.0, buoyant_weight: 1600.0 * GRAVITY },
         pressure: SedimentPressure::Incompressible,
         drag: DragLaw::MorsiAlexander,
-        drag_form: DragForm::Grain(1.0),
+        drag_form: DragForm::Grain,
         drag_smoothing_length: 1.5 * SPACING,
         gravity: Vector::zeros(),
     }

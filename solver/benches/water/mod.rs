@@ -161,7 +161,7 @@ fn over_grains(refinement: u32, random: &mut Pcg64Mcg) -> IncompressibleScene<2>
             load: SedimentLoad::Packed { level: -GRAIN, buoyant_weight: 1600.0 * GRAVITY },
             pressure: SedimentPressure::Incompressible,
             drag: DragLaw::MorsiAlexander,
-            drag_form: DragForm::Grain(1.0),
+            drag_form: DragForm::Grain,
             drag_smoothing_length: 3e-3,
             gravity: Vector::<2>::new(GRAVITY * SLOPE, -GRAVITY * 1600.0 / 2600.0),
         }),

@@ -140,7 +140,7 @@ impl<const D: usize> DragExchange<D> {
                 let own = sediment.velocity.get(a).copied().unwrap_or_else(Vector::zeros);
                 *slip = if weight > 0.0 { (sum / weight - own).norm() } else { 0.0 };
                 *factor = match material.drag_form {
-                    DragForm::Grain(_) => grain_factor(material, *slip, scene.fluid.kinematic_viscosity),
+                    DragForm::Grain => grain_factor(material, *slip, scene.fluid.kinematic_viscosity),
                     DragForm::Exchange => {
                         let around = (weight * fluid.lattice_volume).max(scene.numerics.least_fluid);
                         exchange_factor(scene, material, sediment.lattice_volume, &positions[a], *slip, around)
@@ -190,9 +190,5 @@ fn exchange_factor<const D: usize>(
 fn grain_factor<const D: usize>(material: &Sediment<D>, slip: f64, kinematic_viscosity: f64) -> f64 {
     let reynolds = slip * material.grain_diameter / kinematic_viscosity;
     let product = material.drag.drag_times_reynolds(reynolds).unwrap_or(0.0);
-    let factor = match material.drag_form {
-        DragForm::Grain(factor) => factor,
-        DragForm::Exchange => 1.0,
-    };
-    0.5 * factor * product * kinematic_viscosity
+    0.5 * product * kinematic_viscosity
 }

@@ -60,8 +60,8 @@ pub enum SedimentPressure {
 /// Which force a sediment particle feels from the fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DragForm {
-    /// (30): one grain a particle, ½ C_d d |u_r| per mass of the fluid around it, times a factor `[-]`.
-    Grain(f64),
+    /// (30): one grain a particle, ½ C_d d |u_r| per mass of the fluid around it.
+    Grain,
     /// K of the law at the particle's solid fraction, per volume.
     Exchange,
 }

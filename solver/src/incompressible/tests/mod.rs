@@ -85,7 +85,7 @@ fn grains(cells: [usize; 2], jitter: f64, seed: u64) -> Sediment<2> {
         load: SedimentLoad::Packed { level: 0.0, buoyant_weight: 0.0 },
         pressure: SedimentPressure::Incompressible,
         drag: DragLaw::SchillerNaumann,
-        drag_form: DragForm::Grain(1.0),
+        drag_form: DragForm::Grain,
         drag_smoothing_length: 1.5 * SPACING,
         gravity: Vector::zeros(),
     }

@@ -63,7 +63,7 @@ impl GrainRun {
         let place = vessel.size() * 0.5 + Vector::<2>::new(0.13, 0.31) * vessel.diameter;
         let grain = Sediment {
             pressure: SedimentPressure::Incompressible,
-            drag_form: DragForm::Grain(1.0),
+            drag_form: DragForm::Grain,
             ..self.experiment.sediment(vec![place], 1.0, -submerged)
         };
         self.experiment.scene(push, grain, SolidFraction::Overlapping)

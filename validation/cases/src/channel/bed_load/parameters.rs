@@ -57,9 +57,6 @@ pub struct GrainParticles {
     pub origin_offset: f64,
     /// Drag law.
     pub drag: DragLaw,
-    /// Factor of the drag `[-]`.
-    #[schemars(transform = between(0.0, 10.0, "1 is the drag law's"))]
-    pub drag_factor: f64,
     /// Smoothing length of the drag `[m]`.
     pub drag_smoothing_length: f64,
     /// Simulated time `[s]`.

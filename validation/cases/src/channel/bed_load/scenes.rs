@@ -47,7 +47,7 @@ impl BedLoadRun {
             load: solver::SedimentLoad::Packed { level: -grain_diameter, buoyant_weight },
             pressure: solver::SedimentPressure::Incompressible,
             drag: grains.drag,
-            drag_form: solver::DragForm::Grain(grains.drag_factor),
+            drag_form: solver::DragForm::Grain,
             drag_smoothing_length: grains.drag_smoothing_length,
             gravity: Vector::<2>::new(gravity * self.slope, -buoyant_weight / grain_density),
         };

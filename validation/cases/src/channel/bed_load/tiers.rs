@@ -58,7 +58,6 @@ fn grains() -> (GrainParticles, GrainParticles) {
         turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
         origin_offset: 6e-4,
         drag: DragLaw::MorsiAlexander,
-        drag_factor: 1.0,
         drag_smoothing_length: 3e-3,
         duration: 1.0,
         averaging_time: 0.6,

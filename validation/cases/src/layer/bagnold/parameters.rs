@@ -82,10 +82,6 @@ pub struct BagnoldParameters {
     pub other_grains: Vec<OtherGrains>,
     /// Material, which must be of μ(I).
     pub material: Rheology,
-    /// Rate α_r `[1/s]` of the regularised viscosity (35), taken as `numerics.viscous_step` says; 0 for the return
-    /// mapping.
-    #[schemars(transform = between(0.0, 1e6, "0 takes the return mapping"))]
-    pub regularisation_rate: f64,
     /// Slopes repeated with (35) and an implicit step, from the profile `[°]`; empty for none.
     #[schemars(transform = each(rules::slope_angle()))]
     pub regularised_slope_angles: Vec<f64>,

@@ -1,7 +1,9 @@
 //! The simulations that the case asks for.
 
 use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart, law};
-use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run, cost};
+use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run};
+use crate::shared::Arrangement;
+use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
 use crate::input::FieldError;
 use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
 use crate::metric::{Value, Variant};
@@ -89,7 +91,7 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
         averaging_time: parameters.averaging_time,
         grains,
         material: None,
-        regularisation_rate: parameters.regularisation_rate,
+        regularisation_rate: 0.0,
     };
     // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°, or what the material needs
     let from_rest = |angle: f64| {
@@ -191,10 +193,6 @@ impl Run for BagnoldRun {
 
     fn particles(&self) -> f64 {
         self.layer.particles()
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

@@ -1,6 +1,6 @@
 //! The tiers, the rules between parameters, and the runs that they ask for.
 
-use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart, OtherGrains, law};
+use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart, OtherGrains};
 use super::runs::{self, BagnoldRun};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::input::check_name;
@@ -30,7 +30,6 @@ impl Parameters for BagnoldParameters {
             other_grains: Vec::new(),
             // glass beads of Table 1 (Forterre & Pouliquen 2003); I_0 from (41) at 25°, kept at every angle
             material: Rheology::MuI(GLASS_BEADS.law),
-            regularisation_rate: 0.0,
             regularised_slope_angles: Vec::new(),
             regularised_rate: 0.01,
             printed_rates: Vec::new(),
@@ -68,7 +67,7 @@ impl Parameters for BagnoldParameters {
         let grains = rules::only_mu_i("material", &self.material, remedy)?;
         rules::material("material", &self.material)?;
         let numerics = &self.layer.numerics;
-        rules::viscous_step("numerics", numerics, &law(&grains, self.regularisation_rate))?;
+        rules::viscous_step("numerics", numerics, &Rheology::MuI(grains))?;
         if !self.regularised_slope_angles.is_empty() {
             rules::implicit_runs("numerics", numerics, "regularised_slope_angles")?;
         }
