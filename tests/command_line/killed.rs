@@ -23,7 +23,7 @@ pub(crate) fn kill_and_resume(place: &Place, command: &str, plan: &str, finished
     let folder = place.path("killed");
     let mut seen = Finished::new();
     for kill in 1..=3 {
-        let mut child = start(place, command, plan, kill > 1);
+        let mut child = start(place, command, plan);
         let wanted = seen.len() + 1;
         while finished(&folder).len() < wanted && child.try_wait().expect("a child").is_none() {
             std::thread::sleep(Duration::from_millis(5));
@@ -35,20 +35,17 @@ pub(crate) fn kill_and_resume(place: &Place, command: &str, plan: &str, finished
         assert_kept(&seen, &now);
         seen = now;
     }
-    let code = start(place, command, plan, true).wait().expect("ended").code().expect("ended by itself");
+    let code = start(place, command, plan).wait().expect("ended").code().expect("ended by itself");
     let all = finished(&folder);
     assert_kept(&seen, &all);
     assert!(seen.len() < all.len(), "all was done before the last kill");
     code
 }
 
-fn start(place: &Place, command: &str, plan: &str, resume: bool) -> Child {
+fn start(place: &Place, command: &str, plan: &str) -> Child {
     let mut process = Command::new(program::path());
     process.current_dir(place.path("")).stdout(Stdio::null()).stderr(Stdio::null());
     process.args(["-q", command, plan, "--out", "killed", "--threads", "1", "--store", "other"]);
-    if resume {
-        process.arg("--resume");
-    }
     process.spawn().expect("started")
 }
 

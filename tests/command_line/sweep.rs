@@ -146,7 +146,7 @@ fn a_folder_that_cannot_be_written_or_holds_a_sweep_is_refused() {
     );
     place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().code(3);
     let other = place.file("other.toml", &PLAN.replace("[0.5, 0.7, 1.0, 1.4]", "[0.6]"));
-    let mixed = place.bagnold(&["-q", "sweep", &other, "--out", "out", "--resume"]).assert().code(2);
+    let mixed = place.bagnold(&["-q", "sweep", &other, "--out", "out"]).assert().code(2);
     assert_eq!(
         String::from_utf8_lossy(&mixed.get_output().stderr),
         "error: out: holds a sweep of another plan; name another folder with --out\n"
@@ -168,7 +168,7 @@ fn a_sweep_that_is_done_runs_nothing_and_says_so() {
         let first = String::from_utf8_lossy(&first.get_output().stdout).into_owned();
         let before =
             (records(&place.path(&out)), std::fs::read(place.path(&out).join("results.csv")).expect("written"));
-        for more in [&[][..], &["--resume"], &["--fresh"]] {
+        for more in [&[][..], &["--fresh"]] {
             let again =
                 place.bagnold(&[&["sweep", &plan, "--out", &out], more].concat()).assert().code(code).stderr("");
             assert_eq!(

@@ -38,9 +38,6 @@ pub struct SweepArguments {
     /// Folder of the sweep [default: reports/sweeps/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Go on with the sweep in the folder, which also happens without this.
-    #[arg(long)]
-    pub resume: bool,
     /// What runs it.
     #[arg(long, value_enum, default_value_t = Engine::Local)]
     pub engine: Engine,
