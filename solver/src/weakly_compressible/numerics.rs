@@ -44,20 +44,6 @@ pub enum Contact {
     None,
 }
 
-/// Along which directions the velocity hourglass control acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum HourglassDirection {
-    /// Along all, at rough walls too, where it acts as a friction of the bed on curved flow.
-    All,
-    /// Along all among the flow, along the normal only at walls.
-    NormalAtWalls,
-    /// Along the line between two flow particles, and along the normal at walls (default).
-    RadialAndNormal,
-    /// Along the line between two flow particles, none at walls.
-    Radial,
-}
-
 /// In which precision the terms of a pair are taken; what particles keep, and sums over pairs, are always double.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -65,7 +51,7 @@ pub enum PairPrecision {
     /// f64.
     Double,
     /// f32, with positions as integers whose differences are exact: faster, and half the memory (default). What it does not serve (pairwise
-    /// operators, hourglass control along all directions, Morris & Monaghan's switch, implicit viscous steps) stays double.
+    /// operators, Morris & Monaghan's switch, implicit viscous steps) stays double.
     Single,
 }
 
@@ -108,11 +94,9 @@ pub struct Numerics {
     /// C_s of the eddy viscosity (5) `[-]`; 0 switches it off.
     #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
     pub smagorinsky_constant: f64,
-    /// Coefficient of the velocity hourglass control `[-]`.
+    /// Coefficient of the velocity hourglass control `[-]`, along the line between two flow particles and along the normal of walls.
     #[schemars(transform = between(0.0, 2.0, DEFAULTS))]
     pub hourglass: f64,
-    /// Directions along which the hourglass control acts.
-    pub hourglass_direction: HourglassDirection,
     /// Diffusion δ of the stress ratio among yielding particles, as a diffusivity δ c h `[-]`; 0 switches it off.
     #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
     pub stress_diffusion: f64,
@@ -157,7 +141,6 @@ impl Default for Numerics {
             viscosity_switch: ViscositySwitch::Constant,
             smagorinsky_constant: 0.0,
             hourglass: 0.4,
-            hourglass_direction: HourglassDirection::RadialAndNormal,
             stress_diffusion: 0.1,
             elastic_damping: 0.5,
             shear_modulus_ratio: 0.3,
@@ -185,7 +168,6 @@ impl Numerics {
             artificial_viscosity: 0.1,
             viscosity_switch: ViscositySwitch::MorrisMonaghan,
             hourglass: 0.0,
-            hourglass_direction: HourglassDirection::All,
             stress_diffusion: 0.0,
             acoustic_courant: 0.2,
             advective_courant: 0.2,
@@ -210,7 +192,6 @@ impl Numerics {
     pub fn pairs_in_single(&self) -> bool {
         self.pair_precision == PairPrecision::Single
             && self.pairwise_operator().is_none()
-            && matches!(self.hourglass_direction, HourglassDirection::RadialAndNormal | HourglassDirection::Radial)
             && self.viscosity_switch == ViscositySwitch::Constant
             && self.viscous_step == ViscousStep::Explicit
     }

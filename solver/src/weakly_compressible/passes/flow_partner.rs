@@ -4,7 +4,7 @@ use super::layout;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::{LaneIndices, Lanes};
 use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::numerics::{HourglassDirection, ViscositySwitch};
+use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 
 /// What is read of a flow particle.
@@ -46,7 +46,6 @@ pub(super) struct Constants {
     pub(super) hourglass_strength: f64,
     pub(super) artificial_viscosity: f64,
     pub(super) viscosity_switch: ViscositySwitch,
-    pub(super) hourglass_direction: HourglassDirection,
     pub(super) artificial_stress: Option<ArtificialStress>,
 }
 
@@ -60,7 +59,6 @@ impl Constants {
             hourglass_strength: model.numerics.hourglass * smoothing_length,
             artificial_viscosity: model.numerics.artificial_viscosity,
             viscosity_switch: model.numerics.viscosity_switch,
-            hourglass_direction: model.numerics.hourglass_direction,
             artificial_stress: model.artificial_stress,
         }
     }

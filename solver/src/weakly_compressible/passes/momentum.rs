@@ -13,7 +13,7 @@ use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
-use crate::weakly_compressible::numerics::{HourglassDirection, ViscositySwitch};
+use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
@@ -27,7 +27,7 @@ fn write<const D: usize>(particles: &Particles<D>, inverse_density: f64, index: 
     record.vector(wall.map_or(&particles.velocity[index], |wall| &walls.velocity[wall]));
     record.scalar(wall.map_or(particles.density[index], |wall| walls.depth[wall]));
     record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
-    record.scalar(wall.map_or(particles.artificial_viscosity[index], |wall| walls.smoothness[wall]));
+    record.scalar(wall.map_or(particles.artificial_viscosity[index], |_| 0.0));
     record.tensor(&particles.corrected_stress[index]);
     match wall {
         Some(wall) => record.vector(&walls.normal[wall]),
@@ -182,10 +182,8 @@ fn flow_forces<V: Lanes, const D: usize>(
         let push = artificial_viscosity::pair_factor(alpha, dot(&r, &slip), inverse);
         let speed_sum = own.pressure_speed + other.pressure_speed;
         let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
-        let mut unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
-        if matches!(constants.hourglass_direction, HourglassDirection::RadialAndNormal | HourglassDirection::Radial) {
-            unexplained = hourglass::along_pair(&unexplained, &r, regular);
-        }
+        let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
+        let unexplained = hourglass::along_pair(&unexplained, &r, regular);
         let mass_weight = weight * other.density;
         accumulate(&mut forces.divergence, weight, &traction);
         accumulate(&mut forces.damping, mass_weight * push, &r);

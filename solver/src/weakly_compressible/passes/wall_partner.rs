@@ -6,7 +6,6 @@ use super::layout;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{difference, scaled};
 use crate::lanes::{LaneIndices, Lanes, Real};
-use crate::weakly_compressible::numerics::HourglassDirection;
 use crate::weakly_compressible::terms::{hourglass, stress_divergence, wall_slip};
 
 /// What is read of a wall particle: records of the length of [`FlowPartner`]'s with a layout of their own.
@@ -18,8 +17,6 @@ pub(super) struct WallPartner<V, const D: usize> {
     pub(super) depth: V,
     /// √(p/ρ0) `[m/s]`.
     pub(super) pressure_speed: V,
-    /// 1 if the wall is smooth `[-]`.
-    pub(super) smoothness: V,
     /// σ `[Pa]`.
     pub(super) stress: [[V; D]; D],
     pub(super) normal: [V; D],
@@ -34,7 +31,6 @@ impl<V: Lanes, const D: usize> WallPartner<V, D> {
             velocity: records::vector(&record, D),
             depth: records::scalar(&record, 2 * D),
             pressure_speed: records::scalar(&record, 2 * D + 1),
-            smoothness: records::scalar(&record, 2 * D + 2),
             stress: records::tensor(&record, 2 * D + 3),
             normal: records::vector(&record, 2 * D + 3 + D * D),
         }
@@ -71,16 +67,12 @@ impl<V: Real, const D: usize> WallPair<V, D> {
         correction: &[[V; D]; D],
         r: &[V; D],
     ) -> Self {
-        let none = constants.hourglass_direction == HourglassDirection::Radial;
-        let rough = constants.hourglass_direction == HourglassDirection::All;
         let beta = wall_slip::factor(r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
         let slip = scaled(beta, &difference(&own.velocity, &wall.velocity));
         let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, r);
         let speed_sum = own.pressure_speed + wall.pressure_speed;
-        let strength = if none { 0.0 } else { constants.hourglass_strength };
-        let drag = hourglass::twice_viscosity::<V>(strength, speed_sum);
-        let normal_only = if rough { wall.smoothness } else { V::splat(1.0) };
-        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, r, &wall.normal, normal_only);
+        let drag = hourglass::twice_viscosity::<V>(constants.hourglass_strength, speed_sum);
+        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, r, &wall.normal);
         Self { traction, drag, unexplained }
     }
 }

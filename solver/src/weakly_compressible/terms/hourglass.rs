@@ -42,20 +42,20 @@ pub fn along_pair<V: Real, const D: usize>(vector: &[V; D], r: &[V; D], regular:
     scaled(dot(vector, r) / regular, r)
 }
 
-/// The same at a wall, whose gradient is that of a: `slip` is β (v_a − v_wall) `[m/s]`. A smooth wall (`smoothness` 1)
-/// resists along its normal only.
+/// The unexplained velocity difference at a wall along its normal `[m/s]`: `slip` is β (v_a − v_wall) `[m/s]`, and the wall's gradient
+/// is that of a. Along a rough wall it would act as a friction of the bed on curved flow.
 #[inline(always)]
 pub fn unexplained_at_wall<V: Real, const D: usize>(
     slip: &[V; D],
     gradient_a: &[[V; D]; D],
     r: &[V; D],
     normal: &[V; D],
-    smoothness: V,
 ) -> [V; D] {
     let mut unexplained = difference(slip, &product(gradient_a, r));
     let along_normal = dot(&unexplained, normal);
     for i in 0..D {
-        unexplained[i] = unexplained[i] + smoothness * (along_normal * normal[i] - unexplained[i]);
+        // this rounding is that of stored results
+        unexplained[i] = unexplained[i] + (along_normal * normal[i] - unexplained[i]);
     }
     unexplained
 }

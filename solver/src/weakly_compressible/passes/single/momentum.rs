@@ -1,5 +1,4 @@
-//! The pair sums of the momentum equation in single precision, for hourglass control along pairs and a constant coefficient
-//! of the artificial viscosity.
+//! The pair sums of the momentum equation in single precision, for a constant coefficient of the artificial viscosity.
 
 use super::super::flow_partner::{Constants, FlowPartner};
 use super::super::momentum::Forces;
@@ -17,7 +16,7 @@ use crate::weakly_compressible::wall_fields::mirrored_lanes;
 use std::ops::Range;
 
 /// Places in a record: of the flow position, volume, density, velocity, √(p/ρ0), σE and the half form of the velocity
-/// gradient; of walls position, volume, depth, velocity, √(p/ρ0), σ, normal and smoothness.
+/// gradient; of walls position, volume, depth, velocity, √(p/ρ0), σ and normal.
 struct Place<const D: usize>;
 
 impl<const D: usize> Place<D> {
@@ -44,10 +43,7 @@ pub(in super::super) fn fill<const D: usize>(model: &Model<D>, particles: &Parti
         record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
         record.tensor(&particles.corrected_stress[index]);
         match wall {
-            Some(wall) => {
-                record.vector(&walls.normal[wall]);
-                record.scalar(walls.smoothness[wall]);
-            }
+            Some(wall) => record.vector(&walls.normal[wall]),
             None => record.half_form(&particles.velocity_gradient[index]),
         }
     });
@@ -184,7 +180,6 @@ impl<S: SingleLanes, const D: usize> WallGroup<S, D> {
             pressure_speed: records::scalar(&record, Place::<D>::SPEED),
             stress: records::tensor(&record, Place::<D>::STRESS),
             normal: records::vector(&record, Place::<D>::LAST),
-            smoothness: records::scalar(&record, Place::<D>::LAST + D),
         };
         let r = apart(&self.own.position, &wall.position, self.unit);
         let weight = model.kernel.gradient_weight(dot(&r, &r), records::scalar(&record, Place::<D>::VOLUME));
