@@ -37,10 +37,6 @@ const LAST: f64 = 0.25;
 pub(crate) fn observe(given: &ExternalData) -> Result<ExternalObservation<ChannelObservation>, FieldError> {
     let mut measured = Vec::new();
     let time = given.series("time").to_vec();
-    let or_unknown = |name: &str| {
-        let column = given.series(name);
-        if column.is_empty() { vec![f64::NAN; time.len()] } else { column.to_vec() }
-    };
     for (name, metric) in
         [("mean_velocity", "mean_velocity"), ("bed_shear", "bed_shear"), ("mean_velocity", "velocity_drift")]
     {
@@ -63,8 +59,8 @@ pub(crate) fn observe(given: &ExternalData) -> Result<ExternalObservation<Channe
     let unknown = vec![f64::NAN; time.len()];
     let observation = ChannelObservation {
         series: ChannelSeries {
-            mean_velocity: or_unknown("mean_velocity"),
-            bed_shear: or_unknown("bed_shear"),
+            mean_velocity: given.full_series("mean_velocity"),
+            bed_shear: given.full_series("bed_shear"),
             relative_height: unknown.clone(),
             highest: unknown.clone(),
             rms_vertical_velocity: unknown.clone(),

@@ -1,5 +1,6 @@
 //! One column: its scene and its run.
 
+use super::CollapseRecord;
 use super::block::{GrainBlock, STIFFNESS};
 use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor, radius};
@@ -200,6 +201,15 @@ impl ColumnRun {
     #[must_use]
     pub fn has_published_law(&self) -> bool {
         matches!(self.law, Rheology::MuI(_)) && !self.material.is_own(&self.law)
+    }
+
+    /// The run of this column by return mapping and the default numerics, with which one of another purpose is compared.
+    pub(super) fn partner<'a>(&self, records: &'a [CollapseRecord]) -> Option<&'a CollapseRecord> {
+        records.iter().find(|(other, _)| {
+            other.purpose == ColumnPurpose::Law
+                && (other.material, other.aspect_ratio, other.resolution)
+                    == (self.material, self.aspect_ratio, self.resolution)
+        })
     }
 
     /// Whether the grains are a user's own: those of a published law with another law, whatever that is.

@@ -129,10 +129,7 @@ fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
     let time = given.series("time");
     if !time.is_empty() {
         let unknown = || vec![f64::NAN; time.len()];
-        let over_r = |name: &str| {
-            let column = given.series(name);
-            if column.is_empty() { unknown() } else { column.iter().map(|length| length / r).collect() }
-        };
+        let over_r = |name: &str| given.full_series(name).iter().map(|length| length / r).collect();
         (collapse.front, collapse.rows_front, collapse.height) =
             (over_r("front"), over_r("front_of_rows"), over_r("height"));
         // energies belong to the pictures' times

@@ -3,7 +3,7 @@
 
 use super::CollapseRecord;
 use super::bands;
-use super::column::{ColumnPurpose, ColumnRun};
+use super::column::ColumnPurpose;
 use super::deposit::Collapse;
 use super::quantities::{EDDY_CHANGE, EDDY_GAIN, FINAL_HEIGHT, PRESSURE_NOISE_RATIO, RUN_OUT, VELOCITY_NOISE_RATIO};
 use crate::case::Run;
@@ -17,17 +17,8 @@ const NEAR: f64 = 2.1;
 /// Fewest neighbours whose mean says something: fewer stand at a surface.
 const FEWEST: usize = 10;
 
-/// The column as it is that a repeated one is compared with.
-fn partner<'a>(records: &'a [CollapseRecord], run: &ColumnRun) -> Option<&'a CollapseRecord> {
-    records.iter().find(|(other, _)| {
-        other.purpose == ColumnPurpose::Law
-            && (other.material, other.aspect_ratio, other.resolution)
-                == (run.material, run.aspect_ratio, run.resolution)
-    })
-}
-
 pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
-    let of = |record: &CollapseRecord| match (record.0.purpose, partner(records, &record.0)) {
+    let of = |record: &CollapseRecord| match (record.0.purpose, record.0.partner(records)) {
         (ColumnPurpose::Eddies, Some(own)) => with_eddies(record, own),
         (ColumnPurpose::Uncoupled, Some(own)) => without_coupling(record, own),
         _ => Vec::new(),

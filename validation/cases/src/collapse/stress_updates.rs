@@ -1,7 +1,7 @@
 //! Return mapping and regularised viscosity side by side.
 
 use super::CollapseRecord;
-use super::column::{ColumnPurpose, ColumnRun};
+use super::column::ColumnPurpose;
 use super::deposit::Collapse;
 use super::quantities::{EXPLICIT_STEPS, FINAL_HEIGHT, REGULARISED_DIFFERENCE, RUN_OUT};
 use crate::case::Run;
@@ -13,17 +13,8 @@ fn regularised(records: &[CollapseRecord]) -> impl Iterator<Item = &CollapseReco
     records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Regularised)
 }
 
-/// The run by return mapping that a regularised run is compared with, if it was asked for.
-fn partner<'a>(records: &'a [CollapseRecord], run: &ColumnRun) -> Option<&'a CollapseRecord> {
-    records.iter().find(|(other, _)| {
-        other.purpose == ColumnPurpose::Law
-            && (&other.material, other.aspect_ratio, other.resolution)
-                == (&run.material, run.aspect_ratio, run.resolution)
-    })
-}
-
 pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
-    regularised(records).flat_map(|record| of_regularised(record, partner(records, &record.0))).collect()
+    regularised(records).flat_map(|record| of_regularised(record, record.0.partner(records))).collect()
 }
 
 fn of_regularised((run, record): &CollapseRecord, partner: Option<&CollapseRecord>) -> Vec<Metric> {
@@ -54,7 +45,7 @@ fn of_regularised((run, record): &CollapseRecord, partner: Option<&CollapseRecor
 
 pub(super) fn figure(records: &[CollapseRecord]) -> Option<Figure> {
     let pairs: Vec<(&CollapseRecord, &CollapseRecord)> =
-        regularised(records).filter_map(|record| Some((record, partner(records, &record.0)?))).collect();
+        regularised(records).filter_map(|record| Some((record, record.0.partner(records)?))).collect();
     if pairs.is_empty() {
         return None;
     }
@@ -85,7 +76,7 @@ pub(super) fn figure(records: &[CollapseRecord]) -> Option<Figure> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collapse::{Geometry, Material, Release};
+    use crate::collapse::{ColumnRun, Geometry, Material, Release};
     use crate::observation::{Outcome, Recorded};
     use crate::reference::grains::TABLE_2_SAND;
     use bagnold_solver::material::rheology::Rheology;

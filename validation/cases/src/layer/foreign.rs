@@ -94,36 +94,45 @@ pub(crate) fn observe(
     }
     let (height, velocity) = (given.profile("height"), given.profile("velocity"));
     if !height.is_empty() && !velocity.is_empty() {
-        let missing = || vec![f64::NAN; height.len()];
-        let pressure = given.profile("pressure");
-        observation.profile = DepthProfile {
-            height: height.to_vec(),
-            velocity: velocity.to_vec(),
-            pressure: if pressure.is_empty() { missing() } else { pressure.to_vec() },
-            normal_stress: missing(),
-            shear_stress: missing(),
-            samples: vec![1.0; height.len()],
-        };
+        observation.profile = profile(given);
         measured.extend(OF_PROFILE);
     }
     let (time, mean) = (given.series("time"), given.series("mean_velocity"));
     if time.len() > 1 && !mean.is_empty() {
-        let rms = given.series("rms_speed");
-        observation.series = TimeSeries {
-            time: time.to_vec(),
-            mean_velocity: mean.to_vec(),
-            rms_speed: if rms.is_empty() { vec![f64::NAN; time.len()] } else { rms.to_vec() },
-            relative_height: vec![f64::NAN; time.len()],
-            pressure_noise: Vec::new(),
-        };
+        observation.series = series(given);
         measured.extend(OF_HISTORY);
-        if !rms.is_empty() {
+        if !given.series("rms_speed").is_empty() {
             measured.push("rest_rms_speed");
         }
     }
     measured.sort_unstable();
     measured.dedup();
     Ok(ExternalObservation { observation, measured })
+}
+
+/// Profile of a layer as far as it was given.
+pub(crate) fn profile(given: &ExternalData) -> DepthProfile {
+    let height = given.profile("height").to_vec();
+    DepthProfile {
+        velocity: given.full_profile("velocity"),
+        pressure: given.full_profile("pressure"),
+        normal_stress: given.full_profile("normal_stress"),
+        shear_stress: vec![f64::NAN; height.len()],
+        samples: vec![1.0; height.len()],
+        height,
+    }
+}
+
+/// History of a layer as far as it was given.
+pub(crate) fn series(given: &ExternalData) -> TimeSeries {
+    let time = given.series("time").to_vec();
+    TimeSeries {
+        mean_velocity: given.full_series("mean_velocity"),
+        rms_speed: given.full_series("rms_speed"),
+        relative_height: vec![f64::NAN; time.len()],
+        pressure_noise: Vec::new(),
+        time,
+    }
 }
 
 /// Nothing was measured: two times without a number, so that a history can be asked for.

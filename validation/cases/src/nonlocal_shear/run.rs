@@ -4,7 +4,7 @@ use super::channel::{Above, Channel, ChannelGrains, Motion};
 use super::flow::{ExactShear, ShearFlow, ShearedGrains};
 use super::probe::{ShearObservation, ShearProbe};
 use crate::case::recording::{SimulationStage, watch};
-use crate::case::{ParameterError, Progress, Run, cost};
+use crate::case::{ParameterError, Progress, Run};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::setup::acoustic_step;
@@ -49,10 +49,6 @@ impl Run for ShearRun {
 
     fn particles(&self) -> f64 {
         (self.grains.rows * self.grains.columns) as f64
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

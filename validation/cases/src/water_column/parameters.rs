@@ -1,7 +1,7 @@
 //! Parameters, tiers and runs.
 
 use crate::case::recording::{self, SimulationStage, Watched};
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::{EnergyBook, Recorded};
 use crate::reference::water::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
@@ -224,10 +224,6 @@ impl Run for WaterColumnRun {
 
     fn particles(&self) -> f64 {
         self.column.aspect_ratio * (self.resolution as f64).powi(2)
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

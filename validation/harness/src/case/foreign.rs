@@ -169,6 +169,22 @@ impl ExternalData {
     pub fn profile(&self, name: &str) -> &[f64] {
         self.profile.get(name).map_or(&[], Vec::as_slice)
     }
+
+    /// A column of the series at every `time`; not a number where it was not given.
+    #[must_use]
+    pub fn full_series(&self, name: &str) -> Vec<f64> {
+        full(self.series(name), self.series("time").len())
+    }
+
+    /// A column of the profile at every `height`; not a number where it was not given.
+    #[must_use]
+    pub fn full_profile(&self, name: &str) -> Vec<f64> {
+        full(self.profile(name), self.profile("height").len())
+    }
+}
+
+fn full(column: &[f64], rows: usize) -> Vec<f64> {
+    if column.is_empty() { vec![f64::NAN; rows] } else { column.to_vec() }
 }
 
 impl ParticleFrame {

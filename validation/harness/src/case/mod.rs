@@ -141,9 +141,9 @@ pub trait Run: Serialize + Clone + Send + Sync {
     fn bytes_per_particle(&self) -> f64 {
         estimate::BYTES_WHILE_RUNNING
     }
-    /// What a particle-step costs on one core `[s]`, for estimates.
+    /// Time of a particle-step on one core `[s]`, for estimates: that of the weakly compressible model, unless a case tells.
     fn seconds_per_particle_step(&self) -> f64 {
-        1e-6
+        cost::WEAKLY_COMPRESSIBLE
     }
     /// The regime of the flow that it leaves behind; nothing, unless a case tells.
     fn regime(&self, _: &Self::Observation) -> FlowRegime {

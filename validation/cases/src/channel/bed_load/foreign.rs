@@ -94,14 +94,11 @@ pub(super) fn observe(
     if !sediment.sums.is_empty() {
         measured.extend(OF_GRAINS);
     }
-    let unknown = || vec![f64::NAN; water.series.time.len()];
     let unit = run.stream().transport_unit();
-    let transport = given.series("transport");
-    if !transport.is_empty() {
+    if !given.series("transport").is_empty() {
         measured.extend(OF_TRANSPORT);
     }
-    let stream_velocity = given.series("mean_velocity");
-    if !stream_velocity.is_empty() {
+    if !given.series("mean_velocity").is_empty() {
         measured.extend([quantity::STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
     }
     let layer = match &run.formulation {
@@ -111,8 +108,8 @@ pub(super) fn observe(
         _ => None,
     };
     let observation = BedLoadObservation {
-        transport: if transport.is_empty() { unknown() } else { transport.iter().map(|rate| rate / unit).collect() },
-        stream_velocity: if stream_velocity.is_empty() { unknown() } else { stream_velocity.to_vec() },
+        transport: given.full_series("transport").iter().map(|rate| rate / unit).collect(),
+        stream_velocity: given.full_series("mean_velocity"),
         carried: vec![vec![Carried::default(); BLOCKS]; sediment.sums.len()],
         sediment,
         length: f64::NAN,

@@ -2,8 +2,6 @@
 
 use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart, law};
 use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run};
-use crate::shared::Arrangement;
-use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
 use crate::input::FieldError;
 use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
 use crate::metric::{Value, Variant};

@@ -1,7 +1,7 @@
 //! The simulations.
 
 use super::comparison::NumericsSet;
-use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run, cost};
+use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run};
 use crate::input::FieldError;
 use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Top, bulk_modulus};
 use crate::metric::Variant;
@@ -52,10 +52,6 @@ impl Run for FilmRun {
 
     fn particles(&self) -> f64 {
         self.layer.particles()
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

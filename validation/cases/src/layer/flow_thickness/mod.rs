@@ -10,7 +10,7 @@ pub use nonlocal::{Cooperation, NonlocalChoice, NonlocalLayers};
 pub use parameters::FlowThicknessParameters;
 pub use start_stop::{LayerAtSlope, LayerFate, SlopeTrial, StartStop, StartStopRun};
 
-use crate::case::{Case, ParameterError, Progress, RecordOf, Run, cost};
+use crate::case::{Case, ParameterError, Progress, RecordOf, Run};
 use crate::collapse::{SlopeCollapse, SlopeRun};
 use crate::figure::Figure;
 use crate::layer::LayerObservation;
@@ -86,10 +86,6 @@ impl Run for FlowThicknessRun {
             Self::StartStop(run) => run.layer.particles(),
             Self::Steady(run) => run.layer.particles(),
         }
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {

@@ -4,8 +4,7 @@ use super::metrics::{ACOUSTIC_BREATHING, HEIGHT_DRIFT, NORMAL_STRESS_L2, PRESSUR
 use super::parameters::HydrostaticRun;
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
-use crate::layer::foreign::unmeasured;
-use crate::layer::{DepthProfile, LayerObservation, TimeSeries};
+use crate::layer::{LayerObservation, TimeSeries, foreign};
 
 /// What a run may yield.
 pub(super) const FORM: ExternalSchema = ExternalSchema {
@@ -36,43 +35,23 @@ pub(super) fn observe(
     given: &ExternalData,
 ) -> Result<ExternalObservation<LayerObservation>, FieldError> {
     let mut measured = Vec::new();
-    let mut observation = unmeasured();
-    let height = given.profile("height");
-    let or_missing = |column: &[f64], count: usize| {
-        if column.is_empty() { vec![f64::NAN; count] } else { column.to_vec() }
-    };
-    if !height.is_empty() {
-        let [pressure, normal_stress] = ["pressure", "normal_stress"].map(|name| given.profile(name));
-        let count = height.len();
-        observation.profile = DepthProfile {
-            height: height.to_vec(),
-            velocity: vec![f64::NAN; count],
-            pressure: or_missing(pressure, count),
-            normal_stress: or_missing(normal_stress, count),
-            shear_stress: vec![f64::NAN; count],
-            samples: vec![1.0; count],
-        };
-        let pairs = [(PRESSURE_L2.name, pressure), (NORMAL_STRESS_L2.name, normal_stress)];
-        measured.extend(pairs.into_iter().filter(|(_, column)| !column.is_empty()).map(|(name, _)| name));
+    let mut observation = foreign::unmeasured();
+    if !given.profile("height").is_empty() {
+        observation.profile = foreign::profile(given);
+        let columns = [(PRESSURE_L2, "pressure"), (NORMAL_STRESS_L2, "normal_stress")];
+        measured.extend(
+            columns.iter().filter(|(_, column)| !given.profile(column).is_empty()).map(|(quantity, _)| quantity.name),
+        );
     }
-    let time = given.series("time");
-    if time.len() > 1 {
-        let [speed, mean_height] = ["rms_speed", "mean_height"].map(|name| given.series(name));
-        observation.series = TimeSeries {
-            time: time.to_vec(),
-            mean_velocity: vec![f64::NAN; time.len()],
-            rms_speed: or_missing(speed, time.len()),
-            // only ratios of heights are judged
-            relative_height: or_missing(mean_height, time.len())
-                .iter()
-                .map(|height| 2.0 * height / run.height())
-                .collect(),
-            pressure_noise: Vec::new(),
-        };
-        if !speed.is_empty() {
+    if given.series("time").len() > 1 {
+        // only ratios of heights are judged
+        let relative_height =
+            given.full_series("mean_height").iter().map(|height| 2.0 * height / run.height()).collect();
+        observation.series = TimeSeries { relative_height, ..foreign::series(given) };
+        if !given.series("rms_speed").is_empty() {
             measured.push(RMS_SPEED.name);
         }
-        if !mean_height.is_empty() {
+        if !given.series("mean_height").is_empty() {
             measured.extend([HEIGHT_DRIFT.name, ACOUSTIC_BREATHING.name]);
         }
     }

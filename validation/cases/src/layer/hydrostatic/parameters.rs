@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
+use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::layer::{Layer, LayerObservation, PeriodicLayer};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -108,10 +108,6 @@ impl Run for HydrostaticRun {
 
     fn particles(&self) -> f64 {
         self.layer.particles()
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::WEAKLY_COMPRESSIBLE
     }
 
     fn particle_steps(&self) -> f64 {
