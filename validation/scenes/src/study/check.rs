@@ -169,10 +169,13 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
         _ => {
             let column = column(text)?;
             if let Some(reduction) = text.value {
-                if let Reduction::At(place) = reduction
-                    && !place.is_finite()
-                {
-                    return Err(FieldError::new("value.at", place, "a finite number", "give a place within the run"));
+                let (field, number, remedy) = match reduction {
+                    Reduction::At(place) => ("value.at", place, "give a place within the run"),
+                    Reduction::Reaches(level) => ("value.reaches", level, "give a value that the column reaches"),
+                    _ => ("value", 0.0, ""),
+                };
+                if !number.is_finite() {
+                    return Err(FieldError::new(field, number, "a finite number", remedy));
                 }
                 return Ok(CheckedQuantity::Value(column, reduction));
             }

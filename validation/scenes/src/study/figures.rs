@@ -1,6 +1,7 @@
 //! What checks have read, drawn beside what it is compared with.
 
 use super::check::{CheckedQuantity, StudyCheck};
+use super::file::Reduction;
 use super::{Reading, probe};
 use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::input::FieldError;
@@ -43,6 +44,13 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
         series.error = points.iter().map(|point| point[2]).collect();
         said = format!("points with their standard uncertainty: {}", measured.source());
     } else if let Some((value, uncertainty)) = check.reference() {
+        if let CheckedQuantity::Value(_, Reduction::Reaches(_)) = &check.read {
+            let values = || first.points.iter().map(|point| point.1);
+            let (low, high) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+            panel.reference(&check.name, [(value, low), (value, high)]);
+            figure.caption += &format!("; dashed: reference of {}", check.name);
+            return Ok(());
+        }
         let ends = first.points.first().zip(first.points.last()).map_or((0.0, 1.0), |(from, to)| (from.0, to.0));
         panel.reference(&check.name, [(ends.0, value), (ends.1, value)]);
         if let Some(uncertainty) = uncertainty {

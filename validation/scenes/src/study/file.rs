@@ -184,6 +184,8 @@ pub(super) enum Reduction {
     Mean,
     /// The value at a place of the other column, linear between its rows.
     At(f64),
+    /// The first place of the other column at which the value reaches a level from either side, linear between its rows.
+    Reaches(f64),
 }
 
 /// How far a column is from a measured series.

@@ -90,6 +90,7 @@ impl RunCurve {
             Reduction::Smallest => values().reduce(f64::min),
             Reduction::Mean => self.mean(),
             Reduction::At(place) => self.at(place),
+            Reduction::Reaches(level) => self.reaches(level),
         };
         found.unwrap_or(f64::NAN)
     }
@@ -108,6 +109,17 @@ impl RunCurve {
     /// The value at a place, linear between points; none beyond the ends.
     fn at(&self, place: f64) -> Option<f64> {
         interpolated(&self.points, place, (Beyond::Nothing, Beyond::Nothing))
+    }
+
+    /// The first place at which the value reaches a level, from below or from above; none if it does not.
+    fn reaches(&self, level: f64) -> Option<f64> {
+        let first = self.points.first().filter(|point| point.1 == level).map(|point| point.0);
+        let crossing = |pair: &[(f64, f64)]| {
+            let [(x, y), (next_x, next_y)] = *pair else { return None };
+            let crosses = (y < level && next_y >= level) || (y > level && next_y <= level);
+            crosses.then(|| x + (next_x - x) * (level - y) / (next_y - y))
+        };
+        first.or_else(|| self.points.windows(2).find_map(crossing))
     }
 
     /// Its distance from measured points (abscissa, value, standard uncertainty) within a window, in the curve's units. It must
@@ -171,6 +183,7 @@ fn listed(names: &[&str]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
 
     fn curve(points: &[(f64, f64)]) -> RunCurve {
         RunCurve { run: Variant::default(), over: "t [s]".to_owned(), points: points.to_vec() }
@@ -186,6 +199,23 @@ mod tests {
         assert!((curve.value(Reduction::Mean) - 1.0 / 6.0).abs() < 2e-5, "the trapezoidal rule is 1/(6 · 100²) off");
         assert!((curve.value(Reduction::At(0.255)) - 0.255 * 0.745).abs() < 3e-5);
         assert!(curve.value(Reduction::At(1.01)).is_nan() && curve.value(Reduction::At(-0.01)).is_nan());
+    }
+
+    #[test]
+    fn the_third_zero_of_a_cosine_is_at_five_quarters_of_its_period() {
+        let points: Vec<(f64, f64)> =
+            (0..=150).map(|k| f64::from(k) / 100.0).map(|t| (t, libm::cos(TAU * t))).collect();
+        let zero_after = |start: f64| {
+            let later: Vec<(f64, f64)> = points.iter().copied().filter(|point| point.0 >= start).collect();
+            curve(&later).value(Reduction::Reaches(0.0))
+        };
+        for (start, zero) in [(0.0, 0.25), (0.5, 0.75), (1.005, 1.25)] {
+            assert!((zero_after(start) - zero).abs() < 1e-12, "{zero}");
+        }
+        assert_eq!(curve(&points).value(Reduction::Reaches(1.0)), 0.0, "it starts there");
+        assert!(curve(&points).value(Reduction::Reaches(1.1)).is_nan(), "it never is as large");
+        // rows on either side of the level count by their distance from it
+        assert_eq!(curve(&[(0.0, 1.0), (4.0, 3.0)]).value(Reduction::Reaches(1.5)), 1.0);
     }
 
     #[test]

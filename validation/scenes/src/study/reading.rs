@@ -1,6 +1,7 @@
 //! What a check reads of the runs of a study: metrics, values and distances of columns, and orders of earlier checks.
 
 use super::check::{CheckedQuantity, StudyCheck};
+use super::file::Reduction;
 use super::probe::{self, RunCurve};
 use super::{Study, file};
 use crate::case::CaseResult;
@@ -65,7 +66,9 @@ impl Study {
                 CheckedQuantity::Value(column, reduction) => {
                     for curve in column.curves(result)? {
                         let value = curve.value(*reduction);
-                        readings.push(new(&curve.run.clone(), value, probe::unit_of(&column.column), Some(curve)));
+                        let read = if let Reduction::Reaches(_) = reduction { &curve.over } else { &column.column };
+                        let unit = probe::unit_of(read).to_owned();
+                        readings.push(new(&curve.run.clone(), value, &unit, Some(curve)));
                     }
                 }
                 CheckedQuantity::Distance(column, measured, distance) => {
