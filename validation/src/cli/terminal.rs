@@ -158,18 +158,28 @@ mod tests {
         }
     }
 
+    /// Two lines on an output that refuses them with an error of this kind.
+    fn finished(kind: ErrorKind) -> Result<(), ProgramError> {
+        let mut refusing = Refusing(kind);
+        let mut output = StandardOutput::new(&mut refusing);
+        say(&mut output, "a");
+        say(&mut output, "b");
+        output.finish()
+    }
+
     #[test]
-    fn what_cannot_be_printed_is_an_error_and_a_reader_who_has_gone_is_none() {
-        let finished = |kind| {
-            let mut refusing = Refusing(kind);
-            let mut output = StandardOutput::new(&mut refusing);
-            say(&mut output, "a");
-            say(&mut output, "b");
-            output.finish()
-        };
+    fn closed_pipe_is_not_an_error() {
         assert!(finished(ErrorKind::BrokenPipe).is_ok());
+    }
+
+    #[test]
+    fn full_device_is_an_error() {
         let message = finished(ErrorKind::StorageFull).expect_err("full").to_string();
         assert!(message.starts_with("standard output: cannot be written (no storage space); "), "{message}");
+    }
+
+    #[test]
+    fn lines_are_escaped_and_documents_printed_as_they_are() {
         let mut taken = Vec::new();
         let mut output = StandardOutput::new(&mut taken);
         say(&mut output, "a\u{1b}b\n");

@@ -297,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_nothing_is_known_and_what_is_unknown_has_its_reason() {
+    fn zero_is_stated_unknown_has_a_reason() {
         let stated: StatedUncertainty = toml::from_str(TEXT).expect("a file");
         let metric = stated.complete(compared("height", 2.1), &[]);
         let part = |part| metric.uncertainty.of_part(part);

@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn walls_that_are_none_are_refused_by_their_field() {
+    fn invalid_walls_name_the_field() {
         let o = (0.0, 0.0, 0.0);
         let bent = SpaceWall::of_quads("bent", vec![(o, (1.0, 0.0, 0.0), (1.0, 1.0, 0.2), (0.0, 1.0, 0.0))]);
         assert!(bent.check(0.1).expect_err("bent").to_string().starts_with("`quads[0]` is not plane"));
