@@ -50,17 +50,6 @@ impl MuI {
         shear_rate * self.grain_diameter / (pressure / self.grain_density).sqrt()
     }
 
-    /// Inertial number `[-]` of the steady flow under a friction coefficient `[-]`, the inverse of (31):
-    /// I = I_0 (μ − μ_s)/(μ_2 − μ). None below μ_s (at rest) and from μ_2 on (accelerates without bound).
-    #[inline]
-    #[must_use]
-    pub fn inertial_number_at(&self, friction_coefficient: f64) -> Option<f64> {
-        (friction_coefficient >= self.static_friction && friction_coefficient < self.limiting_friction).then(|| {
-            self.reference_inertia * (friction_coefficient - self.static_friction)
-                / (self.limiting_friction - friction_coefficient)
-        })
-    }
-
     /// The same friction as a regularised viscosity (35) with a regularisation rate `[1/s]`.
     #[must_use]
     pub fn regularised(&self, regularisation_rate: f64) -> RegularisedMuI {
@@ -205,16 +194,5 @@ mod tests {
         let expected = 0.382 * pressure / rate + (0.643 - 0.382) * pressure / (rate + xi * pressure.sqrt());
         assert!((GLASS.viscosity(rate, pressure) - expected).abs() < 1e-12 * expected);
         assert!(GLASS.viscosity(0.0, pressure).is_finite());
-    }
-
-    #[test]
-    fn the_inverse_law_has_no_steady_flow_outside_its_range() {
-        assert_eq!(GLASS.inertial_number_at(0.381), None);
-        assert_eq!(GLASS.inertial_number_at(0.643), None);
-        assert_eq!(GLASS.inertial_number_at(f64::NAN), None);
-        for friction in [0.382, 0.4, 0.5, 0.64] {
-            let inertia = GLASS.inertial_number_at(friction).expect("steady");
-            assert!((GLASS.friction_coefficient(inertia) - friction).abs() < 1e-14);
-        }
     }
 }

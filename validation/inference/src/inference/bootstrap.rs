@@ -1,18 +1,19 @@
-//! Intervals from data drawn anew about the fitted model (parametric bootstrap), on the emulator.
+//! Intervals from data drawn anew about the fitted model (parametric bootstrap), on the emulator: another way to the intervals by profile.
 
 use super::descent::{Smooth, descend};
 use super::emulator::Emulator;
+use super::posterior::percentile;
 use super::region::CONFIDENCE;
 use crate::sampling::Random;
 use nalgebra::{DMatrix, DVector};
 
 /// The parameters of repeated experiments.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Bootstrap {
+pub(super) struct Bootstrap {
     /// The parameters that fit each set of data, in the unit cube.
-    pub samples: Vec<Vec<f64>>,
+    pub(super) samples: Vec<Vec<f64>>,
     /// Interval of every parameter that contains 95 % of them, as many left out below as above.
-    pub intervals: Vec<[f64; 2]>,
+    pub(super) intervals: Vec<[f64; 2]>,
 }
 
 /// The emulator with data that the fitted model gives, plus noise.
@@ -35,7 +36,7 @@ impl Smooth for Redrawn<'_> {
 /// Fits the emulator to `repeats` sets of data that the model gives at the minimum, with noise of the stated standard
 /// uncertainties. Unlike the data themselves, these have no part that the model cannot explain.
 #[must_use]
-pub fn bootstrap(emulator: &Emulator, repeats: usize, seed: u64) -> Bootstrap {
+pub(super) fn bootstrap(emulator: &Emulator, repeats: usize, seed: u64) -> Bootstrap {
     let minimum = emulator.minimum().point;
     let fitted = DVector::from_vec(emulator.predict(&minimum));
     let (lower, upper) = (vec![0.0; minimum.len()], vec![1.0; minimum.len()]);
@@ -52,16 +53,6 @@ pub fn bootstrap(emulator: &Emulator, repeats: usize, seed: u64) -> Bootstrap {
         [0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFIDENCE].map(|share| percentile(&values, share))
     };
     Bootstrap { intervals: (0..minimum.len()).map(interval).collect(), samples }
-}
-
-/// The value below which a share of a sorted list lies, between neighbours in proportion; not a number in an empty
-/// list.
-pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
-    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
-    let place = share * last as f64;
-    let below = (place as usize).min(last);
-    let above = (below + 1).min(last);
-    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
 }
 
 #[cfg(test)]
@@ -86,12 +77,5 @@ mod tests {
         let repeated = bootstrap(&emulator(|u| vec![u[0] - 0.95, 9.0 * (u[1] - 0.5)]), 200, 1);
         assert!(repeated.samples.iter().flatten().all(|u| (0.0..=1.0).contains(u)));
         assert_eq!(repeated.intervals[0], [0.0, 1.0]);
-    }
-
-    #[test]
-    fn percentiles_lie_between_neighbours() {
-        let list = [1.0, 2.0, 4.0];
-        assert_eq!([0.0, 0.25, 0.75, 1.0].map(|share| percentile(&list, share)), [1.0, 1.5, 3.0, 4.0]);
-        assert!(percentile(&[], 0.5).is_nan());
     }
 }

@@ -4,7 +4,8 @@
 //! r = (model − datum)/σ with the datum's standard uncertainty σ, and χ² = Σ r². Nothing here runs on a clock or an
 //! unseeded generator, so a search that is begun anew asks for the same points in the same order.
 
-pub mod bootstrap;
+#[cfg(test)]
+mod bootstrap;
 mod box_least_squares;
 #[cfg(test)]
 mod coverage;

@@ -7,7 +7,6 @@
 //!
 //! Source: Goodman & Weare, Communications in Applied Mathematics and Computational Science 5 (2010) 65.
 
-use super::bootstrap::percentile;
 use super::emulator::Emulator;
 use super::region::{CONFIDENCE, Region};
 use crate::sampling::Random;
@@ -135,6 +134,16 @@ pub fn predictive(emulator: &Emulator, posterior: &Posterior) -> Vec<[f64; 2]> {
     (0..emulator.data()).map(band).collect()
 }
 
+/// The value below which a share of a sorted list lies, between neighbours in proportion; not a number in an empty
+/// list.
+pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
+    let place = share * last as f64;
+    let below = (place as usize).min(last);
+    let above = (below + 1).min(last);
+    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::region::Uncertainties;
@@ -163,5 +172,12 @@ mod tests {
         let posterior = sample(&Region::new(&emulator, Uncertainties::AsStated), 3);
         assert!(posterior.samples.iter().flatten().all(|u| (0.0..=1.0).contains(u)));
         assert!(posterior.intervals[0][0] < 0.1 && posterior.intervals[0][1] > 0.9);
+    }
+
+    #[test]
+    fn percentiles_lie_between_neighbours() {
+        let list = [1.0, 2.0, 4.0];
+        assert_eq!([0.0, 0.25, 0.75, 1.0].map(|share| percentile(&list, share)), [1.0, 1.5, 3.0, 4.0]);
+        assert!(percentile(&[], 0.5).is_nan());
     }
 }

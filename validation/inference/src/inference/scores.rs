@@ -1,7 +1,7 @@
 //! Ranking of discrete choices, such as drag laws, by how well each agrees with the same data.
 
-use super::bootstrap::percentile;
 use super::chi_squared;
+use super::posterior::percentile;
 use super::region::CONFIDENCE;
 use crate::sampling::Random;
 

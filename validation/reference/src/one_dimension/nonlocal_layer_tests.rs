@@ -1,5 +1,5 @@
 use super::*;
-use crate::one_dimension::NonlocalTransient;
+use crate::one_dimension::nonlocal_transient::NonlocalTransient;
 
 /// Glass beads of 0.5 mm on a slope `[°]`, as thick as some grains.
 fn beads(degrees: f64, grains: f64, surface: FieldBoundary) -> NonlocalLayer {

@@ -15,12 +15,11 @@ const COURANT: f64 = 0.4;
 
 /// A layer in motion.
 #[derive(Clone, Debug)]
-pub struct NonlocalTransient {
+pub(crate) struct NonlocalTransient {
     layer: NonlocalLayer,
     relaxation_time: f64,
     shear_modulus: f64,
     width: f64,
-    time: f64,
     /// u, τ and g at the cells' centres, from the bed up.
     velocity: Vec<f64>,
     stress: Vec<f64>,
@@ -34,7 +33,7 @@ impl NonlocalTransient {
     ///
     /// # Errors
     /// A parameter out of its range, or a slope without such a profile.
-    pub fn from_bagnold(
+    pub(crate) fn from_bagnold(
         layer: NonlocalLayer,
         cells: usize,
         start: f64,
@@ -60,7 +59,6 @@ impl NonlocalTransient {
             relaxation_time,
             shear_modulus,
             width,
-            time: 0.0,
             velocity: heights.map(|height| profile.velocity(height).unwrap_or(0.0)).collect(),
             stress: pressure.iter().map(|pressure| friction * pressure).collect(),
             fluidity: pressure.iter().map(|pressure| inertia * rate(pressure) / friction).collect(),
@@ -69,20 +67,14 @@ impl NonlocalTransient {
         })
     }
 
-    /// Time `[s]`.
-    #[must_use]
-    pub fn time(&self) -> f64 {
-        self.time
-    }
-
     /// Depth mean of the velocity `[m/s]`.
     #[must_use]
-    pub fn depth_mean(&self) -> f64 {
+    pub(crate) fn depth_mean(&self) -> f64 {
         self.velocity.iter().sum::<f64>() / self.velocity.len() as f64
     }
 
     /// Runs for a time `[s]`.
-    pub fn advance(&mut self, duration: f64) {
+    pub(crate) fn advance(&mut self, duration: f64) {
         let density = self.layer.layer.bulk_density();
         let longest = COURANT * self.width / (self.shear_modulus / density).sqrt();
         let steps = (duration / longest).ceil().max(1.0);
@@ -118,7 +110,6 @@ impl NonlocalTransient {
             self.stress[cell] = (self.stress[cell] + time_step * modulus * rates[cell])
                 / (1.0 + time_step * modulus * self.fluidity[cell] / pressure);
         }
-        self.time += time_step;
     }
 
     fn relax_fluidity(&mut self, time_step: f64) {
