@@ -8,10 +8,11 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::run::StopReason;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall, wall};
+use bagnold_solver::weakly_compressible::enclosure::Enclosure;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 use std::ops::ControlFlow;
 
 /// Half width and height `[m]`: an aspect ratio of 2.

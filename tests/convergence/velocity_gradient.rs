@@ -5,7 +5,7 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::Enclosure;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};

@@ -8,11 +8,12 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall, wall};
+use bagnold_solver::weakly_compressible::enclosure::Enclosure;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
+use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 
 use crate::patches::{random, symmetric};
 

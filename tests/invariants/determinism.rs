@@ -5,10 +5,10 @@ use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::lanes::InstructionSet;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::{SideWalls, wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, PairPrecision, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::{SideWalls, wall};
 use rayon::ThreadPoolBuilder;
 
 const STEPS: usize = 200;

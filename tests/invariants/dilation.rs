@@ -6,9 +6,9 @@ use crate::restart;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress};
-use bagnold_solver::weakly_compressible::boundary::wall;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::walls::wall;
 
 const SAND: SofteningDruckerPrager = SofteningDruckerPrager {
     peak_friction: 0.6,

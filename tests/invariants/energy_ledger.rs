@@ -9,11 +9,11 @@ use bagnold_harness::observation::EnergyBook;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::{SideWalls, wall};
 use bagnold_solver::weakly_compressible::energy::{EnergyAccount, EnergyLedger};
 use bagnold_solver::weakly_compressible::numerics::{Contact, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::{SideWalls, wall};
 
 const STEPS: usize = 100;
 

@@ -10,10 +10,10 @@ use bagnold_solver::material::rheology::field::{FieldBoundary, FieldDiffusion, F
 use bagnold_solver::material::rheology::open::{OpenFieldLaw, OpenLaw, Parameters, register};
 use bagnold_solver::material::rheology::{NonlocalMuI, Rheology, TrialStress};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::{Surface, wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::{Surface, wall};
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Once;

@@ -6,7 +6,7 @@ use crate::patches::{
 };
 use crate::shells::enclose;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::shell::{Shell, Side};
+use bagnold_solver::weakly_compressible::enclosure::shell::{Shell, Side};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 

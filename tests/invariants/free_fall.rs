@@ -2,10 +2,10 @@
 
 use crate::patches::{Disorder, SPACING, advance, bed, block, open_scene, simulation};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::wall;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::wall;
 
 #[test]
 fn a_loose_block_falls_as_a_body() {

@@ -8,8 +8,8 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::FeedRate;
-use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, Supply};
+use bagnold_solver::weakly_compressible::enclosure::FeedRate;
+use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 

@@ -4,10 +4,11 @@
 use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, SYRUP, advance, bed, block, open_scene, simulation};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::shell::{Motion, Shell};
-use bagnold_solver::weakly_compressible::boundary::{Wall, mesh_backing, wall};
+use bagnold_solver::weakly_compressible::enclosure::mesh_backing;
+use bagnold_solver::weakly_compressible::enclosure::shell::{Motion, Shell};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 
 const GRAVITY: f64 = 9.81;
 const ROWS: usize = 4;

@@ -4,10 +4,10 @@ use crate::patches::{Disorder, SPACING, bed, block, open_scene, random, simulati
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::{Wall, wall};
 use bagnold_solver::weakly_compressible::neighbours::brute_force;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 use rand::RngExt;
 
 /// How much farther than the search radius a neighbour may be, relative to it `[-]`: distances are taken in single precision.

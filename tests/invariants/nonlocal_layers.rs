@@ -8,10 +8,11 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use bagnold_solver::material::rheology::{MuI, Newtonian, NonlocalMuI, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::wall;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::wall;
+use bagnold_reference::{BagnoldProfile, NonlocalLayer, NonlocalProfile};
 use rayon::ThreadPoolBuilder;
 
 const BEADS: MuI = MuI {

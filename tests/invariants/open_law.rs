@@ -6,8 +6,8 @@ use bagnold_solver::material::rheology::field::{FieldReturn, FieldStep, LawField
 use bagnold_solver::material::rheology::open::{OpenFieldLaw, OpenLaw, OpenPlasticLaw, Parameters, register};
 use bagnold_solver::material::rheology::{MuI, PlasticLaw, Rheology, TrialStress};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::{Wall, wall};
 use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 use std::sync::Once;
 
 /// μ(I) once more, by way of f64 and a box.

@@ -4,10 +4,11 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector, deviator, equivalent_shear_stress};
-use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall};
+use bagnold_solver::weakly_compressible::enclosure::Enclosure;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::Wall;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 

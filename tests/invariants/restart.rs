@@ -13,10 +13,10 @@ use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::run::{Course, Observer, StopReason};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::SavedSimulation;
-use bagnold_solver::weakly_compressible::boundary::SideWalls;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::SideWalls;
 use rayon::ThreadPoolBuilder;
 use std::ops::ControlFlow;
 

@@ -7,10 +7,11 @@ use crate::patches::{
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::shell::{Motion, Shell, Side};
-use bagnold_solver::weakly_compressible::boundary::{Surface, Wall, backing, wall};
+use bagnold_solver::weakly_compressible::enclosure::backing;
+use bagnold_solver::weakly_compressible::enclosure::shell::{Motion, Shell, Side};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::walls::{Surface, Wall, wall};
 
 const GRAVITY: f64 = 9.81;
 const ROWS: usize = 4;

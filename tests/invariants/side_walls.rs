@@ -7,9 +7,9 @@ use crate::patches::{
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::{SideWalls, wall};
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::walls::{SideWalls, wall};
 
 const WALLS: SideWalls = SideWalls { width: 0.1, friction: 0.3 };
 /// ρ/ρ0 of the blocks `[-]`.

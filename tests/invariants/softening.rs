@@ -5,9 +5,9 @@ use crate::patches::{Disorder, EQUATION_OF_STATE, GRAINS, bed, block, open_scene
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{MuI, Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress};
-use bagnold_solver::weakly_compressible::boundary::wall;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::walls::wall;
 
 const SOIL: SofteningDruckerPrager = SofteningDruckerPrager {
     peak_friction: 0.6,

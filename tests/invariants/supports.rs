@@ -3,11 +3,11 @@
 use crate::patches::{Disorder, SPACING, SYRUP, bed, block, open_scene, simulation};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::gate::Gate;
-use bagnold_solver::weakly_compressible::boundary::{Surface, WallTreatment, wall};
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::gate::Gate;
+use bagnold_solver::weakly_compressible::walls::{Surface, WallTreatment, wall};
 
 const MIRROR: AxisBoundary = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
 

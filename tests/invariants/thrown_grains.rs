@@ -5,9 +5,9 @@ use crate::patches::{DENSITY, Disorder, SPACING, bed, block, open_scene, simulat
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::kernel::Kernel;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::wall;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::wall;
 
 /// Grains along each axis of the heap, and of the spray above it.
 const HEAP: usize = 20;

@@ -4,10 +4,10 @@ use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, bed, block, open_scene, p
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::wall;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::walls::wall;
 
 fn numerics(viscous_step: ViscousStep, viscous_tolerance: f64) -> Numerics {
     Numerics { viscous_step, viscous_tolerance, artificial_viscosity: 0.0, hourglass: 0.0, ..Numerics::default() }

@@ -3,9 +3,9 @@
 use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, bed, block, open_scene, simulation};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::{Wall, wall};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 
 const GRAVITY: f64 = 9.81;
 /// Depth behind a surface up to which wall particles see the flow's first row: 2h less its largest distance.

@@ -6,9 +6,10 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::{Enclosure, Wall, WallTreatment, wall};
+use bagnold_solver::weakly_compressible::enclosure::Enclosure;
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::walls::{Wall, WallTreatment, wall};
 use rand::{RngExt, SeedableRng};
 
 const GRAVITY: f64 = 9.81;

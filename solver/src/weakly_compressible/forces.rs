@@ -3,12 +3,12 @@
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::Quantity;
+use crate::weakly_compressible::enclosure::surroundings::Surroundings;
 use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::{MomentumOperator, ViscousStep};
 use crate::weakly_compressible::passes::{geometry, momentum, pairwise};
 use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::surroundings::Surroundings;
 use crate::weakly_compressible::viscous_solve::{Booking, MOST_ITERATIONS, NotConverged, ViscousSolve};
 
 impl<const D: usize> State<D> {

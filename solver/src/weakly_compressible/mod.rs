@@ -3,12 +3,10 @@
 //! Reading order: [`scene`] and [`numerics`], then `step`, one symplectic Euler step on a page. A step calls `passes`, the
 //! loops over neighbours, and what those sum up are [`terms`], the formulas of one physical idea each.
 
-pub mod boundary;
 pub mod divergence;
-mod enclosure_step;
+pub mod enclosure;
 pub mod energy;
 mod forces;
-mod inflow_step;
 mod memory;
 mod model;
 pub mod neighbours;
@@ -22,11 +20,11 @@ pub mod simulation;
 pub mod snapshot;
 mod state;
 mod step;
-mod surroundings;
 pub mod terms;
 pub mod time_step;
 mod velocity_step;
 pub(crate) mod viscous_solve;
 mod wall_fields;
+pub mod walls;
 
 pub use saved::SavedSimulation;

@@ -6,10 +6,10 @@ use crate::material::rheology::Rheology;
 use crate::material::rheology::field::{FieldStep, Memory};
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::boundary::{Images, Surface};
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::wall_fields::{WallFields, resize};
+use crate::weakly_compressible::walls::{Images, Surface};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

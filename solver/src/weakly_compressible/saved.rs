@@ -5,14 +5,14 @@
 //! system) is left out.
 
 use crate::run::{ContinueError, ForeignState};
-use crate::weakly_compressible::boundary::{Images, Wall};
+use crate::weakly_compressible::enclosure::surroundings::Books;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::simulation::Simulation;
 use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::surroundings::Books;
+use crate::weakly_compressible::walls::{Images, Wall};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 

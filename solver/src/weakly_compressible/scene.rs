@@ -7,8 +7,9 @@ use crate::material::rheology::field::Memory;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::boundary::{Enclosure, Wall, shell::BackingParticle, wall::WallParticle};
+use crate::weakly_compressible::enclosure::{Enclosure, shell::BackingParticle};
 use crate::weakly_compressible::numerics::Numerics;
+use crate::weakly_compressible::walls::{Wall, wall::WallParticle};
 
 /// Particles that the neighbour list can address, walls included.
 pub(crate) const MOST_PARTICLES: usize = i32::MAX as usize / 64;
@@ -56,7 +57,7 @@ pub struct Scene<const D: usize> {
     pub flow: Flow<D>,
     /// Wall planes.
     pub walls: Vec<Wall<D>>,
-    /// Wall particles, see [`crate::weakly_compressible::boundary::wall::fill`].
+    /// Wall particles, see [`crate::weakly_compressible::walls::wall::fill`].
     pub wall_particles: Vec<WallParticle<D>>,
     /// Shells, open sides, inlets and side walls.
     pub enclosure: Enclosure<D>,

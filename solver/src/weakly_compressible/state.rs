@@ -5,8 +5,8 @@ use crate::lanes::InstructionSet;
 use crate::material::equation_of_state::Tension;
 use crate::run::Divergence;
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::{Images, Wall};
 use crate::weakly_compressible::divergence::Quantity;
+use crate::weakly_compressible::enclosure::surroundings::Surroundings;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{LARGEST_ROW, VerletList};
@@ -15,11 +15,11 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::search::Search;
-use crate::weakly_compressible::surroundings::Surroundings;
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::weakly_compressible::time_step::TimeStepBounds;
 use crate::weakly_compressible::viscous_solve::ViscousSystem;
+use crate::weakly_compressible::walls::{Images, Wall};
 
 /// Particles, walls and neighbours, time, and what the next step's length follows from.
 #[derive(Debug)]

@@ -9,12 +9,12 @@ use crate::lanes::algebra::{load, scaled, store_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::shell_contact::{Passed, Touch};
+use crate::weakly_compressible::enclosure::shell_contact::{Passed, Touch};
+use crate::weakly_compressible::enclosure::surroundings::NO_SHELL;
 use crate::weakly_compressible::energy::{EnergyLedger, PushCause, PushStep};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::surroundings::NO_SHELL;
 
 /// Adds to `impulses`, block by block of flow particles and in each shell by shell, what the wall particles give in a step
 /// `[kg m/s]`. `owners` has the shell of every particle in the arrays.

@@ -2,11 +2,11 @@
 
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::SideWalls;
 use crate::weakly_compressible::energy::{EnergyLedger, PushCause, PushStep};
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::side_walls;
+use crate::weakly_compressible::walls::SideWalls;
 
 /// Retards the flow under a gravity `[m/s²]`. Adds to the energies of the blocks, and sets their impulses `[kg m/s]`.
 pub(crate) fn run<const D: usize>(

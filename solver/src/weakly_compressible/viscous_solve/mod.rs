@@ -41,10 +41,10 @@ pub(crate) use system::ViscousSystem;
 
 use crate::linear::{Descent, Stalled, descend};
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::Images;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
+use crate::weakly_compressible::walls::Images;
 
 /// Iterations after which a solve is given up.
 pub(crate) const MOST_ITERATIONS: usize = 1000;

@@ -11,14 +11,14 @@ use crate::lanes::algebra::{accumulate, difference, product, scaled, store_vecto
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::Images;
+use crate::weakly_compressible::enclosure::surroundings::NO_SHELL;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
-use crate::weakly_compressible::surroundings::NO_SHELL;
 use crate::weakly_compressible::terms::wall_slip;
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
+use crate::weakly_compressible::walls::Images;
 
 /// The shells that a reaction is booked to.
 pub(crate) struct Booking<'a, const D: usize> {

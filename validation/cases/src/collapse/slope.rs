@@ -13,8 +13,8 @@ use crate::setup::{Lattice, acoustic_step};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::gate::Gate;
 use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::walls::gate::Gate;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 

@@ -26,11 +26,11 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::boundary::Wall;
-use bagnold_solver::weakly_compressible::boundary::wall::fill;
 use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
+use bagnold_solver::weakly_compressible::walls::Wall;
+use bagnold_solver::weakly_compressible::walls::wall::fill;
 use serde::Serialize;
 use std::ops::ControlFlow;
 

@@ -4,7 +4,7 @@ use super::channel::STIFFNESS;
 use crate::reference::one_dimension::{LayerError, NonlocalShear, NonlocalShearProfile, ShearStress};
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use bagnold_solver::material::rheology::{MuI, NonlocalMuI, Rheology};
-use bagnold_solver::weakly_compressible::boundary::SideWalls;
+use bagnold_solver::weakly_compressible::walls::SideWalls;
 use serde::Serialize;
 
 /// Cells of the solution without particles.

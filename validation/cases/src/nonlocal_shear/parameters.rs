@@ -8,8 +8,8 @@ use crate::reference::grains::GLASS_BEADS;
 use crate::setup::rules;
 use bagnold_solver::material::rheology::{NonlocalMuI, Rheology};
 use bagnold_solver::parameter::{between, each, inside, positive, unique};
-use bagnold_solver::weakly_compressible::boundary::SideWalls;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::walls::SideWalls;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -4,8 +4,8 @@ use crate::case::ParameterError;
 use bagnold_solver::incompressible::{Continuity, MeanFlux, ProjectionNumerics};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{self, ParameterProblem, Rule, inside, positive, up_to};
-use bagnold_solver::weakly_compressible::boundary::Surface;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
+use bagnold_solver::weakly_compressible::walls::Surface;
 
 /// Gravity `[m/s²]`.
 pub fn gravity() -> Rule {

@@ -7,10 +7,10 @@ use super::{Measurand, SceneParameters, names, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::setup::rules;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::Surface;
-use bagnold_solver::weakly_compressible::boundary::enclosure::Enclosure;
-use bagnold_solver::weakly_compressible::boundary::shell::Motion;
+use bagnold_solver::weakly_compressible::enclosure::boundary_set::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::shell::Motion;
 use bagnold_solver::weakly_compressible::numerics::Contact;
+use bagnold_solver::weakly_compressible::walls::Surface;
 
 impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Everything that is refused beyond the ranges of single fields.

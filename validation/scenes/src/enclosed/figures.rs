@@ -8,7 +8,7 @@ use super::surfaces::Surfaces;
 use super::{SceneObservation, SceneParameters, SceneRecord};
 use crate::figure::{Axis, Figure, Panel};
 use crate::setup::wall_rows;
-use bagnold_solver::weakly_compressible::boundary::Inlet;
+use bagnold_solver::weakly_compressible::enclosure::Inlet;
 
 pub(crate) fn all<S: Setting<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,

@@ -1,7 +1,7 @@
 //! The rate of an inlet, as a case file gives it.
 
 use crate::case::ParameterError;
-use bagnold_solver::weakly_compressible::boundary::FeedRate;
+use bagnold_solver::weakly_compressible::enclosure::FeedRate;
 
 /// A rate as a case file gives it: one for all times, or rows of time `[s]` and rate, which a file may hold.
 #[derive(Debug, Clone, Copy, PartialEq)]

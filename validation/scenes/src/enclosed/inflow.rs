@@ -8,8 +8,8 @@ use super::surfaces::{Surfaces, is_taken};
 use crate::case::ParameterError;
 use crate::setup::wall_rows;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::FeedRate;
-use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, LARGEST_MACH_NUMBER, NARROWEST, Supply};
+use bagnold_solver::weakly_compressible::enclosure::FeedRate;
+use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, LARGEST_MACH_NUMBER, NARROWEST, Supply};
 
 /// Largest stiffness of a scene `[-]`.
 const STIFFEST: f64 = 1e4;

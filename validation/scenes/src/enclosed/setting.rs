@@ -4,9 +4,9 @@ use super::given::PlainData;
 use super::{GivenRate, Measurand};
 use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::Surface;
-use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, Supply};
-use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};
+use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
+use bagnold_solver::weakly_compressible::walls::Surface;
 
 /// A piece of the material at the start.
 pub trait SceneBody<const D: usize>: PlainData {

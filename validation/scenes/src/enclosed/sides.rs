@@ -4,7 +4,7 @@ use super::given::PlainData;
 use crate::case::ParameterError;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::enclosure::Exits;
+use bagnold_solver::weakly_compressible::enclosure::boundary_set::Exits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,9 +1,9 @@
 //! Where places stand with regard to the walls of a scene.
 
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::facet::Facet;
-use bagnold_solver::weakly_compressible::boundary::facet_grid::FacetGrid;
-use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
+use bagnold_solver::weakly_compressible::enclosure::facet_grid::FacetGrid;
+use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 
 /// Sites nearer to a wall than this are left free, in spacings `[-]`.

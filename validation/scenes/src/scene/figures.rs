@@ -6,7 +6,7 @@ use crate::enclosed::setting::{SceneGauge, SceneInlet, SceneWall};
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::facet::Facet;
+use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 
 /// One panel a picture, the particles in the colours of their speed and the walls where they stand.
 pub(super) fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure {

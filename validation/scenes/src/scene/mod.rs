@@ -23,8 +23,8 @@ use crate::output::Table;
 use crate::store::CodeOrigin;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::backing;
-use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+use bagnold_solver::weakly_compressible::enclosure::backing;
+use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
 
 /// Two coordinates or components along x and y.
 pub type PlaneVector = (f64, f64);

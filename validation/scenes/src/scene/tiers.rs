@@ -3,7 +3,7 @@
 use super::{FlowSide, PlaneBody, PlaneGauge, PlaneParameters, PlaneSides, WallLine};
 use crate::case::Tier;
 use crate::enclosed::DomainSide;
-use bagnold_solver::weakly_compressible::boundary::Surface;
+use bagnold_solver::weakly_compressible::walls::Surface;
 
 pub(super) fn of_tier(tier: Tier) -> PlaneParameters {
     let rows = match tier {

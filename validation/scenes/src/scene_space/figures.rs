@@ -5,8 +5,8 @@ use crate::enclosed::setting::{SceneInlet, SceneWall};
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::facet::Facet;
-use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
+use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
 use std::collections::BTreeMap;
 
 /// Most edges that are drawn of the walls: a fine mesh would cover what it holds.

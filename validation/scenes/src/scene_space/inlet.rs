@@ -6,7 +6,7 @@ use crate::enclosed::GivenRate;
 use crate::enclosed::setting::{self, vector};
 use bagnold_solver::parameter::not_negative;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::inlet::{Inlet, Supply};
+use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

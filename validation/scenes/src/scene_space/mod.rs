@@ -23,8 +23,8 @@ use crate::output::Table;
 use crate::store::CodeOrigin;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::mesh_backing;
-use bagnold_solver::weakly_compressible::boundary::shell::Shell;
+use bagnold_solver::weakly_compressible::enclosure::mesh_backing;
+use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
 
 /// Three coordinates or components along x, y and z.
 pub type SpaceVector = (f64, f64, f64);

@@ -5,8 +5,8 @@ use crate::case::ParameterError;
 use crate::enclosed::setting::{self, shown, vector};
 use crate::enclosed::{DomainSide, shapes, sides};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::boundary::Surface;
-use bagnold_solver::weakly_compressible::boundary::shell::{Motion, Shell};
+use bagnold_solver::weakly_compressible::enclosure::shell::{Motion, Shell};
+use bagnold_solver::weakly_compressible::walls::Surface;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! Other operators and walls, run beside the default so that a report can show what each of them costs.
 
-use bagnold_solver::weakly_compressible::boundary::WallTreatment;
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::walls::WallTreatment;
 use serde::{Deserialize, Serialize};
 
 /// A set of numerics to be compared.

@@ -2,11 +2,12 @@
 //! has left and who has come in. The rows of inlets are the last of the shells.
 
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::enclosure::{Departures, Exits};
-use crate::weakly_compressible::boundary::facet_grid::FacetGrid;
-use crate::weakly_compressible::boundary::inlet::{Arrivals, Inlet};
-use crate::weakly_compressible::boundary::shell::Shell;
-use crate::weakly_compressible::boundary::{Enclosure, SideWalls};
+use crate::weakly_compressible::enclosure::Enclosure;
+use crate::weakly_compressible::enclosure::boundary_set::{Departures, Exits};
+use crate::weakly_compressible::enclosure::facet_grid::FacetGrid;
+use crate::weakly_compressible::enclosure::inlet::{Arrivals, Inlet};
+use crate::weakly_compressible::enclosure::shell::Shell;
+use crate::weakly_compressible::walls::SideWalls;
 use serde::{Deserialize, Serialize};
 
 /// The owner of particles that belong to no shell.
@@ -15,14 +16,14 @@ pub(crate) const NO_SHELL: u32 = u32::MAX;
 /// What the scene says of its enclosure, and what has become of it.
 #[derive(Debug)]
 pub(crate) struct Surroundings<const D: usize> {
-    pub(super) shells: Vec<Shell<D>>,
+    pub(in crate::weakly_compressible) shells: Vec<Shell<D>>,
     /// Which facets of each are near a place, where they are at the start.
     pub(super) grids: Vec<FacetGrid<D>>,
     /// Distance from a shell within which a particle is touched `[m]`.
     pub(super) range: f64,
     pub(super) exits: Exits<D>,
-    pub(super) inlets: Vec<Inlet<D>>,
-    pub(super) side_walls: Option<SideWalls>,
+    pub(in crate::weakly_compressible) inlets: Vec<Inlet<D>>,
+    pub(in crate::weakly_compressible) side_walls: Option<SideWalls>,
     /// Where the particles of each inlet's rows begin among all wall particles.
     pub(super) first_particles: Vec<usize>,
     /// Particles of the flow at the start.
@@ -33,9 +34,9 @@ pub(crate) struct Surroundings<const D: usize> {
     /// Mean velocity of each in the present step `[m/s]`.
     pub(super) velocities: Vec<Vector<D>>,
     /// The shell of every particle in the arrays; none of the flow.
-    pub(super) owners: Vec<u32>,
+    pub(in crate::weakly_compressible) owners: Vec<u32>,
     /// Impulses of a step, block by block.
-    pub(super) blocks: Vec<Vector<D>>,
+    pub(in crate::weakly_compressible) blocks: Vec<Vector<D>>,
     pub(super) gone: Vec<bool>,
     pub(crate) books: Books<D>,
 }
@@ -103,7 +104,7 @@ impl<const D: usize> Surroundings<D> {
     }
 
     /// Whether there is nothing, neither shells nor open sides.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(in crate::weakly_compressible) fn is_empty(&self) -> bool {
         self.shells.is_empty() && self.exits == Exits::default()
     }
 
@@ -142,7 +143,7 @@ impl<const D: usize> Surroundings<D> {
     }
 
     /// Adds the impulses of a step, in the order of the blocks.
-    pub(super) fn close_impulses(&mut self) {
+    pub(in crate::weakly_compressible) fn close_impulses(&mut self) {
         for block in self.blocks.chunks_exact_mut(self.shells.len()) {
             for (sum, impulse) in self.books.impulses.iter_mut().zip(block) {
                 *sum += std::mem::replace(impulse, Vector::zeros());

@@ -1,8 +1,8 @@
 //! A shell: a wall of facets of any shape, at rest or moved along by a table of times.
 
 use super::facet::Facet;
-use super::wall::Surface;
 use crate::vector::Vector;
+use crate::weakly_compressible::walls::Surface;
 
 /// On which side of a polyline the flow is, seen along its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

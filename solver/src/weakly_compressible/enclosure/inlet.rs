@@ -12,9 +12,9 @@
 use super::facet::Facet;
 use super::feed_rate::FeedRate;
 use super::shell::{BackingParticle, Motion, Shell};
-use super::wall::Surface;
 use crate::parameter::ParameterProblem;
 use crate::vector::Vector;
+use crate::weakly_compressible::walls::Surface;
 use serde::{Deserialize, Serialize};
 
 /// Largest speed of a row over that of sound `[-]`: the dynamic pressure is then 2 % of the bulk modulus.

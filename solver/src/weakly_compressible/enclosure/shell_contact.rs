@@ -5,8 +5,8 @@ use super::facet::Facet;
 use super::facet_grid::FacetGrid;
 use super::shell::Shell;
 use super::standing::{Standing, standing};
-use super::wall::Surface;
 use crate::vector::Vector;
+use crate::weakly_compressible::walls::Surface;
 
 /// Sweeps over the facets that are touched; a corner of two or three walls seldom needs more, and one that does
 /// brings to a stop.
@@ -132,7 +132,7 @@ impl<'a, const D: usize> Touch<'a, D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::weakly_compressible::boundary::shell::Side;
+    use crate::weakly_compressible::enclosure::shell::Side;
 
     fn shells(points: &[[f64; 2]]) -> Vec<Shell<2>> {
         let points: Vec<_> = points.iter().map(|&point| point.into()).collect();

@@ -1,12 +1,12 @@
 //! What encloses the flow beside plane walls: shells of any shape, open sides by which it leaves, inlets by which it comes in, and
 //! plates beside a plane flow.
 
-use super::SideWalls;
 use super::inlet::Inlet;
 use super::shell::Shell;
 use crate::parameter::ParameterProblem;
 use crate::vector::Vector;
 use crate::weakly_compressible::numerics::Numerics;
+use crate::weakly_compressible::walls::SideWalls;
 use serde::{Deserialize, Serialize};
 
 /// Shells, open sides, inlets and side walls of a scene; by default there are none.

@@ -2,8 +2,8 @@
 
 use super::facet::Facet;
 use super::shell::{Motion, Shell};
-use super::wall::Surface;
 use crate::vector::Vector;
+use crate::weakly_compressible::walls::Surface;
 use std::collections::BTreeMap;
 
 /// Sine of the angle between two normals up to which triangles that share an edge are one flat part `[-]`: what corners

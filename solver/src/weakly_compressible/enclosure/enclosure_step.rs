@@ -3,15 +3,15 @@
 
 use crate::run::Divergence;
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::enclosure::Exits;
-use crate::weakly_compressible::boundary::shell_contact::{Passed, Touch};
 use crate::weakly_compressible::divergence::Quantity;
+use crate::weakly_compressible::enclosure::boundary_set::Exits;
+use crate::weakly_compressible::enclosure::shell_contact::{Passed, Touch};
+use crate::weakly_compressible::enclosure::surroundings::{NO_SHELL, Surroundings};
 use crate::weakly_compressible::energy::energy_of;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::Contact;
 use crate::weakly_compressible::passes::{shell_impulse, side_walls};
 use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::surroundings::{NO_SHELL, Surroundings};
 
 impl<const D: usize> State<D> {
     /// Takes out what has left the domain by an open side.

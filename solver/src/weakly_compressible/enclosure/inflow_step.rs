@@ -2,8 +2,8 @@
 
 use crate::run::Divergence;
 use crate::vector::Vector;
-use crate::weakly_compressible::boundary::inlet::{BLOCKED, FedRow};
 use crate::weakly_compressible::divergence::Quantity;
+use crate::weakly_compressible::enclosure::inlet::{BLOCKED, FedRow};
 use crate::weakly_compressible::energy::energy_of;
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::particles::Arriving;
