@@ -62,6 +62,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
         walls,
         wall_particles,
         enclosure,
+        side_walls: None,
         domain,
         gravity,
         spacing,

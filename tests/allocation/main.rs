@@ -95,6 +95,7 @@ where
         walls,
         wall_particles,
         enclosure: Enclosure::default(),
+        side_walls: None,
         domain,
         gravity,
         spacing: SPACING,

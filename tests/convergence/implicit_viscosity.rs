@@ -33,6 +33,7 @@ fn wave(acoustic_courant: f64) -> Simulation<2> {
         walls: Vec::new(),
         wall_particles: Vec::new(),
         enclosure: Enclosure::default(),
+        side_walls: None,
         domain: Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: 1.0 }; 2] },
         gravity: Vector::zeros(),
         spacing,

@@ -130,6 +130,7 @@ fn scene<const D: usize>(field: Field, cells: usize, jitter: f64, momentum_opera
         walls: Vec::new(),
         wall_particles: Vec::new(),
         enclosure: Enclosure::default(),
+        side_walls: None,
         domain: Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: 1.0 }; D] },
         gravity: Vector::zeros(),
         spacing,

@@ -49,6 +49,7 @@ fn vortices(cells: usize, jitter: f64, reynolds: f64, numerics: Numerics) -> Sim
         walls: Vec::new(),
         wall_particles: Vec::new(),
         enclosure: Enclosure::default(),
+        side_walls: None,
         domain: Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: 1.0 }; 2] },
         gravity: Vector::zeros(),
         spacing,

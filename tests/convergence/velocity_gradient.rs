@@ -44,6 +44,7 @@ where
         walls: Vec::new(),
         wall_particles: Vec::new(),
         enclosure: Enclosure::default(),
+        side_walls: None,
         domain: Domain { axes: [boundary; D] },
         gravity: Vector::zeros(),
         spacing,

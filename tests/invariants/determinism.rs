@@ -77,7 +77,7 @@ fn a_plane_column_is_the_same_to_the_last_bit() {
 fn a_column_between_side_walls_is_the_same_to_the_last_bit() {
     let mut scene = column([110, 80]);
     let free = bytes(&scene, 1, InstructionSet::best());
-    scene.enclosure.side_walls = Some(SideWalls { width: 0.1, friction: 0.3 });
+    scene.side_walls = Some(SideWalls { width: 0.1, friction: 0.3 });
     assert!(bytes(&scene, 1, InstructionSet::best()) != free, "side walls change the state");
     in_both_precisions(&scene);
 }

@@ -130,7 +130,7 @@ fn an_error_of_one_per_cent_in_any_entry_is_noticed() {
     let narrow = {
         let mut scene = block(GRAINS, bare());
         scene.flow.velocity.iter_mut().for_each(|velocity| velocity[0] += 1.0);
-        scene.enclosure.side_walls = Some(SideWalls { width: 0.01, friction: 0.5 });
+        scene.side_walls = Some(SideWalls { width: 0.01, friction: 0.5 });
         scene
     };
     let runs: [(&str, Scene<2>, f64, Entry); 8] = [

@@ -106,6 +106,7 @@ pub(crate) fn open_scene<const D: usize>(flow: Flow<D>) -> Scene<D> {
         walls: Vec::new(),
         wall_particles: Vec::new(),
         enclosure: Enclosure::default(),
+        side_walls: None,
         domain: Domain { axes: [AxisBoundary::Open; D] },
         gravity: Vector::zeros(),
         spacing: SPACING,

@@ -128,7 +128,7 @@ fn walls_of_segments_and_open_sides_go_on_in_the_same_bits() {
     patches::advance(&mut simulation, STEPS);
     assert!(simulation.departures().particles() > 0, "somebody leaves on the way");
     let mut narrow = shells::gated();
-    narrow.enclosure.side_walls = Some(SideWalls { width: 0.1, friction: 0.3 });
+    narrow.side_walls = Some(SideWalls { width: 0.1, friction: 0.3 });
     check(&narrow);
 }
 

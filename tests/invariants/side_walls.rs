@@ -20,7 +20,7 @@ fn pressed_block(velocity: Vector<2>) -> Scene<2> {
     let mut scene = periodic_scene([14, 14], Disorder::NONE, 1);
     scene.flow.density.fill(COMPRESSION * DENSITY);
     scene.flow.velocity.fill(velocity);
-    scene.enclosure.side_walls = Some(WALLS);
+    scene.side_walls = Some(WALLS);
     scene
 }
 
@@ -100,7 +100,7 @@ fn side_walls_give_the_impulse_that_the_flow_loses() {
     };
     for momentum_operator in [MomentumOperator::SingleDivergence, MomentumOperator::Pairwise] {
         let mut scene = scene.clone();
-        scene.enclosure.side_walls = Some(WALLS);
+        scene.side_walls = Some(WALLS);
         scene.numerics.momentum_operator = momentum_operator;
         if momentum_operator == MomentumOperator::Pairwise {
             scene.rheology = SYRUP;
@@ -133,7 +133,7 @@ fn crept(side_walls: Option<SideWalls>, density_coupling: f64) -> (f64, f64) {
         *density = EQUATION_OF_STATE.density(pressure);
     }
     scene.numerics = Numerics { density_coupling, ..Numerics::default() };
-    scene.enclosure.side_walls = side_walls;
+    scene.side_walls = side_walls;
     let mut simulation = simulation(scene);
     advance(&mut simulation, 2000);
     let before = simulation.snapshot();
@@ -178,7 +178,7 @@ fn what_sinks_between_side_walls_has_the_pressure_of_a_silo() {
     // friction does not damp the column's vibrations about its steady motion, a viscosity does
     scene.rheology = Rheology::Newtonian(Newtonian { viscosity: 400.0 });
     let side_walls = SideWalls { width: 0.25, friction: 0.4 };
-    scene.enclosure.side_walls = Some(side_walls);
+    scene.side_walls = Some(side_walls);
     let mass = scene.flow.mass[0];
     let mut simulation = simulation(scene);
     let mut sums = vec![(0.0, 0.0); rows];
@@ -211,7 +211,7 @@ fn what_sinks_between_side_walls_has_the_pressure_of_a_silo() {
 fn side_walls_that_are_none_are_refused() {
     let message = |side_walls| {
         let mut scene = open_scene(block([6, 6], Disorder::NONE, 1));
-        scene.enclosure.side_walls = Some(side_walls);
+        scene.side_walls = Some(side_walls);
         scene.check().expect_err("refused").to_string()
     };
     assert_eq!(
@@ -225,7 +225,7 @@ fn side_walls_that_are_none_are_refused() {
     let angle = message(SideWalls { friction: 22.0, ..WALLS });
     assert!(angle.starts_with("`side_walls.friction` is 22, but must be between 0 and 2"), "{angle}");
     let mut space = open_scene(block([6, 6, 6], Disorder::NONE, 1));
-    space.enclosure.side_walls = Some(WALLS);
+    space.side_walls = Some(WALLS);
     assert_eq!(
         space.check().expect_err("refused").to_string(),
         "`side_walls` is given, 0.1 m apart, but must be absent in three dimensions; walls in space are walls of the scene; leave `side_walls` out"

@@ -90,6 +90,7 @@ pub(crate) fn dam_break<const D: usize>(size: usize, law: Law) -> Scene<D> {
         walls,
         wall_particles,
         enclosure: Enclosure::default(),
+        side_walls: None,
         domain,
         gravity,
         spacing,

@@ -5,6 +5,7 @@
 //! system) is left out.
 
 use crate::run::{ContinueError, ForeignState};
+use crate::vector::Vector;
 use crate::weakly_compressible::enclosure::surroundings::Books;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::neighbours::VerletList;
@@ -23,6 +24,7 @@ pub struct SavedSimulation<'a, const D: usize> {
     images: Cow<'a, Images<D>>,
     walls: Cow<'a, [Wall<D>]>,
     books: Cow<'a, Books<D>>,
+    side_wall_impulse: Vector<D>,
     list: Cow<'a, VerletList>,
     energy: EnergyLedger,
     searches: u64,
@@ -44,6 +46,7 @@ impl<const D: usize> Simulation<D> {
             images: Cow::Borrowed(images),
             walls: Cow::Borrowed(walls),
             books: Cow::Borrowed(&surroundings.books),
+            side_wall_impulse: self.state.side_wall_impulse,
             list: Cow::Borrowed(&model.list),
             energy: *energy,
             searches: search.count(),
@@ -104,6 +107,7 @@ impl<const D: usize> Simulation<D> {
         state.walls = walls;
         state.model.list = list;
         state.energy = saved.energy;
+        state.side_wall_impulse = saved.side_wall_impulse;
         state.search.count_from(saved.searches);
         state.viscous.count_from(saved.viscous_iterations);
         state.time = saved.time;

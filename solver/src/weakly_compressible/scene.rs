@@ -9,7 +9,7 @@ use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::enclosure::{Enclosure, shell::BackingParticle};
 use crate::weakly_compressible::numerics::Numerics;
-use crate::weakly_compressible::walls::{Wall, wall::WallParticle};
+use crate::weakly_compressible::walls::{SideWalls, Wall, wall::WallParticle};
 
 /// Particles that the neighbour list can address, walls included.
 pub(crate) const MOST_PARTICLES: usize = i32::MAX as usize / 64;
@@ -59,8 +59,10 @@ pub struct Scene<const D: usize> {
     pub walls: Vec<Wall<D>>,
     /// Wall particles, see [`crate::weakly_compressible::walls::wall::fill`].
     pub wall_particles: Vec<WallParticle<D>>,
-    /// Shells, open sides, inlets and side walls.
+    /// Shells, open sides and inlets.
     pub enclosure: Enclosure<D>,
+    /// Plates that rub on a plane flow from both sides.
+    pub side_walls: Option<SideWalls>,
     /// Boundaries of the domain.
     pub domain: Domain<D>,
     /// Gravity `[m/s²]`.
@@ -84,6 +86,7 @@ impl<const D: usize> Scene<D> {
             walls: Vec::new(),
             wall_particles: Vec::new(),
             enclosure: Enclosure::default(),
+            side_walls: None,
             domain: Domain { axes: [AxisBoundary::Open; D] },
             gravity: Vector::zeros(),
             spacing,
@@ -173,7 +176,7 @@ impl<const D: usize> Scene<D> {
             .or_else(|| self.numerics.step_problem(&self.rheology))
             .or_else(|| self.numerics.field_problem(&self.rheology))
             .or_else(|| self.enclosure.numerics_problem(&self.numerics))
-            .or_else(|| self.enclosure.side_walls.and_then(|walls| walls.problem(D)));
+            .or_else(|| self.side_walls.and_then(|walls| walls.problem(D)));
         problem.map_or(Ok(()), |problem| Err(problem.into()))
     }
 

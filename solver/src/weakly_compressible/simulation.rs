@@ -260,7 +260,7 @@ impl<const D: usize> Simulation<D> {
     /// Impulse that side walls have given to the flow since the start `[kg m/s]`, per metre of depth.
     #[must_use]
     pub fn side_wall_impulse(&self) -> Vector<D> {
-        self.state.surroundings.books.side_walls
+        self.state.side_wall_impulse
     }
 
     /// The inlets.

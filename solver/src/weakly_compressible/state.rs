@@ -19,7 +19,7 @@ use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::weakly_compressible::time_step::TimeStepBounds;
 use crate::weakly_compressible::viscous_solve::ViscousSystem;
-use crate::weakly_compressible::walls::{Images, Wall};
+use crate::weakly_compressible::walls::{Images, SideWalls, Wall};
 
 /// Particles, walls and neighbours, time, and what the next step's length follows from.
 #[derive(Debug)]
@@ -31,6 +31,10 @@ pub(crate) struct State<const D: usize> {
     pub(crate) wall_displacements: Vec<Vector<D>>,
     /// Shells, open sides and inlets.
     pub(crate) surroundings: Surroundings<D>,
+    pub(crate) side_walls: Option<SideWalls>,
+    /// Impulse that side walls have given to the flow since the start `[kg m/s]`, and in a step block by block.
+    pub(crate) side_wall_impulse: Vector<D>,
+    pub(crate) side_wall_blocks: Vec<Vector<D>>,
     pub(crate) model: Model<D>,
     pub(crate) pairs: PairData<D>,
     pub(crate) viscous: ViscousSystem<D>,
@@ -62,6 +66,9 @@ impl<const D: usize> State<D> {
                 scene.spacing,
                 (scene.flow.position.len(), scene.wall_particles.len()),
             ),
+            side_walls: scene.side_walls,
+            side_wall_impulse: Vector::zeros(),
+            side_wall_blocks: Vec::new(),
             model: Model {
                 list: VerletList::default(),
                 kernel,

@@ -5,7 +5,8 @@ use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{DENSITY_RANGE, Quantity};
 use crate::weakly_compressible::model::GradientUse;
-use crate::weakly_compressible::passes::{continuity, geometry, wall_stress, wall_velocity};
+use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::passes::{continuity, geometry, side_walls, wall_stress, wall_velocity};
 use crate::weakly_compressible::state::State;
 
 impl<const D: usize> State<D> {
@@ -72,6 +73,18 @@ impl<const D: usize> State<D> {
         self.images.copy_tensors(&mut self.particles.stress);
         wall_stress::run(&self.model, &mut self.particles, &mut self.pairs);
         self.images.copy_scalars(&mut self.particles.pressure);
+    }
+
+    /// Lets side walls retard the flow. They come last, as what they take depends on where everything else leads to.
+    fn rub_on_side_walls(&mut self, time_step: f64) {
+        let Some(walls) = self.side_walls else { return };
+        let blocks = self.particles.flow_count().div_ceil(BLOCK);
+        self.pairs.open_ledger(self.particles.flow_count());
+        self.side_wall_blocks.resize(blocks, Vector::zeros());
+        let (gravity, energy, impulses) = (&self.model.gravity, &mut self.pairs.energy, &mut self.side_wall_blocks);
+        side_walls::run(walls, gravity, time_step, &mut self.particles, energy, impulses);
+        self.side_wall_impulse = impulses.iter().fold(self.side_wall_impulse, |sum, block| sum + block);
+        self.pairs.close_ledger(&mut self.energy);
     }
 
     /// Velocity of wall particles by that of the flow; images take the flow's velocity and field.

@@ -1,15 +1,13 @@
-//! What encloses the flow beside plane walls: shells of any shape, open sides by which it leaves, inlets by which it comes in, and
-//! plates beside a plane flow.
+//! Boundaries of a scene beside plane walls: shells of any shape, open sides by which the flow leaves, inlets by which it comes in.
 
 use super::inlet::Inlet;
 use super::shell::Shell;
 use crate::parameter::ParameterProblem;
 use crate::vector::Vector;
 use crate::weakly_compressible::numerics::Numerics;
-use crate::weakly_compressible::walls::SideWalls;
 use serde::{Deserialize, Serialize};
 
-/// Shells, open sides, inlets and side walls of a scene; by default there are none.
+/// Shells, open sides and inlets of a scene; by default there are none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Enclosure<const D: usize> {
     /// Walls of facets.
@@ -18,17 +16,9 @@ pub struct Enclosure<const D: usize> {
     pub exits: Exits<D>,
     /// Openings by which material comes in.
     pub inlets: Vec<Inlet<D>>,
-    /// Plates that rub on a plane flow from both sides.
-    pub side_walls: Option<SideWalls>,
 }
 
 impl<const D: usize> Enclosure<D> {
-    /// Whether there is nothing that walls of segments, open sides or inlets do.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.shells.is_empty() && self.inlets.is_empty() && self.exits == Exits::default()
-    }
-
     /// All that stands before the flow as a wall: the shells, then the rows of the inlets.
     pub(crate) fn surfaces(&self) -> Vec<Shell<D>> {
         self.shells.iter().cloned().chain(self.inlets.iter().map(Inlet::shell)).collect()
@@ -38,7 +28,7 @@ impl<const D: usize> Enclosure<D> {
     /// the single divergence.
     #[must_use]
     pub fn numerics_problem(&self, numerics: &Numerics) -> Option<ParameterProblem> {
-        if self.is_empty() {
+        if *self == Self::default() {
             return None;
         }
         let operator = numerics.pairwise_operator()?;

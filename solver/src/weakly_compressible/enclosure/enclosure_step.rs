@@ -1,4 +1,4 @@
-//! Shells, open sides and side walls in a step: what they give to the flow, what they stop, who leaves. The rows of inlets are
+//! Shells and open sides in a step: what they give to the flow, what they stop, who leaves. The rows of inlets are
 //! shells here.
 
 use crate::run::Divergence;
@@ -10,7 +10,7 @@ use crate::weakly_compressible::enclosure::surroundings::{NO_SHELL, Surroundings
 use crate::weakly_compressible::energy::energy_of;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::Contact;
-use crate::weakly_compressible::passes::{shell_impulse, side_walls};
+use crate::weakly_compressible::passes::shell_impulse;
 use crate::weakly_compressible::state::State;
 
 impl<const D: usize> State<D> {
@@ -107,21 +107,6 @@ impl<const D: usize> State<D> {
                 Err(divergence)
             }
         }
-    }
-
-    /// Lets side walls retard the flow. They come last, as what they take depends on where everything else leads to.
-    pub(crate) fn rub_on_side_walls(&mut self, time_step: f64) {
-        let Surroundings { side_walls, blocks, books, .. } = &mut self.surroundings;
-        let Some(walls) = *side_walls else { return };
-        let flow = self.particles.flow_count();
-        self.pairs.open_ledger(flow);
-        blocks.resize(flow.div_ceil(BLOCK).max(blocks.len()), Vector::zeros());
-        let impulses = &mut blocks[..flow.div_ceil(BLOCK)];
-        let (gravity, energy) = (&self.model.gravity, &mut self.pairs.energy);
-        side_walls::run(walls, gravity, time_step, &mut self.particles, energy, impulses);
-        books.side_walls =
-            impulses.iter_mut().fold(books.side_walls, |sum, block| sum + std::mem::replace(block, Vector::zeros()));
-        self.pairs.close_ledger(&mut self.energy);
     }
 
     /// Moves the shells to the end of a step; returns the speed of the fastest `[m/s]`.

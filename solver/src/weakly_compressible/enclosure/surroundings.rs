@@ -1,4 +1,4 @@
-//! Shells, open sides, inlets and side walls of a running simulation: where the shells stand, what they have given to the flow, who
+//! Shells, open sides and inlets of a running simulation: where the shells stand, what they have given to the flow, who
 //! has left and who has come in. The rows of inlets are the last of the shells.
 
 use crate::vector::Vector;
@@ -7,7 +7,6 @@ use crate::weakly_compressible::enclosure::boundary_set::{Departures, Exits};
 use crate::weakly_compressible::enclosure::facet_grid::FacetGrid;
 use crate::weakly_compressible::enclosure::inlet::{Arrivals, Inlet};
 use crate::weakly_compressible::enclosure::shell::Shell;
-use crate::weakly_compressible::walls::SideWalls;
 use serde::{Deserialize, Serialize};
 
 /// The owner of particles that belong to no shell.
@@ -23,7 +22,6 @@ pub(crate) struct Surroundings<const D: usize> {
     pub(super) range: f64,
     pub(super) exits: Exits<D>,
     pub(in crate::weakly_compressible) inlets: Vec<Inlet<D>>,
-    pub(in crate::weakly_compressible) side_walls: Option<SideWalls>,
     /// Where the particles of each inlet's rows begin among all wall particles.
     pub(super) first_particles: Vec<usize>,
     /// Particles of the flow at the start.
@@ -50,15 +48,13 @@ pub(crate) struct Books<const D: usize> {
     pub(crate) arrivals: Arrivals<D>,
     /// Impulse that implicit viscous steps have left out since the start `[kg m/s]`.
     pub(crate) unsolved: Vector<D>,
-    /// Impulse that side walls have given to the flow since the start `[kg m/s]`.
-    pub(crate) side_walls: Vector<D>,
 }
 
 impl<const D: usize> Surroundings<D> {
     /// Those of an enclosure of a flow at a spacing `[m]`, with so many particles of the flow and of plane walls.
     pub(crate) fn new(enclosure: Enclosure<D>, spacing: f64, (flow, plane): (usize, usize)) -> Self {
         let shells = enclosure.surfaces();
-        let Enclosure { exits, inlets, side_walls, .. } = enclosure;
+        let Enclosure { exits, inlets, .. } = enclosure;
         let before = |shell: usize| plane + shells[..shell].iter().map(|shell| shell.backing.len()).sum::<usize>();
         let first_particles = (0..inlets.len()).map(|inlet| before(shells.len() - inlets.len() + inlet)).collect();
         let range = 0.5 * spacing;
@@ -81,10 +77,8 @@ impl<const D: usize> Surroundings<D> {
                 departures: Departures::default(),
                 arrivals: Arrivals::none(inlets.len()),
                 unsolved: Vector::zeros(),
-                side_walls: Vector::zeros(),
             },
             inlets,
-            side_walls,
             shells,
         }
     }

@@ -55,6 +55,7 @@ where
         walls,
         wall_particles,
         enclosure: Enclosure::default(),
+        side_walls: None,
         domain,
         gravity: Vector::zeros(),
         spacing: SPACING,

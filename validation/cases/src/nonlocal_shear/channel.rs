@@ -171,7 +171,7 @@ impl Channel<'_> {
     fn moving(&self, mut scene: Scene<2>) -> Scene<2> {
         match self.above {
             Above::Wall(velocity) => scene.walls[1].velocity[0] = velocity,
-            Above::Surface(side_walls) => scene.enclosure.side_walls = Some(side_walls),
+            Above::Surface(side_walls) => scene.side_walls = Some(side_walls),
         }
         scene
     }

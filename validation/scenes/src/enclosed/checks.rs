@@ -44,8 +44,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         if shells.iter().any(|shell| shell.roughness == Surface::Smooth) {
             rules::gate("numerics", &self.numerics)?;
         }
-        let enclosure =
-            Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds(), side_walls: self.side_walls };
+        let enclosure = Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds() };
         rules::refuse("numerics", enclosure.numerics_problem(&self.numerics))?;
         if let Some(problem) = self.side_walls.and_then(|walls| walls.problem(D)) {
             return Err(problem.into());

@@ -236,9 +236,8 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
         self.scene.check_openings(&inlets, &surfaces)?;
         let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state)?;
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
-        scene.enclosure =
-            Enclosure { shells, exits: self.scene.sides.exits(), inlets, side_walls: self.scene.side_walls };
-        (scene.domain, scene.numerics) = (domain, numerics);
+        scene.enclosure = Enclosure { shells, exits: self.scene.sides.exits(), inlets };
+        (scene.domain, scene.numerics, scene.side_walls) = (domain, numerics, self.scene.side_walls);
         scene.gravity = vector(&self.scene.gravity);
         Ok((scene, cut_off))
     }
