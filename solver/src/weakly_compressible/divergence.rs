@@ -6,7 +6,7 @@ pub(crate) const LARGEST_MACH_NUMBER: f64 = 3.0;
 pub(crate) const DENSITY_RANGE: (f64, f64) = (0.02, 2.0);
 
 /// The quantity that left its range.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Quantity {
     /// Speed above three sound speeds `[m/s]`, or not a number.
     Speed {
@@ -23,12 +23,23 @@ pub enum Quantity {
         /// As many as it can hold.
         limit: usize,
     },
-    /// Distance from a shell, negative behind it `[m]`; the rule names the wall.
-    Penetration,
-    /// Pressure before the rows of an inlet `[Pa]`; the rule names the inlet.
-    InflowPressure,
-    /// Particles in the arrays; the rule names the inlet that adds some.
-    Particles,
+    /// Distance from a wall of facets, negative behind it `[m]`.
+    Penetration {
+        /// Name of the wall.
+        wall: String,
+    },
+    /// Pressure before the rows of an inlet `[Pa]`.
+    InflowPressure {
+        /// Name of the inlet.
+        inlet: String,
+        /// Largest that is allowed `[Pa]`.
+        limit: f64,
+    },
+    /// Particles in the arrays.
+    Particles {
+        /// Name of the inlet that adds some.
+        inlet: String,
+    },
     /// Residual of an implicit viscous step over its start; the particle is the one with the largest.
     ViscousResidual {
         /// `viscous_tolerance` `[-]`.
@@ -46,9 +57,9 @@ impl Quantity {
             Self::Speed { .. } => "speed",
             Self::Density { .. } => "density",
             Self::Neighbours { .. } => "number of neighbours",
-            Self::Penetration => "distance",
-            Self::InflowPressure => "pressure",
-            Self::Particles => "number of particles",
+            Self::Penetration { .. } => "distance",
+            Self::InflowPressure { .. } => "pressure",
+            Self::Particles { .. } => "number of particles",
             Self::ViscousResidual { .. } => "viscous step",
         }
     }
@@ -60,9 +71,9 @@ impl Quantity {
             Self::Speed { .. } => "m/s",
             Self::Density { .. } => "kg/m³",
             Self::Neighbours { .. } => "or more",
-            Self::Penetration => "m",
-            Self::InflowPressure => "Pa",
-            Self::Particles => "in all",
+            Self::Penetration { .. } => "m",
+            Self::InflowPressure { .. } => "Pa",
+            Self::Particles { .. } => "in all",
             Self::ViscousResidual { .. } => "(residual over its start)",
         }
     }
@@ -76,12 +87,30 @@ impl Quantity {
                 format!(", outside the {lower:.4e} to {upper:.4e} kg/m³ that the model allows")
             }
             Self::Neighbours { limit } => format!(", above the {limit} that a neighbour list row can hold"),
-            Self::Penetration => " before a wall: it has passed it".to_owned(),
-            Self::InflowPressure => ": an inlet is blocked".to_owned(),
-            Self::Particles => ": more than the neighbour list can address".to_owned(),
+            Self::Penetration { wall } => format!(" before the wall `{wall}`: it has passed it"),
+            Self::InflowPressure { inlet, limit } => format!(
+                ", above the {limit:.4e} Pa that compress the material by a tenth: the inlet `{inlet}` is blocked, since the material \
+                 before it does not give way"
+            ),
+            Self::Particles { inlet } => {
+                format!(", and the inlet `{inlet}` adds some: more than the neighbour list can address")
+            }
             Self::ViscousResidual { tolerance, most_iterations } => {
                 format!(" after at most {most_iterations} iterations, above the {tolerance:.1e} of `viscous_tolerance`")
             }
         }
     }
+}
+
+/// A particle with a quantity out of its range.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct OutOfRange {
+    /// Storage index of the particle.
+    pub(crate) index: usize,
+    /// Identity of the particle, or of the one that is to take its place.
+    pub(crate) identity: u32,
+    /// Quantity and rule.
+    pub(crate) quantity: Quantity,
+    /// Value in the quantity's unit.
+    pub(crate) value: f64,
 }

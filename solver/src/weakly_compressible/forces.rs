@@ -1,15 +1,12 @@
 //! Forces in a step: accelerations by the operator that is chosen, and by an implicit viscosity.
 
 use crate::run::Divergence;
-use crate::vector::Vector;
 use crate::weakly_compressible::divergence::Quantity;
-use crate::weakly_compressible::enclosure::surroundings::Surroundings;
 use crate::weakly_compressible::model::GradientUse;
-use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::{MomentumOperator, ViscousStep};
 use crate::weakly_compressible::passes::{geometry, momentum, pairwise};
 use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::viscous_solve::{Booking, MOST_ITERATIONS, NotConverged, ViscousSolve};
+use crate::weakly_compressible::viscous_solve::{MOST_ITERATIONS, NotConverged, ViscousSolve};
 
 impl<const D: usize> State<D> {
     /// Accelerations at the present positions and velocities.
@@ -64,16 +61,10 @@ impl<const D: usize> State<D> {
         if self.surroundings.is_empty() {
             return;
         }
-        let Surroundings { shells, owners, blocks, .. } = &mut self.surroundings;
-        let shells = shells.len();
-        blocks.resize(self.particles.flow_count().div_ceil(BLOCK) * shells.max(1), Vector::zeros());
+        let flow = self.particles.flow_count();
         let solve = ViscousSolve { model: &self.model, pairs: &self.pairs, time_step };
-        let booking = Booking { owners, shells, impulses: blocks };
+        let booking = self.surroundings.booking(flow);
         solve.book_reaction(&mut self.particles, &self.images, &mut self.viscous, booking);
-        let left = self.viscous.left(self.particles.flow_count());
-        self.surroundings.books.unsolved += left;
-        if shells > 0 {
-            self.surroundings.close_impulses();
-        }
+        self.surroundings.close_reaction(self.viscous.left(flow));
     }
 }

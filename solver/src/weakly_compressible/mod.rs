@@ -7,6 +7,7 @@ pub mod divergence;
 pub mod enclosure;
 pub mod energy;
 mod forces;
+mod initial_particles;
 mod memory;
 mod model;
 pub mod neighbours;

@@ -9,8 +9,9 @@ use crate::material::rheology::{ElasticModuli, Rheology};
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
 use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
-use crate::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use crate::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscositySwitch};
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
+use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 
 /// What stays the same from step to step, except the neighbour list, which a search fills anew.
 #[derive(Debug)]
@@ -61,6 +62,14 @@ pub(crate) enum GradientUse {
 }
 
 impl<const D: usize> Model<D> {
+    /// Coefficient α of the artificial viscosity that particles begin with `[-]`.
+    pub(crate) fn initial_artificial_viscosity(&self) -> f64 {
+        match self.numerics.viscosity_switch {
+            ViscositySwitch::Constant => self.numerics.artificial_viscosity,
+            ViscositySwitch::MorrisMonaghan => SWITCH_LOWEST,
+        }
+    }
+
     /// What the momentum operator and the law need of the velocity gradient.
     pub(crate) fn gradient_use(&self) -> GradientUse {
         match self.numerics.momentum_operator {

@@ -69,29 +69,12 @@ impl<const D: usize> Simulation<D> {
         let (particles, images) = (saved.particles.into_owned(), saved.images.into_owned());
         let (list, walls) = (saved.list.into_owned(), saved.walls.into_owned());
         let (flow, real) = (particles.flow_count(), particles.real_count());
-        let (books, inlets) = (saved.books.into_owned(), scene.enclosure.inlets.len());
-        let shells = scene.enclosure.shells.len() + inlets;
-        ForeignState::check("inlets", books.arrivals.inlets.len(), inlets)?;
-        let cells = |inlet: usize| scene.enclosure.inlets.get(inlet).map_or(0, |inlet| inlet.cells.len() as u64);
-        let mut rows = vec![0; inlets];
-        let mut next = scene.flow.position.len() as u64;
-        let mut sound = true;
-        for row in &books.arrivals.rows {
-            let inlet = row.inlet as usize;
-            sound &= inlet < inlets && u64::from(row.first) == next;
-            next = next.saturating_add(cells(inlet));
-            rows.get_mut(inlet).into_iter().for_each(|rows| *rows += 1);
-        }
-        let counted = |(inlet, rows): (usize, &u64)| {
-            let fed = &books.arrivals.inlets[inlet];
-            fed.rows == *rows && fed.particles == rows.saturating_mul(cells(inlet))
-        };
-        sound &= rows.iter().enumerate().all(counted);
-        ForeignState::check("whole sets of rows", usize::from(sound), 1)?;
-        let begun = next as usize;
+        let books = saved.books.into_owned();
+        let shells = scene.enclosure.shells.len() + scene.enclosure.inlets.len();
+        let begun = books.check_rows(&scene.enclosure.inlets, scene.flow.position.len())?;
         let departed = books.departures.particles() as usize;
         ForeignState::check("flow particles", flow.saturating_add(departed), begun)?;
-        let wall_particles = scene.wall_particles.len() + scene.backing_particles();
+        let wall_particles = scene.wall_particles.len() + scene.enclosure.backing_particles();
         ForeignState::check("wall particles", particles.wall_count(), wall_particles)?;
         ForeignState::check("walls", walls.len(), scene.walls.len())?;
         ForeignState::check("walls of segments", books.impulses.len(), shells)?;
@@ -116,7 +99,7 @@ impl<const D: usize> Simulation<D> {
         state.kinematic_viscosity = saved.kinematic_viscosity;
         state.displacement = saved.displacement;
         state.surroundings.restore(books, saved.time);
-        state.assign_shells();
+        state.surroundings.assign_owners(&state.particles, &state.images);
         Ok(Self { state })
     }
 }

@@ -7,12 +7,10 @@ use crate::material::rheology::field::Memory;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::enclosure::{Enclosure, shell::BackingParticle};
+use crate::weakly_compressible::enclosure::Enclosure;
+use crate::weakly_compressible::neighbours::MOST_PARTICLES;
 use crate::weakly_compressible::numerics::Numerics;
 use crate::weakly_compressible::walls::{SideWalls, Wall, wall::WallParticle};
-
-/// Particles that the neighbour list can address, walls included.
-pub(crate) const MOST_PARTICLES: usize = i32::MAX as usize / 64;
 
 /// The flow particles at the start; all arrays have the shape `[particles]`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -110,8 +108,7 @@ impl<const D: usize> Scene<D> {
         self.check_lengths()?;
         self.check_parameters()?;
         self.check_values()?;
-        self.check_shells()?;
-        self.check_inlets()?;
+        self.enclosure.check(self.spacing, self.equation_of_state.sound_speed())?;
         self.check_domain()
     }
 
@@ -121,7 +118,7 @@ impl<const D: usize> Scene<D> {
         if expected == 0 && self.enclosure.inlets.is_empty() {
             return Err(SceneError::Empty);
         }
-        if expected + self.wall_particles.len() + self.backing_particles() > MOST_PARTICLES {
+        if expected + self.wall_particles.len() + self.enclosure.backing_particles() > MOST_PARTICLES {
             return Err(SceneError::TooLarge(expected));
         }
         let lengths = [
@@ -211,43 +208,6 @@ impl<const D: usize> Scene<D> {
             for (quantity, value) in [("density", self.flow.density[particle]), ("mass", self.flow.mass[particle])] {
                 if !is_positive(value) {
                     return Err(SceneError::Value { quantity, particle, value, rule: "positive and finite" });
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Dummy particles of all shells, and of the rows of inlets.
-    pub(crate) fn backing_particles(&self) -> usize {
-        let of_inlets = self.enclosure.inlets.iter().map(|inlet| inlet.rows * inlet.cells.len());
-        self.enclosure.shells.iter().map(|shell| shell.backing.len()).chain(of_inlets).sum()
-    }
-
-    /// Inlets through which their rates pass.
-    fn check_inlets(&self) -> Result<(), SceneError> {
-        let sound_speed = self.equation_of_state.sound_speed();
-        for (index, inlet) in self.enclosure.inlets.iter().enumerate() {
-            if let Some(problem) = inlet.problem(self.spacing, sound_speed) {
-                return Err(problem.within(&format!("inlets[{index}]")).into());
-            }
-        }
-        Ok(())
-    }
-
-    /// Shells of finite facets, whose tables rise and begin where the facets are.
-    fn check_shells(&self) -> Result<(), SceneError> {
-        for (particle, shell) in self.enclosure.shells.iter().enumerate() {
-            let corners = shell.facets.iter().flat_map(|facet| &facet.corners);
-            let backed = |particle: &BackingParticle<D>| is_positive(particle.depth) && is_positive(particle.volume);
-            let begun = shell.motion.displacement(0.0) == Vector::<D>::zeros();
-            for (quantity, sound) in [
-                ("corner of a wall's segments", corners.into_iter().all(|corner| corner.sum().is_finite())),
-                ("table of a wall's motion", shell.motion.is_sound() && begun),
-                ("depth or volume behind a wall", shell.backing.iter().all(backed)),
-            ] {
-                if !sound {
-                    let rule = "finite, with times that rise from rest and positive depths";
-                    return Err(SceneError::Value { quantity, particle, value: f64::NAN, rule });
                 }
             }
         }

@@ -235,13 +235,13 @@ impl<const D: usize> Simulation<D> {
     /// How far each shell, and then the rows of each inlet, has moved since the start `[m]`.
     #[must_use]
     pub fn shell_displacements(&self) -> &[Vector<D>] {
-        self.state.surroundings.displacements()
+        &self.state.surroundings.displacements
     }
 
     /// The shells of the scene, then the rows of each inlet, where they were at the start.
     #[must_use]
     pub fn shells(&self) -> &[Shell<D>] {
-        self.state.surroundings.shells()
+        &self.state.surroundings.shells
     }
 
     /// What has left by open sides.
@@ -279,7 +279,7 @@ impl<const D: usize> Simulation<D> {
     /// time at which it became free `[s]`; none for one of the start.
     #[must_use]
     pub fn entry(&self, identity: u32) -> Option<(Vector<D>, f64)> {
-        self.state.entry(identity)
+        self.state.surroundings.entry(identity)
     }
 
     /// Particle spacing Δ `[m]`.

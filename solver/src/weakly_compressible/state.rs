@@ -5,18 +5,17 @@ use crate::lanes::InstructionSet;
 use crate::material::equation_of_state::Tension;
 use crate::run::Divergence;
 use crate::vector::Vector;
-use crate::weakly_compressible::divergence::Quantity;
+use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
 use crate::weakly_compressible::enclosure::surroundings::Surroundings;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{LARGEST_ROW, VerletList};
-use crate::weakly_compressible::numerics::{Numerics, ViscositySwitch};
+use crate::weakly_compressible::numerics::Numerics;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::search::Search;
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
-use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 use crate::weakly_compressible::time_step::TimeStepBounds;
 use crate::weakly_compressible::viscous_solve::ViscousSystem;
 use crate::weakly_compressible::walls::{Images, SideWalls, Wall};
@@ -54,42 +53,40 @@ impl<const D: usize> State<D> {
         let numerics = scene.numerics;
         let kernel = Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
         let mut particles = Particles::new(&scene);
-        particles.artificial_viscosity.fill(initial_artificial_viscosity(&numerics));
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
+        let model = Model {
+            list: VerletList::default(),
+            kernel,
+            equation_of_state: scene.equation_of_state,
+            rheology: scene.rheology,
+            numerics,
+            gravity: scene.gravity,
+            spacing: scene.spacing,
+            contact_friction: scene.rheology.contact_friction(),
+            instruction_set: InstructionSet::best(),
+            field: scene.rheology.field(),
+            keeps_memory: !scene.rheology.memories().is_empty(),
+            full_weight: lattice_weight::<D>(&numerics, scene.spacing),
+            lone_density_per_mass: match scene.equation_of_state.tension {
+                Tension::Cut => kernel.value_at(0.0),
+                Tension::Kept => 0.0,
+            },
+            dilates: scene.rheology.dilates(),
+            artificial_stress: (scene.rheology.is_cohesive()).then(|| ArtificialStress::new(&kernel, scene.spacing)),
+        };
+        particles.artificial_viscosity.fill(model.initial_artificial_viscosity());
+        let planes = (scene.walls.len(), scene.wall_particles.len());
+        let surroundings = Surroundings::new(scene.enclosure, scene.spacing, planes, scene.flow.position.len());
         Self {
             particles,
             images: Images::new(),
             wall_displacements: vec![Vector::zeros(); scene.walls.len()],
             walls: scene.walls,
-            surroundings: Surroundings::new(
-                scene.enclosure,
-                scene.spacing,
-                (scene.flow.position.len(), scene.wall_particles.len()),
-            ),
+            surroundings,
             side_walls: scene.side_walls,
             side_wall_impulse: Vector::zeros(),
             side_wall_blocks: Vec::new(),
-            model: Model {
-                list: VerletList::default(),
-                kernel,
-                equation_of_state: scene.equation_of_state,
-                rheology: scene.rheology,
-                numerics,
-                gravity: scene.gravity,
-                spacing: scene.spacing,
-                contact_friction: scene.rheology.contact_friction(),
-                instruction_set: InstructionSet::best(),
-                field: scene.rheology.field(),
-                keeps_memory: !scene.rheology.memories().is_empty(),
-                full_weight: lattice_weight::<D>(&numerics, scene.spacing),
-                lone_density_per_mass: match scene.equation_of_state.tension {
-                    Tension::Cut => kernel.value_at(0.0),
-                    Tension::Kept => 0.0,
-                },
-                dilates: scene.rheology.dilates(),
-                artificial_stress: (scene.rheology.is_cohesive())
-                    .then(|| ArtificialStress::new(&kernel, scene.spacing)),
-            },
+            model,
             pairs: PairData::new(),
             viscous: ViscousSystem::new(),
             search: Search::new(scene.domain),
@@ -102,9 +99,15 @@ impl<const D: usize> State<D> {
         }
     }
 
-    /// Coefficient α of the artificial viscosity that particles begin with `[-]`.
-    pub(crate) fn initial_artificial_viscosity(&self) -> f64 {
-        initial_artificial_viscosity(&self.model.numerics)
+    /// Takes in the rows of inlets that have reached their openings; whether there were any, so that neighbours have to be searched.
+    ///
+    /// # Errors
+    /// A row that the material before its opening does not give way to.
+    pub(crate) fn feed(&mut self) -> Result<bool, Divergence<D>> {
+        let fed = self.surroundings.feed(&mut self.particles, &self.model, self.time);
+        let fastest = fed.map_err(|out_of_range| self.diverged(out_of_range))?;
+        self.largest_speed = self.largest_speed.max(fastest.unwrap_or(0.0));
+        Ok(fastest.is_some())
     }
 
     /// Searches the neighbours anew and sorts the particles.
@@ -112,10 +115,10 @@ impl<const D: usize> State<D> {
     /// # Errors
     /// A particle with more neighbours than a list row can hold.
     pub(crate) fn search_neighbours(&mut self) -> Result<(), Divergence<D>> {
-        self.release();
+        self.surroundings.release(&mut self.particles, &self.model, self.time);
         let filled = self.search.run(&mut self.particles, &mut self.images, &mut self.model);
         self.displacement = 0.0;
-        self.assign_shells();
+        self.surroundings.assign_owners(&self.particles, &self.images);
         filled.map_err(|crowded| {
             self.divergence(crowded.particle, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
         })
@@ -139,10 +142,16 @@ impl<const D: usize> State<D> {
 
     /// A divergence at the particle with this storage index.
     pub(crate) fn divergence(&self, index: usize, quantity: Quantity, value: f64) -> Divergence<D> {
+        let identity = self.particles.identity.get(index).copied().unwrap_or(index as u32);
+        self.diverged(OutOfRange { index, identity, quantity, value })
+    }
+
+    /// The divergence of a particle now.
+    pub(crate) fn diverged(&self, OutOfRange { index, identity, quantity, value }: OutOfRange) -> Divergence<D> {
         Divergence {
             time: self.time,
             step: self.steps,
-            particle: self.particles.identity.get(index).copied().unwrap_or(index as u32),
+            particle: identity,
             position: self.particles.position[index],
             quantity: quantity.name(),
             value,
@@ -170,11 +179,4 @@ fn lattice_weight<const D: usize>(numerics: &Numerics, spacing: f64) -> f64 {
         }
     }
     sum
-}
-
-fn initial_artificial_viscosity(numerics: &Numerics) -> f64 {
-    match numerics.viscosity_switch {
-        ViscositySwitch::Constant => numerics.artificial_viscosity,
-        ViscositySwitch::MorrisMonaghan => SWITCH_LOWEST,
-    }
 }

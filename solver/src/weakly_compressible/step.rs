@@ -15,7 +15,7 @@ impl<const D: usize> State<D> {
         self.update_pressure();
         self.extend_stress_to_walls();
         self.find_accelerations(time_step)?;
-        self.book_shells(time_step);
+        self.surroundings.book_wall_forces(&self.model, &self.particles, &self.pairs, time_step);
         self.update_velocity(time_step)?;
         self.touch_shells(time_step, self.model.contact_friction)?;
         self.rub_on_side_walls(time_step);
@@ -75,6 +75,21 @@ impl<const D: usize> State<D> {
         self.images.copy_scalars(&mut self.particles.pressure);
     }
 
+    /// Stops what approaches a shell.
+    ///
+    /// # Errors
+    /// A particle that has passed one.
+    fn touch_shells(&mut self, time_step: f64, friction: f64) -> Result<(), Divergence<D>> {
+        let Self { surroundings, model, particles, pairs, time, .. } = self;
+        let times = (*time, time_step);
+        let Some(found) = surroundings.touch(model, particles, &mut pairs.energy, friction, times) else {
+            return Ok(());
+        };
+        self.pairs.close_ledger(&mut self.energy);
+        self.largest_speed = self.largest_speed.max(found.fastest);
+        found.passed.map_or(Ok(()), |passed| Err(self.diverged(passed)))
+    }
+
     /// Lets side walls retard the flow. They come last, as what they take depends on where everything else leads to.
     fn rub_on_side_walls(&mut self, time_step: f64) {
         let Some(walls) = self.side_walls else { return };
@@ -132,6 +147,12 @@ impl<const D: usize> State<D> {
         self.particles.move_walls(0, &self.wall_displacements, |wall| walls[wall].velocity);
         self.images.copy_wall_vectors(&mut self.particles.walls.velocity);
         fastest
+    }
+
+    /// Moves the shells; returns the speed of the fastest `[m/s]`.
+    fn move_shells(&mut self, time_step: f64) -> f64 {
+        let end = self.time + time_step;
+        self.surroundings.advance(&mut self.particles, &self.images, end, time_step)
     }
 
     fn update_position(&mut self, time_step: f64) {

@@ -1,8 +1,9 @@
 //! Boundaries of a scene beside plane walls: shells of any shape, open sides by which the flow leaves, inlets by which it comes in.
 
 use super::inlet::Inlet;
-use super::shell::Shell;
+use super::shell::{BackingParticle, Shell};
 use crate::parameter::ParameterProblem;
+use crate::run::SceneError;
 use crate::vector::Vector;
 use crate::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
@@ -22,6 +23,42 @@ impl<const D: usize> Enclosure<D> {
     /// All that stands before the flow as a wall: the shells, then the rows of the inlets.
     pub(crate) fn surfaces(&self) -> Vec<Shell<D>> {
         self.shells.iter().cloned().chain(self.inlets.iter().map(Inlet::shell)).collect()
+    }
+
+    /// Checks that facets are finite, that tables of motion rise and begin where the facets are, and that inlets let their rates pass
+    /// into particles at a spacing `[m]` with a sound speed `[m/s]`.
+    ///
+    /// # Errors
+    /// The first rule that is broken.
+    pub(crate) fn check(&self, spacing: f64, sound_speed: f64) -> Result<(), SceneError> {
+        let is_positive = |value: f64| value > 0.0 && value.is_finite();
+        for (particle, shell) in self.shells.iter().enumerate() {
+            let corners = shell.facets.iter().flat_map(|facet| &facet.corners);
+            let backed = |particle: &BackingParticle<D>| is_positive(particle.depth) && is_positive(particle.volume);
+            let begun = shell.motion.displacement(0.0) == Vector::<D>::zeros();
+            for (quantity, sound) in [
+                ("corner of a wall's segments", corners.into_iter().all(|corner| corner.sum().is_finite())),
+                ("table of a wall's motion", shell.motion.is_sound() && begun),
+                ("depth or volume behind a wall", shell.backing.iter().all(backed)),
+            ] {
+                if !sound {
+                    let rule = "finite, with times that rise from rest and positive depths";
+                    return Err(SceneError::Value { quantity, particle, value: f64::NAN, rule });
+                }
+            }
+        }
+        for (index, inlet) in self.inlets.iter().enumerate() {
+            if let Some(problem) = inlet.problem(spacing, sound_speed) {
+                return Err(problem.within(&format!("inlets[{index}]")).into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Number of dummy particles of all shells, and of the rows of inlets.
+    pub(crate) fn backing_particles(&self) -> usize {
+        let of_inlets = self.inlets.iter().map(|inlet| inlet.rows * inlet.cells.len());
+        self.shells.iter().map(|shell| shell.backing.len()).chain(of_inlets).sum()
     }
 
     /// The choice of numerics that goes neither with shells nor with exits or inlets: what walls have of the forces is booked by

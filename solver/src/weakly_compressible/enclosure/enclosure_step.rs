@@ -1,27 +1,37 @@
-//! Shells and open sides in a step: what they give to the flow, what they stop, who leaves. The rows of inlets are
-//! shells here.
+//! Shells and open sides in a step: impulses on the flow, contacts, outflow. The rows of inlets are shells here.
 
-use crate::run::Divergence;
+use super::boundary_set::Exits;
+use super::contact_pass;
+use super::shell_contact::{Passed, Touch};
+use super::surroundings::Surroundings;
 use crate::vector::Vector;
-use crate::weakly_compressible::divergence::Quantity;
-use crate::weakly_compressible::enclosure::boundary_set::Exits;
-use crate::weakly_compressible::enclosure::shell_contact::{Passed, Touch};
-use crate::weakly_compressible::enclosure::surroundings::{NO_SHELL, Surroundings};
-use crate::weakly_compressible::energy::energy_of;
+use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
+use crate::weakly_compressible::energy::{EnergyLedger, energy_of};
+use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::Contact;
-use crate::weakly_compressible::passes::shell_impulse;
-use crate::weakly_compressible::state::State;
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::passes::PairData;
+use crate::weakly_compressible::passes::shell_impulse::{self, Booking, NO_SHELL};
+use crate::weakly_compressible::walls::Images;
 
-impl<const D: usize> State<D> {
-    /// Takes out what has left the domain by an open side.
-    pub(crate) fn release(&mut self) {
-        let Surroundings { exits, gone, books, .. } = &mut self.surroundings;
+/// Extremes among the contacts of a step.
+pub(crate) struct Contacts {
+    /// Largest speed of a particle that was touched `[m/s]`.
+    pub(crate) fastest: f64,
+    /// The first particle that was found behind a shell.
+    pub(crate) passed: Option<OutOfRange>,
+}
+
+impl<const D: usize> Surroundings<D> {
+    /// Takes out the particles that have left the domain by an open side, at a time `[s]`.
+    pub(crate) fn release(&mut self, particles: &mut Particles<D>, model: &Model<D>, time: f64) {
+        let Self { exits, gone, books, .. } = self;
         if *exits == Exits::default() {
             return;
         }
-        self.particles.keep_real();
-        let (particles, flow) = (&self.particles, self.particles.flow_count());
+        particles.keep_real();
+        let flow = particles.flow_count();
         gone.clear();
         gone.extend(particles.position[..flow].iter().map(|place| exits.side(place).is_some()));
         if !gone.contains(&true) {
@@ -33,99 +43,110 @@ impl<const D: usize> State<D> {
             let departed = &mut books.departures.sides[side];
             departed.particles += 1;
             departed.mass += particles.mass[index];
-            departed.mass_times_time += particles.mass[index] * self.time;
+            departed.mass_times_time += particles.mass[index] * time;
             departed.momentum += particles.velocity[index] * particles.mass[index];
             departed.support += particles.support_impulse[index];
-            departed.energy += energy_of(particles, index, &self.model);
+            departed.energy += energy_of(particles, index, model);
         }
-        self.particles.remove(gone);
+        particles.remove(gone);
     }
 
     /// Finds the shells of all particles, after a search.
-    pub(crate) fn assign_shells(&mut self) {
-        let Surroundings { shells, owners, .. } = &mut self.surroundings;
+    pub(crate) fn assign_owners(&mut self, particles: &Particles<D>, images: &Images<D>) {
+        let Self { shells, owners, plane_walls, .. } = self;
         if shells.is_empty() {
             return;
         }
-        let (flow, real) = (self.particles.flow_count(), self.particles.real_count());
+        let (flow, real) = (particles.flow_count(), particles.real_count());
         owners.clear();
-        owners.resize(self.particles.position.len(), NO_SHELL);
+        owners.resize(particles.position.len(), NO_SHELL);
         for index in flow..real {
-            let wall = self.particles.wall(index - flow);
-            owners[index] = wall.checked_sub(self.walls.len()).map_or(NO_SHELL, |shell| shell as u32);
+            let wall = particles.wall(index - flow);
+            owners[index] = wall.checked_sub(*plane_walls).map_or(NO_SHELL, |shell| shell as u32);
         }
-        for image in 0..self.images.len() {
-            owners[real + image] = owners[self.images.source(image)];
+        for image in 0..images.len() {
+            owners[real + image] = owners[images.source(image)];
         }
     }
 
-    /// Books what the wall particles of shells give to the flow in a step.
-    pub(crate) fn book_shells(&mut self, time_step: f64) {
-        let Surroundings { shells, owners, blocks, .. } = &mut self.surroundings;
-        if shells.is_empty() {
-            return;
-        }
-        blocks.resize(self.particles.flow_count().div_ceil(BLOCK) * shells.len(), Vector::zeros());
-        shell_impulse::by_wall_particles(
-            &self.model,
-            &self.particles,
-            &self.pairs,
-            owners,
-            shells.len(),
-            time_step,
-            blocks,
-        );
-        self.surroundings.close_impulses();
+    /// Room for the impulses of a step on a flow of so many particles. No shell still has a slot for every block.
+    pub(crate) fn booking(&mut self, flow: usize) -> Booking<'_, D> {
+        let shells = self.shells.len();
+        self.blocks.resize(flow.div_ceil(BLOCK) * shells.max(1), Vector::zeros());
+        Booking { owners: &self.owners, shells, impulses: &mut self.blocks }
     }
 
-    /// Stops what approaches a shell.
-    ///
-    /// # Errors
-    /// A particle that has passed one.
-    pub(crate) fn touch_shells(&mut self, time_step: f64, friction: f64) -> Result<(), Divergence<D>> {
-        let surroundings = &mut self.surroundings;
-        if surroundings.shells.is_empty() || self.model.numerics.contact == Contact::None {
-            return Ok(());
+    /// Books the forces of the shells' wall particles in a step.
+    pub(crate) fn book_wall_forces(
+        &mut self,
+        model: &Model<D>,
+        particles: &Particles<D>,
+        pairs: &PairData<D>,
+        time_step: f64,
+    ) {
+        if !self.shells.is_empty() {
+            shell_impulse::run(model, particles, pairs, time_step, self.booking(particles.flow_count()));
+            self.close_impulses();
         }
-        for shell in 0..surroundings.shells.len() {
-            let way = surroundings.place(shell, self.time + time_step) - surroundings.displacements[shell];
-            surroundings.velocities[shell] = way / time_step;
+    }
+
+    /// Closes the impulses of an implicit viscous step, which has left out a part of the flow's `[kg m/s]`.
+    pub(crate) fn close_reaction(&mut self, unsolved: Vector<D>) {
+        self.books.unsolved += unsolved;
+        if !self.shells.is_empty() {
+            self.close_impulses();
         }
-        let Surroundings { shells, grids, range, displacements, velocities, blocks, .. } = surroundings;
+    }
+
+    /// Stops particles that approach a shell in a step from a time on `[s]`, with a friction `[-]`; none without shells.
+    pub(crate) fn touch(
+        &mut self,
+        model: &Model<D>,
+        particles: &mut Particles<D>,
+        energy: &mut [EnergyLedger],
+        friction: f64,
+        (time, time_step): (f64, f64),
+    ) -> Option<Contacts> {
+        if self.shells.is_empty() || model.numerics.contact == Contact::None {
+            return None;
+        }
+        for shell in 0..self.shells.len() {
+            let way = self.place(shell, time + time_step) - self.displacements[shell];
+            self.velocities[shell] = way / time_step;
+        }
+        let Self { shells, grids, range, displacements, velocities, blocks, .. } = self;
         let touch = Touch { shells, grids, displacements, velocities, range: *range, friction };
-        let (particles, energy) = (&mut self.particles, &mut self.pairs.energy);
-        let found = shell_impulse::by_contacts(&self.model, particles, energy, touch, time_step, blocks);
-        self.surroundings.close_impulses();
-        self.pairs.close_ledger(&mut self.energy);
-        self.largest_speed = self.largest_speed.max(found.largest.sqrt());
-        match found.passed {
-            None => Ok(()),
-            Some((index, Passed { shell, distance })) => {
-                let mut divergence = self.divergence(index, Quantity::Penetration, distance);
-                let name = &self.surroundings.shells[shell].name;
-                divergence.rule = format!(" before the wall `{name}`: it has passed it");
-                Err(divergence)
-            }
-        }
+        let found = contact_pass::run(model, particles, energy, touch, time_step, blocks);
+        self.close_impulses();
+        let passed = found.passed.map(|(index, Passed { shell, distance })| OutOfRange {
+            index,
+            identity: particles.identity[index],
+            quantity: Quantity::Penetration { wall: self.shells[shell].name.clone() },
+            value: distance,
+        });
+        Some(Contacts { fastest: found.largest.sqrt(), passed })
     }
 
-    /// Moves the shells to the end of a step; returns the speed of the fastest `[m/s]`.
-    pub(crate) fn move_shells(&mut self, time_step: f64) -> f64 {
-        let surroundings = &mut self.surroundings;
-        if surroundings.inlets.is_empty() && surroundings.shells.iter().all(|shell| shell.motion.is_rest()) {
+    /// Moves the shells to the end of a step `[s]`; returns the speed of the fastest `[m/s]`.
+    pub(crate) fn advance(
+        &mut self,
+        particles: &mut Particles<D>,
+        images: &Images<D>,
+        end: f64,
+        time_step: f64,
+    ) -> f64 {
+        if self.inlets.is_empty() && self.shells.iter().all(|shell| shell.motion.is_rest()) {
             return 0.0;
         }
-        let end = self.time + time_step;
         let mut fastest = 0.0_f64;
-        for shell in 0..surroundings.shells.len() {
-            let next = surroundings.place(shell, end);
-            surroundings.last[shell] = next - surroundings.displacements[shell];
-            surroundings.displacements[shell] = next;
-            fastest = fastest.max(surroundings.last[shell].norm() / time_step);
+        for shell in 0..self.shells.len() {
+            let next = self.place(shell, end);
+            self.last[shell] = next - self.displacements[shell];
+            self.displacements[shell] = next;
+            fastest = fastest.max(self.last[shell].norm() / time_step);
         }
-        let surroundings = &*surroundings;
-        self.particles.move_walls(self.walls.len(), &surroundings.last, |shell| surroundings.velocity(shell, end));
-        self.images.copy_wall_vectors(&mut self.particles.walls.velocity);
+        particles.move_walls(self.plane_walls, &self.last, |shell| self.velocity(shell, end));
+        images.copy_wall_vectors(&mut particles.walls.velocity);
         fastest
     }
 }

@@ -3,6 +3,7 @@
 
 pub mod backing;
 pub mod boundary_set;
+mod contact_pass;
 mod enclosure_step;
 pub mod facet;
 pub mod facet_grid;

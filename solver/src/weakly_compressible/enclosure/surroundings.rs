@@ -1,40 +1,40 @@
 //! Shells, open sides and inlets of a running simulation: where the shells stand, what they have given to the flow, who
 //! has left and who has come in. The rows of inlets are the last of the shells.
 
+use super::boundary_set::{Departures, Enclosure, Exits};
+use super::facet_grid::FacetGrid;
+use super::inlet::{Arrivals, Inlet};
+use super::shell::Shell;
+use crate::run::ForeignState;
 use crate::vector::Vector;
-use crate::weakly_compressible::enclosure::Enclosure;
-use crate::weakly_compressible::enclosure::boundary_set::{Departures, Exits};
-use crate::weakly_compressible::enclosure::facet_grid::FacetGrid;
-use crate::weakly_compressible::enclosure::inlet::{Arrivals, Inlet};
-use crate::weakly_compressible::enclosure::shell::Shell;
 use serde::{Deserialize, Serialize};
-
-/// The owner of particles that belong to no shell.
-pub(crate) const NO_SHELL: u32 = u32::MAX;
 
 /// What the scene says of its enclosure, and what has become of it.
 #[derive(Debug)]
 pub(crate) struct Surroundings<const D: usize> {
-    pub(in crate::weakly_compressible) shells: Vec<Shell<D>>,
+    /// The shells, then the rows of each inlet, at the start.
+    pub(crate) shells: Vec<Shell<D>>,
+    /// Plane walls, which come before the shells in the numbering of walls.
+    pub(super) plane_walls: usize,
     /// Which facets of each are near a place, where they are at the start.
     pub(super) grids: Vec<FacetGrid<D>>,
     /// Distance from a shell within which a particle is touched `[m]`.
     pub(super) range: f64,
     pub(super) exits: Exits<D>,
-    pub(in crate::weakly_compressible) inlets: Vec<Inlet<D>>,
+    pub(crate) inlets: Vec<Inlet<D>>,
     /// Where the particles of each inlet's rows begin among all wall particles.
     pub(super) first_particles: Vec<usize>,
     /// Particles of the flow at the start.
     begun: u32,
     /// How far each shell has moved since the start `[m]`, and in the last step.
-    pub(super) displacements: Vec<Vector<D>>,
+    pub(crate) displacements: Vec<Vector<D>>,
     pub(super) last: Vec<Vector<D>>,
     /// Mean velocity of each in the present step `[m/s]`.
     pub(super) velocities: Vec<Vector<D>>,
     /// The shell of every particle in the arrays; none of the flow.
-    pub(in crate::weakly_compressible) owners: Vec<u32>,
+    pub(super) owners: Vec<u32>,
     /// Impulses of a step, block by block.
-    pub(in crate::weakly_compressible) blocks: Vec<Vector<D>>,
+    pub(super) blocks: Vec<Vector<D>>,
     pub(super) gone: Vec<bool>,
     pub(crate) books: Books<D>,
 }
@@ -51,8 +51,13 @@ pub(crate) struct Books<const D: usize> {
 }
 
 impl<const D: usize> Surroundings<D> {
-    /// Those of an enclosure of a flow at a spacing `[m]`, with so many particles of the flow and of plane walls.
-    pub(crate) fn new(enclosure: Enclosure<D>, spacing: f64, (flow, plane): (usize, usize)) -> Self {
+    /// State at the start at a spacing `[m]`, with numbers of plane walls and of their particles, and of particles of the flow.
+    pub(crate) fn new(
+        enclosure: Enclosure<D>,
+        spacing: f64,
+        (plane_walls, plane): (usize, usize),
+        flow: usize,
+    ) -> Self {
         let shells = enclosure.surfaces();
         let Enclosure { exits, inlets, .. } = enclosure;
         let before = |shell: usize| plane + shells[..shell].iter().map(|shell| shell.backing.len()).sum::<usize>();
@@ -61,6 +66,7 @@ impl<const D: usize> Surroundings<D> {
         let none = vec![Vector::zeros(); shells.len()];
         let displacements = shells.iter().map(|shell| shell.motion.displacement(0.0)).collect();
         Self {
+            plane_walls,
             grids: shells.iter().map(|shell| FacetGrid::new(&shell.facets, range)).collect(),
             range,
             exits,
@@ -83,7 +89,7 @@ impl<const D: usize> Surroundings<D> {
         }
     }
 
-    /// Goes on from books and a time.
+    /// Continues from books and a time.
     pub(crate) fn restore(&mut self, books: Books<D>, time: f64) {
         self.books = books;
         for shell in 0..self.shells.len() {
@@ -98,7 +104,7 @@ impl<const D: usize> Surroundings<D> {
     }
 
     /// Whether there is nothing, neither shells nor open sides.
-    pub(in crate::weakly_compressible) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.shells.is_empty() && self.exits == Exits::default()
     }
 
@@ -128,20 +134,39 @@ impl<const D: usize> Surroundings<D> {
         self.begun + self.books.arrivals.particles() as u32
     }
 
-    pub(crate) fn shells(&self) -> &[Shell<D>] {
-        &self.shells
-    }
-
-    pub(crate) fn displacements(&self) -> &[Vector<D>] {
-        &self.displacements
-    }
-
     /// Adds the impulses of a step, in the order of the blocks.
-    pub(in crate::weakly_compressible) fn close_impulses(&mut self) {
+    pub(super) fn close_impulses(&mut self) {
         for block in self.blocks.chunks_exact_mut(self.shells.len()) {
             for (sum, impulse) in self.books.impulses.iter_mut().zip(block) {
                 *sum += std::mem::replace(impulse, Vector::zeros());
             }
         }
+    }
+}
+
+impl<const D: usize> Books<D> {
+    /// Checks the rows that inlets have set free into a flow of so many particles. Returns how many particles there were in all.
+    ///
+    /// # Errors
+    /// Rows of other inlets than these.
+    pub(crate) fn check_rows(&self, inlets: &[Inlet<D>], flow: usize) -> Result<usize, ForeignState> {
+        ForeignState::check("inlets", self.arrivals.inlets.len(), inlets.len())?;
+        let cells = |inlet: usize| inlets.get(inlet).map_or(0, |inlet| inlet.cells.len() as u64);
+        let mut rows = vec![0; inlets.len()];
+        let mut next = flow as u64;
+        let mut sound = true;
+        for row in &self.arrivals.rows {
+            let inlet = row.inlet as usize;
+            sound &= inlet < inlets.len() && u64::from(row.first) == next;
+            next = next.saturating_add(cells(inlet));
+            rows.get_mut(inlet).into_iter().for_each(|rows| *rows += 1);
+        }
+        let counted = |(inlet, rows): (usize, &u64)| {
+            let fed = &self.arrivals.inlets[inlet];
+            fed.rows == *rows && fed.particles == rows.saturating_mul(cells(inlet))
+        };
+        sound &= rows.iter().enumerate().all(counted);
+        ForeignState::check("whole sets of rows", usize::from(sound), 1)?;
+        Ok(next as usize)
     }
 }

@@ -9,3 +9,6 @@ pub(crate) use block_search::{BLOCK, LARGEST_ROW};
 pub(crate) use cell_grid::CellGrid;
 pub(crate) use verlet_list::NeighbourGroup;
 pub use verlet_list::{Row, VerletList};
+
+/// Particles that the neighbour list can address, walls included.
+pub(crate) const MOST_PARTICLES: usize = i32::MAX as usize / 64;

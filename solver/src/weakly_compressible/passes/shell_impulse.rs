@@ -1,5 +1,5 @@
-//! What each shell gives to the flow: the forces of its wall particles, pair by pair as the momentum pass takes them, and
-//! contacts. Only scenes with shells come here.
+//! Impulse that the wall particles of each shell give to the flow: their forces, pair by pair as the momentum pass takes them.
+//! Only scenes with shells come here.
 
 use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
@@ -9,24 +9,32 @@ use crate::lanes::algebra::{load, scaled, store_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::enclosure::shell_contact::{Passed, Touch};
-use crate::weakly_compressible::enclosure::surroundings::NO_SHELL;
-use crate::weakly_compressible::energy::{EnergyLedger, PushCause, PushStep};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 
-/// Adds to `impulses`, block by block of flow particles and in each shell by shell, what the wall particles give in a step
-/// `[kg m/s]`. `owners` has the shell of every particle in the arrays.
-pub(crate) fn by_wall_particles<const D: usize>(
+/// The owner of particles that belong to no shell.
+pub(crate) const NO_SHELL: u32 = u32::MAX;
+
+/// The shells that impulses are booked to.
+pub(crate) struct Booking<'a, const D: usize> {
+    /// The shell of every particle in the arrays.
+    pub(crate) owners: &'a [u32],
+    /// Number of shells.
+    pub(crate) shells: usize,
+    /// Impulses, block by block of flow particles and in each shell by shell `[kg m/s]`.
+    pub(crate) impulses: &'a mut [Vector<D>],
+}
+
+/// Adds the impulses of the wall particles in a step.
+pub(crate) fn run<const D: usize>(
     model: &Model<D>,
     particles: &Particles<D>,
     pairs: &PairData<D>,
-    owners: &[u32],
-    shells: usize,
     time_step: f64,
-    impulses: &mut [Vector<D>],
+    booking: Booking<'_, D>,
 ) {
+    let Booking { owners, shells, impulses } = booking;
     impulses.par_chunks_mut(shells).enumerate().with_min_len(4).for_each(|(block, out)| {
         model.instruction_set.run(Pass { model, particles, pairs, owners, block, time_step, out });
     });
@@ -113,85 +121,4 @@ fn book<V: Lanes, const D: usize>(
             out[owner as usize] += stress[lane] + control[lane];
         }
     }
-}
-
-/// What contacts with shells found in a block.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Extremes {
-    /// Largest speed squared of a particle that was touched `[m²/s²]`.
-    pub(crate) largest: f64,
-    /// The first particle that was found behind a shell.
-    pub(crate) passed: Option<(usize, Passed)>,
-}
-
-/// Stops what approaches a shell, after the velocities have been stepped; adds the impulses as [`by_wall_particles`] does.
-pub(crate) fn by_contacts<const D: usize>(
-    model: &Model<D>,
-    particles: &mut Particles<D>,
-    energy: &mut [EnergyLedger],
-    touch: Touch<'_, D>,
-    time_step: f64,
-    impulses: &mut [Vector<D>],
-) -> Extremes {
-    let flow = particles.flow_count();
-    let (position, mass, acceleration) = (&particles.position[..flow], &particles.mass, &particles.acceleration);
-    let (by_walls, by_damping, by_wall_control) =
-        (&particles.by_walls, &particles.by_damping, &particles.by_wall_control);
-    (
-        particles.velocity[..flow].par_chunks_mut(BLOCK),
-        particles.support_impulse.par_chunks_mut(BLOCK),
-        energy,
-        impulses.par_chunks_mut(touch.shells.len()),
-    )
-        .into_par_iter()
-        .with_min_len(16)
-        .enumerate()
-        .map(|(block, (velocities, support_impulses, energy, out))| {
-            let mut extremes = Extremes { largest: 0.0, passed: None };
-            for (offset, (velocity, support_impulse)) in velocities.iter_mut().zip(support_impulses).enumerate() {
-                let index = block * BLOCK + offset;
-                if model.list.group(index / LANES).wall.raw().is_empty() {
-                    continue;
-                }
-                let mass = mass[index];
-                // what the shells do by moving
-                let mut given = 0.0;
-                let book = |shell: usize, push: Vector<D>| {
-                    out[shell] += push * mass;
-                    given += mass * push.dot(&touch.velocities[shell]);
-                };
-                match touch.respond(&position[index], velocity, book) {
-                    Ok(push) => {
-                        PushStep {
-                            mass,
-                            time_step,
-                            gravity: &model.gravity,
-                            velocity: *velocity,
-                            push,
-                            given,
-                            acceleration: &acceleration[index],
-                            by_walls: &by_walls[index],
-                            by_damping: &by_damping[index],
-                            by_wall_control: &by_wall_control[index],
-                        }
-                        .add_to(energy, PushCause::Contact);
-                        *velocity += push;
-                        *support_impulse += push * mass;
-                        extremes.largest = extremes.largest.max(velocity.norm_squared());
-                    }
-                    Err(passed) => extremes.passed = extremes.passed.or(Some((index, passed))),
-                }
-            }
-            extremes
-        })
-        .reduce(
-            || Extremes { largest: 0.0, passed: None },
-            |a, b| Extremes {
-                largest: a.largest.max(b.largest),
-                passed: match (a.passed, b.passed) {
-                    (Some(first), Some(second)) => Some(if second.0 < first.0 { second } else { first }),
-                    (first, second) => first.or(second),
-                },
-            },
-        )
 }

@@ -36,7 +36,6 @@ mod update;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use reaction::Booking;
 pub(crate) use system::ViscousSystem;
 
 use crate::linear::{Descent, Stalled, descend};

@@ -11,24 +11,14 @@ use crate::lanes::algebra::{accumulate, difference, product, scaled, store_vecto
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
-use crate::weakly_compressible::enclosure::surroundings::NO_SHELL;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
+use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_SHELL};
 use crate::weakly_compressible::terms::wall_slip;
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
 use crate::weakly_compressible::walls::Images;
-
-/// The shells that a reaction is booked to.
-pub(crate) struct Booking<'a, const D: usize> {
-    /// The shell of every particle in the arrays.
-    pub(crate) owners: &'a [u32],
-    /// Number of shells.
-    pub(crate) shells: usize,
-    /// Impulses, block by block of flow particles and in each shell by shell `[kg m/s]`.
-    pub(crate) impulses: &'a mut [Vector<D>],
-}
 
 impl<const D: usize> ViscousSolve<'_, D> {
     /// Adds the reaction to the increment that was solved for: to `impulses` what shells give, and to the support of each
