@@ -105,6 +105,7 @@ impl Cut {
             walls,
             wall_particles,
             enclosure,
+            side_walls: None,
             domain,
             gravity,
             spacing,

@@ -4,7 +4,6 @@
 use crate::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, SPACING, advance, block, exact_pairs, open_scene, simulation,
 };
-use crate::shells::enclose;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::enclosure::shell::{Shell, Side};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
@@ -26,7 +25,7 @@ fn collapse(frame: &Tensor<2>, corners: &[[f64; 2]], numerics: Numerics) -> Scen
     let points: Vec<Vector<2>> = corners.iter().map(|&point| frame * Vector::<2>::from(point)).collect();
     // in a mirror left is right
     let side = if frame.determinant() > 0.0 { Side::Left } else { Side::Right };
-    enclose(&mut scene, vec![Shell::polyline("walls", &points, side)]);
+    scene.enclosure.shells = vec![Shell::polyline("walls", &points, side)];
     scene
 }
 

@@ -2,7 +2,7 @@
 //! one becomes that.
 
 use crate::patches::{EQUATION_OF_STATE, GRAINS, SPACING, exact_pairs, simulation};
-use crate::shells::{enclose, shell};
+use crate::shells::shell;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
@@ -30,7 +30,7 @@ fn empty<const D: usize>() -> Scene<D> {
 /// Grains that are fed onto a bed through an opening six spacings high, at a rate `[kg/(s m)]` that rises, ends and begins anew.
 pub(crate) fn fed() -> Scene<2> {
     let mut scene = empty::<2>();
-    enclose(&mut scene, vec![shell("bed", &[[-8.0 * SPACING, 0.0], [20.0 * SPACING, 0.0]])]);
+    scene.enclosure.shells = vec![shell("bed", &[[-8.0 * SPACING, 0.0], [20.0 * SPACING, 0.0]])];
     let rate = FeedRate::table(&[(0.0, 0.0), (0.004, 200.0), (0.02, 200.0), (0.024, 0.0), (0.03, 0.0), (0.034, 250.0)]);
     let (top, bottom) = (Vector::<2>::new(0.0, 6.2 * SPACING), Vector::<2>::zeros());
     let inlet = Inlet::segment("feed", top, bottom, supply(rate.expect("a table")));
@@ -132,7 +132,7 @@ impl Layer {
         let mut scene = Scene::unbounded(Flow::default(), spacing, equation_of_state, self.law);
         scene.gravity = Vector::<2>::new(gravity * sin, -gravity * cos);
         // the bed begins under the rows
-        enclose(&mut scene, vec![shell("bed", &[[-self.height, 0.0], [length, 0.0]])]);
+        scene.enclosure.shells = vec![shell("bed", &[[-self.height, 0.0], [length, 0.0]])];
         let rate = FeedRate::constant(self.density * self.mean * self.height).expect("a rate");
         let supply = Supply { spacing, rows: ROWS, density: self.density, rate };
         let inlet = Inlet::segment("feed", Vector::<2>::new(0.0, self.height), Vector::<2>::zeros(), supply);
@@ -218,7 +218,7 @@ fn an_inlet_into_a_full_box_is_blocked_and_says_so() {
     let side = 6.0 * SPACING;
     let lid = shell("lid", &[[0.0, side + SPACING], [0.0, side], [-6.0 * SPACING, side]]);
     let box_of = [[-6.0 * SPACING, 0.0], [side, 0.0], [side, side + SPACING], [0.0, side + SPACING]];
-    enclose(&mut scene, vec![lid, shell("box", &box_of)]);
+    scene.enclosure.shells = vec![lid, shell("box", &box_of)];
     let rate = FeedRate::constant(60.0).expect("a rate");
     let inlet = Inlet::segment("feed", Vector::<2>::new(0.0, side), Vector::<2>::zeros(), supply(rate));
     scene.enclosure.inlets = vec![inlet.expect("an opening")];

@@ -5,7 +5,7 @@ use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, SYRUP, advance, bed, 
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::mesh_backing;
-use bagnold_solver::weakly_compressible::enclosure::shell::{Motion, Shell};
+use bagnold_solver::weakly_compressible::enclosure::shell::{BackingParticle, Motion, Shell};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::walls::{Wall, wall};
@@ -41,17 +41,14 @@ fn box_of(size: Vector<3>) -> Vec<Triangle> {
     [quad(none, x, y), quad(none, y, z), quad(none, z, x), quad(x, z, y), quad(y, x, z)].concat()
 }
 
-fn backed(triangles: &[Triangle], domain: &Domain<3>) -> Shell<3> {
-    let mut shells = [Shell::mesh("wall", triangles)];
-    mesh_backing::lay(&mut shells, domain, SPACING, ROWS);
-    let [shell] = shells;
-    shell
+fn backing(triangles: &[Triangle], domain: &Domain<3>) -> Vec<BackingParticle<3>> {
+    mesh_backing::lay(&[Shell::mesh("wall", triangles)], domain, SPACING, ROWS).concat()
 }
 
 const OPEN: Domain<3> = Domain { axes: [AxisBoundary::Open; 3] };
 
-fn volume(shell: &Shell<3>) -> f64 {
-    shell.backing.iter().map(|particle| particle.volume).sum()
+fn volume(backing: &[BackingParticle<3>]) -> f64 {
+    backing.iter().map(|particle| particle.volume).sum()
 }
 
 #[test]
@@ -63,7 +60,7 @@ fn a_flat_mesh_has_the_dummy_particles_of_a_plane() {
     let domain = Domain { axes: [periodic(0), mirrored, AxisBoundary::Open] };
     let plane = wall::fill(&[bed()], &domain, (Vector::zeros(), upper), SPACING, ROWS);
     let bed = divided(Vector::zeros(), at(upper[0], 0.0, 0.0), at(0.0, upper[1], 0.0), [5, 4]);
-    let mesh = backed(&bed, &domain).backing;
+    let mesh = backing(&bed, &domain);
     assert_eq!(mesh.len(), plane.len());
     for particle in &mesh {
         let near = plane.iter().filter(|other| (other.position - particle.position).norm() < 1e-12 * SPACING);
@@ -83,17 +80,17 @@ fn the_space_behind_a_mesh_is_covered_once() {
     let quarter = std::f64::consts::FRAC_PI_4 * reach * reach;
     let eighths = 4.0 * std::f64::consts::PI / 6.0 * reach.powi(3);
     let expected = faces * reach + quarter * (2.0 * (x + y) + 4.0 * z) + eighths;
-    let found = volume(&backed(&box_of(size), &OPEN));
+    let found = volume(&backing(&box_of(size), &OPEN));
     assert!((found / expected - 1.0).abs() < 0.02, "{found} m³ for {expected} m³ behind a box");
     // a slanted plane between mirrors that it is not square to: what lies behind it ends at them
     let mirrored = AxisBoundary::Mirror { lower: Some(0.0), upper: Some(x) };
     let domain = Domain { axes: [mirrored, AxisBoundary::Open, AxisBoundary::Open] };
     let slope = quad(Vector::zeros(), at(x, 0.0, -0.5 * x), at(0.0, y, 0.0));
     let length = 1.25_f64.sqrt() * x;
-    let found = volume(&backed(&slope, &OPEN));
+    let found = volume(&backing(&slope, &OPEN));
     assert!((found / (length * y * reach) - 1.0).abs() < 0.02, "{found} m³ behind a slope");
     // at the lower mirror a wedge is lost, at the upper one a wedge and its image's meet
-    let found = volume(&backed(&slope, &domain));
+    let found = volume(&backing(&slope, &domain));
     let angle = 0.5_f64.atan();
     let wedge = 0.5 * reach * reach * angle.tan() * y;
     let fan = 0.5 * reach * reach * angle * y;
@@ -117,18 +114,18 @@ fn pipe(radius: f64, length: f64, facets: usize, rows: usize) -> Vec<Triangle> {
 #[test]
 fn a_curved_mesh_of_ten_thousand_triangles_is_backed_all_around() {
     let (radius, length, reach) = (0.2, 0.3, ROWS as f64 * SPACING);
-    let mut shells = [Shell::mesh("wall", &pipe(radius, length, 250, 20))];
-    let looked_at = mesh_backing::lay(&mut shells, &OPEN, SPACING, ROWS);
-    let [shell] = shells;
+    let shell = Shell::mesh("wall", &pipe(radius, length, 250, 20));
     assert_eq!(shell.facets.len(), 10_000);
+    let (mut backing, looked_at) = mesh_backing::lay_counted(std::slice::from_ref(&shell), &OPEN, SPACING, ROWS);
+    let backing = backing.remove(0);
     // a place looks at the facets within six spacings only: 4000 for every particle that comes of it, with the places that come to
     // nothing; all facets would be 10 000 for every single place
-    let each = looked_at as f64 / shell.backing.len() as f64;
+    let each = looked_at as f64 / backing.len() as f64;
     assert!(each < 0.5 * shell.facets.len() as f64, "{each} facets were looked at for every particle");
     let expected = std::f64::consts::PI * ((radius + reach).powi(2) - radius.powi(2)) * length;
-    let found = volume(&shell);
+    let found = volume(&backing);
     assert!((found / expected - 1.0).abs() < 0.02, "{found} m³ for {expected} m³");
-    for particle in &shell.backing {
+    for particle in &backing {
         let across = at(particle.position[0], particle.position[1], 0.0);
         assert!((across.norm() - radius - particle.depth).abs() < 0.05 * SPACING, "{particle:?}");
         assert!(particle.normal.dot(&across.normalize()) < -0.99, "{particle:?}");
@@ -148,7 +145,7 @@ fn filled() -> Scene<3> {
 
 fn in_a_mesh(mut scene: Scene<3>) -> Scene<3> {
     let size = at(8.0, 8.0, 14.0) * SPACING;
-    scene.enclosure.shells = vec![backed(&box_of(size), &scene.domain)];
+    scene.enclosure.shells = vec![Shell::mesh("wall", &box_of(size))];
     scene
 }
 
@@ -194,9 +191,7 @@ fn gravity_and_the_walls_of_triangles_give_all_the_momentum_and_nothing_passes()
     let lid = quad(at(-0.03, -0.03, 0.085), at(0.0, 0.13, 0.0), at(0.13, 0.0, 0.0));
     let mut moved = Shell::mesh("lid", &lid);
     moved.motion = Motion { times: vec![0.0, 0.02], displacements: vec![Vector::zeros(), at(0.0, 0.0, -0.012)] };
-    let mut shells = vec![Shell::mesh("funnel", &funnel), moved];
-    mesh_backing::lay(&mut shells, &scene.domain, SPACING, ROWS);
-    scene.enclosure.shells = shells;
+    scene.enclosure.shells = vec![Shell::mesh("funnel", &funnel), moved];
     let (gravity, mass) = (scene.gravity, scene.flow.mass.iter().sum::<f64>());
     let mut simulation = simulation(scene);
     let momentum = |simulation: &Simulation<3>| -> Vector<3> {

@@ -21,12 +21,6 @@ pub(crate) fn shell(name: &str, points: &[[f64; 2]]) -> Shell<2> {
     Shell::polyline(name, &points, Side::Left)
 }
 
-/// Gives a scene its shells with their dummy particles.
-pub(crate) fn enclose(scene: &mut Scene<2>, mut shells: Vec<Shell<2>>) {
-    backing::lay(&mut shells, &scene.domain, scene.spacing, ROWS);
-    scene.enclosure.shells = shells;
-}
-
 /// A layer, periodic along x, under its hydrostatic pressure on a slope `angle` [rad], without a bed.
 fn layer(cells: [usize; 2], jitter: f64, angle: f64) -> Scene<2> {
     let mut scene = open_scene(block(cells, Disorder { jitter, ..Disorder::NONE }, 31));
@@ -49,14 +43,14 @@ fn on_a_plane(mut scene: Scene<2>) -> Scene<2> {
 fn on_segments(mut scene: Scene<2>) -> Scene<2> {
     let AxisBoundary::Periodic { upper, .. } = scene.domain.axes[0] else { unreachable!("periodic") };
     let points = [0.0, 0.17, 0.18, 0.43, 0.431, 0.77, 1.0].map(|part| [part * upper, 0.0]);
-    enclose(&mut scene, vec![shell("bed", &points)]);
+    scene.enclosure.shells = vec![shell("bed", &points)];
     scene
 }
 
 #[test]
 fn a_straight_wall_of_segments_has_the_dummy_particles_of_a_plane() {
     let (plane, segments) = (on_a_plane(layer([14, 6], 0.0, 0.0)), on_segments(layer([14, 6], 0.0, 0.0)));
-    let backing = &segments.enclosure.shells[0].backing;
+    let backing = &backing::lay(&segments.enclosure.shells, &segments.domain, SPACING, ROWS)[0];
     assert_eq!(backing.len(), plane.wall_particles.len());
     for particle in backing {
         let twin = plane.wall_particles.iter().find(|other| (other.position - particle.position).norm() < 1e-12);
@@ -111,7 +105,7 @@ fn turned_box(degrees: f64) -> Scene<2> {
     }
     scene.gravity = turn(scene.gravity);
     let corners = [[0.0, 2.0 * height], [0.0, 0.0], [width, 0.0], [width, 2.0 * height]];
-    enclose(&mut scene, vec![shell("box", &corners.map(|corner| turn(corner.into()).into()))]);
+    scene.enclosure.shells = vec![shell("box", &corners.map(|corner| turn(corner.into()).into()))];
     scene
 }
 
@@ -182,6 +176,21 @@ fn a_liquid_at_rest_creeps_by_less_than_a_quarter_per_cent_of_its_fall() {
 }
 
 #[test]
+fn a_scene_of_facets_alone_holds_its_material() {
+    let scene = Scene { rheology: SYRUP, ..turned_box(30.0) };
+    let down = scene.gravity / GRAVITY;
+    let mut simulation = Simulation::new(scene).expect("a scene");
+    assert!(simulation.particles().wall_count() > 4 * ROWS * 16, "rows stand behind all facets");
+    advance(&mut simulation, 500);
+    let held: Vector<2> = simulation.shell_impulses().iter().sum();
+    let (error, fastest) = rest(&simulation, 12.0 * SPACING, &down);
+    let fall = (GRAVITY * 12.0 * SPACING).sqrt();
+    assert!(error < 0.01 && fastest < 0.02 * fall, "pressure off by {error}, {fastest} m/s");
+    let weight = down * (GRAVITY * simulation.time() * simulation.snapshot().mass.iter().sum::<f64>());
+    assert!((held + weight).norm() < 0.01 * weight.norm(), "{held} holds {weight}");
+}
+
+#[test]
 fn nothing_passes_a_corner_of_30_degrees_at_10_metres_a_second() {
     let (sin, cos) = 15_f64.to_radians().sin_cos();
     let (far, cells) = (60.0 * SPACING, [10, 8]);
@@ -194,7 +203,7 @@ fn nothing_passes_a_corner_of_30_degrees_at_10_metres_a_second() {
                 *place += Vector::<2>::new(from, -4.0 * SPACING);
             }
             scene.flow.velocity.fill(Vector::<2>::new(speed, 0.0));
-            enclose(&mut scene, vec![shell("corner", &corner)]);
+            scene.enclosure.shells = vec![shell("corner", &corner)];
             let inside = scene.enclosure.shells[0].facets.clone();
             let mut simulation = simulation(scene);
             // a particle that passed would be a divergence
@@ -218,7 +227,7 @@ fn nothing_passes_a_corner_of_30_degrees_at_10_metres_a_second() {
 fn a_particle_that_has_passed_a_wall_ends_the_run_by_name() {
     let mut scene = open_scene(block([6, 6], Disorder::NONE, 1));
     let lowest = scene.flow.position[0][1] + 0.3 * SPACING;
-    enclose(&mut scene, vec![shell("floor", &[[-0.2, lowest], [0.3, lowest]])]);
+    scene.enclosure.shells = vec![shell("floor", &[[-0.2, lowest], [0.3, lowest]])];
     let mut simulation = simulation(scene);
     let divergence = simulation.step().expect_err("behind the floor");
     assert_eq!(
@@ -238,7 +247,7 @@ pub(crate) fn gated() -> Scene<2> {
     gate.roughness = Surface::Smooth;
     let up = |y: f64| Vector::<2>::new(0.0, y);
     gate.motion = Motion { times: vec![0.0, 0.01, 0.06], displacements: vec![up(0.0), up(0.0), up(0.1)] };
-    enclose(&mut scene, vec![floor, gate]);
+    scene.enclosure.shells = vec![floor, gate];
     scene
 }
 
@@ -269,7 +278,7 @@ fn what_leaves_by_an_open_side_is_taken_out_and_counted() {
     let mut scene = open_scene(block([14, 12], Disorder::FULL, 5));
     scene.gravity = Vector::<2>::new(0.0, -9.0);
     scene.enclosure.exits.lower = Vector::<2>::new(f64::NEG_INFINITY, -0.05);
-    enclose(&mut scene, vec![shell("ledge", &[[-0.1, 0.0], [0.06, 0.0], [0.06, -0.04]])]);
+    scene.enclosure.shells = vec![shell("ledge", &[[-0.1, 0.0], [0.06, 0.0], [0.06, -0.04]])];
     let (gravity, count) = (scene.gravity, scene.flow.mass.len() as u64);
     let mass = scene.flow.mass.iter().sum::<f64>();
     let start: Vector<2> = scene.flow.velocity.iter().zip(&scene.flow.mass).map(|(v, m)| v * *m).sum();

@@ -3,6 +3,7 @@
 use crate::lanes::LaneTensors;
 use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
+use crate::weakly_compressible::enclosure::shell::BackingParticle;
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::scene::Scene;
@@ -10,15 +11,17 @@ use crate::weakly_compressible::wall_fields::WallFields;
 use crate::weakly_compressible::walls::Surface;
 
 impl<const D: usize> Particles<D> {
-    /// Arrays for the flow, the walls and the shells of a scene.
-    pub(crate) fn new(scene: &Scene<D>) -> Self {
+    /// Arrays for the flow, the walls and the shells of a scene, with the dummy particles of each shell.
+    pub(crate) fn new(scene: &Scene<D>, backing: &[Vec<BackingParticle<D>>]) -> Self {
         let Scene { flow, walls, wall_particles, .. } = scene;
-        let (n, m) = (flow.position.len(), wall_particles.len() + scene.enclosure.backing_particles());
+        let (n, m) = (flow.position.len(), wall_particles.len() + backing.iter().map(Vec::len).sum::<usize>());
         let real = n + m;
         let surfaces = scene.enclosure.surfaces();
         let first_inlet = scene.enclosure.shells.len();
-        let backing = || surfaces.iter().flat_map(|shell| &shell.backing);
-        let places = wall_particles.iter().map(|wall| wall.position).chain(backing().map(|particle| particle.position));
+        let places = wall_particles
+            .iter()
+            .map(|wall| wall.position)
+            .chain(backing.iter().flatten().map(|particle| particle.position));
         let mut particles = Self {
             position: flow.position.iter().copied().chain(places).collect(),
             velocity: flow.velocity.clone(),
@@ -62,17 +65,17 @@ impl<const D: usize> Particles<D> {
         particles.stress.resize(real, Tensor::zeros());
         particles.density.resize(real, scene.equation_of_state.reference_density);
         particles.volume.resize(n + wall_particles.len(), scene.spacing.powi(D as i32));
-        particles.volume.extend(backing().map(|particle| particle.volume));
+        particles.volume.extend(backing.iter().flatten().map(|particle| particle.volume));
         for particle in wall_particles {
             let wall = &walls[particle.wall];
             let depth = -wall.distance(&particle.position);
             particles.walls.push(wall.normal(), depth, wall.velocity, wall.roughness == Surface::Smooth);
             particles.wall.push(particle.wall as u32);
         }
-        for (index, shell) in surfaces.iter().enumerate() {
+        for (index, (shell, backing)) in surfaces.iter().zip(backing).enumerate() {
             let of_inlet = index.checked_sub(first_inlet).map(|inlet| &scene.enclosure.inlets[inlet]);
             let rows = of_inlet.map(|inlet| inlet.direction() * inlet.speed(0.0));
-            for particle in &shell.backing {
+            for particle in backing {
                 let is_smooth = shell.roughness == Surface::Smooth;
                 let velocity = rows.unwrap_or_else(|| shell.motion.velocity(0.0));
                 particles.walls.push(particle.normal, particle.depth, velocity, is_smooth);

@@ -11,7 +11,7 @@ use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::scene::Scene;
-use crate::weakly_compressible::simulation::Simulation;
+use crate::weakly_compressible::simulation::{Compiled, Simulation};
 use crate::weakly_compressible::state::State;
 use crate::weakly_compressible::walls::{Images, Wall};
 use serde::{Deserialize, Serialize};
@@ -64,27 +64,28 @@ impl<const D: usize> Simulation<D> {
     ///
     /// # Errors
     /// A scene that breaks a rule, a state that is not one of this scene.
-    pub fn continued(scene: Scene<D>, saved: SavedSimulation<'_, D>) -> Result<Self, ContinueError> {
-        scene.check()?;
+    pub fn continued(scene: Scene<D>, saved: SavedSimulation<'_, D>) -> Result<Self, ContinueError>
+    where
+        Self: Compiled<D>,
+    {
+        let mut state = Self::laid(scene)?;
         let (particles, images) = (saved.particles.into_owned(), saved.images.into_owned());
         let (list, walls) = (saved.list.into_owned(), saved.walls.into_owned());
         let (flow, real) = (particles.flow_count(), particles.real_count());
         let books = saved.books.into_owned();
-        let shells = scene.enclosure.shells.len() + scene.enclosure.inlets.len();
-        let begun = books.check_rows(&scene.enclosure.inlets, scene.flow.position.len())?;
+        let shells = state.surroundings.shells.len();
+        let begun = books.check_rows(&state.surroundings.inlets, state.particles.flow_count())?;
         let departed = books.departures.particles() as usize;
         ForeignState::check("flow particles", flow.saturating_add(departed), begun)?;
-        let wall_particles = scene.wall_particles.len() + scene.enclosure.backing_particles();
-        ForeignState::check("wall particles", particles.wall_count(), wall_particles)?;
-        ForeignState::check("walls", walls.len(), scene.walls.len())?;
+        ForeignState::check("wall particles", particles.wall_count(), state.particles.wall_count())?;
+        ForeignState::check("walls", walls.len(), state.walls.len())?;
         ForeignState::check("walls of segments", books.impulses.len(), shells)?;
-        let whole = particles.are_complete(images.len(), begun, &scene.rheology)
+        let whole = particles.are_complete(images.len(), begun, &state.model.rheology)
             && images.belong_to(real)
             && particles.walls_are_below(walls.len() + shells)
             && books.departures.sides.len() == 2 * D
             && list.belongs_to(flow, real, real + images.len() + 1);
         ForeignState::check("whole sets of arrays", usize::from(whole), 1)?;
-        let mut state = State::new(scene);
         state.particles = particles;
         state.images = images;
         state.walls = walls;

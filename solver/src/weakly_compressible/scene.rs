@@ -8,7 +8,6 @@ use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::enclosure::Enclosure;
-use crate::weakly_compressible::neighbours::MOST_PARTICLES;
 use crate::weakly_compressible::numerics::Numerics;
 use crate::weakly_compressible::walls::{SideWalls, Wall, wall::WallParticle};
 
@@ -112,14 +111,11 @@ impl<const D: usize> Scene<D> {
         self.check_domain()
     }
 
-    /// Arrays of one length, not too long, and empty only where an inlet feeds the flow.
+    /// Arrays of one length, and empty only where an inlet feeds the flow.
     fn check_lengths(&self) -> Result<(), SceneError> {
         let expected = self.flow.position.len();
         if expected == 0 && self.enclosure.inlets.is_empty() {
             return Err(SceneError::Empty);
-        }
-        if expected + self.wall_particles.len() + self.enclosure.backing_particles() > MOST_PARTICLES {
-            return Err(SceneError::TooLarge(expected));
         }
         let lengths = [
             ("velocity", self.flow.velocity.len()),

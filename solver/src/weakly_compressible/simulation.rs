@@ -8,15 +8,17 @@ use crate::run::{Course, Divergence, Observer, SceneError, StopReason, Watching}
 use crate::vector::Vector;
 use crate::weakly_compressible::enclosure::boundary_set::Departures;
 use crate::weakly_compressible::enclosure::inlet::{Arrivals, Inlet};
-use crate::weakly_compressible::enclosure::shell::Shell;
+use crate::weakly_compressible::enclosure::shell::{BackingParticle, Shell};
+use crate::weakly_compressible::enclosure::{backing, mesh_backing};
 use crate::weakly_compressible::energy::EnergyAccount;
 use crate::weakly_compressible::model::GradientUse;
-use crate::weakly_compressible::neighbours::VerletList;
+use crate::weakly_compressible::neighbours::{MOST_PARTICLES, VerletList};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::scene::Scene;
 use crate::weakly_compressible::snapshot::Snapshot;
 use crate::weakly_compressible::state::State;
 use crate::weakly_compressible::time_step::TimeStepBounds;
+use crate::weakly_compressible::walls::wall;
 use std::ops::ControlFlow;
 
 /// A running simulation in D = 2 or 3 dimensions.
@@ -36,6 +38,9 @@ pub trait Compiled<const D: usize>: Sized {
     /// A scene that breaks a rule, or whose particles lie on top of each other.
     fn compiled_new(scene: Scene<D>) -> Result<Self, SceneError>;
 
+    /// Dummy particles behind the facets of a checked scene, wall by wall.
+    fn compiled_backing(scene: &Scene<D>) -> Vec<Vec<BackingParticle<D>>>;
+
     /// Takes one step.
     ///
     /// # Errors
@@ -53,10 +58,15 @@ pub trait Compiled<const D: usize>: Sized {
 }
 
 macro_rules! compiled {
-    ($($dimensions:literal),+) => {$(
+    ($($dimensions:literal by $backing:ident),+) => {$(
         impl Compiled<$dimensions> for Simulation<$dimensions> {
             fn compiled_new(scene: Scene<$dimensions>) -> Result<Self, SceneError> {
                 Self::set_up(scene)
+            }
+
+            fn compiled_backing(scene: &Scene<$dimensions>) -> Vec<Vec<BackingParticle<$dimensions>>> {
+                let rows = wall::rows(scene.numerics.smoothing_ratio);
+                $backing::lay(&scene.enclosure.shells, &scene.domain, scene.spacing, rows)
             }
 
             fn compiled_step(&mut self) -> Result<(), Divergence<$dimensions>> {
@@ -78,13 +88,13 @@ macro_rules! compiled {
     )+};
 }
 
-compiled!(2, 3);
+compiled!(2 by backing, 3 by mesh_backing);
 
 impl<const D: usize> Simulation<D>
 where
     Self: Compiled<D>,
 {
-    /// Sets up a simulation.
+    /// Sets up a simulation, with dummy particles behind the facets of its scene.
     ///
     /// # Errors
     /// A scene that breaks a rule, or whose particles lie on top of each other.
@@ -152,9 +162,11 @@ where
 }
 
 impl<const D: usize> Simulation<D> {
-    fn set_up(scene: Scene<D>) -> Result<Self, SceneError> {
-        scene.check()?;
-        let mut state = State::new(scene);
+    fn set_up(scene: Scene<D>) -> Result<Self, SceneError>
+    where
+        Self: Compiled<D>,
+    {
+        let mut state = Self::laid(scene)?;
         let out_of_range = |divergence: Divergence<D>| SceneError::Value {
             quantity: divergence.quantity,
             particle: divergence.particle as usize,
@@ -164,6 +176,25 @@ impl<const D: usize> Simulation<D> {
         state.search_neighbours().map_err(out_of_range)?;
         state.prime().map_err(out_of_range)?;
         Ok(Self { state })
+    }
+
+    /// The state of a scene, with dummy particles behind its facets and in the rows of its inlets.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule, or has more particles than the neighbour list can address.
+    pub(crate) fn laid(scene: Scene<D>) -> Result<State<D>, SceneError>
+    where
+        Self: Compiled<D>,
+    {
+        scene.check()?;
+        let mut backing = Self::compiled_backing(&scene);
+        backing.extend(scene.enclosure.inlets.iter().map(Inlet::backing));
+        let flow = scene.flow.position.len();
+        let dummies = scene.wall_particles.len() + backing.iter().map(Vec::len).sum::<usize>();
+        if flow + dummies > MOST_PARTICLES {
+            return Err(SceneError::TooLarge(flow));
+        }
+        Ok(State::new(scene, &backing))
     }
 
     /// Uses another instruction set: the speed changes, the result does not.

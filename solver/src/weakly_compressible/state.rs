@@ -6,6 +6,7 @@ use crate::material::equation_of_state::Tension;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
+use crate::weakly_compressible::enclosure::shell::BackingParticle;
 use crate::weakly_compressible::enclosure::surroundings::Surroundings;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::model::Model;
@@ -48,11 +49,11 @@ pub(crate) struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
-    /// The state of a checked scene, before its first neighbour search.
-    pub(crate) fn new(scene: Scene<D>) -> Self {
+    /// The state of a checked scene with the dummy particles of each shell, before its first neighbour search.
+    pub(crate) fn new(scene: Scene<D>, backing: &[Vec<BackingParticle<D>>]) -> Self {
         let numerics = scene.numerics;
         let kernel = Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
-        let mut particles = Particles::new(&scene);
+        let mut particles = Particles::new(&scene, backing);
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
         let model = Model {
             list: VerletList::default(),
@@ -76,7 +77,8 @@ impl<const D: usize> State<D> {
         };
         particles.artificial_viscosity.fill(model.initial_artificial_viscosity());
         let planes = (scene.walls.len(), scene.wall_particles.len());
-        let surroundings = Surroundings::new(scene.enclosure, scene.spacing, planes, scene.flow.position.len());
+        let surroundings =
+            Surroundings::new(scene.enclosure, scene.spacing, planes, scene.flow.position.len(), backing);
         Self {
             particles,
             images: Images::new(),

@@ -21,20 +21,22 @@ const SMALLEST: f64 = 0.02;
 /// Sine of the angle up to which two segments are one straight part `[-]`.
 const STRAIGHT: f64 = 1e-9;
 
-/// Fills the space behind the shells with `rows` of dummy particles at the flow's `spacing` `[m]`, the first half a
+/// Dummy particles that fill the space behind each shell in `rows` at the flow's `spacing` `[m]`, the first half a
 /// spacing behind the surface. Shells at rest share their corners; each that moves stands alone. Nothing is laid beyond
 /// periods and mirrors, and a polyline that ends on one continues behind it.
-pub fn lay(shells: &mut [Shell<2>], domain: &Domain<2>, spacing: f64, rows: usize) {
+#[must_use]
+pub fn lay(shells: &[Shell<2>], domain: &Domain<2>, spacing: f64, rows: usize) -> Vec<Vec<BackingParticle<2>>> {
+    let mut backing = vec![Vec::new(); shells.len()];
     for group in together(shells) {
         let parts: Vec<Part> = group.iter().flat_map(|&shell| straight_parts(shell, &shells[shell])).collect();
         let reach = rows as f64 * spacing;
         let lines: Vec<Facet<2>> = parts.iter().map(|part| part.drawn_out(domain, reach)).collect();
         for (own, part) in parts.iter().enumerate() {
             let laying = Laying { lines: &lines, own, domain, spacing, rows };
-            let particles = laying.particles(part);
-            shells[part.shell].backing.extend(particles);
+            backing[part.shell].extend(laying.particles(part));
         }
     }
+    backing
 }
 
 /// Shells that share their corners, by their places: all at rest, and each that moves alone.

@@ -1,7 +1,7 @@
 //! Boundaries of a scene beside plane walls: shells of any shape, open sides by which the flow leaves, inlets by which it comes in.
 
 use super::inlet::Inlet;
-use super::shell::{BackingParticle, Shell};
+use super::shell::Shell;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::Vector;
@@ -31,18 +31,15 @@ impl<const D: usize> Enclosure<D> {
     /// # Errors
     /// The first rule that is broken.
     pub(crate) fn check(&self, spacing: f64, sound_speed: f64) -> Result<(), SceneError> {
-        let is_positive = |value: f64| value > 0.0 && value.is_finite();
         for (particle, shell) in self.shells.iter().enumerate() {
             let corners = shell.facets.iter().flat_map(|facet| &facet.corners);
-            let backed = |particle: &BackingParticle<D>| is_positive(particle.depth) && is_positive(particle.volume);
             let begun = shell.motion.displacement(0.0) == Vector::<D>::zeros();
             for (quantity, sound) in [
                 ("corner of a wall's segments", corners.into_iter().all(|corner| corner.sum().is_finite())),
                 ("table of a wall's motion", shell.motion.is_sound() && begun),
-                ("depth or volume behind a wall", shell.backing.iter().all(backed)),
             ] {
                 if !sound {
-                    let rule = "finite, with times that rise from rest and positive depths";
+                    let rule = "finite, with times that rise from rest";
                     return Err(SceneError::Value { quantity, particle, value: f64::NAN, rule });
                 }
             }
@@ -53,12 +50,6 @@ impl<const D: usize> Enclosure<D> {
             }
         }
         Ok(())
-    }
-
-    /// Number of dummy particles of all shells, and of the rows of inlets.
-    pub(crate) fn backing_particles(&self) -> usize {
-        let of_inlets = self.inlets.iter().map(|inlet| inlet.rows * inlet.cells.len());
-        self.shells.iter().map(|shell| shell.backing.len()).chain(of_inlets).sum()
     }
 
     /// The choice of numerics that goes neither with shells nor with exits or inlets: what walls have of the forces is booked by

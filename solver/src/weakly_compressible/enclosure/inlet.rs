@@ -147,9 +147,15 @@ impl<const D: usize> Inlet<D> {
         self.direction() * (self.travel(time) - fed as f64 * self.depth)
     }
 
-    /// The rows as a rough wall, with their surface in the opening; its first particles are the row that comes next.
+    /// The rows as a rough wall, with their surface in the opening.
     #[must_use]
     pub fn shell(&self) -> Shell<D> {
+        let (name, facets) = (self.name.clone(), self.facets.clone());
+        Shell { name, facets, roughness: Surface::Rough, motion: Motion::default() }
+    }
+
+    /// Dummy particles of the rows; the first are the row that comes next.
+    pub(crate) fn backing(&self) -> Vec<BackingParticle<D>> {
         let (normal, volume) = (self.direction(), self.area * self.depth / self.cells.len() as f64);
         let row = |row: usize| {
             let depth = (row as f64 + 0.5) * self.depth;
@@ -157,13 +163,7 @@ impl<const D: usize> Inlet<D> {
                 move |cell: &Vector<D>| BackingParticle { position: cell - normal * depth, normal, depth, volume };
             self.cells.iter().map(of_cell)
         };
-        Shell {
-            name: self.name.clone(),
-            facets: self.facets.clone(),
-            roughness: Surface::Rough,
-            motion: Motion::default(),
-            backing: (0..self.rows).flat_map(row).collect(),
-        }
+        (0..self.rows).flat_map(row).collect()
     }
 
     /// What cannot be fed through it into a flow of particles at a `spacing` `[m]` whose sound has a speed `[m/s]`.
@@ -272,10 +272,10 @@ mod tests {
         let inlet = inlet.expect("an opening");
         assert!(inlet.direction() == Vector::<2>::new(1.0, 0.0) && inlet.cells.len() == 5);
         assert!((inlet.speed(1.0) * 1500.0 * 0.052 - 6.0).abs() < 1e-12);
-        let shell = inlet.shell();
-        assert_eq!(shell.backing.len(), 15);
-        assert!(shell.backing.iter().take(5).all(|particle| (particle.position[0] + 0.005).abs() < 1e-15));
-        let volume: f64 = shell.backing.iter().map(|particle| particle.volume).sum();
+        let backing = inlet.backing();
+        assert_eq!(backing.len(), 15);
+        assert!(backing.iter().take(5).all(|particle| (particle.position[0] + 0.005).abs() < 1e-15));
+        let volume: f64 = backing.iter().map(|particle| particle.volume).sum();
         assert!((volume - 3.0 * 0.01 * 0.052).abs() < 1e-15);
         assert!((inlet.particle_mass() * 5.0 - inlet.row_mass()).abs() < 1e-12);
     }

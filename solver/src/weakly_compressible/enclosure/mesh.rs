@@ -11,13 +11,13 @@ use std::collections::BTreeMap;
 const FLAT: f64 = 1e-4;
 
 impl Shell<3> {
-    /// The wall of some triangles `[m]`, whose corners are seen from the flow against the clock; at rest, rough and without
-    /// dummy particles. Triangles thinner than a millionth of their length are left out.
+    /// The wall of some triangles `[m]`, whose corners are seen from the flow against the clock; at rest and rough.
+    /// Triangles thinner than a millionth of their length are left out.
     #[must_use]
     pub fn mesh(name: &str, triangles: &[[Vector<3>; 3]]) -> Self {
         let facets = triangles.iter().filter_map(|corners| Facet::triangle(*corners)).collect();
         let (roughness, motion) = (Surface::Rough, Motion::default());
-        Self { name: name.to_owned(), facets, roughness, motion, backing: Vec::new() }
+        Self { name: name.to_owned(), facets, roughness, motion }
     }
 }
 

@@ -27,22 +27,33 @@ const LEAST_DEPTH: f64 = 0.05;
 /// How far beyond a cell's corners facets are looked for, over that distance `[-]`: rounding.
 const BEYOND: f64 = 1.0 + 1e-6;
 
-/// Fills the space behind the shells with `rows` of dummy particles at the flow's `spacing` `[m]`, the first half a spacing
-/// behind the surface. Shells at rest share their edges; each that moves stands alone. Nothing is laid beyond periods and
-/// mirrors. Tells how many facets were looked at in all, place by place: what the filling costs.
-pub fn lay(shells: &mut [Shell<3>], domain: &Domain<3>, spacing: f64, rows: usize) -> usize {
-    let mut looked_at = 0;
+/// Dummy particles that fill the space behind each shell in `rows` at the flow's `spacing` `[m]`, the first half a spacing
+/// behind the surface. Shells at rest share their edges; each that moves stands alone. Nothing is laid beyond periods and mirrors.
+#[must_use]
+pub fn lay(shells: &[Shell<3>], domain: &Domain<3>, spacing: f64, rows: usize) -> Vec<Vec<BackingParticle<3>>> {
+    lay_counted(shells, domain, spacing, rows).0
+}
+
+/// The result of [`lay`], and the number of facets that were looked at in all, place by place: the cost.
+#[must_use]
+pub fn lay_counted(
+    shells: &[Shell<3>],
+    domain: &Domain<3>,
+    spacing: f64,
+    rows: usize,
+) -> (Vec<Vec<BackingParticle<3>>>, usize) {
+    let (mut backing, mut looked_at) = (vec![Vec::new(); shells.len()], 0);
     for group in together(shells) {
         let laying = Laying::of(shells, &group, domain, spacing, rows);
         let parts = (0..laying.parts.len()).into_par_iter().filter(|&part| !laying.parts[part].narrow);
         let mut particles: Vec<Vec<(usize, BackingParticle<3>)>> = parts.map(|part| laying.behind_part(part)).collect();
         particles.push(laying.behind_narrow_parts());
         for (shell, particle) in particles.into_iter().flatten() {
-            shells[shell].backing.push(particle);
+            backing[shell].push(particle);
         }
         looked_at += laying.looked_at.into_inner();
     }
-    looked_at
+    (backing, looked_at)
 }
 
 /// A flat part, or its image in a mirror or a period.

@@ -93,12 +93,10 @@ pub struct Shell<const D: usize> {
     pub roughness: Surface,
     /// How it moves.
     pub motion: Motion<D>,
-    /// Its dummy particles at the start, see [`super::backing::lay`].
-    pub backing: Vec<BackingParticle<D>>,
 }
 
 impl Shell<2> {
-    /// The wall along a polyline `[m]`, at rest, rough and without dummy particles; points that repeat are left out.
+    /// The wall along a polyline `[m]`, at rest and rough; points that repeat are left out.
     #[must_use]
     pub fn polyline(name: &str, points: &[Vector<2>], flow: Side) -> Self {
         let ends = points.windows(2);
@@ -107,7 +105,7 @@ impl Shell<2> {
             Side::Right => ends.rev().filter_map(|ends| Facet::segment(ends[1], ends[0])).collect(),
         };
         let (roughness, motion) = (Surface::Rough, Motion::default());
-        Self { name: name.to_owned(), facets, roughness, motion, backing: Vec::new() }
+        Self { name: name.to_owned(), facets, roughness, motion }
     }
 }
 

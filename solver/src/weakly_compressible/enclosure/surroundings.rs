@@ -4,7 +4,7 @@
 use super::boundary_set::{Departures, Enclosure, Exits};
 use super::facet_grid::FacetGrid;
 use super::inlet::{Arrivals, Inlet};
-use super::shell::Shell;
+use super::shell::{BackingParticle, Shell};
 use crate::run::ForeignState;
 use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -51,17 +51,19 @@ pub(crate) struct Books<const D: usize> {
 }
 
 impl<const D: usize> Surroundings<D> {
-    /// State at the start at a spacing `[m]`, with numbers of plane walls and of their particles, and of particles of the flow.
+    /// State at the start at a spacing `[m]`, with numbers of plane walls, of their particles and of particles of the flow, and the dummy
+    /// particles of each shell.
     pub(crate) fn new(
         enclosure: Enclosure<D>,
         spacing: f64,
         (plane_walls, plane): (usize, usize),
         flow: usize,
+        backing: &[Vec<BackingParticle<D>>],
     ) -> Self {
         let shells = enclosure.surfaces();
         let Enclosure { exits, inlets, .. } = enclosure;
-        let before = |shell: usize| plane + shells[..shell].iter().map(|shell| shell.backing.len()).sum::<usize>();
-        let first_particles = (0..inlets.len()).map(|inlet| before(shells.len() - inlets.len() + inlet)).collect();
+        let before = |shell: usize| plane + backing[..shell].iter().map(Vec::len).sum::<usize>();
+        let first_particles = (shells.len() - inlets.len()..shells.len()).map(before).collect();
         let range = 0.5 * spacing;
         let none = vec![Vector::zeros(); shells.len()];
         let displacements = shells.iter().map(|shell| shell.motion.displacement(0.0)).collect();

@@ -106,6 +106,12 @@ impl<const D: usize> Wall<D> {
     }
 }
 
+/// Rows of dummy particles behind a wall: as many as the kernel reaches, and one for what moves between two searches.
+#[must_use]
+pub fn rows(smoothing_ratio: f64) -> usize {
+    (2.0 * smoothing_ratio).ceil() as usize + 1
+}
+
 /// One dummy particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WallParticle<const D: usize> {

@@ -10,14 +10,11 @@ use crate::case::Tier;
 use crate::figure::{Figure, Panel};
 use crate::metric::Quantity;
 use crate::observation::Frame;
-use crate::setup::Bulk;
-use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
-use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::walls::SideWalls;
 use schemars::JsonSchema;
@@ -54,9 +51,6 @@ pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Syn
 
     /// The scene of a tier.
     fn of_tier(tier: Tier) -> SceneParameters<Self, D>;
-
-    /// Fills the space behind walls with `rows` of dummy particles at a `spacing` `[m]`.
-    fn lay(shells: &mut [Shell<D>], domain: &Domain<D>, spacing: f64, rows: usize);
 
     /// Places of the start between walls, inlets and what is measured, with a value each from 0 to 1; a panel a view.
     fn setup(parameters: &SceneParameters<Self, D>, sites: &[(Vector<D>, f64)]) -> Vec<Panel>;

@@ -227,9 +227,7 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
     /// A body of which walls take more than they may.
     fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
         let SceneParameters { spacing, numerics, material, .. } = self.scene;
-        let domain = Domain { axes: self.scene.sides.axes() };
-        let mut shells: Vec<_> = self.scene.walls.iter().map(SceneWall::shell).collect();
-        S::lay(&mut shells, &domain, spacing, self.rows());
+        let shells: Vec<_> = self.scene.walls.iter().map(SceneWall::shell).collect();
         let (equation_of_state, inlets) = (self.scene.equation_of_state(), self.scene.feeds());
         let rows: Vec<_> = inlets.iter().map(Inlet::shell).collect();
         let surfaces = Surfaces::of(&shells, &rows, self.rows() as f64 * spacing);
@@ -237,7 +235,8 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
         let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state)?;
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
         scene.enclosure = Enclosure { shells, exits: self.scene.sides.exits(), inlets };
-        (scene.domain, scene.numerics, scene.side_walls) = (domain, numerics, self.scene.side_walls);
+        (scene.numerics, scene.side_walls) = (numerics, self.scene.side_walls);
+        scene.domain = Domain { axes: self.scene.sides.axes() };
         scene.gravity = vector(&self.scene.gravity);
         Ok((scene, cut_off))
     }

@@ -47,7 +47,7 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// Whether material may stand behind it.
     fn may_have_two_sides(&self) -> bool;
 
-    /// The wall for the solver, without its dummy particles.
+    /// The wall for the solver.
     fn shell(&self) -> Shell<D>;
 
     /// Places that it lies between `[m]`.

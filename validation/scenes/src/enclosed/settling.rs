@@ -12,7 +12,6 @@ use crate::case::ParameterError;
 use crate::checkpoint::is_interrupted;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::FeedRate;
-use bagnold_solver::weakly_compressible::enclosure::shell::Motion;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use schemars::JsonSchema;
@@ -72,7 +71,8 @@ where
     }
     let mut resting = scene.clone();
     for shell in &mut resting.enclosure.shells {
-        shell.motion = Motion::default();
+        // it keeps its table, so that its corners are not joined to those of walls at rest
+        shell.motion.displacements.fill(Vector::zeros());
     }
     for inlet in &mut resting.enclosure.inlets {
         inlet.rate = FeedRate::closed();

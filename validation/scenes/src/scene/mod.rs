@@ -21,10 +21,7 @@ use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
 use crate::store::CodeOrigin;
-use bagnold_solver::domain::Domain;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::backing;
-use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
 
 /// Two coordinates or components along x and y.
 pub type PlaneVector = (f64, f64);
@@ -57,10 +54,6 @@ impl Setting<2> for Plane {
 
     fn of_tier(tier: Tier) -> PlaneParameters {
         tiers::of_tier(tier)
-    }
-
-    fn lay(shells: &mut [Shell<2>], domain: &Domain<2>, spacing: f64, rows: usize) {
-        backing::lay(shells, domain, spacing, rows);
     }
 
     fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {

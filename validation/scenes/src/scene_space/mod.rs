@@ -21,10 +21,7 @@ use crate::metric::{Metric, Quantity};
 use crate::observation::Frame;
 use crate::output::Table;
 use crate::store::CodeOrigin;
-use bagnold_solver::domain::Domain;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::mesh_backing;
-use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
 
 /// Three coordinates or components along x, y and z.
 pub type SpaceVector = (f64, f64, f64);
@@ -57,10 +54,6 @@ impl Setting<3> for Space {
 
     fn of_tier(tier: Tier) -> SpaceParameters {
         tiers::of_tier(tier)
-    }
-
-    fn lay(shells: &mut [Shell<3>], domain: &Domain<3>, spacing: f64, rows: usize) {
-        mesh_backing::lay(shells, domain, spacing, rows);
     }
 
     fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
