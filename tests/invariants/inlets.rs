@@ -13,11 +13,10 @@ use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
-const ROWS: usize = 4;
 const DENSITY: f64 = 1500.0;
 
 fn supply(rate: FeedRate) -> Supply {
-    Supply { spacing: SPACING, rows: ROWS, density: DENSITY, rate }
+    Supply { spacing: SPACING, density: DENSITY, rate }
 }
 
 fn empty<const D: usize>() -> Scene<D> {
@@ -134,7 +133,7 @@ impl Layer {
         // the bed begins under the rows
         scene.enclosure.shells = vec![shell("bed", &[[-self.height, 0.0], [length, 0.0]])];
         let rate = FeedRate::constant(self.density * self.mean * self.height).expect("a rate");
-        let supply = Supply { spacing, rows: ROWS, density: self.density, rate };
+        let supply = Supply { spacing, density: self.density, rate };
         let inlet = Inlet::segment("feed", Vector::<2>::new(0.0, self.height), Vector::<2>::zeros(), supply);
         scene.enclosure.inlets = vec![inlet.expect("an opening")];
         scene.enclosure.exits.upper[0] = length;

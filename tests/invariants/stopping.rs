@@ -16,15 +16,10 @@ fn quiet() -> Scene<2> {
 
 #[test]
 fn the_message_names_time_step_particle_place_quantity_and_limit() {
-    let divergence = |quantity: Quantity, value| Divergence::<3> {
-        time: 0.123_456_78,
-        step: 4321,
-        particle: 17,
-        position: Vector::<3>::new(0.5, -0.25, 1e-3),
-        quantity: quantity.name(),
-        value,
-        unit: quantity.unit(),
-        rule: quantity.rule(),
+    let divergence = |quantity: Quantity, value| {
+        let (quantity, unit, rule) = quantity.texts();
+        let position = Vector::<3>::new(0.5, -0.25, 1e-3);
+        Divergence::<3> { time: 0.123_456_78, step: 4321, particle: 17, position, quantity, value, unit, rule }
     };
     let cases = [
         (

@@ -50,53 +50,35 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Its name in messages.
+    /// Its name in messages, its unit or what is counted, and the rule that it broke, as it follows the value in a message.
     #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub fn texts(&self) -> (&'static str, &'static str, String) {
         match self {
-            Self::Speed { .. } => "speed",
-            Self::Density { .. } => "density",
-            Self::Neighbours { .. } => "number of neighbours",
-            Self::Penetration { .. } => "distance",
-            Self::InflowPressure { .. } => "pressure",
-            Self::Particles { .. } => "number of particles",
-            Self::ViscousResidual { .. } => "viscous step",
-        }
-    }
-
-    /// Its unit, or what is counted.
-    #[must_use]
-    pub fn unit(&self) -> &'static str {
-        match self {
-            Self::Speed { .. } => "m/s",
-            Self::Density { .. } => "kg/m³",
-            Self::Neighbours { .. } => "or more",
-            Self::Penetration { .. } => "m",
-            Self::InflowPressure { .. } => "Pa",
-            Self::Particles { .. } => "in all",
-            Self::ViscousResidual { .. } => "(residual over its start)",
-        }
-    }
-
-    /// The rule that it broke, as it follows the value in a message.
-    #[must_use]
-    pub fn rule(&self) -> String {
-        match self {
-            Self::Speed { limit } => format!(", above the {limit:.4e} m/s (three sound speeds) that the model allows"),
+            Self::Speed { limit } => {
+                ("speed", "m/s", format!(", above the {limit:.4e} m/s (three sound speeds) that the model allows"))
+            }
             Self::Density { limits: (lower, upper) } => {
-                format!(", outside the {lower:.4e} to {upper:.4e} kg/m³ that the model allows")
+                ("density", "kg/m³", format!(", outside the {lower:.4e} to {upper:.4e} kg/m³ that the model allows"))
             }
-            Self::Neighbours { limit } => format!(", above the {limit} that a neighbour list row can hold"),
-            Self::Penetration { wall } => format!(" before the wall `{wall}`: it has passed it"),
-            Self::InflowPressure { inlet, limit } => format!(
-                ", above the {limit:.4e} Pa that compress the material by a tenth: the inlet `{inlet}` is blocked, since the material \
-                 before it does not give way"
-            ),
+            Self::Neighbours { limit } => {
+                ("number of neighbours", "or more", format!(", above the {limit} that a neighbour list row can hold"))
+            }
+            Self::Penetration { wall } => ("distance", "m", format!(" before the wall `{wall}`: it has passed it")),
+            Self::InflowPressure { inlet, limit } => {
+                let rule = format!(
+                    ", above the {limit:.4e} Pa that compress the material by a tenth: the inlet `{inlet}` is blocked, since the \
+                     material before it does not give way"
+                );
+                ("pressure", "Pa", rule)
+            }
             Self::Particles { inlet } => {
-                format!(", and the inlet `{inlet}` adds some: more than the neighbour list can address")
+                let rule = format!(", and the inlet `{inlet}` adds some: more than the neighbour list can address");
+                ("number of particles", "in all", rule)
             }
-            Self::ViscousResidual { tolerance, most_iterations } => {
-                format!(" after at most {most_iterations} iterations, above the {tolerance:.1e} of `viscous_tolerance`")
+            Self::ViscousResidual { tolerance, most_iterations: most } => {
+                let rule =
+                    format!(" after at most {most} iterations, above the {tolerance:.1e} of `viscous_tolerance`");
+                ("viscous step", "(residual over its start)", rule)
             }
         }
     }

@@ -4,6 +4,7 @@ use crate::lanes::LaneTensors;
 use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::enclosure::shell::BackingParticle;
+use crate::weakly_compressible::enclosure::surroundings::Surroundings;
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::scene::Scene;
@@ -12,18 +13,12 @@ use crate::weakly_compressible::walls::Surface;
 
 impl<const D: usize> Particles<D> {
     /// Arrays for the flow, the walls and the shells of a scene, with the dummy particles of each shell.
-    pub(crate) fn new(scene: &Scene<D>, backing: &[Vec<BackingParticle<D>>]) -> Self {
+    pub(crate) fn new(scene: &Scene<D>, backing: &[Vec<BackingParticle<D>>], surroundings: &Surroundings<D>) -> Self {
         let Scene { flow, walls, wall_particles, .. } = scene;
         let (n, m) = (flow.position.len(), wall_particles.len() + backing.iter().map(Vec::len).sum::<usize>());
         let real = n + m;
-        let surfaces = scene.enclosure.surfaces();
-        let first_inlet = scene.enclosure.shells.len();
-        let places = wall_particles
-            .iter()
-            .map(|wall| wall.position)
-            .chain(backing.iter().flatten().map(|particle| particle.position));
         let mut particles = Self {
-            position: flow.position.iter().copied().chain(places).collect(),
+            position: flow.position.clone(),
             velocity: flow.velocity.clone(),
             velocity_gradient: vec![Tensor::zeros(); real],
             stress: flow.stress.clone(),
@@ -64,23 +59,24 @@ impl<const D: usize> Particles<D> {
         particles.velocity.resize(real, Vector::zeros());
         particles.stress.resize(real, Tensor::zeros());
         particles.density.resize(real, scene.equation_of_state.reference_density);
-        particles.volume.resize(n + wall_particles.len(), scene.spacing.powi(D as i32));
-        particles.volume.extend(backing.iter().flatten().map(|particle| particle.volume));
-        for particle in wall_particles {
+        let of_planes = wall_particles.iter().map(|particle| {
             let wall = &walls[particle.wall];
-            let depth = -wall.distance(&particle.position);
-            particles.walls.push(wall.normal(), depth, wall.velocity, wall.roughness == Surface::Smooth);
-            particles.wall.push(particle.wall as u32);
-        }
-        for (index, (shell, backing)) in surfaces.iter().zip(backing).enumerate() {
-            let of_inlet = index.checked_sub(first_inlet).map(|inlet| &scene.enclosure.inlets[inlet]);
-            let rows = of_inlet.map(|inlet| inlet.direction() * inlet.speed(0.0));
-            for particle in backing {
-                let is_smooth = shell.roughness == Surface::Smooth;
-                let velocity = rows.unwrap_or_else(|| shell.motion.velocity(0.0));
-                particles.walls.push(particle.normal, particle.depth, velocity, is_smooth);
-                particles.wall.push((walls.len() + index) as u32);
-            }
+            let (position, depth) = (particle.position, -wall.distance(&particle.position));
+            let backing =
+                BackingParticle { position, normal: wall.normal(), depth, volume: scene.spacing.powi(D as i32) };
+            (backing, wall.velocity, wall.roughness, particle.wall)
+        });
+        let of_shells = backing.iter().enumerate().flat_map(|(index, backing)| {
+            let (velocity, roughness) = (surroundings.velocity(index, 0.0), surroundings.shells[index].roughness);
+            backing.iter().map(move |particle| (*particle, velocity, roughness, walls.len() + index))
+        });
+        for (BackingParticle { position, normal, depth, volume }, velocity, roughness, wall) in
+            of_planes.chain(of_shells)
+        {
+            particles.position.push(position);
+            particles.volume.push(volume);
+            particles.walls.push(normal, depth, velocity, roughness == Surface::Smooth);
+            particles.wall.push(wall as u32);
         }
         particles
     }

@@ -150,36 +150,28 @@ impl<const D: usize> Particles<D> {
         self.wall[offset] as usize
     }
 
-    /// Puts flow particles behind the others; there are no images now. What a step finds itself is zero.
-    pub(crate) fn insert(&mut self, arriving: &[Arriving<D>]) {
-        let (flow, count) = (self.flow, arriving.len());
+    /// Makes room for flow particles behind the others, and returns their places; there are no images now. All their values are zero.
+    pub(crate) fn insert(&mut self, count: usize) -> Range<usize> {
+        let (flow, end) = (self.flow, self.flow + count);
         for_each_shared_array!(self, array => {
             array.splice(flow..flow, std::iter::repeat_n(nalgebra::zero(), count));
         });
         if let Some(field) = &mut self.field {
-            field.splice(flow..flow, arriving.iter().map(|particle| particle.field));
+            field.splice(flow..flow, std::iter::repeat_n(0.0, count));
         }
         if let Some(memory) = &mut self.memory {
-            memory.splice(flow..flow, arriving.iter().map(|particle| particle.memory));
+            memory.splice(flow..flow, std::iter::repeat_n(Memory::default(), count));
         }
-        self.flow += count;
-        self.identity.extend(arriving.iter().map(|particle| particle.identity));
-        self.mass.extend(arriving.iter().map(|particle| particle.mass));
-        self.correction.resize(self.flow);
-        self.force_correction.resize(self.flow);
+        self.flow = end;
+        self.identity.resize(end, 0);
+        self.mass.resize(end, 0.0);
+        self.correction.resize(end);
+        self.force_correction.resize(end);
         let Self { acceleration, support, by_walls, by_damping, by_wall_control, support_impulse, .. } = self;
         for array in [acceleration, support, by_walls, by_damping, by_wall_control, support_impulse] {
-            array.resize(flow + count, Vector::zeros());
+            array.resize(end, Vector::zeros());
         }
-        for (index, particle) in (flow..).zip(arriving) {
-            self.position[index] = particle.position;
-            self.velocity[index] = particle.velocity;
-            self.stress[index] = particle.stress;
-            self.density[index] = particle.density;
-            self.volume[index] = particle.mass / particle.density;
-            self.viscosity[index] = particle.viscosity;
-            self.artificial_viscosity[index] = particle.artificial_viscosity;
-        }
+        flow..end
     }
 
     /// Takes flow particles out; there are no images now.
@@ -334,30 +326,6 @@ fn retain<T>(array: &mut Vec<T>, keep: impl Fn(usize) -> bool) {
         index += 1;
         keep(index - 1)
     });
-}
-
-/// A flow particle that comes in.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Arriving<const D: usize> {
-    /// `[m]`
-    pub(crate) position: Vector<D>,
-    /// `[m/s]`
-    pub(crate) velocity: Vector<D>,
-    /// `[kg/m³]`
-    pub(crate) density: f64,
-    /// `[Pa]`
-    pub(crate) stress: Tensor<D>,
-    /// `[kg]`
-    pub(crate) mass: f64,
-    pub(crate) identity: u32,
-    /// Apparent viscosity `[Pa·s]`.
-    pub(crate) viscosity: f64,
-    /// `[-]`
-    pub(crate) artificial_viscosity: f64,
-    /// What the law keeps of it, if anything.
-    pub(crate) field: f64,
-    /// And beside.
-    pub(crate) memory: Memory<f64>,
 }
 
 /// Brings the first values of an array into an order; the others stay. What `room`, an array of the same length, held is lost.

@@ -38,8 +38,8 @@ pub trait Compiled<const D: usize>: Sized {
     /// A scene that breaks a rule, or whose particles lie on top of each other.
     fn compiled_new(scene: Scene<D>) -> Result<Self, SceneError>;
 
-    /// Dummy particles behind the facets of a checked scene, wall by wall.
-    fn compiled_backing(scene: &Scene<D>) -> Vec<Vec<BackingParticle<D>>>;
+    /// Dummy particles behind the facets of a checked scene in so many rows, wall by wall.
+    fn compiled_backing(scene: &Scene<D>, rows: usize) -> Vec<Vec<BackingParticle<D>>>;
 
     /// Takes one step.
     ///
@@ -64,8 +64,7 @@ macro_rules! compiled {
                 Self::set_up(scene)
             }
 
-            fn compiled_backing(scene: &Scene<$dimensions>) -> Vec<Vec<BackingParticle<$dimensions>>> {
-                let rows = wall::rows(scene.numerics.smoothing_ratio);
+            fn compiled_backing(scene: &Scene<$dimensions>, rows: usize) -> Vec<Vec<BackingParticle<$dimensions>>> {
                 $backing::lay(&scene.enclosure.shells, &scene.domain, scene.spacing, rows)
             }
 
@@ -187,8 +186,9 @@ impl<const D: usize> Simulation<D> {
         Self: Compiled<D>,
     {
         scene.check()?;
-        let mut backing = Self::compiled_backing(&scene);
-        backing.extend(scene.enclosure.inlets.iter().map(Inlet::backing));
+        let rows = wall::rows(scene.numerics.smoothing_ratio);
+        let mut backing = Self::compiled_backing(&scene, rows);
+        backing.extend(scene.enclosure.inlets.iter().map(|inlet| inlet.backing(rows)));
         let flow = scene.flow.position.len();
         let dummies = scene.wall_particles.len() + backing.iter().map(Vec::len).sum::<usize>();
         if flow + dummies > MOST_PARTICLES {

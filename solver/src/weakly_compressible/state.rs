@@ -50,10 +50,18 @@ pub(crate) struct State<const D: usize> {
 
 impl<const D: usize> State<D> {
     /// The state of a checked scene with the dummy particles of each shell, before its first neighbour search.
-    pub(crate) fn new(scene: Scene<D>, backing: &[Vec<BackingParticle<D>>]) -> Self {
+    pub(crate) fn new(mut scene: Scene<D>, backing: &[Vec<BackingParticle<D>>]) -> Self {
         let numerics = scene.numerics;
         let kernel = Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
-        let mut particles = Particles::new(&scene, backing);
+        let planes = (scene.walls.len(), scene.wall_particles.len());
+        let surroundings = Surroundings::new(
+            std::mem::take(&mut scene.enclosure),
+            scene.spacing,
+            planes,
+            scene.flow.position.len(),
+            backing,
+        );
+        let mut particles = Particles::new(&scene, backing, &surroundings);
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
         let model = Model {
             list: VerletList::default(),
@@ -76,9 +84,6 @@ impl<const D: usize> State<D> {
             artificial_stress: (scene.rheology.is_cohesive()).then(|| ArtificialStress::new(&kernel, scene.spacing)),
         };
         particles.artificial_viscosity.fill(model.initial_artificial_viscosity());
-        let planes = (scene.walls.len(), scene.wall_particles.len());
-        let surroundings =
-            Surroundings::new(scene.enclosure, scene.spacing, planes, scene.flow.position.len(), backing);
         Self {
             particles,
             images: Images::new(),
@@ -150,15 +155,16 @@ impl<const D: usize> State<D> {
 
     /// The divergence of a particle now.
     pub(crate) fn diverged(&self, OutOfRange { index, identity, quantity, value }: OutOfRange) -> Divergence<D> {
+        let (name, unit, rule) = quantity.texts();
         Divergence {
             time: self.time,
             step: self.steps,
             particle: identity,
             position: self.particles.position[index],
-            quantity: quantity.name(),
+            quantity: name,
             value,
-            unit: quantity.unit(),
-            rule: quantity.rule(),
+            unit,
+            rule,
         }
     }
 }

@@ -82,12 +82,12 @@ impl<const D: usize> State<D> {
     fn touch_shells(&mut self, time_step: f64, friction: f64) -> Result<(), Divergence<D>> {
         let Self { surroundings, model, particles, pairs, time, .. } = self;
         let times = (*time, time_step);
-        let Some(found) = surroundings.touch(model, particles, &mut pairs.energy, friction, times) else {
+        let Some((fastest, passed)) = surroundings.touch(model, particles, &mut pairs.energy, friction, times) else {
             return Ok(());
         };
         self.pairs.close_ledger(&mut self.energy);
-        self.largest_speed = self.largest_speed.max(found.fastest);
-        found.passed.map_or(Ok(()), |passed| Err(self.diverged(passed)))
+        self.largest_speed = self.largest_speed.max(fastest);
+        passed.map_or(Ok(()), |passed| Err(self.diverged(passed)))
     }
 
     /// Lets side walls retard the flow. They come last, as what they take depends on where everything else leads to.
@@ -149,12 +149,6 @@ impl<const D: usize> State<D> {
         fastest
     }
 
-    /// Moves the shells; returns the speed of the fastest `[m/s]`.
-    fn move_shells(&mut self, time_step: f64) -> f64 {
-        let end = self.time + time_step;
-        self.surroundings.advance(&mut self.particles, &self.images, end, time_step)
-    }
-
     fn update_position(&mut self, time_step: f64) {
         let flow = self.particles.flow_count();
         let particles = &mut self.particles;
@@ -162,7 +156,9 @@ impl<const D: usize> State<D> {
             .into_par_iter()
             .with_min_len(4096)
             .for_each(|(position, velocity): (&mut Vector<D>, &Vector<D>)| *position += velocity * time_step);
-        let fastest_wall = self.move_walls(time_step).max(self.move_shells(time_step));
+        let times = (self.time, time_step);
+        let fastest_shell = self.surroundings.advance(&mut self.particles, &self.images, times);
+        let fastest_wall = self.move_walls(time_step).max(fastest_shell);
         self.images.copy_positions(&mut self.particles.position);
         self.displacement += time_step * self.largest_speed.max(fastest_wall);
         self.time += time_step;

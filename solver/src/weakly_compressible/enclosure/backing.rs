@@ -94,12 +94,20 @@ impl Part {
 }
 
 /// Lower and upper plane of the domain along an axis.
-pub(super) fn planes(boundary: &AxisBoundary) -> [Option<f64>; 2] {
+fn planes(boundary: &AxisBoundary) -> [Option<f64>; 2] {
     match *boundary {
         AxisBoundary::Open => [None; 2],
         AxisBoundary::Periodic { lower, upper } => [Some(lower), Some(upper)],
         AxisBoundary::Mirror { lower, upper } => [lower, upper],
     }
+}
+
+/// Whether a place is between the planes of the domain.
+pub(super) fn is_inside<const D: usize>(domain: &Domain<D>, place: &Vector<D>) -> bool {
+    (0..D).all(|axis| {
+        let [lower, upper] = planes(&domain.axes[axis]);
+        lower.is_none_or(|plane| place[axis] > plane) && upper.is_none_or(|plane| place[axis] < plane)
+    })
 }
 
 fn on_a_plane(domain: &Domain<2>, place: &Vector<2>, reach: f64) -> bool {
@@ -192,11 +200,7 @@ impl Laying<'_> {
 
     /// Whether a place behind the wall belongs to this part.
     fn owns(&self, near: &[usize], place: &Vector<2>, reach: f64) -> bool {
-        let inside = (0..2).all(|axis| {
-            let [lower, upper] = planes(&self.domain.axes[axis]);
-            lower.is_none_or(|plane| place[axis] > plane) && upper.is_none_or(|plane| place[axis] < plane)
-        });
-        inside
+        is_inside(self.domain, place)
             && standing(near.iter().map(|&k| (&self.lines[k], *place)))
                 .is_some_and(|found| found.distance < 0.0 && -found.distance < reach && near[found.facet] == self.own)
     }

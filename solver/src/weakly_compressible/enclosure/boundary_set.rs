@@ -20,11 +20,6 @@ pub struct Enclosure<const D: usize> {
 }
 
 impl<const D: usize> Enclosure<D> {
-    /// All that stands before the flow as a wall: the shells, then the rows of the inlets.
-    pub(crate) fn surfaces(&self) -> Vec<Shell<D>> {
-        self.shells.iter().cloned().chain(self.inlets.iter().map(Inlet::shell)).collect()
-    }
-
     /// Checks that facets are finite, that tables of motion rise and begin where the facets are, and that inlets let their rates pass
     /// into particles at a spacing `[m]` with a sound speed `[m/s]`.
     ///
@@ -116,14 +111,8 @@ pub struct Departures<const D: usize> {
 
 impl<const D: usize> Default for Departures<D> {
     fn default() -> Self {
-        let none = Departed {
-            momentum: Vector::zeros(),
-            support: Vector::zeros(),
-            particles: 0,
-            mass: 0.0,
-            mass_times_time: 0.0,
-            energy: 0.0,
-        };
+        let (momentum, support) = (Vector::zeros(), Vector::zeros());
+        let none = Departed { particles: 0, mass: 0.0, mass_times_time: 0.0, momentum, support, energy: 0.0 };
         Self { sides: vec![none; 2 * D] }
     }
 }

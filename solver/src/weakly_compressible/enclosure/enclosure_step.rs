@@ -1,8 +1,7 @@
 //! Shells and open sides in a step: impulses on the flow, contacts, outflow. The rows of inlets are shells here.
 
 use super::boundary_set::Exits;
-use super::contact_pass;
-use super::shell_contact::{Passed, Touch};
+use super::shell_contact::{self, Passed, Touch};
 use super::surroundings::Surroundings;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
@@ -14,14 +13,6 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::passes::shell_impulse::{self, Booking, NO_SHELL};
 use crate::weakly_compressible::walls::Images;
-
-/// Extremes among the contacts of a step.
-pub(crate) struct Contacts {
-    /// Largest speed of a particle that was touched `[m/s]`.
-    pub(crate) fastest: f64,
-    /// The first particle that was found behind a shell.
-    pub(crate) passed: Option<OutOfRange>,
-}
 
 impl<const D: usize> Surroundings<D> {
     /// Takes out the particles that have left the domain by an open side, at a time `[s]`.
@@ -98,7 +89,8 @@ impl<const D: usize> Surroundings<D> {
         }
     }
 
-    /// Stops particles that approach a shell in a step from a time on `[s]`, with a friction `[-]`; none without shells.
+    /// Stops particles that approach a shell in a step from a time on `[s]`, with a friction `[-]`. Returns the largest speed of those `[m/s]`,
+    /// and the first particle that was found behind a shell; none without shells.
     pub(crate) fn touch(
         &mut self,
         model: &Model<D>,
@@ -106,7 +98,7 @@ impl<const D: usize> Surroundings<D> {
         energy: &mut [EnergyLedger],
         friction: f64,
         (time, time_step): (f64, f64),
-    ) -> Option<Contacts> {
+    ) -> Option<(f64, Option<OutOfRange>)> {
         if self.shells.is_empty() || model.numerics.contact == Contact::None {
             return None;
         }
@@ -116,7 +108,7 @@ impl<const D: usize> Surroundings<D> {
         }
         let Self { shells, grids, range, displacements, velocities, blocks, .. } = self;
         let touch = Touch { shells, grids, displacements, velocities, range: *range, friction };
-        let found = contact_pass::run(model, particles, energy, touch, time_step, blocks);
+        let found = shell_contact::run(model, particles, energy, touch, time_step, blocks);
         self.close_impulses();
         let passed = found.passed.map(|(index, Passed { shell, distance })| OutOfRange {
             index,
@@ -124,26 +116,25 @@ impl<const D: usize> Surroundings<D> {
             quantity: Quantity::Penetration { wall: self.shells[shell].name.clone() },
             value: distance,
         });
-        Some(Contacts { fastest: found.largest.sqrt(), passed })
+        Some((found.largest.sqrt(), passed))
     }
 
-    /// Moves the shells to the end of a step `[s]`; returns the speed of the fastest `[m/s]`.
+    /// Moves the shells in a step from a time on `[s]`; returns the speed of the fastest `[m/s]`.
     pub(crate) fn advance(
         &mut self,
         particles: &mut Particles<D>,
         images: &Images<D>,
-        end: f64,
-        time_step: f64,
+        (time, step): (f64, f64),
     ) -> f64 {
         if self.inlets.is_empty() && self.shells.iter().all(|shell| shell.motion.is_rest()) {
             return 0.0;
         }
-        let mut fastest = 0.0_f64;
+        let (end, mut fastest) = (time + step, 0.0_f64);
         for shell in 0..self.shells.len() {
             let next = self.place(shell, end);
             self.last[shell] = next - self.displacements[shell];
             self.displacements[shell] = next;
-            fastest = fastest.max(self.last[shell].norm() / time_step);
+            fastest = fastest.max(self.last[shell].norm() / step);
         }
         particles.move_walls(self.plane_walls, &self.last, |shell| self.velocity(shell, end));
         images.copy_wall_vectors(&mut particles.walls.velocity);

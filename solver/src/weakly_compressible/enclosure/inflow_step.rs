@@ -8,7 +8,7 @@ use crate::weakly_compressible::energy::energy_of;
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::MOST_PARTICLES;
-use crate::weakly_compressible::particles::{Arriving, Particles};
+use crate::weakly_compressible::particles::Particles;
 use std::ops::Range;
 
 impl<const D: usize> Surroundings<D> {
@@ -48,33 +48,39 @@ impl<const D: usize> Surroundings<D> {
         (time, beyond): (f64, f64),
     ) -> Result<f64, OutOfRange> {
         particles.keep_real();
-        let (flow, count) = (particles.flow_count(), self.inlets[inlet].cells.len());
-        let first = flow + self.first_particles[inlet];
+        let count = self.inlets[inlet].cells.len();
+        let first = particles.flow_count() + self.first_particles[inlet];
         self.check_way(inlet, particles, model, first..first + count)?;
-        let first_identity = self.next_identity();
+        let free = FedRow { inlet: inlet as u32, first: self.next_identity(), time, beyond };
         let opening = &self.inlets[inlet];
         let velocity = opening.direction() * opening.speed(time);
-        let particle = |offset: usize| Arriving {
-            position: opening.cells[offset] + opening.direction() * beyond,
-            velocity,
-            density: model.equation_of_state.density(particles.pressure[first + offset]),
-            stress: particles.stress[first + offset],
-            mass: opening.particle_mass(),
-            identity: first_identity + offset as u32,
-            viscosity: model.rheology.viscosity(0.0, 0.0),
-            artificial_viscosity: model.initial_artificial_viscosity(),
-            field: model.field.map_or(0.0, |field| field.initial),
-            memory: memory::initial(model.rheology.memories()).unwrap_or_default(),
-        };
-        let arriving: Vec<Arriving<D>> = (0..count).map(particle).collect();
-        particles.insert(&arriving);
-        let free = FedRow { inlet: inlet as u32, first: first_identity, time, beyond };
-        self.book_row(particles, model, flow..flow + count, free);
+        let initial_memory = memory::initial(model.rheology.memories()).unwrap_or_default();
+        let row = particles.insert(count);
+        for (offset, index) in row.clone().enumerate() {
+            // the wall particle in whose place it is set free
+            let wall = first + count + offset;
+            particles.position[index] = opening.cells[offset] + opening.direction() * beyond;
+            particles.velocity[index] = velocity;
+            particles.density[index] = model.equation_of_state.density(particles.pressure[wall]);
+            particles.stress[index] = particles.stress[wall];
+            particles.mass[index] = opening.particle_mass();
+            particles.volume[index] = particles.mass[index] / particles.density[index];
+            particles.identity[index] = free.first + offset as u32;
+            particles.viscosity[index] = model.rheology.viscosity(0.0, 0.0);
+            particles.artificial_viscosity[index] = model.initial_artificial_viscosity();
+            if let (Some(field), Some(law)) = (&mut particles.field, model.field) {
+                field[index] = law.initial;
+            }
+            if let Some(memory) = &mut particles.memory {
+                memory[index] = initial_memory;
+            }
+        }
+        self.book_row(particles, model, row, free);
         self.step_back(inlet, particles, time);
         Ok(velocity.norm())
     }
 
-    /// What a row brings.
+    /// Books a row that has become free.
     fn book_row(&mut self, particles: &Particles<D>, model: &Model<D>, row: Range<usize>, free: FedRow) {
         let arrivals = &mut self.books.arrivals;
         let fed = &mut arrivals.inlets[free.inlet as usize];
@@ -107,28 +113,23 @@ impl<const D: usize> Surroundings<D> {
         model: &Model<D>,
         row: Range<usize>,
     ) -> Result<(), OutOfRange> {
-        let pressures = &particles.pressure[row.clone()];
+        let pressure = &particles.pressure;
         let limit = BLOCKED * model.equation_of_state.bulk_modulus;
-        let mean = pressures.iter().sum::<f64>() / row.len() as f64;
-        let name = self.inlets[inlet].name.clone();
-        let refused = |quantity: Quantity, value: f64| {
-            let worst = row.clone().fold(row.start, |worst, index| {
-                if particles.pressure[index] > particles.pressure[worst] { index } else { worst }
-            });
-            Err(OutOfRange { index: worst, identity: self.next_identity(), quantity, value })
+        let mean = pressure[row.clone()].iter().sum::<f64>() / row.len() as f64;
+        let (count, name) = (particles.real_count(), self.inlets[inlet].name.clone());
+        let (quantity, value) = if mean.is_nan() || mean > limit {
+            (Quantity::InflowPressure { inlet: name, limit }, mean)
+        } else if count + row.len() > MOST_PARTICLES {
+            (Quantity::Particles { inlet: name }, count as f64)
+        } else {
+            return Ok(());
         };
-        if mean.is_nan() || mean > limit {
-            return refused(Quantity::InflowPressure { inlet: name, limit }, mean);
-        }
-        let count = particles.real_count();
-        if count + row.len() > MOST_PARTICLES {
-            return refused(Quantity::Particles { inlet: name }, count as f64);
-        }
-        Ok(())
+        let index = row.clone().fold(row.start, |worst, k| if pressure[k] > pressure[worst] { k } else { worst });
+        Err(OutOfRange { index, identity: self.next_identity(), quantity, value })
     }
 
-    /// Where a particle is first, and when: one that an inlet has fed a row behind its opening, from where it moved with its
-    /// row `[m]`, and the time at which it became free `[s]`. None for those of the start.
+    /// First place of a particle that an inlet has fed, a row behind its opening, from where it moved with its row `[m]`, and the
+    /// time at which it became free `[s]`. None for those of the start.
     pub(crate) fn entry(&self, identity: u32) -> Option<(Vector<D>, f64)> {
         let row = self.books.arrivals.row_of(identity)?;
         let inlet = &self.inlets[row.inlet as usize];

@@ -37,8 +37,6 @@ pub struct Inlet<const D: usize> {
     pub area: f64,
     /// Depth of a row `[m]`.
     pub depth: f64,
-    /// Rows that stand behind the opening: as deep as walls are.
-    pub rows: usize,
     /// Density of the material without pressure `[kg/m³]`.
     pub density: f64,
     /// Mass per time `[kg/s]`, in the plane `[kg/(s m)]`.
@@ -50,8 +48,6 @@ pub struct Inlet<const D: usize> {
 pub struct Supply {
     /// Particle spacing `[m]`, the depth of a row.
     pub spacing: f64,
-    /// Rows that stand behind the opening.
-    pub rows: usize,
     /// Density of the material without pressure `[kg/m³]`.
     pub density: f64,
     /// Mass per time `[kg/s]`, in the plane `[kg/(s m)]`.
@@ -96,8 +92,8 @@ impl Inlet<3> {
 
 impl<const D: usize> Inlet<D> {
     fn of(name: &str, facets: Vec<Facet<D>>, cells: Vec<Vector<D>>, area: f64, supply: Supply) -> Self {
-        let Supply { spacing, rows, density, rate } = supply;
-        Self { name: name.to_owned(), facets, cells, area, depth: spacing, rows, density, rate }
+        let Supply { spacing, density, rate } = supply;
+        Self { name: name.to_owned(), facets, cells, area, depth: spacing, density, rate }
     }
 
     /// The unit vector into the flow `[-]`.
@@ -154,8 +150,8 @@ impl<const D: usize> Inlet<D> {
         Shell { name, facets, roughness: Surface::Rough, motion: Motion::default() }
     }
 
-    /// Dummy particles of the rows; the first are the row that comes next.
-    pub(crate) fn backing(&self) -> Vec<BackingParticle<D>> {
+    /// Dummy particles of so many rows, as deep as walls are; the first are the row that comes next.
+    pub(crate) fn backing(&self, rows: usize) -> Vec<BackingParticle<D>> {
         let (normal, volume) = (self.direction(), self.area * self.depth / self.cells.len() as f64);
         let row = |row: usize| {
             let depth = (row as f64 + 0.5) * self.depth;
@@ -163,7 +159,7 @@ impl<const D: usize> Inlet<D> {
                 move |cell: &Vector<D>| BackingParticle { position: cell - normal * depth, normal, depth, volume };
             self.cells.iter().map(of_cell)
         };
-        (0..self.rows).flat_map(row).collect()
+        (0..rows).flat_map(row).collect()
     }
 
     /// What cannot be fed through it into a flow of particles at a `spacing` `[m]` whose sound has a speed `[m/s]`.
@@ -239,8 +235,8 @@ pub struct Arrivals<const D: usize> {
 impl<const D: usize> Arrivals<D> {
     /// Nothing yet, of so many inlets.
     pub(crate) fn none(inlets: usize) -> Self {
-        let fed =
-            Fed { rows: 0, particles: 0, mass: 0.0, mass_times_time: 0.0, momentum: Vector::zeros(), energy: 0.0 };
+        let momentum = Vector::zeros();
+        let fed = Fed { rows: 0, particles: 0, mass: 0.0, mass_times_time: 0.0, momentum, energy: 0.0 };
         Self { inlets: vec![fed; inlets], rows: Vec::new() }
     }
 
@@ -263,7 +259,7 @@ mod tests {
 
     fn supply(rate: f64) -> Supply {
         let rate = FeedRate::constant(rate).expect("a rate");
-        Supply { spacing: 0.01, rows: 3, density: 1500.0, rate }
+        Supply { spacing: 0.01, density: 1500.0, rate }
     }
 
     #[test]
@@ -272,7 +268,7 @@ mod tests {
         let inlet = inlet.expect("an opening");
         assert!(inlet.direction() == Vector::<2>::new(1.0, 0.0) && inlet.cells.len() == 5);
         assert!((inlet.speed(1.0) * 1500.0 * 0.052 - 6.0).abs() < 1e-12);
-        let backing = inlet.backing();
+        let backing = inlet.backing(3);
         assert_eq!(backing.len(), 15);
         assert!(backing.iter().take(5).all(|particle| (particle.position[0] + 0.005).abs() < 1e-15));
         let volume: f64 = backing.iter().map(|particle| particle.volume).sum();

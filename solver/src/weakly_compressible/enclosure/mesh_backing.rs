@@ -6,7 +6,7 @@
 //! by one lattice along the axes of the scene, whose particles have the distance to the surface as their depth and the
 //! way there as their normal. So the space behind a mesh is covered once, whatever its shape.
 
-use super::backing::{planes, together};
+use super::backing::{is_inside, together};
 use super::facet::Facet;
 use super::facet_grid::FacetGrid;
 use super::lattice_cell::{CORNERS, Cell, SAMPLES};
@@ -293,12 +293,8 @@ impl<'a> Laying<'a> {
 
     /// The facet that a place behind the shells belongs to.
     fn owner(&self, candidates: &[usize], place: &Vector<3>) -> Option<usize> {
-        let inside = (0..3).all(|axis| {
-            let [lower, upper] = planes(&self.domain.axes[axis]);
-            lower.is_none_or(|plane| place[axis] > plane) && upper.is_none_or(|plane| place[axis] < plane)
-        });
         let found = || standing(candidates.iter().map(|&facet| (&self.facets[facet], *place)));
-        let found = inside.then(found).flatten()?;
+        let found = is_inside(self.domain, place).then(found).flatten()?;
         (found.distance < 0.0 && -found.distance < self.reach()).then(|| candidates[found.facet])
     }
 }

@@ -3,7 +3,6 @@
 
 pub mod backing;
 pub mod boundary_set;
-mod contact_pass;
 mod enclosure_step;
 pub mod facet;
 pub mod facet_grid;
@@ -14,7 +13,7 @@ mod lattice_cell;
 mod mesh;
 pub mod mesh_backing;
 pub mod shell;
-pub(crate) mod shell_contact;
+mod shell_contact;
 pub mod standing;
 pub(crate) mod surroundings;
 

@@ -5,7 +5,13 @@ use super::facet::Facet;
 use super::facet_grid::FacetGrid;
 use super::shell::Shell;
 use super::standing::{Standing, standing};
+use crate::lanes::LANES;
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
+use crate::weakly_compressible::energy::{EnergyLedger, PushCause, PushStep};
+use crate::weakly_compressible::model::Model;
+use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::walls::Surface;
 
 /// Sweeps over the facets that are touched; a corner of two or three walls seldom needs more, and one that does
@@ -18,27 +24,27 @@ const TIE: f64 = 1e-9;
 
 /// Shells where they stand in a step.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Touch<'a, const D: usize> {
-    pub(crate) shells: &'a [Shell<D>],
+pub(super) struct Touch<'a, const D: usize> {
+    pub(super) shells: &'a [Shell<D>],
     /// Which of their facets are near a place, shell by shell.
-    pub(crate) grids: &'a [FacetGrid<D>],
+    pub(super) grids: &'a [FacetGrid<D>],
     /// How far each has moved since the start `[m]`.
-    pub(crate) displacements: &'a [Vector<D>],
+    pub(super) displacements: &'a [Vector<D>],
     /// Mean velocity of each in the step `[m/s]`.
-    pub(crate) velocities: &'a [Vector<D>],
+    pub(super) velocities: &'a [Vector<D>],
     /// Distance within which a particle is touched `[m]`.
-    pub(crate) range: f64,
+    pub(super) range: f64,
     /// Friction of rough ones `[-]`.
-    pub(crate) friction: f64,
+    pub(super) friction: f64,
 }
 
 /// A particle behind a shell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Passed {
+pub(super) struct Passed {
     /// Which shell.
-    pub(crate) shell: usize,
+    pub(super) shell: usize,
     /// Distance, negative `[m]`.
-    pub(crate) distance: f64,
+    pub(super) distance: f64,
 }
 
 /// A facet that is touched.
@@ -64,7 +70,7 @@ impl<'a, const D: usize> Touch<'a, D> {
     ///
     /// # Errors
     /// The shell that the particle is behind of.
-    pub(crate) fn respond(
+    pub(super) fn respond(
         self,
         position: &Vector<D>,
         velocity: &Vector<D>,
@@ -127,6 +133,88 @@ impl<'a, const D: usize> Touch<'a, D> {
             if speed > 0.0 { tangential * ((friction * approach).min(speed) / speed) } else { Vector::zeros() };
         contact.normal * approach - rubbed
     }
+}
+
+/// Extremes among the contacts of a block.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extremes {
+    /// Largest speed squared of a particle that was touched `[m²/s²]`.
+    pub(super) largest: f64,
+    /// The first particle that was found behind a shell.
+    pub(super) passed: Option<(usize, Passed)>,
+}
+
+/// Stops particles that approach a shell, after the velocities have been stepped. Adds the impulses, block by block of flow particles
+/// and in each shell by shell `[kg m/s]`.
+pub(super) fn run<const D: usize>(
+    model: &Model<D>,
+    particles: &mut Particles<D>,
+    energy: &mut [EnergyLedger],
+    touch: Touch<'_, D>,
+    time_step: f64,
+    impulses: &mut [Vector<D>],
+) -> Extremes {
+    let flow = particles.flow_count();
+    let (position, mass, acceleration) = (&particles.position[..flow], &particles.mass, &particles.acceleration);
+    let (by_walls, by_damping, by_wall_control) =
+        (&particles.by_walls, &particles.by_damping, &particles.by_wall_control);
+    (
+        particles.velocity[..flow].par_chunks_mut(BLOCK),
+        particles.support_impulse.par_chunks_mut(BLOCK),
+        energy,
+        impulses.par_chunks_mut(touch.shells.len()),
+    )
+        .into_par_iter()
+        .with_min_len(16)
+        .enumerate()
+        .map(|(block, (velocities, support_impulses, energy, out))| {
+            let mut extremes = Extremes { largest: 0.0, passed: None };
+            for (offset, (velocity, support_impulse)) in velocities.iter_mut().zip(support_impulses).enumerate() {
+                let index = block * BLOCK + offset;
+                if model.list.group(index / LANES).wall.raw().is_empty() {
+                    continue;
+                }
+                let mass = mass[index];
+                // what the shells do by moving
+                let mut given = 0.0;
+                let book = |shell: usize, push: Vector<D>| {
+                    out[shell] += push * mass;
+                    given += mass * push.dot(&touch.velocities[shell]);
+                };
+                match touch.respond(&position[index], velocity, book) {
+                    Ok(push) => {
+                        PushStep {
+                            mass,
+                            time_step,
+                            gravity: &model.gravity,
+                            velocity: *velocity,
+                            push,
+                            given,
+                            acceleration: &acceleration[index],
+                            by_walls: &by_walls[index],
+                            by_damping: &by_damping[index],
+                            by_wall_control: &by_wall_control[index],
+                        }
+                        .add_to(energy, PushCause::Contact);
+                        *velocity += push;
+                        *support_impulse += push * mass;
+                        extremes.largest = extremes.largest.max(velocity.norm_squared());
+                    }
+                    Err(passed) => extremes.passed = extremes.passed.or(Some((index, passed))),
+                }
+            }
+            extremes
+        })
+        .reduce(
+            || Extremes { largest: 0.0, passed: None },
+            |a, b| Extremes {
+                largest: a.largest.max(b.largest),
+                passed: match (a.passed, b.passed) {
+                    (Some(first), Some(second)) => Some(if second.0 < first.0 { second } else { first }),
+                    (first, second) => first.or(second),
+                },
+            },
+        )
 }
 
 #[cfg(test)]

@@ -60,8 +60,8 @@ impl<const D: usize> Surroundings<D> {
         flow: usize,
         backing: &[Vec<BackingParticle<D>>],
     ) -> Self {
-        let shells = enclosure.surfaces();
-        let Enclosure { exits, inlets, .. } = enclosure;
+        let Enclosure { mut shells, exits, inlets } = enclosure;
+        shells.extend(inlets.iter().map(Inlet::shell));
         let before = |shell: usize| plane + backing[..shell].iter().map(Vec::len).sum::<usize>();
         let first_particles = (shells.len() - inlets.len()..shells.len()).map(before).collect();
         let range = 0.5 * spacing;
@@ -124,7 +124,7 @@ impl<const D: usize> Surroundings<D> {
     }
 
     /// Velocity of a shell, or of the rows of an inlet, right after a time `[m/s]`.
-    pub(super) fn velocity(&self, shell: usize, time: f64) -> Vector<D> {
+    pub(crate) fn velocity(&self, shell: usize, time: f64) -> Vector<D> {
         match shell.checked_sub(self.first_inlet()) {
             Some(inlet) => self.inlets[inlet].direction() * self.inlets[inlet].speed(time),
             None => self.shells[shell].motion.velocity(time),

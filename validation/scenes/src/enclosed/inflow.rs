@@ -25,8 +25,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
 
     fn feed(&self, inlet: &S::Inlet, rate: FeedRate) -> Option<Inlet<D>> {
         let density = self.equation_of_state().reference_density;
-        let rows = wall_rows(self.numerics.smoothing_ratio);
-        inlet.feed(Supply { spacing: self.spacing, rows, density, rate })
+        inlet.feed(Supply { spacing: self.spacing, density, rate })
     }
 
     /// Refuses rates that are none, and openings that they do not pass.
@@ -74,10 +73,11 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             let remedy = "what comes in beyond an open side has left at once: move the opening or the side";
             return Err(ParameterError::field(S::Inlet::GIVEN_BY, place(cell), rule, remedy));
         }
-        let last = feed.direction() * (-self.spacing * feed.rows as f64);
+        let rows = wall_rows(self.numerics.smoothing_ratio);
+        let last = feed.direction() * (-self.spacing * rows as f64);
         if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.continue_to(&(*cell + last))) {
             let rule = "that many rows in front of all periodic sides and planes of symmetry";
-            let value = format!("{}, with {} rows behind it", place(cell), feed.rows);
+            let value = format!("{}, with {rows} rows behind it", place(cell));
             return Err(ParameterError::field(S::Inlet::GIVEN_BY, value, rule, "move the opening away from the side"));
         }
         Ok(())
