@@ -8,7 +8,7 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::run::StopReason;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::enclosure::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -56,7 +56,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let gravity = Vector::<2>::new(0.0, -GRAVITY);
     let numerics = Numerics::default();
     let spacing = SPACING;
-    let enclosure = Enclosure::default();
+    let enclosure = BoundarySet::default();
     let scene = Scene {
         flow,
         walls,

@@ -6,7 +6,7 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::enclosure::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
@@ -94,7 +94,7 @@ where
         flow,
         walls,
         wall_particles,
-        enclosure: Enclosure::default(),
+        enclosure: BoundarySet::default(),
         side_walls: None,
         domain,
         gravity,

@@ -5,7 +5,7 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::enclosure::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -32,7 +32,7 @@ fn wave(acoustic_courant: f64) -> Simulation<2> {
         flow,
         walls: Vec::new(),
         wall_particles: Vec::new(),
-        enclosure: Enclosure::default(),
+        enclosure: BoundarySet::default(),
         side_walls: None,
         domain: Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: 1.0 }; 2] },
         gravity: Vector::zeros(),

@@ -8,7 +8,7 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::run::StopReason;
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::enclosure::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -48,7 +48,7 @@ fn vortices(cells: usize, jitter: f64, reynolds: f64, numerics: Numerics) -> Sim
         flow,
         walls: Vec::new(),
         wall_particles: Vec::new(),
-        enclosure: Enclosure::default(),
+        enclosure: BoundarySet::default(),
         side_walls: None,
         domain: Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper: 1.0 }; 2] },
         gravity: Vector::zeros(),

@@ -8,7 +8,7 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::enclosure::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -99,7 +99,7 @@ impl Cut {
         let extent = (Vector::<2>::new(edges.0, base), Vector::<2>::new(edges.1, HEIGHT));
         let wall_particles = wall::fill(&walls, &domain, extent, spacing, 4);
         let gravity = Vector::<2>::new(0.0, -GRAVITY);
-        let (rheology, numerics, enclosure) = (self.law(stability), Numerics::default(), Enclosure::default());
+        let (rheology, numerics, enclosure) = (self.law(stability), Numerics::default(), BoundarySet::default());
         Scene {
             flow,
             walls,

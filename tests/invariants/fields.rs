@@ -186,7 +186,7 @@ fn a_field_goes_with_its_particle() {
     scene.flow.velocity.iter_mut().for_each(|velocity| velocity[0] += 1.0);
     let mut simulation = simulation(scene);
     advance(&mut simulation, 200);
-    assert!(simulation.neighbour_searches() > 3 && simulation.departures().particles() > 10);
+    assert!(simulation.neighbour_searches() > 3 && simulation.outflow().particles() > 10);
     let particles = simulation.particles();
     for index in 0..particles.flow_count() {
         let field = particles.field.as_ref().expect("a field")[index];

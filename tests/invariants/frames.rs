@@ -5,7 +5,7 @@ use crate::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, SPACING, advance, block, exact_pairs, open_scene, simulation,
 };
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::enclosure::shell::{Shell, Side};
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Side};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 
@@ -25,7 +25,7 @@ fn collapse(frame: &Tensor<2>, corners: &[[f64; 2]], numerics: Numerics) -> Scen
     let points: Vec<Vector<2>> = corners.iter().map(|&point| frame * Vector::<2>::from(point)).collect();
     // in a mirror left is right
     let side = if frame.determinant() > 0.0 { Side::Left } else { Side::Right };
-    scene.enclosure.shells = vec![Shell::polyline("walls", &points, side)];
+    scene.enclosure.walls = vec![FacetWall::polyline("walls", &points, side)];
     scene
 }
 

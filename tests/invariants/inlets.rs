@@ -29,7 +29,7 @@ fn empty<const D: usize>() -> Scene<D> {
 /// Grains that are fed onto a bed through an opening six spacings high, at a rate `[kg/(s m)]` that rises, ends and begins anew.
 pub(crate) fn fed() -> Scene<2> {
     let mut scene = empty::<2>();
-    scene.enclosure.shells = vec![shell("bed", &[[-8.0 * SPACING, 0.0], [20.0 * SPACING, 0.0]])];
+    scene.enclosure.walls = vec![shell("bed", &[[-8.0 * SPACING, 0.0], [20.0 * SPACING, 0.0]])];
     let rate = FeedRate::table(&[(0.0, 0.0), (0.004, 200.0), (0.02, 200.0), (0.024, 0.0), (0.03, 0.0), (0.034, 250.0)]);
     let (top, bottom) = (Vector::<2>::new(0.0, 6.2 * SPACING), Vector::<2>::zeros());
     let inlet = Inlet::segment("feed", top, bottom, supply(rate.expect("a table")));
@@ -62,12 +62,12 @@ where
     while simulation.time() < end {
         let step = simulation.time_step_bounds().step();
         simulation.step().expect("no divergence");
-        let fed = simulation.arrivals().inlets[0];
+        let fed = simulation.inflow().inlets[0];
         // rows are looked at before a step is taken
         let moves = inlet.largest_speed() * 2.0 * step / inlet.depth;
         let off = (fed.mass - inlet.rate.mass(simulation.time())) / inlet.row_mass();
         assert!(off.abs() <= 0.5 + moves, "{off} rows at {} s", simulation.time());
-        let departed = &simulation.departures().sides;
+        let departed = &simulation.outflow().sides;
         let state = simulation.snapshot();
         let (inside, outside): (f64, f64) = (state.mass.iter().sum(), departed.iter().map(|side| side.mass).sum());
         assert!(
@@ -77,13 +77,13 @@ where
         );
         let momentum: Vector<D> = state.velocity.iter().zip(&state.mass).map(|(v, m)| v * *m).sum::<Vector<D>>()
             + departed.iter().map(|side| side.momentum).sum::<Vector<D>>();
-        let supports: Vector<D> = simulation.shell_impulses().iter().sum();
+        let supports: Vector<D> = simulation.facet_wall_impulses().iter().sum();
         let worked: f64 = departed.iter().map(|side| side.mass_times_time).sum();
         let given = gravity * (inside * simulation.time() + worked - fed.mass_times_time);
         let missing = (momentum - fed.momentum - supports - given).norm();
         assert!(missing < 1e-9 * (fed.momentum.norm() + given.norm() + 1e-3), "{missing} kg m/s without a cause");
     }
-    let fed = simulation.arrivals().inlets[0];
+    let fed = simulation.inflow().inlets[0];
     assert_eq!(fed.particles, fed.rows * inlet.cells.len() as u64);
     fed.rows
 }
@@ -131,7 +131,7 @@ impl Layer {
         let mut scene = Scene::unbounded(Flow::default(), spacing, equation_of_state, self.law);
         scene.gravity = Vector::<2>::new(gravity * sin, -gravity * cos);
         // the bed begins under the rows
-        scene.enclosure.shells = vec![shell("bed", &[[-self.height, 0.0], [length, 0.0]])];
+        scene.enclosure.walls = vec![shell("bed", &[[-self.height, 0.0], [length, 0.0]])];
         let rate = FeedRate::constant(self.density * self.mean * self.height).expect("a rate");
         let supply = Supply { spacing, density: self.density, rate };
         let inlet = Inlet::segment("feed", Vector::<2>::new(0.0, self.height), Vector::<2>::zeros(), supply);
@@ -217,7 +217,7 @@ fn an_inlet_into_a_full_box_is_blocked_and_says_so() {
     let side = 6.0 * SPACING;
     let lid = shell("lid", &[[0.0, side + SPACING], [0.0, side], [-6.0 * SPACING, side]]);
     let box_of = [[-6.0 * SPACING, 0.0], [side, 0.0], [side, side + SPACING], [0.0, side + SPACING]];
-    scene.enclosure.shells = vec![lid, shell("box", &box_of)];
+    scene.enclosure.walls = vec![lid, shell("box", &box_of)];
     let rate = FeedRate::constant(60.0).expect("a rate");
     let inlet = Inlet::segment("feed", Vector::<2>::new(0.0, side), Vector::<2>::zeros(), supply(rate));
     scene.enclosure.inlets = vec![inlet.expect("an opening")];
@@ -232,7 +232,7 @@ fn an_inlet_into_a_full_box_is_blocked_and_says_so() {
         error.contains("the inlet `feed` is blocked") && error.contains("compress the material by a tenth"),
         "{error}"
     );
-    assert!(simulation.arrivals().inlets[0].rows > 4, "{error}");
+    assert!(simulation.inflow().inlets[0].rows > 4, "{error}");
 }
 
 #[test]

@@ -123,7 +123,7 @@ fn a_memory_goes_with_its_particle() {
     let count = scene.flow.position.len();
     let mut simulation = simulation(scene);
     advance(&mut simulation, 200);
-    assert!(simulation.neighbour_searches() > 3 && simulation.departures().particles() > 10);
+    assert!(simulation.neighbour_searches() > 3 && simulation.outflow().particles() > 10);
     let particles = simulation.particles();
     let memory = particles.memory.as_ref().expect("memories");
     for index in 0..particles.flow_count() {

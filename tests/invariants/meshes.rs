@@ -4,8 +4,8 @@
 use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, SYRUP, advance, bed, block, open_scene, simulation};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::{BackingParticle, FacetWall, Motion};
 use bagnold_solver::weakly_compressible::enclosure::mesh_backing;
-use bagnold_solver::weakly_compressible::enclosure::shell::{BackingParticle, Motion, Shell};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::walls::{Wall, wall};
@@ -42,7 +42,7 @@ fn box_of(size: Vector<3>) -> Vec<Triangle> {
 }
 
 fn backing(triangles: &[Triangle], domain: &Domain<3>) -> Vec<BackingParticle<3>> {
-    mesh_backing::lay(&[Shell::mesh("wall", triangles)], domain, SPACING, ROWS).concat()
+    mesh_backing::lay(&[FacetWall::mesh("wall", triangles)], domain, SPACING, ROWS).concat()
 }
 
 const OPEN: Domain<3> = Domain { axes: [AxisBoundary::Open; 3] };
@@ -114,7 +114,7 @@ fn pipe(radius: f64, length: f64, facets: usize, rows: usize) -> Vec<Triangle> {
 #[test]
 fn a_curved_mesh_of_ten_thousand_triangles_is_backed_all_around() {
     let (radius, length, reach) = (0.2, 0.3, ROWS as f64 * SPACING);
-    let shell = Shell::mesh("wall", &pipe(radius, length, 250, 20));
+    let shell = FacetWall::mesh("wall", &pipe(radius, length, 250, 20));
     assert_eq!(shell.facets.len(), 10_000);
     let (mut backing, looked_at) = mesh_backing::lay_counted(std::slice::from_ref(&shell), &OPEN, SPACING, ROWS);
     let backing = backing.remove(0);
@@ -145,7 +145,7 @@ fn filled() -> Scene<3> {
 
 fn in_a_mesh(mut scene: Scene<3>) -> Scene<3> {
     let size = at(8.0, 8.0, 14.0) * SPACING;
-    scene.enclosure.shells = vec![Shell::mesh("wall", &box_of(size))];
+    scene.enclosure.walls = vec![FacetWall::mesh("wall", &box_of(size))];
     scene
 }
 
@@ -189,9 +189,9 @@ fn gravity_and_the_walls_of_triangles_give_all_the_momentum_and_nothing_passes()
     let corners = [at(near, near, high), at(far, near, high), at(far, far, high), at(near, far, high)];
     let funnel: Vec<Triangle> = (0..4).map(|k| [corners[(k + 1) % 4], low, corners[k]]).collect();
     let lid = quad(at(-0.03, -0.03, 0.085), at(0.0, 0.13, 0.0), at(0.13, 0.0, 0.0));
-    let mut moved = Shell::mesh("lid", &lid);
+    let mut moved = FacetWall::mesh("lid", &lid);
     moved.motion = Motion { times: vec![0.0, 0.02], displacements: vec![Vector::zeros(), at(0.0, 0.0, -0.012)] };
-    scene.enclosure.shells = vec![Shell::mesh("funnel", &funnel), moved];
+    scene.enclosure.walls = vec![FacetWall::mesh("funnel", &funnel), moved];
     let (gravity, mass) = (scene.gravity, scene.flow.mass.iter().sum::<f64>());
     let mut simulation = simulation(scene);
     let momentum = |simulation: &Simulation<3>| -> Vector<3> {
@@ -201,19 +201,19 @@ fn gravity_and_the_walls_of_triangles_give_all_the_momentum_and_nothing_passes()
     let start = momentum(&simulation);
     // a particle that passed would be a divergence
     advance(&mut simulation, 500);
-    let given: Vector<3> = simulation.shell_impulses().iter().sum();
+    let given: Vector<3> = simulation.facet_wall_impulses().iter().sum();
     let support: Vector<3> = simulation.snapshot().support_impulse.iter().sum();
     let weight = gravity * (mass * simulation.time());
     let missing = (momentum(&simulation) - start - given - weight).norm() / weight.norm();
     assert!(missing < 1e-9, "{missing:e} of the weight's impulse has no cause");
     assert!((given - support).norm() / weight.norm() < 1e-9);
-    for (shell, impulse) in simulation.shells().iter().zip(simulation.shell_impulses()) {
+    for (shell, impulse) in simulation.facet_walls().iter().zip(simulation.facet_wall_impulses()) {
         let part = impulse.norm() / weight.norm();
         assert!(part > 1e-3, "`{}` must matter for this test: {part}", shell.name);
     }
     let state = simulation.snapshot();
     for place in &state.position {
-        let heights = simulation.shells()[0].facets.iter().map(|facet| facet.height(place));
+        let heights = simulation.facet_walls()[0].facets.iter().map(|facet| facet.height(place));
         assert!(heights.fold(f64::INFINITY, f64::min) > 0.0, "{place} is behind the funnel");
     }
 }

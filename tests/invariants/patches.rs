@@ -4,7 +4,7 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector, deviator, equivalent_shear_stress};
-use bagnold_solver::weakly_compressible::enclosure::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, PairPrecision};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
@@ -105,7 +105,7 @@ pub(crate) fn open_scene<const D: usize>(flow: Flow<D>) -> Scene<D> {
         flow,
         walls: Vec::new(),
         wall_particles: Vec::new(),
-        enclosure: Enclosure::default(),
+        enclosure: BoundarySet::default(),
         side_walls: None,
         domain: Domain { axes: [AxisBoundary::Open; D] },
         gravity: Vector::zeros(),

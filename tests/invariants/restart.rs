@@ -126,7 +126,7 @@ fn walls_of_segments_and_open_sides_go_on_in_the_same_bits() {
     check(&scene);
     let mut simulation = simulation(scene);
     patches::advance(&mut simulation, STEPS);
-    assert!(simulation.departures().particles() > 0, "somebody leaves on the way");
+    assert!(simulation.outflow().particles() > 0, "somebody leaves on the way");
     let mut narrow = shells::gated();
     narrow.side_walls = Some(SideWalls { width: 0.1, friction: 0.3 });
     check(&narrow);
@@ -138,7 +138,7 @@ fn inlets_go_on_in_the_same_bits() {
     check(&inlets::fed_in_space());
     let mut simulation = simulation(inlets::fed());
     patches::advance(&mut simulation, STEPS);
-    let rows = simulation.arrivals().inlets[0].rows;
+    let rows = simulation.inflow().inlets[0].rows;
     assert!(rows > 2, "{rows} rows come in on the way");
 }
 

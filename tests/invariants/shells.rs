@@ -8,7 +8,7 @@ use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::backing;
-use bagnold_solver::weakly_compressible::enclosure::shell::{Motion, Shell, Side};
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion, Side};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::walls::{Surface, Wall, wall};
@@ -16,9 +16,9 @@ use bagnold_solver::weakly_compressible::walls::{Surface, Wall, wall};
 const GRAVITY: f64 = 9.81;
 const ROWS: usize = 4;
 
-pub(crate) fn shell(name: &str, points: &[[f64; 2]]) -> Shell<2> {
+pub(crate) fn shell(name: &str, points: &[[f64; 2]]) -> FacetWall<2> {
     let points: Vec<Vector<2>> = points.iter().map(|&point| point.into()).collect();
-    Shell::polyline(name, &points, Side::Left)
+    FacetWall::polyline(name, &points, Side::Left)
 }
 
 /// A layer, periodic along x, under its hydrostatic pressure on a slope `angle` [rad], without a bed.
@@ -43,14 +43,14 @@ fn on_a_plane(mut scene: Scene<2>) -> Scene<2> {
 fn on_segments(mut scene: Scene<2>) -> Scene<2> {
     let AxisBoundary::Periodic { upper, .. } = scene.domain.axes[0] else { unreachable!("periodic") };
     let points = [0.0, 0.17, 0.18, 0.43, 0.431, 0.77, 1.0].map(|part| [part * upper, 0.0]);
-    scene.enclosure.shells = vec![shell("bed", &points)];
+    scene.enclosure.walls = vec![shell("bed", &points)];
     scene
 }
 
 #[test]
 fn a_straight_wall_of_segments_has_the_dummy_particles_of_a_plane() {
     let (plane, segments) = (on_a_plane(layer([14, 6], 0.0, 0.0)), on_segments(layer([14, 6], 0.0, 0.0)));
-    let backing = &backing::lay(&segments.enclosure.shells, &segments.domain, SPACING, ROWS)[0];
+    let backing = &backing::lay(&segments.enclosure.walls, &segments.domain, SPACING, ROWS)[0];
     assert_eq!(backing.len(), plane.wall_particles.len());
     for particle in backing {
         let twin = plane.wall_particles.iter().find(|other| (other.position - particle.position).norm() < 1e-12);
@@ -105,7 +105,7 @@ fn turned_box(degrees: f64) -> Scene<2> {
     }
     scene.gravity = turn(scene.gravity);
     let corners = [[0.0, 2.0 * height], [0.0, 0.0], [width, 0.0], [width, 2.0 * height]];
-    scene.enclosure.shells = vec![shell("box", &corners.map(|corner| turn(corner.into()).into()))];
+    scene.enclosure.walls = vec![shell("box", &corners.map(|corner| turn(corner.into()).into()))];
     scene
 }
 
@@ -126,7 +126,7 @@ fn rest(simulation: &Simulation<2>, surface: f64, down: &Vector<2>) -> (f64, f64
 fn plane_box() -> Scene<2> {
     let mut scene = turned_box(0.0);
     let side = |surface: f64, side: f64| Wall::still(0, surface, side);
-    scene.enclosure.shells.clear();
+    scene.enclosure.walls.clear();
     scene.walls = vec![bed(), side(0.0, 1.0), side(16.0 * SPACING, -1.0)];
     let extent = (Vector::zeros(), Vector::<2>::new(16.0 * SPACING, 24.0 * SPACING));
     scene.wall_particles = wall::fill(&scene.walls, &scene.domain, extent, SPACING, ROWS);
@@ -182,7 +182,7 @@ fn a_scene_of_facets_alone_holds_its_material() {
     let mut simulation = Simulation::new(scene).expect("a scene");
     assert!(simulation.particles().wall_count() > 4 * ROWS * 16, "rows stand behind all facets");
     advance(&mut simulation, 500);
-    let held: Vector<2> = simulation.shell_impulses().iter().sum();
+    let held: Vector<2> = simulation.facet_wall_impulses().iter().sum();
     let (error, fastest) = rest(&simulation, 12.0 * SPACING, &down);
     let fall = (GRAVITY * 12.0 * SPACING).sqrt();
     assert!(error < 0.01 && fastest < 0.02 * fall, "pressure off by {error}, {fastest} m/s");
@@ -203,8 +203,8 @@ fn nothing_passes_a_corner_of_30_degrees_at_10_metres_a_second() {
                 *place += Vector::<2>::new(from, -4.0 * SPACING);
             }
             scene.flow.velocity.fill(Vector::<2>::new(speed, 0.0));
-            scene.enclosure.shells = vec![shell("corner", &corner)];
-            let inside = scene.enclosure.shells[0].facets.clone();
+            scene.enclosure.walls = vec![shell("corner", &corner)];
+            let inside = scene.enclosure.walls[0].facets.clone();
             let mut simulation = simulation(scene);
             // a particle that passed would be a divergence
             advance(&mut simulation, 1500);
@@ -227,7 +227,7 @@ fn nothing_passes_a_corner_of_30_degrees_at_10_metres_a_second() {
 fn a_particle_that_has_passed_a_wall_ends_the_run_by_name() {
     let mut scene = open_scene(block([6, 6], Disorder::NONE, 1));
     let lowest = scene.flow.position[0][1] + 0.3 * SPACING;
-    scene.enclosure.shells = vec![shell("floor", &[[-0.2, lowest], [0.3, lowest]])];
+    scene.enclosure.walls = vec![shell("floor", &[[-0.2, lowest], [0.3, lowest]])];
     let mut simulation = simulation(scene);
     let divergence = simulation.step().expect_err("behind the floor");
     assert_eq!(
@@ -247,7 +247,7 @@ pub(crate) fn gated() -> Scene<2> {
     gate.roughness = Surface::Smooth;
     let up = |y: f64| Vector::<2>::new(0.0, y);
     gate.motion = Motion { times: vec![0.0, 0.01, 0.06], displacements: vec![up(0.0), up(0.0), up(0.1)] };
-    scene.enclosure.shells = vec![floor, gate];
+    scene.enclosure.walls = vec![floor, gate];
     scene
 }
 
@@ -262,15 +262,15 @@ fn gravity_and_the_walls_of_segments_give_all_the_momentum() {
     };
     let start = momentum(&simulation);
     advance(&mut simulation, 600);
-    let given: Vector<2> = simulation.shell_impulses().iter().sum();
+    let given: Vector<2> = simulation.facet_wall_impulses().iter().sum();
     let support: Vector<2> = simulation.snapshot().support_impulse.iter().sum();
     let weight = gravity * (mass * simulation.time());
     let missing = (momentum(&simulation) - start - given - weight).norm() / weight.norm();
     assert!(missing < 1e-11, "{missing:e} of the weight's impulse has no cause");
     assert!((given - support).norm() / weight.norm() < 1e-11);
-    let by_gate = simulation.shell_impulses()[1].norm() / weight.norm();
+    let by_gate = simulation.facet_wall_impulses()[1].norm() / weight.norm();
     assert!(by_gate > 0.01, "the gate must matter for this test: {by_gate}");
-    assert!(simulation.shell_displacements()[1][1] > 0.0);
+    assert!(simulation.facet_wall_displacements()[1][1] > 0.0);
 }
 
 #[test]
@@ -278,23 +278,23 @@ fn what_leaves_by_an_open_side_is_taken_out_and_counted() {
     let mut scene = open_scene(block([14, 12], Disorder::FULL, 5));
     scene.gravity = Vector::<2>::new(0.0, -9.0);
     scene.enclosure.exits.lower = Vector::<2>::new(f64::NEG_INFINITY, -0.05);
-    scene.enclosure.shells = vec![shell("ledge", &[[-0.1, 0.0], [0.06, 0.0], [0.06, -0.04]])];
+    scene.enclosure.walls = vec![shell("ledge", &[[-0.1, 0.0], [0.06, 0.0], [0.06, -0.04]])];
     let (gravity, count) = (scene.gravity, scene.flow.mass.len() as u64);
     let mass = scene.flow.mass.iter().sum::<f64>();
     let start: Vector<2> = scene.flow.velocity.iter().zip(&scene.flow.mass).map(|(v, m)| v * *m).sum();
     let mut simulation = simulation(scene);
     let whole = simulation.energy().expect("a ledger");
     advance(&mut simulation, 2500);
-    let departed = &simulation.departures().sides[2];
+    let departed = &simulation.outflow().sides[2];
     let state = simulation.snapshot();
     assert_eq!(departed.particles + state.mass.len() as u64, count);
-    assert!(departed.particles > 40 && simulation.departures().particles() == departed.particles, "{departed:?}");
+    assert!(departed.particles > 40 && simulation.outflow().particles() == departed.particles, "{departed:?}");
     let left: f64 = state.mass.iter().sum();
     assert!((departed.mass + left - mass).abs() < 1e-12 * mass);
     // who has left feels no gravity any more
     let impulse = gravity * (left * simulation.time() + departed.mass_times_time);
     let held: Vector<2> = state.velocity.iter().zip(&state.mass).map(|(v, m)| v * *m).sum();
-    let given: Vector<2> = simulation.shell_impulses().iter().sum();
+    let given: Vector<2> = simulation.facet_wall_impulses().iter().sum();
     let missing = (held + departed.momentum - start - given - impulse).norm();
     assert!(missing < 1e-11 * impulse.norm(), "{missing:e} of {impulse}");
     let supports: Vector<2> = state.support_impulse.iter().sum();

@@ -6,7 +6,7 @@ use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::enclosure::Enclosure;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::walls::{Wall, WallTreatment, wall};
@@ -89,7 +89,7 @@ pub(crate) fn dam_break<const D: usize>(size: usize, law: Law) -> Scene<D> {
         flow,
         walls,
         wall_particles,
-        enclosure: Enclosure::default(),
+        enclosure: BoundarySet::default(),
         side_walls: None,
         domain,
         gravity,

@@ -49,7 +49,7 @@ pub struct EnergyLedger {
     pub contact: f64,
     /// Dissipated by the friction of side walls.
     pub side_walls: f64,
-    /// Fed in by the kernel corrections: the work that the stress does on the gradients as they are taken, less that of
+    /// InletMass in by the kernel corrections: the work that the stress does on the gradients as they are taken, less that of
     /// the same stress as the forces take it. Negative where they take energy out.
     pub correction: f64,
 }

@@ -58,13 +58,13 @@ impl<const D: usize> State<D> {
 
     /// Books what walls and planes of symmetry have given by the response of an implicit step, where the flow is enclosed.
     fn book_reaction(&mut self, time_step: f64) {
-        if self.surroundings.is_empty() {
+        if self.enclosure.is_empty() {
             return;
         }
         let flow = self.particles.flow_count();
         let solve = ViscousSolve { model: &self.model, pairs: &self.pairs, time_step };
-        let booking = self.surroundings.booking(flow);
+        let booking = self.enclosure.booking(flow);
         solve.book_reaction(&mut self.particles, &self.images, &mut self.viscous, booking);
-        self.surroundings.close_reaction(self.viscous.left(flow));
+        self.enclosure.close_reaction(self.viscous.left(flow));
     }
 }

@@ -3,8 +3,8 @@
 use crate::lanes::LaneTensors;
 use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::enclosure::shell::BackingParticle;
-use crate::weakly_compressible::enclosure::surroundings::Surroundings;
+use crate::weakly_compressible::enclosure::boundary_state::BoundaryState;
+use crate::weakly_compressible::enclosure::facet_wall::BackingParticle;
 use crate::weakly_compressible::memory;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::scene::Scene;
@@ -12,8 +12,8 @@ use crate::weakly_compressible::wall_fields::WallFields;
 use crate::weakly_compressible::walls::Surface;
 
 impl<const D: usize> Particles<D> {
-    /// Arrays for the flow, the walls and the shells of a scene, with the dummy particles of each shell.
-    pub(crate) fn new(scene: &Scene<D>, backing: &[Vec<BackingParticle<D>>], surroundings: &Surroundings<D>) -> Self {
+    /// Arrays for the flow and the walls of a scene, with the dummy particles of each facet wall.
+    pub(crate) fn new(scene: &Scene<D>, backing: &[Vec<BackingParticle<D>>], enclosure: &BoundaryState<D>) -> Self {
         let Scene { flow, walls, wall_particles, .. } = scene;
         let (n, m) = (flow.position.len(), wall_particles.len() + backing.iter().map(Vec::len).sum::<usize>());
         let real = n + m;
@@ -66,12 +66,12 @@ impl<const D: usize> Particles<D> {
                 BackingParticle { position, normal: wall.normal(), depth, volume: scene.spacing.powi(D as i32) };
             (backing, wall.velocity, wall.roughness, particle.wall)
         });
-        let of_shells = backing.iter().enumerate().flat_map(|(index, backing)| {
-            let (velocity, roughness) = (surroundings.velocity(index, 0.0), surroundings.shells[index].roughness);
+        let of_facets = backing.iter().enumerate().flat_map(|(index, backing)| {
+            let (velocity, roughness) = (enclosure.velocity(index, 0.0), enclosure.walls[index].roughness);
             backing.iter().map(move |particle| (*particle, velocity, roughness, walls.len() + index))
         });
         for (BackingParticle { position, normal, depth, volume }, velocity, roughness, wall) in
-            of_planes.chain(of_shells)
+            of_planes.chain(of_facets)
         {
             particles.position.push(position);
             particles.volume.push(volume);

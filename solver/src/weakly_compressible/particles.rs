@@ -145,7 +145,7 @@ impl<const D: usize> Particles<D> {
         index >= self.flow && self.walls.depth[index - self.flow] > 0.0
     }
 
-    /// Which wall, then which shell, the wall particle at a place among them belongs to.
+    /// Plane wall, or number of plane walls plus facet wall, of the wall particle at a place among them.
     pub(crate) fn wall(&self, offset: usize) -> usize {
         self.wall[offset] as usize
     }

@@ -6,7 +6,7 @@
 
 use crate::run::{ContinueError, ForeignState};
 use crate::vector::Vector;
-use crate::weakly_compressible::enclosure::surroundings::Books;
+use crate::weakly_compressible::enclosure::boundary_state::Books;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::particles::Particles;
@@ -40,12 +40,12 @@ impl<const D: usize> Simulation<D> {
     /// The simulation as it stands, to be written and continued.
     #[must_use]
     pub fn save(&self) -> SavedSimulation<'_, D> {
-        let State { particles, images, walls, surroundings, model, energy, search, viscous, .. } = &self.state;
+        let State { particles, images, walls, enclosure, model, energy, search, viscous, .. } = &self.state;
         SavedSimulation {
             particles: Cow::Borrowed(particles),
             images: Cow::Borrowed(images),
             walls: Cow::Borrowed(walls),
-            books: Cow::Borrowed(&surroundings.books),
+            books: Cow::Borrowed(&enclosure.books),
             side_wall_impulse: self.state.side_wall_impulse,
             list: Cow::Borrowed(&model.list),
             energy: *energy,
@@ -73,17 +73,17 @@ impl<const D: usize> Simulation<D> {
         let (list, walls) = (saved.list.into_owned(), saved.walls.into_owned());
         let (flow, real) = (particles.flow_count(), particles.real_count());
         let books = saved.books.into_owned();
-        let shells = state.surroundings.shells.len();
-        let begun = books.check_rows(&state.surroundings.inlets, state.particles.flow_count())?;
-        let departed = books.departures.particles() as usize;
+        let facet_walls = state.enclosure.walls.len();
+        let begun = books.check_rows(&state.enclosure.inlets, state.particles.flow_count())?;
+        let departed = books.outflow.particles() as usize;
         ForeignState::check("flow particles", flow.saturating_add(departed), begun)?;
         ForeignState::check("wall particles", particles.wall_count(), state.particles.wall_count())?;
         ForeignState::check("walls", walls.len(), state.walls.len())?;
-        ForeignState::check("walls of segments", books.impulses.len(), shells)?;
+        ForeignState::check("walls of segments", books.impulses.len(), facet_walls)?;
         let whole = particles.are_complete(images.len(), begun, &state.model.rheology)
             && images.belong_to(real)
-            && particles.walls_are_below(walls.len() + shells)
-            && books.departures.sides.len() == 2 * D
+            && particles.walls_are_below(walls.len() + facet_walls)
+            && books.outflow.sides.len() == 2 * D
             && list.belongs_to(flow, real, real + images.len() + 1);
         ForeignState::check("whole sets of arrays", usize::from(whole), 1)?;
         state.particles = particles;
@@ -99,8 +99,8 @@ impl<const D: usize> Simulation<D> {
         state.largest_speed = saved.largest_speed;
         state.kinematic_viscosity = saved.kinematic_viscosity;
         state.displacement = saved.displacement;
-        state.surroundings.restore(books, saved.time);
-        state.surroundings.assign_owners(&state.particles, &state.images);
+        state.enclosure.restore(books, saved.time);
+        state.enclosure.assign_owners(&state.particles, &state.images);
         Ok(Self { state })
     }
 }

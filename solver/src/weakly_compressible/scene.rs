@@ -7,7 +7,7 @@ use crate::material::rheology::field::Memory;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::{Tensor, Vector};
-use crate::weakly_compressible::enclosure::Enclosure;
+use crate::weakly_compressible::enclosure::BoundarySet;
 use crate::weakly_compressible::numerics::Numerics;
 use crate::weakly_compressible::walls::{SideWalls, Wall, wall::WallParticle};
 
@@ -56,8 +56,8 @@ pub struct Scene<const D: usize> {
     pub walls: Vec<Wall<D>>,
     /// Wall particles, see [`crate::weakly_compressible::walls::wall::fill`].
     pub wall_particles: Vec<WallParticle<D>>,
-    /// Shells, open sides and inlets.
-    pub enclosure: Enclosure<D>,
+    /// Facet walls, open sides and inlets.
+    pub enclosure: BoundarySet<D>,
     /// Plates that rub on a plane flow from both sides.
     pub side_walls: Option<SideWalls>,
     /// Boundaries of the domain.
@@ -82,7 +82,7 @@ impl<const D: usize> Scene<D> {
             flow,
             walls: Vec::new(),
             wall_particles: Vec::new(),
-            enclosure: Enclosure::default(),
+            enclosure: BoundarySet::default(),
             side_walls: None,
             domain: Domain { axes: [AxisBoundary::Open; D] },
             gravity: Vector::zeros(),
@@ -159,8 +159,8 @@ impl<const D: usize> Scene<D> {
                 return Err(ParameterProblem::new(field, value, rule, remedy).into());
             }
         }
-        let shells = self.enclosure.shells.iter().map(|shell| shell.roughness);
-        let mut surfaces = self.walls.iter().map(|wall| wall.roughness).chain(shells);
+        let facet_walls = self.enclosure.walls.iter().map(|wall| wall.roughness);
+        let mut surfaces = self.walls.iter().map(|wall| wall.roughness).chain(facet_walls);
         let problem = self
             .numerics
             .parameter_problem()

@@ -6,9 +6,9 @@ use crate::material::rheology::Rheology;
 use crate::run::observed_run::{self, Stepping};
 use crate::run::{Course, Divergence, Observer, SceneError, StopReason, Watching};
 use crate::vector::Vector;
-use crate::weakly_compressible::enclosure::boundary_set::Departures;
-use crate::weakly_compressible::enclosure::inlet::{Arrivals, Inlet};
-use crate::weakly_compressible::enclosure::shell::{BackingParticle, Shell};
+use crate::weakly_compressible::enclosure::boundary_set::OutflowBySide;
+use crate::weakly_compressible::enclosure::facet_wall::{BackingParticle, FacetWall};
+use crate::weakly_compressible::enclosure::inlet::{Inflow, Inlet};
 use crate::weakly_compressible::enclosure::{backing, mesh_backing};
 use crate::weakly_compressible::energy::EnergyAccount;
 use crate::weakly_compressible::model::GradientUse;
@@ -65,7 +65,7 @@ macro_rules! compiled {
             }
 
             fn compiled_backing(scene: &Scene<$dimensions>, rows: usize) -> Vec<Vec<BackingParticle<$dimensions>>> {
-                $backing::lay(&scene.enclosure.shells, &scene.domain, scene.spacing, rows)
+                $backing::lay(&scene.enclosure.walls, &scene.domain, scene.spacing, rows)
             }
 
             fn compiled_step(&mut self) -> Result<(), Divergence<$dimensions>> {
@@ -256,36 +256,36 @@ impl<const D: usize> Simulation<D> {
         &self.state.model.list
     }
 
-    /// Impulse that each shell of the scene, and then the rows of each inlet, has given to the flow since the start `[kg m/s]`,
+    /// Impulse that each facet wall of the scene, and then the rows of each inlet, has given to the flow since the start `[kg m/s]`,
     /// contacts included.
     #[must_use]
-    pub fn shell_impulses(&self) -> &[Vector<D>] {
-        &self.state.surroundings.books.impulses
+    pub fn facet_wall_impulses(&self) -> &[Vector<D>] {
+        &self.state.enclosure.books.impulses
     }
 
-    /// How far each shell, and then the rows of each inlet, has moved since the start `[m]`.
+    /// Displacement of each facet wall, and then of the rows of each inlet, since the start `[m]`.
     #[must_use]
-    pub fn shell_displacements(&self) -> &[Vector<D>] {
-        &self.state.surroundings.displacements
+    pub fn facet_wall_displacements(&self) -> &[Vector<D>] {
+        &self.state.enclosure.displacements
     }
 
-    /// The shells of the scene, then the rows of each inlet, where they were at the start.
+    /// The facet walls of the scene, then the rows of each inlet, where they were at the start.
     #[must_use]
-    pub fn shells(&self) -> &[Shell<D>] {
-        &self.state.surroundings.shells
+    pub fn facet_walls(&self) -> &[FacetWall<D>] {
+        &self.state.enclosure.walls
     }
 
-    /// What has left by open sides.
+    /// Outflow through open sides.
     #[must_use]
-    pub fn departures(&self) -> &Departures<D> {
-        &self.state.surroundings.books.departures
+    pub fn outflow(&self) -> &OutflowBySide<D> {
+        &self.state.enclosure.books.outflow
     }
 
     /// Impulse that implicit viscous steps have left out of the flow's since the start `[kg m/s]`: what their tolerance leaves unsolved.
-    /// Zero without shells or open sides, where it is not kept.
+    /// Zero without facet walls or open sides, where it is not kept.
     #[must_use]
     pub fn unsolved_impulse(&self) -> Vector<D> {
-        self.state.surroundings.books.unsolved
+        self.state.enclosure.books.unsolved
     }
 
     /// Impulse that side walls have given to the flow since the start `[kg m/s]`, per metre of depth.
@@ -297,20 +297,20 @@ impl<const D: usize> Simulation<D> {
     /// The inlets.
     #[must_use]
     pub fn inlets(&self) -> &[Inlet<D>] {
-        &self.state.surroundings.inlets
+        &self.state.enclosure.inlets
     }
 
-    /// What has come in by inlets.
+    /// Inflow through inlets.
     #[must_use]
-    pub fn arrivals(&self) -> &Arrivals<D> {
-        &self.state.surroundings.books.arrivals
+    pub fn inflow(&self) -> &Inflow<D> {
+        &self.state.enclosure.books.inflow
     }
 
     /// Where a particle that an inlet has fed began its way, a row behind the opening where it moved with its row `[m]`, and the
     /// time at which it became free `[s]`; none for one of the start.
     #[must_use]
     pub fn entry(&self, identity: u32) -> Option<(Vector<D>, f64)> {
-        self.state.surroundings.entry(identity)
+        self.state.enclosure.entry(identity)
     }
 
     /// Particle spacing Δ `[m]`.

@@ -6,8 +6,8 @@ use crate::material::equation_of_state::Tension;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
-use crate::weakly_compressible::enclosure::shell::BackingParticle;
-use crate::weakly_compressible::enclosure::surroundings::Surroundings;
+use crate::weakly_compressible::enclosure::boundary_state::BoundaryState;
+use crate::weakly_compressible::enclosure::facet_wall::BackingParticle;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{LARGEST_ROW, VerletList};
@@ -29,8 +29,8 @@ pub(crate) struct State<const D: usize> {
     pub(crate) walls: Vec<Wall<D>>,
     /// Displacement of each wall in a step `[m]`.
     pub(crate) wall_displacements: Vec<Vector<D>>,
-    /// Shells, open sides and inlets.
-    pub(crate) surroundings: Surroundings<D>,
+    /// Facet walls, open sides and inlets.
+    pub(crate) enclosure: BoundaryState<D>,
     pub(crate) side_walls: Option<SideWalls>,
     /// Impulse that side walls have given to the flow since the start `[kg m/s]`, and in a step block by block.
     pub(crate) side_wall_impulse: Vector<D>,
@@ -49,19 +49,19 @@ pub(crate) struct State<const D: usize> {
 }
 
 impl<const D: usize> State<D> {
-    /// The state of a checked scene with the dummy particles of each shell, before its first neighbour search.
+    /// The state of a checked scene with the dummy particles of each facet wall, before its first neighbour search.
     pub(crate) fn new(mut scene: Scene<D>, backing: &[Vec<BackingParticle<D>>]) -> Self {
         let numerics = scene.numerics;
         let kernel = Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
         let planes = (scene.walls.len(), scene.wall_particles.len());
-        let surroundings = Surroundings::new(
+        let enclosure = BoundaryState::new(
             std::mem::take(&mut scene.enclosure),
             scene.spacing,
             planes,
             scene.flow.position.len(),
             backing,
         );
-        let mut particles = Particles::new(&scene, backing, &surroundings);
+        let mut particles = Particles::new(&scene, backing, &enclosure);
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
         let model = Model {
             list: VerletList::default(),
@@ -89,7 +89,7 @@ impl<const D: usize> State<D> {
             images: Images::new(),
             wall_displacements: vec![Vector::zeros(); scene.walls.len()],
             walls: scene.walls,
-            surroundings,
+            enclosure,
             side_walls: scene.side_walls,
             side_wall_impulse: Vector::zeros(),
             side_wall_blocks: Vec::new(),
@@ -111,7 +111,7 @@ impl<const D: usize> State<D> {
     /// # Errors
     /// A row that the material before its opening does not give way to.
     pub(crate) fn feed(&mut self) -> Result<bool, Divergence<D>> {
-        let fed = self.surroundings.feed(&mut self.particles, &self.model, self.time);
+        let fed = self.enclosure.feed(&mut self.particles, &self.model, self.time);
         let fastest = fed.map_err(|out_of_range| self.diverged(out_of_range))?;
         self.largest_speed = self.largest_speed.max(fastest.unwrap_or(0.0));
         Ok(fastest.is_some())
@@ -122,10 +122,10 @@ impl<const D: usize> State<D> {
     /// # Errors
     /// A particle with more neighbours than a list row can hold.
     pub(crate) fn search_neighbours(&mut self) -> Result<(), Divergence<D>> {
-        self.surroundings.release(&mut self.particles, &self.model, self.time);
+        self.enclosure.release(&mut self.particles, &self.model, self.time);
         let filled = self.search.run(&mut self.particles, &mut self.images, &mut self.model);
         self.displacement = 0.0;
-        self.surroundings.assign_owners(&self.particles, &self.images);
+        self.enclosure.assign_owners(&self.particles, &self.images);
         filled.map_err(|crowded| {
             self.divergence(crowded.particle, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
         })
@@ -142,7 +142,7 @@ impl<const D: usize> State<D> {
             &self.model.numerics,
             self.model.kernel.smoothing_length(),
             self.model.equation_of_state.sound_speed(),
-            self.largest_speed + self.surroundings.largest_speed(),
+            self.largest_speed + self.enclosure.largest_speed(),
             kinematic_viscosity,
         )
     }

@@ -15,9 +15,9 @@ impl<const D: usize> State<D> {
         self.update_pressure();
         self.extend_stress_to_walls();
         self.find_accelerations(time_step)?;
-        self.surroundings.book_wall_forces(&self.model, &self.particles, &self.pairs, time_step);
+        self.enclosure.book_wall_forces(&self.model, &self.particles, &self.pairs, time_step);
         self.update_velocity(time_step)?;
-        self.touch_shells(time_step, self.model.contact_friction)?;
+        self.touch_facets(time_step, self.model.contact_friction)?;
         self.rub_on_side_walls(time_step);
         self.extend_velocity_to_walls();
         self.update_density_and_stress(time_step)?;
@@ -75,14 +75,14 @@ impl<const D: usize> State<D> {
         self.images.copy_scalars(&mut self.particles.pressure);
     }
 
-    /// Stops what approaches a shell.
+    /// Stops particles that approach a facet wall.
     ///
     /// # Errors
     /// A particle that has passed one.
-    fn touch_shells(&mut self, time_step: f64, friction: f64) -> Result<(), Divergence<D>> {
-        let Self { surroundings, model, particles, pairs, time, .. } = self;
+    fn touch_facets(&mut self, time_step: f64, friction: f64) -> Result<(), Divergence<D>> {
+        let Self { enclosure, model, particles, pairs, time, .. } = self;
         let times = (*time, time_step);
-        let Some((fastest, passed)) = surroundings.touch(model, particles, &mut pairs.energy, friction, times) else {
+        let Some((fastest, passed)) = enclosure.touch(model, particles, &mut pairs.energy, friction, times) else {
             return Ok(());
         };
         self.pairs.close_ledger(&mut self.energy);
@@ -157,8 +157,8 @@ impl<const D: usize> State<D> {
             .with_min_len(4096)
             .for_each(|(position, velocity): (&mut Vector<D>, &Vector<D>)| *position += velocity * time_step);
         let times = (self.time, time_step);
-        let fastest_shell = self.surroundings.advance(&mut self.particles, &self.images, times);
-        let fastest_wall = self.move_walls(time_step).max(fastest_shell);
+        let fastest_facet = self.enclosure.advance(&mut self.particles, &self.images, times);
+        let fastest_wall = self.move_walls(time_step).max(fastest_facet);
         self.images.copy_positions(&mut self.particles.position);
         self.displacement += time_step * self.largest_speed.max(fastest_wall);
         self.time += time_step;

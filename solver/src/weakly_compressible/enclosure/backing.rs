@@ -1,4 +1,4 @@
-//! Dummy particles behind shells in the plane: rows at the particle spacing along every straight part.
+//! Dummy particles behind facet walls in the plane: rows at the particle spacing along every straight part.
 //!
 //! A plane wall is filled with rows of dummy particles that get pressure, stress and velocity from the flow, and nothing
 //! but their places, normals and depths tells a pass that the wall is plane. So a wall of segments is backed by the same
@@ -9,8 +9,8 @@
 //! way, would take a rule of its own for every corner, and other sums than those of the plane wall.)
 
 use super::facet::Facet;
-use super::shell::{BackingParticle, Shell};
-use super::standing::standing;
+use super::facet_side::facet_side;
+use super::facet_wall::{BackingParticle, FacetWall};
 use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 
@@ -21,41 +21,41 @@ const SMALLEST: f64 = 0.02;
 /// Sine of the angle up to which two segments are one straight part `[-]`.
 const STRAIGHT: f64 = 1e-9;
 
-/// Dummy particles that fill the space behind each shell in `rows` at the flow's `spacing` `[m]`, the first half a
-/// spacing behind the surface. Shells at rest share their corners; each that moves stands alone. Nothing is laid beyond
+/// Dummy particles that fill the space behind each facet wall in `rows` at the flow's `spacing` `[m]`, the first half a
+/// spacing behind the surface. Facet walls at rest share their corners; each that moves stands alone. Nothing is laid beyond
 /// periods and mirrors, and a polyline that ends on one continues behind it.
 #[must_use]
-pub fn lay(shells: &[Shell<2>], domain: &Domain<2>, spacing: f64, rows: usize) -> Vec<Vec<BackingParticle<2>>> {
-    let mut backing = vec![Vec::new(); shells.len()];
-    for group in together(shells) {
-        let parts: Vec<Part> = group.iter().flat_map(|&shell| straight_parts(shell, &shells[shell])).collect();
+pub fn lay(walls: &[FacetWall<2>], domain: &Domain<2>, spacing: f64, rows: usize) -> Vec<Vec<BackingParticle<2>>> {
+    let mut backing = vec![Vec::new(); walls.len()];
+    for group in together(walls) {
+        let parts: Vec<Part> = group.iter().flat_map(|&wall| straight_parts(wall, &walls[wall])).collect();
         let reach = rows as f64 * spacing;
         let lines: Vec<Facet<2>> = parts.iter().map(|part| part.drawn_out(domain, reach)).collect();
         for (own, part) in parts.iter().enumerate() {
             let laying = Laying { lines: &lines, own, domain, spacing, rows };
-            backing[part.shell].extend(laying.particles(part));
+            backing[part.wall].extend(laying.particles(part));
         }
     }
     backing
 }
 
-/// Shells that share their corners, by their places: all at rest, and each that moves alone.
-pub(super) fn together<const D: usize>(shells: &[Shell<D>]) -> Vec<Vec<usize>> {
-    let rest: Vec<usize> = (0..shells.len()).filter(|&k| shells[k].motion.is_rest()).collect();
-    let moving = (0..shells.len()).filter(|&k| !shells[k].motion.is_rest()).map(|k| vec![k]);
+/// Facet walls that share their corners, by their places: all at rest, and each that moves alone.
+pub(super) fn together<const D: usize>(walls: &[FacetWall<D>]) -> Vec<Vec<usize>> {
+    let rest: Vec<usize> = (0..walls.len()).filter(|&k| walls[k].motion.is_rest()).collect();
+    let moving = (0..walls.len()).filter(|&k| !walls[k].motion.is_rest()).map(|k| vec![k]);
     std::iter::once(rest).chain(moving).collect()
 }
 
-/// A straight part of a shell.
+/// A straight part of a facet wall.
 struct Part {
-    shell: usize,
+    wall: usize,
     line: Facet<2>,
-    /// Whether nothing of its shell joins its ends.
+    /// Whether nothing of its facet wall joins its ends.
     free: [bool; 2],
 }
 
 /// Consecutive segments of one direction are one part.
-fn straight_parts(shell: usize, of: &Shell<2>) -> Vec<Part> {
+fn straight_parts(wall: usize, of: &FacetWall<2>) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     for facet in &of.facets {
         match parts.last_mut() {
@@ -66,7 +66,7 @@ fn straight_parts(shell: usize, of: &Shell<2>) -> Vec<Part> {
             {
                 line.corners[1] = facet.corners[1];
             }
-            _ => parts.push(Part { shell, line: *facet, free: [true; 2] }),
+            _ => parts.push(Part { wall, line: *facet, free: [true; 2] }),
         }
     }
     let ends: Vec<[Vector<2>; 2]> = parts.iter().map(|part| part.line.corners).collect();
@@ -201,7 +201,7 @@ impl Laying<'_> {
     /// Whether a place behind the wall belongs to this part.
     fn owns(&self, near: &[usize], place: &Vector<2>, reach: f64) -> bool {
         is_inside(self.domain, place)
-            && standing(near.iter().map(|&k| (&self.lines[k], *place)))
+            && facet_side(near.iter().map(|&k| (&self.lines[k], *place)))
                 .is_some_and(|found| found.distance < 0.0 && -found.distance < reach && near[found.facet] == self.own)
     }
 

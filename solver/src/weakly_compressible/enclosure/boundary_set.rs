@@ -1,37 +1,37 @@
-//! Boundaries of a scene beside plane walls: shells of any shape, open sides by which the flow leaves, inlets by which it comes in.
+//! Boundaries of a scene beside plane walls: walls of facets, open sides by which the flow leaves, inlets by which it comes in.
 
+use super::facet_wall::FacetWall;
 use super::inlet::Inlet;
-use super::shell::Shell;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 use crate::vector::Vector;
 use crate::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
 
-/// Shells, open sides and inlets of a scene; by default there are none.
+/// Facet walls, open sides and inlets of a scene; by default there are none.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Enclosure<const D: usize> {
+pub struct BoundarySet<const D: usize> {
     /// Walls of facets.
-    pub shells: Vec<Shell<D>>,
+    pub walls: Vec<FacetWall<D>>,
     /// Planes beyond which a particle has left and is taken out.
     pub exits: Exits<D>,
     /// Openings by which material comes in.
     pub inlets: Vec<Inlet<D>>,
 }
 
-impl<const D: usize> Enclosure<D> {
+impl<const D: usize> BoundarySet<D> {
     /// Checks that facets are finite, that tables of motion rise and begin where the facets are, and that inlets let their rates pass
     /// into particles at a spacing `[m]` with a sound speed `[m/s]`.
     ///
     /// # Errors
     /// The first rule that is broken.
     pub(crate) fn check(&self, spacing: f64, sound_speed: f64) -> Result<(), SceneError> {
-        for (particle, shell) in self.shells.iter().enumerate() {
-            let corners = shell.facets.iter().flat_map(|facet| &facet.corners);
-            let begun = shell.motion.displacement(0.0) == Vector::<D>::zeros();
+        for (particle, wall) in self.walls.iter().enumerate() {
+            let corners = wall.facets.iter().flat_map(|facet| &facet.corners);
+            let begun = wall.motion.displacement(0.0) == Vector::<D>::zeros();
             for (quantity, sound) in [
                 ("corner of a wall's segments", corners.into_iter().all(|corner| corner.sum().is_finite())),
-                ("table of a wall's motion", shell.motion.is_sound() && begun),
+                ("table of a wall's motion", wall.motion.is_sound() && begun),
             ] {
                 if !sound {
                     let rule = "finite, with times that rise from rest";
@@ -47,8 +47,7 @@ impl<const D: usize> Enclosure<D> {
         Ok(())
     }
 
-    /// The choice of numerics that goes neither with shells nor with exits or inlets: what walls have of the forces is booked by
-    /// the single divergence.
+    /// Problem of numerics that go neither with facet walls nor with exits or inlets: only the single divergence books forces of walls.
     #[must_use]
     pub fn numerics_problem(&self, numerics: &Numerics) -> Option<ParameterProblem> {
         if *self == Self::default() {
@@ -77,7 +76,7 @@ impl<const D: usize> Default for Exits<D> {
 }
 
 impl<const D: usize> Exits<D> {
-    /// The side by which a place lies outside, as [`Departures::sides`] counts them.
+    /// The side by which a place lies outside, as [`OutflowBySide::sides`] counts them.
     #[must_use]
     pub fn side(&self, place: &Vector<D>) -> Option<usize> {
         let out = |axis: &usize| place[*axis] < self.lower[*axis] || place[*axis] > self.upper[*axis];
@@ -85,9 +84,9 @@ impl<const D: usize> Exits<D> {
     }
 }
 
-/// What has left by one side since the start.
+/// Outflow through one side since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Departed<const D: usize> {
+pub struct Outflow<const D: usize> {
     /// Particles.
     pub particles: u64,
     /// Mass `[kg]`, per metre of depth in 2-D.
@@ -102,22 +101,22 @@ pub struct Departed<const D: usize> {
     pub energy: f64,
 }
 
-/// What has left, side by side.
+/// Outflow through each side.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Departures<const D: usize> {
+pub struct OutflowBySide<const D: usize> {
     /// By the lower and the upper side of the first axis, then of the next, shape `[2 D]`.
-    pub sides: Vec<Departed<D>>,
+    pub sides: Vec<Outflow<D>>,
 }
 
-impl<const D: usize> Default for Departures<D> {
+impl<const D: usize> Default for OutflowBySide<D> {
     fn default() -> Self {
         let (momentum, support) = (Vector::zeros(), Vector::zeros());
-        let none = Departed { particles: 0, mass: 0.0, mass_times_time: 0.0, momentum, support, energy: 0.0 };
+        let none = Outflow { particles: 0, mass: 0.0, mass_times_time: 0.0, momentum, support, energy: 0.0 };
         Self { sides: vec![none; 2 * D] }
     }
 }
 
-impl<const D: usize> Departures<D> {
+impl<const D: usize> OutflowBySide<D> {
     /// Particles that have left.
     #[must_use]
     pub fn particles(&self) -> u64 {

@@ -1,7 +1,7 @@
-//! A uniform grid over facets: which of them can be nearer to a place than a range, without a look at the others.
+//! A uniform grid over facets: finds those that can be nearer to a place than a range, without a look at the others.
 
 use super::facet::Facet;
-use super::standing::{Standing, standing};
+use super::facet_side::{FacetSide, facet_side};
 use crate::vector::Vector;
 
 /// Cells that a grid has for every facet at most, and cells in all: memory.
@@ -17,7 +17,7 @@ pub struct FacetGrid<const D: usize> {
     /// Edge of a cell `[m]`.
     edge: f64,
     counts: [usize; D],
-    /// Where each cell's list begins; one more than there are cells.
+    /// Start of each cell's list; one more than there are cells.
     starts: Vec<u32>,
     facets: Vec<u32>,
 }
@@ -119,12 +119,12 @@ impl<const D: usize> FacetGrid<D> {
         &self.facets[self.starts[index] as usize..self.starts[index + 1] as usize]
     }
 
-    /// Where a place stands with regard to the facets that the grid was made of; none where all are farther than the range.
+    /// Side of the grid's facets on which a place is; none where all are farther than the range.
     #[must_use]
-    pub fn standing(&self, facets: &[Facet<D>], place: &Vector<D>) -> Option<Standing> {
+    pub fn side(&self, facets: &[Facet<D>], place: &Vector<D>) -> Option<FacetSide> {
         let near = self.near(place);
-        let found = standing(near.iter().map(|&index| (&facets[index as usize], *place)))?;
-        (found.distance.abs() < self.range).then(|| Standing { facet: near[found.facet] as usize, ..found })
+        let found = facet_side(near.iter().map(|&index| (&facets[index as usize], *place)))?;
+        (found.distance.abs() < self.range).then(|| FacetSide { facet: near[found.facet] as usize, ..found })
     }
 
     /// Lower and upper corners of the cells that list any facet `[m]`, in their order. They do not overlap.
@@ -163,9 +163,9 @@ mod tests {
         let mut found = 0;
         for _ in 0..2000 {
             let place = Vector::<D>::from_fn(|_, _| 2.0 * random.random::<f64>() - 0.5);
-            let all = standing(facets.iter().map(|facet| (facet, place)));
-            let expected = all.filter(|standing| standing.distance.abs() < range);
-            assert_eq!(grid.standing(facets, &place), expected, "{place}");
+            let all = facet_side(facets.iter().map(|facet| (facet, place)));
+            let expected = all.filter(|facet_side| facet_side.distance.abs() < range);
+            assert_eq!(grid.side(facets, &place), expected, "{place}");
             found += usize::from(expected.is_some());
         }
         assert!(found > 50, "{found}");

@@ -1,7 +1,7 @@
 //! Inlets in a step: rows that have reached their openings become particles of the flow.
 
-use super::inlet::{BLOCKED, FedRow};
-use super::surroundings::Surroundings;
+use super::boundary_state::BoundaryState;
+use super::inlet::{BLOCKED, InflowRow};
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
 use crate::weakly_compressible::energy::energy_of;
@@ -11,7 +11,7 @@ use crate::weakly_compressible::neighbours::MOST_PARTICLES;
 use crate::weakly_compressible::particles::Particles;
 use std::ops::Range;
 
-impl<const D: usize> Surroundings<D> {
+impl<const D: usize> BoundaryState<D> {
     /// Sets free the rows that have reached their openings at a time `[s]`. Returns the largest speed of these rows `[m/s]`; none if there
     /// were none.
     ///
@@ -26,7 +26,7 @@ impl<const D: usize> Surroundings<D> {
         let mut fastest: Option<f64> = None;
         for inlet in 0..self.inlets.len() {
             loop {
-                let rows = self.books.arrivals.inlets[inlet].rows;
+                let rows = self.books.inflow.inlets[inlet].rows;
                 let beyond = self.inlets[inlet].beyond(time, rows);
                 if beyond < 0.0 {
                     break;
@@ -51,7 +51,7 @@ impl<const D: usize> Surroundings<D> {
         let count = self.inlets[inlet].cells.len();
         let first = particles.flow_count() + self.first_particles[inlet];
         self.check_way(inlet, particles, model, first..first + count)?;
-        let free = FedRow { inlet: inlet as u32, first: self.next_identity(), time, beyond };
+        let free = InflowRow { inlet: inlet as u32, first: self.next_identity(), time, beyond };
         let opening = &self.inlets[inlet];
         let velocity = opening.direction() * opening.speed(time);
         let initial_memory = memory::initial(model.rheology.memories()).unwrap_or_default();
@@ -81,8 +81,8 @@ impl<const D: usize> Surroundings<D> {
     }
 
     /// Books a row that has become free.
-    fn book_row(&mut self, particles: &Particles<D>, model: &Model<D>, row: Range<usize>, free: FedRow) {
-        let arrivals = &mut self.books.arrivals;
+    fn book_row(&mut self, particles: &Particles<D>, model: &Model<D>, row: Range<usize>, free: InflowRow) {
+        let arrivals = &mut self.books.inflow;
         let fed = &mut arrivals.inlets[free.inlet as usize];
         fed.rows += 1;
         fed.particles += row.len() as u64;
@@ -97,12 +97,12 @@ impl<const D: usize> Surroundings<D> {
 
     /// Moves the rows of an inlet back by the one that has become free.
     fn step_back(&mut self, inlet: usize, particles: &mut Particles<D>, time: f64) {
-        let shell = self.first_inlet() + inlet;
-        let place = self.place(shell, time);
-        let way = place - self.displacements[shell];
-        self.displacements[shell] = place;
-        let velocity = self.velocity(shell, time);
-        particles.move_walls(self.plane_walls + shell, &[way], |_| velocity);
+        let wall = self.first_inlet() + inlet;
+        let place = self.place(wall, time);
+        let way = place - self.displacements[wall];
+        self.displacements[wall] = place;
+        let velocity = self.velocity(wall, time);
+        particles.move_walls(self.plane_walls + wall, &[way], |_| velocity);
     }
 
     /// Refuses a row that would be pressed into material that does not give way, or that is one too many.
@@ -131,7 +131,7 @@ impl<const D: usize> Surroundings<D> {
     /// First place of a particle that an inlet has fed, a row behind its opening, from where it moved with its row `[m]`, and the
     /// time at which it became free `[s]`. None for those of the start.
     pub(crate) fn entry(&self, identity: u32) -> Option<(Vector<D>, f64)> {
-        let row = self.books.arrivals.row_of(identity)?;
+        let row = self.books.inflow.row_of(identity)?;
         let inlet = &self.inlets[row.inlet as usize];
         let cell = inlet.cells.get((identity - row.first) as usize)?;
         Some((cell + inlet.direction() * (row.beyond - inlet.depth), row.time))

@@ -10,8 +10,8 @@
 //! a row and to what a row moves in a step, at any time. Where the rate is zero the rows stand, and close the opening.
 
 use super::facet::Facet;
+use super::facet_wall::{BackingParticle, FacetWall, Motion};
 use super::feed_rate::FeedRate;
-use super::shell::{BackingParticle, Motion, Shell};
 use crate::parameter::ParameterProblem;
 use crate::vector::Vector;
 use crate::weakly_compressible::walls::Surface;
@@ -27,7 +27,7 @@ pub(crate) const BLOCKED: f64 = 0.1;
 /// An opening with what it feeds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inlet<const D: usize> {
-    /// What it is called in messages and results.
+    /// Name in messages and results.
     pub name: String,
     /// The opening's facets, with the flow on the side of their normals, which are all one.
     pub facets: Vec<Facet<D>>,
@@ -43,7 +43,7 @@ pub struct Inlet<const D: usize> {
     pub rate: FeedRate,
 }
 
-/// How an inlet is divided into particles, and what comes through.
+/// Particle spacing of an inlet, and the material that it feeds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supply {
     /// Particle spacing `[m]`, the depth of a row.
@@ -126,28 +126,28 @@ impl<const D: usize> Inlet<D> {
         self.rate.largest() / (self.density * self.area)
     }
 
-    /// How far the rows have moved since time 0 `[m]`.
+    /// Way of the rows since time 0 `[m]`.
     #[must_use]
     pub fn travel(&self, time: f64) -> f64 {
         self.rate.mass(time) / (self.density * self.area)
     }
 
-    /// How far the middle of the next row is beyond the opening at a time, after so many rows `[m]`; negative before it has
-    /// reached it.
+    /// Distance of the next row's middle beyond the opening at a time, after so many rows `[m]`; negative before it has reached the
+    /// opening.
     pub(crate) fn beyond(&self, time: f64, fed: u64) -> f64 {
         self.travel(time) - (fed as f64 + 0.5) * self.depth
     }
 
-    /// Where the surface of the rows stands at a time after so many rows, from the opening `[m]`.
+    /// Displacement of the rows' surface from the opening at a time, after so many rows `[m]`.
     pub(crate) fn displacement(&self, time: f64, fed: u64) -> Vector<D> {
         self.direction() * (self.travel(time) - fed as f64 * self.depth)
     }
 
     /// The rows as a rough wall, with their surface in the opening.
     #[must_use]
-    pub fn shell(&self) -> Shell<D> {
+    pub fn wall(&self) -> FacetWall<D> {
         let (name, facets) = (self.name.clone(), self.facets.clone());
-        Shell { name, facets, roughness: Surface::Rough, motion: Motion::default() }
+        FacetWall { name, facets, roughness: Surface::Rough, motion: Motion::default() }
     }
 
     /// Dummy particles of so many rows, as deep as walls are; the first are the row that comes next.
@@ -162,7 +162,7 @@ impl<const D: usize> Inlet<D> {
         (0..rows).flat_map(row).collect()
     }
 
-    /// What cannot be fed through it into a flow of particles at a `spacing` `[m]` whose sound has a speed `[m/s]`.
+    /// Problem of feeding a flow of particles at a `spacing` `[m]` with a sound speed `[m/s]`.
     #[must_use]
     pub fn problem(&self, spacing: f64, sound_speed: f64) -> Option<ParameterProblem> {
         let is_sound = |value: f64| value > 0.0 && value.is_finite();
@@ -193,9 +193,9 @@ impl<const D: usize> Inlet<D> {
     }
 }
 
-/// What one inlet has fed since the start.
+/// Inflow through one inlet since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Fed<const D: usize> {
+pub struct InletMass<const D: usize> {
     /// Rows.
     pub rows: u64,
     /// Particles.
@@ -212,31 +212,31 @@ pub struct Fed<const D: usize> {
 
 /// A row that has become free.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct FedRow {
-    /// Which inlet.
+pub struct InflowRow {
+    /// Index of the inlet.
     pub inlet: u32,
     /// Identity of its first particle; the others follow.
     pub first: u32,
-    /// When `[s]`.
+    /// Time `[s]`.
     pub time: f64,
-    /// How far beyond the opening its middle was `[m]`.
+    /// Distance of its middle beyond the opening `[m]`.
     pub beyond: f64,
 }
 
-/// What has come in by inlets.
+/// Inflow through all inlets.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Arrivals<const D: usize> {
+pub struct Inflow<const D: usize> {
     /// Inlet by inlet.
-    pub inlets: Vec<Fed<D>>,
+    pub inlets: Vec<InletMass<D>>,
     /// Row by row, in the order in which they became free.
-    pub rows: Vec<FedRow>,
+    pub rows: Vec<InflowRow>,
 }
 
-impl<const D: usize> Arrivals<D> {
+impl<const D: usize> Inflow<D> {
     /// Nothing yet, of so many inlets.
     pub(crate) fn none(inlets: usize) -> Self {
         let momentum = Vector::zeros();
-        let fed = Fed { rows: 0, particles: 0, mass: 0.0, mass_times_time: 0.0, momentum, energy: 0.0 };
+        let fed = InletMass { rows: 0, particles: 0, mass: 0.0, mass_times_time: 0.0, momentum, energy: 0.0 };
         Self { inlets: vec![fed; inlets], rows: Vec::new() }
     }
 
@@ -248,7 +248,7 @@ impl<const D: usize> Arrivals<D> {
 
     /// The row that a particle came with, by its identity; none for those of the start.
     #[must_use]
-    pub fn row_of(&self, identity: u32) -> Option<&FedRow> {
+    pub fn row_of(&self, identity: u32) -> Option<&InflowRow> {
         self.rows[..self.rows.partition_point(|row| row.first <= identity)].last()
     }
 }

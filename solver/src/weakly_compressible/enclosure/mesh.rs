@@ -1,7 +1,7 @@
-//! Meshes of triangles as walls: a shell of them, and the flat parts that they make up.
+//! Meshes of triangles as walls: a facet wall of them, and the flat parts that they make up.
 
 use super::facet::Facet;
-use super::shell::{Motion, Shell};
+use super::facet_wall::{FacetWall, Motion};
 use crate::vector::Vector;
 use crate::weakly_compressible::walls::Surface;
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// of single precision leave of a plane.
 const FLAT: f64 = 1e-4;
 
-impl Shell<3> {
+impl FacetWall<3> {
     /// The wall of some triangles `[m]`, whose corners are seen from the flow against the clock; at rest and rough.
     /// Triangles thinner than a millionth of their length are left out.
     #[must_use]
@@ -140,11 +140,11 @@ mod tests {
         };
         let triangles = [strip(0.0, 1.0, 0.0), strip(1.0, 0.5, 0.0), strip(1.5, 1.0, 1.0)].concat();
         let thin = [corner(0.0, 0.0, 0.0), corner(1.0, 0.0, 0.0), corner(2.0, 0.0, 0.0)];
-        let shell = Shell::mesh("bed", &[&triangles[..], &[thin]].concat());
-        assert_eq!(shell.facets.len(), 6, "what has no side is left out");
-        let parts = flat_parts(&shell.facets);
+        let wall = FacetWall::mesh("bed", &[&triangles[..], &[thin]].concat());
+        assert_eq!(wall.facets.len(), 6, "what has no side is left out");
+        let parts = flat_parts(&wall.facets);
         assert_eq!(parts, [vec![0, 1, 2, 3], vec![4, 5]]);
-        let facets: Vec<_> = parts[0].iter().map(|&k| shell.facets[k]).collect();
+        let facets: Vec<_> = parts[0].iter().map(|&k| wall.facets[k]).collect();
         let frame = Frame::of(&facets).expect("facets");
         assert!(frame.along[0] == corner(0.0, 1.0, 0.0) && frame.normal == corner(0.0, 0.0, 1.0));
         assert!((frame.area - 4.5).abs() < 1e-14 && (frame.breadth() - 1.5).abs() < 1e-14);

@@ -9,10 +9,10 @@
 use super::backing::{is_inside, together};
 use super::facet::Facet;
 use super::facet_grid::FacetGrid;
+use super::facet_side::facet_side;
+use super::facet_wall::{BackingParticle, FacetWall};
 use super::lattice_cell::{CORNERS, Cell, SAMPLES};
 use super::mesh::{Frame, flat_parts};
-use super::shell::{BackingParticle, Shell};
-use super::standing::standing;
 use crate::domain::{AxisBoundary, Domain};
 use crate::vector::Vector;
 use rayon::prelude::*;
@@ -27,29 +27,29 @@ const LEAST_DEPTH: f64 = 0.05;
 /// How far beyond a cell's corners facets are looked for, over that distance `[-]`: rounding.
 const BEYOND: f64 = 1.0 + 1e-6;
 
-/// Dummy particles that fill the space behind each shell in `rows` at the flow's `spacing` `[m]`, the first half a spacing
-/// behind the surface. Shells at rest share their edges; each that moves stands alone. Nothing is laid beyond periods and mirrors.
+/// Dummy particles that fill the space behind each facet wall in `rows` at the flow's `spacing` `[m]`, the first half a spacing
+/// behind the surface. Facet walls at rest share their edges; each that moves stands alone. Nothing is laid beyond periods and mirrors.
 #[must_use]
-pub fn lay(shells: &[Shell<3>], domain: &Domain<3>, spacing: f64, rows: usize) -> Vec<Vec<BackingParticle<3>>> {
-    lay_counted(shells, domain, spacing, rows).0
+pub fn lay(walls: &[FacetWall<3>], domain: &Domain<3>, spacing: f64, rows: usize) -> Vec<Vec<BackingParticle<3>>> {
+    lay_counted(walls, domain, spacing, rows).0
 }
 
 /// The result of [`lay`], and the number of facets that were looked at in all, place by place: the cost.
 #[must_use]
 pub fn lay_counted(
-    shells: &[Shell<3>],
+    walls: &[FacetWall<3>],
     domain: &Domain<3>,
     spacing: f64,
     rows: usize,
 ) -> (Vec<Vec<BackingParticle<3>>>, usize) {
-    let (mut backing, mut looked_at) = (vec![Vec::new(); shells.len()], 0);
-    for group in together(shells) {
-        let laying = Laying::of(shells, &group, domain, spacing, rows);
+    let (mut backing, mut looked_at) = (vec![Vec::new(); walls.len()], 0);
+    for group in together(walls) {
+        let laying = Laying::of(walls, &group, domain, spacing, rows);
         let parts = (0..laying.parts.len()).into_par_iter().filter(|&part| !laying.parts[part].narrow);
         let mut particles: Vec<Vec<(usize, BackingParticle<3>)>> = parts.map(|part| laying.behind_part(part)).collect();
         particles.push(laying.behind_narrow_parts());
-        for (shell, particle) in particles.into_iter().flatten() {
-            backing[shell].push(particle);
+        for (wall, particle) in particles.into_iter().flatten() {
+            backing[wall].push(particle);
         }
         looked_at += laying.looked_at.into_inner();
     }
@@ -59,7 +59,7 @@ pub fn lay_counted(
 /// A flat part, or its image in a mirror or a period.
 #[derive(Clone)]
 struct Part {
-    shell: usize,
+    wall: usize,
     facets: Vec<usize>,
     narrow: bool,
 }
@@ -89,19 +89,19 @@ struct Piece {
 }
 
 impl<'a> Laying<'a> {
-    fn of(shells: &[Shell<3>], group: &[usize], domain: &'a Domain<3>, spacing: f64, rows: usize) -> Self {
+    fn of(walls: &[FacetWall<3>], group: &[usize], domain: &'a Domain<3>, spacing: f64, rows: usize) -> Self {
         let (mut facets, mut part_of, mut parts) = (Vec::new(), Vec::new(), Vec::new());
-        for &shell in group {
+        for &wall in group {
             let first = facets.len();
-            facets.extend_from_slice(&shells[shell].facets);
+            facets.extend_from_slice(&walls[wall].facets);
             part_of.resize(facets.len(), 0);
-            for own in flat_parts(&shells[shell].facets) {
-                let of_part: Vec<_> = own.iter().map(|&k| shells[shell].facets[k]).collect();
+            for own in flat_parts(&walls[wall].facets) {
+                let of_part: Vec<_> = own.iter().map(|&k| walls[wall].facets[k]).collect();
                 let narrow = Frame::of(&of_part).is_none_or(|frame| frame.breadth() < NARROW * spacing);
                 for &k in &own {
                     part_of[first + k] = parts.len();
                 }
-                parts.push(Part { shell, facets: own.iter().map(|k| first + k).collect(), narrow });
+                parts.push(Part { wall, facets: own.iter().map(|k| first + k).collect(), narrow });
             }
         }
         let grid = FacetGrid::new(&[], spacing);
@@ -149,7 +149,7 @@ impl<'a> Laying<'a> {
         reflected: bool,
     ) {
         for part in 0..count {
-            let Part { shell, facets, narrow } = self.parts[part].clone();
+            let Part { wall, facets, narrow } = self.parts[part].clone();
             let own: Vec<&Facet<3>> = facets.iter().map(|&k| &self.facets[k]).collect();
             if !own.iter().any(|facet| facet.corners.iter().any(|corner| is_near(corner[axis]))) {
                 continue;
@@ -169,14 +169,14 @@ impl<'a> Laying<'a> {
                 .collect();
             let first = self.facets.len();
             self.part_of.resize(first + images.len(), self.parts.len());
-            self.parts.push(Part { shell, facets: (first..first + images.len()).collect(), narrow });
+            self.parts.push(Part { wall, facets: (first..first + images.len()).collect(), narrow });
             self.facets.extend(images);
         }
     }
 
     /// The particles behind a part that is broad enough for a lattice of its own.
     fn behind_part(&self, part: usize) -> Vec<(usize, BackingParticle<3>)> {
-        let Part { shell, ref facets, .. } = self.parts[part];
+        let Part { wall, ref facets, .. } = self.parts[part];
         let of_part: Vec<_> = facets.iter().map(|&k| self.facets[k]).collect();
         let Some(frame) = Frame::of(&of_part) else { return Vec::new() };
         let counts = frame.lengths.map(|length| (length / self.spacing).round().max(1.0));
@@ -194,7 +194,7 @@ impl<'a> Laying<'a> {
                     let height = frame.normal.dot(&(piece.place - frame.origin));
                     let depth = if piece.whole { depth } else { (-height).max(LEAST_DEPTH * self.spacing) };
                     let Piece { place: position, volume, .. } = piece;
-                    particles.push((shell, BackingParticle { position, normal: frame.normal, depth, volume }));
+                    particles.push((wall, BackingParticle { position, normal: frame.normal, depth, volume }));
                 }
             }
         }
@@ -232,13 +232,13 @@ impl<'a> Laying<'a> {
     fn behind_curve(&self, piece: &Piece) -> Option<(usize, BackingParticle<3>)> {
         let position = piece.place;
         self.looked_at.fetch_add(self.grid.near(&position).len(), Ordering::Relaxed);
-        let facet = self.grid.standing(&self.facets, &position)?.facet;
+        let facet = self.grid.side(&self.facets, &position)?.facet;
         let way = self.facets[facet].nearest(&position) - position;
         let depth = way.norm();
         let clear = depth > LEAST_DEPTH * self.spacing;
         let normal = if clear { way / depth } else { self.facets[facet].normal };
         let depth = depth.max(LEAST_DEPTH * self.spacing);
-        Some((self.parts[self.part_of[facet]].shell, BackingParticle { position, normal, depth, volume: piece.volume }))
+        Some((self.parts[self.part_of[facet]].wall, BackingParticle { position, normal, depth, volume: piece.volume }))
     }
 
     /// What belongs to facets of a kind of a cell: behind them, no farther than the rows reach, inside the domain, and
@@ -291,9 +291,9 @@ impl<'a> Laying<'a> {
         found.then(|| near.iter().map(|&facet| facet as usize).filter(reach).collect())
     }
 
-    /// The facet that a place behind the shells belongs to.
+    /// The facet that a place behind the facet walls belongs to.
     fn owner(&self, candidates: &[usize], place: &Vector<3>) -> Option<usize> {
-        let found = || standing(candidates.iter().map(|&facet| (&self.facets[facet], *place)));
+        let found = || facet_side(candidates.iter().map(|&facet| (&self.facets[facet], *place)));
         let found = is_inside(self.domain, place).then(found).flatten()?;
         (found.distance < 0.0 && -found.distance < self.reach()).then(|| candidates[found.facet])
     }

@@ -1,22 +1,27 @@
-//! Boundaries of free-form scenes: shells of segments and triangles ([`shell`], [`shell::Shell::mesh`]) with the dummy particles behind
-//! them, open sides by which particles leave ([`boundary_set`]), and inlets that bring some in ([`inlet`]).
+//! Boundaries of free-form scenes: walls of segments and triangles ([`facet_wall`]) with the dummy particles behind them, open sides by
+//! which particles leave ([`boundary_set`]), and inlets that bring some in ([`inlet`]).
+//!
+//! The kernel calls a narrow interface. A scene holds a [`BoundarySet`]; [`backing`] and [`mesh_backing`] lay the dummy particles of
+//! its walls; the state holds a `BoundaryState`. That one has a method for each place in a step: `release` and `assign_owners` at a
+//! neighbour search, `feed` before a step, `book_wall_forces` after the forces, `touch` after the velocities, `advance` with the
+//! positions. This folder reads particles, passes and walls of the kernel, but neither its scene nor its state.
 
 pub mod backing;
 pub mod boundary_set;
-mod enclosure_step;
+pub(crate) mod boundary_state;
+mod boundary_step;
 pub mod facet;
+mod facet_contact;
 pub mod facet_grid;
+pub mod facet_side;
+pub mod facet_wall;
 mod feed_rate;
 mod inflow_step;
 pub mod inlet;
 mod lattice_cell;
 mod mesh;
 pub mod mesh_backing;
-pub mod shell;
-mod shell_contact;
-pub mod standing;
-pub(crate) mod surroundings;
 
-pub use boundary_set::Enclosure;
+pub use boundary_set::BoundarySet;
 pub use feed_rate::FeedRate;
 pub use inlet::Inlet;

@@ -1,5 +1,5 @@
-//! Impulse that the wall particles of each shell give to the flow: their forces, pair by pair as the momentum pass takes them.
-//! Only scenes with shells come here.
+//! Impulse that the wall particles of each facet wall give to the flow: their forces, pair by pair as the momentum pass takes them.
+//! Only scenes with facet walls come here.
 
 use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
@@ -13,16 +13,16 @@ use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 
-/// The owner of particles that belong to no shell.
-pub(crate) const NO_SHELL: u32 = u32::MAX;
+/// The owner of particles that belong to no facet wall.
+pub(crate) const NO_OWNER: u32 = u32::MAX;
 
-/// The shells that impulses are booked to.
+/// The facet walls that impulses are booked to.
 pub(crate) struct Booking<'a, const D: usize> {
-    /// The shell of every particle in the arrays.
+    /// The facet wall of every particle in the arrays.
     pub(crate) owners: &'a [u32],
-    /// Number of shells.
-    pub(crate) shells: usize,
-    /// Impulses, block by block of flow particles and in each shell by shell `[kg m/s]`.
+    /// Number of facet walls.
+    pub(crate) walls: usize,
+    /// Impulses, block by block of flow particles and in each wall by wall `[kg m/s]`.
     pub(crate) impulses: &'a mut [Vector<D>],
 }
 
@@ -34,8 +34,8 @@ pub(crate) fn run<const D: usize>(
     time_step: f64,
     booking: Booking<'_, D>,
 ) {
-    let Booking { owners, shells, impulses } = booking;
-    impulses.par_chunks_mut(shells).enumerate().with_min_len(4).for_each(|(block, out)| {
+    let Booking { owners, walls, impulses } = booking;
+    impulses.par_chunks_mut(walls).enumerate().with_min_len(4).for_each(|(block, out)| {
         model.instruction_set.run(Pass { model, particles, pairs, owners, block, time_step, out });
     });
 }
@@ -103,7 +103,7 @@ fn widened<V: Lanes, const D: usize>(factor: V, vector: &[V::Single; D]) -> [V; 
     lanes
 }
 
-/// Adds what the wall particles `partners` give, lane by lane, to their shells.
+/// Adds what the wall particles `partners` give, lane by lane, to their facet walls.
 #[inline(always)]
 fn book<V: Lanes, const D: usize>(
     owners: &[u32],
@@ -117,7 +117,7 @@ fn book<V: Lanes, const D: usize>(
     store_vector(from_control, &mut control);
     for (lane, partner) in partners.iter().enumerate() {
         let owner = owners[*partner as usize];
-        if owner != NO_SHELL {
+        if owner != NO_OWNER {
             out[owner as usize] += stress[lane] + control[lane];
         }
     }

@@ -1,5 +1,5 @@
 //! What a wall particle does to a flow particle in the momentum equation: read by the pass of the forces, and by the one
-//! that books them to the shells.
+//! that books them to facet walls.
 
 use super::flow_partner::{Constants, FlowPartner};
 use super::layout;

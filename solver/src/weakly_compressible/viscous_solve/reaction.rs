@@ -2,7 +2,7 @@
 //! for balances, where the flow is enclosed.
 //!
 //! Of (−K δ)_a = V_a [Σ_b w_ab (s_a L_a + s_b L_b) r + Σ_w w_aw β s_a L_a r] the pairs of the flow cancel each other. The sum over wall
-//! particles is theirs, shell by shell, and what images behind a mirror give is that plane's.
+//! particles is theirs, wall by wall, and what images behind a mirror give is that plane's.
 
 use super::ViscousSolve;
 use super::system::{GROUPS, LaneVector, ViscousSystem};
@@ -15,13 +15,13 @@ use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
-use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_SHELL};
+use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_OWNER};
 use crate::weakly_compressible::terms::wall_slip;
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
 use crate::weakly_compressible::walls::Images;
 
 impl<const D: usize> ViscousSolve<'_, D> {
-    /// Adds the reaction to the increment that was solved for: to `impulses` what shells give, and to the support of each
+    /// Adds the reaction to the increment that was solved for: to `impulses` what facet walls give, and to the support of each
     /// particle all of it.
     pub(crate) fn book_reaction(
         &self,
@@ -35,9 +35,9 @@ impl<const D: usize> ViscousSolve<'_, D> {
         self.product_stresses(system, flow, images);
         let mut support = std::mem::take(&mut particles.support);
         let (shared, system) = (&*particles, &*system);
-        let Booking { owners, shells, impulses } = booking;
-        // no shell still leaves a slot to a block
-        let width = shells.max(1);
+        let Booking { owners, walls, impulses } = booking;
+        // no facet wall still leaves a slot to a block
+        let width = walls.max(1);
         (support.par_chunks_mut(BLOCK), impulses.par_chunks_mut(width))
             .into_par_iter()
             .enumerate()
@@ -114,8 +114,8 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
                 let mut impulses = [Vector::zeros(); LANES];
                 store_vector(&scaled(impulse_volume, &given), &mut impulses);
                 for (impulse, partner) in impulses.iter().zip(&partners[..count]) {
-                    let owner = owners.get(*partner as usize).copied().unwrap_or(NO_SHELL);
-                    if owner != NO_SHELL {
+                    let owner = owners.get(*partner as usize).copied().unwrap_or(NO_OWNER);
+                    if owner != NO_OWNER {
                         out[owner as usize] += impulse;
                     }
                 }

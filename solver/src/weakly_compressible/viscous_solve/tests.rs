@@ -5,7 +5,7 @@ use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::material::rheology::{Bingham, Rheology};
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::divergence::Quantity;
-use crate::weakly_compressible::enclosure::Enclosure;
+use crate::weakly_compressible::enclosure::BoundarySet;
 use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
 use crate::weakly_compressible::scene::{Flow, Scene};
 use crate::weakly_compressible::simulation::{Compiled, Simulation};
@@ -54,7 +54,7 @@ where
         flow,
         walls,
         wall_particles,
-        enclosure: Enclosure::default(),
+        enclosure: BoundarySet::default(),
         side_walls: None,
         domain,
         gravity: Vector::zeros(),

@@ -7,8 +7,7 @@ use super::{Measurand, SceneParameters, names, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::setup::rules;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::boundary_set::Enclosure;
-use bagnold_solver::weakly_compressible::enclosure::shell::Motion;
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 use bagnold_solver::weakly_compressible::numerics::Contact;
 use bagnold_solver::weakly_compressible::walls::Surface;
 
@@ -28,7 +27,8 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
             body.check().map_err(|error| error.within(&format!("bodies[{k}]")))?;
         }
         for (k, wall) in self.walls.iter().enumerate() {
-            let sound = wall.check(self.spacing).and_then(|()| check_motion(&wall.shell().motion, S::Wall::GIVEN_BY));
+            let sound =
+                wall.check(self.spacing).and_then(|()| check_motion(&wall.facet_wall().motion, S::Wall::GIVEN_BY));
             sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
         }
         self.check_scales()?;
@@ -40,11 +40,10 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// Numerics that the material and the walls need.
     fn check_numerics(&self) -> Result<(), ParameterError> {
         rules::viscous_step("numerics", &self.numerics, &self.material)?;
-        let shells: Vec<_> = self.walls.iter().map(SceneWall::shell).collect();
-        if shells.iter().any(|shell| shell.roughness == Surface::Smooth) {
+        let enclosure = self.enclosure();
+        if enclosure.walls.iter().any(|wall| wall.roughness == Surface::Smooth) {
             rules::gate("numerics", &self.numerics)?;
         }
-        let enclosure = Enclosure { shells, exits: self.sides.exits(), inlets: self.feeds() };
         rules::refuse("numerics", enclosure.numerics_problem(&self.numerics))?;
         if let Some(problem) = self.side_walls.and_then(|walls| walls.problem(D)) {
             return Err(problem.into());

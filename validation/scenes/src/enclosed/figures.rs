@@ -3,12 +3,10 @@
 use super::filling::SiteFate;
 use super::parameters::Setting;
 use super::series;
-use super::setting::SceneWall;
 use super::surfaces::Surfaces;
 use super::{SceneObservation, SceneParameters, SceneRecord};
 use crate::figure::{Axis, Figure, Panel};
 use crate::setup::wall_rows;
-use bagnold_solver::weakly_compressible::enclosure::Inlet;
 
 pub(crate) fn all<S: Setting<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
@@ -24,10 +22,8 @@ pub(crate) fn all<S: Setting<D>, const D: usize>(
 
 /// Where particles start, and what walls take of the bodies.
 pub(crate) fn setup<S: Setting<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Figure {
-    let shells: Vec<_> = parameters.walls.iter().map(SceneWall::shell).collect();
-    let rows: Vec<_> = parameters.feeds().iter().map(Inlet::shell).collect();
     let range = wall_rows(parameters.numerics.smoothing_ratio) as f64 * parameters.spacing;
-    let sites = parameters.survey(&Surfaces::of(&shells, &rows, range));
+    let sites = parameters.survey(&Surfaces::of(&parameters.enclosure(), range));
     let count = |fate: SiteFate| sites.iter().filter(|(_, other)| *other == fate).count();
     let caption = format!(
         "Of {} sites that the bodies hold, {} get particles (0), {} are too near to a wall (½), {} are behind one (1).",

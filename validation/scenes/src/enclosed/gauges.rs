@@ -39,7 +39,7 @@ impl<const D: usize> Memory<D> {
         for (index, &identity) in particles.identity.iter().enumerate() {
             self.places[identity as usize] = (particles.position[index], particles.velocity[index]);
         }
-        self.impulses = simulation.shell_impulses().to_vec();
+        self.impulses = simulation.facet_wall_impulses().to_vec();
         self.time = simulation.time();
         values
     }
@@ -58,12 +58,12 @@ impl<const D: usize> Memory<D> {
             Measurand::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
             Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
             Measurand::Force { wall } => {
-                let Some(k) = simulation.shells().iter().position(|shell| shell.name == *wall) else {
+                let Some(k) = simulation.facet_walls().iter().position(|own| own.name == *wall) else {
                     return vec![0.0; D];
                 };
                 let before = self.impulses.get(k).copied().unwrap_or_else(Vector::zeros);
                 // the wall feels the opposite of what it gives
-                (before - simulation.shell_impulses()[k]).iter().map(|&change| per_time(change)).collect()
+                (before - simulation.facet_wall_impulses()[k]).iter().map(|&change| per_time(change)).collect()
             }
             Measurand::Flux(opening) => {
                 let crossed = opening.crossed(simulation, periods, &self.places, self.time);

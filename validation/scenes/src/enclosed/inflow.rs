@@ -2,14 +2,14 @@
 
 use super::SceneParameters;
 use super::parameters::Setting;
-use super::setting::{SceneInlet, shown};
+use super::setting::{SceneInlet, SceneWall, shown};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
 use crate::case::ParameterError;
 use crate::setup::wall_rows;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::FeedRate;
 use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, LARGEST_MACH_NUMBER, NARROWEST, Supply};
+use bagnold_solver::weakly_compressible::enclosure::{BoundarySet, FeedRate};
 
 /// Largest stiffness of a scene `[-]`.
 const STIFFEST: f64 = 1e4;
@@ -21,6 +21,12 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     /// The inlets for the solver; those that [`SceneParameters::check_inlets`] refuses are left out.
     pub(super) fn feeds(&self) -> Vec<Inlet<D>> {
         self.inlets.iter().filter_map(|inlet| self.feed(inlet, inlet.rate().checked().ok()?)).collect()
+    }
+
+    /// Walls, open sides and inlets for the solver.
+    pub(super) fn enclosure(&self) -> BoundarySet<D> {
+        let walls = self.walls.iter().map(SceneWall::facet_wall).collect();
+        BoundarySet { walls, exits: self.sides.exits(), inlets: self.feeds() }
     }
 
     fn feed(&self, inlet: &S::Inlet, rate: FeedRate) -> Option<Inlet<D>> {

@@ -33,7 +33,7 @@ pub use given::PlainData;
 pub use given_rate::GivenRate;
 pub use measure::{DepthGauge, Measurand, Opening};
 pub use measured::MeasuredSeries;
-pub use observation::{FedMass, Left, SceneObservation};
+pub use observation::{FedMass, OutflowRecord, SceneObservation};
 pub use parameters::{SceneParameters, Setting};
 pub use run::SceneRun;
 pub use settling::BodyPreparation;

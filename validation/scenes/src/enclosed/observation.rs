@@ -6,9 +6,9 @@ use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
-/// What left by one side; in the plane, masses and impulses are those per metre of depth.
+/// Outflow through one side; in the plane, masses are those per metre of depth.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Left {
+pub struct OutflowRecord {
     /// Particles.
     pub particles: u64,
     /// Their mass `[kg]`.
@@ -39,8 +39,8 @@ pub struct SceneObservation<const D: usize> {
     pub gauges: Vec<Vec<f64>>,
     /// The energy ledger, with what has left still counted, and what inlets have brought not.
     pub energy: EnergyBook,
-    /// What left by the lower and the upper side of the first axis, then of the next, up to the last sample.
-    pub left: Vec<Left>,
+    /// Outflow through the lower and the upper side of the first axis, then of the next, up to the last sample.
+    pub left: Vec<OutflowRecord>,
     /// What came in, inlet by inlet.
     pub fed: Vec<FedMass>,
     /// Largest difference of the mass inside and outside from that of the start and of what came in `[kg]`.
@@ -93,15 +93,15 @@ impl<const D: usize> SceneObservation<D> {
         gravity: &Vector<D>,
         gauges: Vec<f64>,
     ) {
-        let sides = &simulation.departures().sides;
+        let sides = &simulation.outflow().sides;
         let inside = snapshot.mass.iter().fold(0.0, |sum, mass| sum + mass);
         let outside: f64 = sides.iter().map(|side| side.mass).sum();
         let held: Vector<D> = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v * *m).sum();
         let gone: Vector<D> = sides.iter().map(|side| side.momentum).sum();
         let supports: Vector<D> = snapshot.support_impulse.iter().sum::<Vector<D>>()
             + sides.iter().map(|side| side.support).sum::<Vector<D>>();
-        let walls: Vector<D> = simulation.shell_impulses().iter().sum();
-        let inlets = &simulation.arrivals().inlets;
+        let walls: Vector<D> = simulation.facet_wall_impulses().iter().sum();
+        let inlets = &simulation.inflow().inlets;
         let brought: f64 = inlets.iter().map(|fed| fed.mass).sum();
         let came: Vector<D> = inlets.iter().map(|fed| fed.momentum).sum();
         let absent: f64 = inlets.iter().map(|fed| fed.mass_times_time).sum();
@@ -122,7 +122,7 @@ impl<const D: usize> SceneObservation<D> {
         for (series, value) in self.gauges.iter_mut().zip(gauges) {
             series.push(value);
         }
-        self.left = sides.iter().map(|side| Left { particles: side.particles, mass: side.mass }).collect();
+        self.left = sides.iter().map(|side| OutflowRecord { particles: side.particles, mass: side.mass }).collect();
         self.fed.resize(inlets.len(), FedMass::default());
         for ((entry, fed), inlet) in self.fed.iter_mut().zip(inlets).zip(simulation.inlets()) {
             let off = (fed.mass - inlet.rate.mass(snapshot.time)).abs() / inlet.row_mass();

@@ -174,7 +174,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         let of_wall = |name: &str| {
             let wall = self.walls.iter().find(|wall| wall.name() == name)?;
             let Measurand::Depth(depth) = gauge.measure(&self.down()) else { return None };
-            let facets = wall.shell().facets;
+            let facets = wall.facet_wall().facets;
             let distance = |facet: &Facet<D>| (facet.nearest(&depth.at) - depth.at).norm();
             facets.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).map(|facet| facet.normal)
         };

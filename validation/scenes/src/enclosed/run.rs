@@ -14,8 +14,8 @@ use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
 use crate::setup::wall_rows;
 use bagnold_solver::domain::Domain;
+use bagnold_solver::weakly_compressible::enclosure::Inlet;
 use bagnold_solver::weakly_compressible::enclosure::boundary_set::Exits;
-use bagnold_solver::weakly_compressible::enclosure::{Enclosure, Inlet};
 use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
@@ -107,7 +107,7 @@ where
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, scene.duration, steps);
-                let known = begun + simulation.arrivals().particles() as usize;
+                let known = begun + simulation.inflow().particles() as usize;
                 let values = watch.memory.read_all(&measures, simulation, last_good, (known, &periods));
                 watch.observation.enter(simulation, last_good, &gravity, values);
                 let due = watch.frames.len() as f64 * scene.duration / scene.pictures as f64;
@@ -170,7 +170,7 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
         let SceneParameters { numerics, spacing, material, .. } = &self.scene;
         let equation_of_state = self.scene.equation_of_state();
         let (density, fall) = (equation_of_state.reference_density, self.fall_speed());
-        let walls = self.scene.walls.iter().map(|wall| wall.shell().motion.largest_speed()).fold(0.0, f64::max);
+        let walls = self.scene.walls.iter().map(|wall| wall.facet_wall().motion.largest_speed()).fold(0.0, f64::max);
         let inlets = self.scene.feeds().iter().map(Inlet::largest_speed).fold(0.0, f64::max);
         let speed = (2.0_f64.sqrt() * fall).max(self.fastest_body()).max(inlets) + walls.max(inlets);
         let viscosity = material.largest_viscosity(density * fall * fall) / density;
@@ -227,15 +227,12 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
     /// A body of which walls take more than they may.
     fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
         let SceneParameters { spacing, numerics, material, .. } = self.scene;
-        let shells: Vec<_> = self.scene.walls.iter().map(SceneWall::shell).collect();
-        let (equation_of_state, inlets) = (self.scene.equation_of_state(), self.scene.feeds());
-        let rows: Vec<_> = inlets.iter().map(Inlet::shell).collect();
-        let surfaces = Surfaces::of(&shells, &rows, self.rows() as f64 * spacing);
-        self.scene.check_openings(&inlets, &surfaces)?;
+        let (equation_of_state, enclosure) = (self.scene.equation_of_state(), self.scene.enclosure());
+        let surfaces = Surfaces::of(&enclosure, self.rows() as f64 * spacing);
+        self.scene.check_openings(&enclosure.inlets, &surfaces)?;
         let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state)?;
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
-        scene.enclosure = Enclosure { shells, exits: self.scene.sides.exits(), inlets };
-        (scene.numerics, scene.side_walls) = (numerics, self.scene.side_walls);
+        (scene.enclosure, scene.numerics, scene.side_walls) = (enclosure, numerics, self.scene.side_walls);
         scene.domain = Domain { axes: self.scene.sides.axes() };
         scene.gravity = vector(&self.scene.gravity);
         Ok((scene, cut_off))

@@ -4,8 +4,8 @@ use super::given::PlainData;
 use super::{GivenRate, Measurand};
 use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::FacetWall;
 use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};
-use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
 use bagnold_solver::weakly_compressible::walls::Surface;
 
 /// A piece of the material at the start.
@@ -48,7 +48,7 @@ pub trait SceneWall<const D: usize>: PlainData {
     fn may_have_two_sides(&self) -> bool;
 
     /// The wall for the solver.
-    fn shell(&self) -> Shell<D>;
+    fn facet_wall(&self) -> FacetWall<D>;
 
     /// Places that it lies between `[m]`.
     fn hull(&self) -> Vec<Vector<D>>;

@@ -70,9 +70,9 @@ where
         return Err(refused_for("settled", "\"none\" for a scene without bodies", remedy));
     }
     let mut resting = scene.clone();
-    for shell in &mut resting.enclosure.shells {
+    for wall in &mut resting.enclosure.walls {
         // it keeps its table, so that its corners are not joined to those of walls at rest
-        shell.motion.displacements.fill(Vector::zeros());
+        wall.motion.displacements.fill(Vector::zeros());
     }
     for inlet in &mut resting.enclosure.inlets {
         inlet.rate = FeedRate::closed();

@@ -1,9 +1,10 @@
-//! Where places stand with regard to the walls of a scene.
+//! Places in front of the walls of a scene, and behind them.
 
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 use bagnold_solver::weakly_compressible::enclosure::facet_grid::FacetGrid;
-use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::FacetWall;
+use bagnold_solver::weakly_compressible::enclosure::{BoundarySet, Inlet};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 
 /// Sites nearer to a wall than this are left free, in spacings `[-]`.
@@ -29,15 +30,15 @@ pub(super) struct NearestWall {
 }
 
 impl<const D: usize> FacetSurface<D> {
-    fn of<'a>(shells: impl Iterator<Item = (usize, &'a Shell<D>)>, range: f64) -> Self {
+    fn of<'a>(walls: impl Iterator<Item = (usize, &'a FacetWall<D>)>, range: f64) -> Self {
         let (walls, facets): (Vec<usize>, Vec<Facet<D>>) =
-            shells.flat_map(|(wall, shell)| shell.facets.iter().map(move |facet| (wall, *facet))).unzip();
+            walls.flat_map(|(index, wall)| wall.facets.iter().map(move |facet| (index, *facet))).unzip();
         Self { grid: FacetGrid::new(&facets, range), facets, walls }
     }
 
     /// The wall nearest to a place; none where all are farther than the range.
     fn nearest(&self, place: &Vector<D>) -> Option<NearestWall> {
-        let found = self.grid.standing(&self.facets, place)?;
+        let found = self.grid.side(&self.facets, place)?;
         Some(NearestWall { wall: self.walls[found.facet], distance: found.distance })
     }
 }
@@ -46,12 +47,13 @@ impl<const D: usize> FacetSurface<D> {
 pub(super) struct Surfaces<const D: usize>(Vec<FacetSurface<D>>);
 
 impl<const D: usize> Surfaces<D> {
-    /// The surfaces of some walls and then of the rows of inlets, by which places are found up to a distance `[m]`: as far as the
-    /// walls are thick.
-    pub(super) fn of(shells: &[Shell<D>], rows: &[Shell<D>], range: f64) -> Self {
-        let (rest, moving): (Vec<_>, Vec<_>) = shells.iter().enumerate().partition(|(_, shell)| shell.motion.is_rest());
+    /// The surfaces of walls and then of the rows of inlets, by which places are found up to a distance `[m]`: as far as the walls are
+    /// thick.
+    pub(super) fn of(BoundarySet { walls, inlets, .. }: &BoundarySet<D>, range: f64) -> Self {
+        let (rest, moving): (Vec<_>, Vec<_>) = walls.iter().enumerate().partition(|(_, wall)| wall.motion.is_rest());
+        let rows: Vec<_> = inlets.iter().map(Inlet::wall).collect();
         let rest = std::iter::once(FacetSurface::of(rest.into_iter(), range));
-        let rows = rows.iter().enumerate().map(|(inlet, rows)| (shells.len() + inlet, rows));
+        let rows = rows.iter().enumerate().map(|(inlet, rows)| (walls.len() + inlet, rows));
         let moving = moving.into_iter().chain(rows).map(|one| FacetSurface::of(std::iter::once(one), range));
         Self(rest.chain(moving).collect())
     }
@@ -72,12 +74,12 @@ pub(super) fn is_taken(nearest: &NearestWall, spacing: f64) -> bool {
 /// Particles that are behind a wall by less than half a spacing: they have passed it.
 pub(super) fn behind<const D: usize>(simulation: &Simulation<D>) -> u64 {
     let range = PASSED * simulation.spacing();
-    let shells = simulation.shells().iter().enumerate();
-    let surfaces: Vec<_> = shells.map(|one| FacetSurface::of(std::iter::once(one), range)).collect();
+    let walls = simulation.facet_walls().iter().enumerate();
+    let surfaces: Vec<_> = walls.map(|one| FacetSurface::of(std::iter::once(one), range)).collect();
     let particles = simulation.particles();
     let count = particles.position[..particles.flow_count()].iter().filter(|place| {
-        let mut shells = surfaces.iter().zip(simulation.shell_displacements());
-        shells.any(|(surface, moved)| surface.nearest(&(*place - moved)).is_some_and(|wall| wall.distance < 0.0))
+        let mut walls = surfaces.iter().zip(simulation.facet_wall_displacements());
+        walls.any(|(surface, moved)| surface.nearest(&(*place - moved)).is_some_and(|wall| wall.distance < 0.0))
     });
     count.count() as u64
 }

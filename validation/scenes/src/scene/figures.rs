@@ -19,11 +19,12 @@ pub(super) fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure
         let points: Vec<(f64, f64)> = frame.position.iter().map(|place| (place[0], place[1])).collect();
         panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, frame.speeds()));
         for wall in &parameters.walls {
-            let shell = wall.shell();
-            let moved = shell.motion.displacement(frame.time);
+            let facet_wall = wall.facet_wall();
+            let moved = facet_wall.motion.displacement(frame.time);
             let place = |point: &Vector<2>| (point[0] + moved[0], point[1] + moved[1]);
-            let ends = shell.facets.first().map(|facet| place(&facet.corners[0]));
-            let points = ends.into_iter().chain(shell.facets.iter().map(|facet| place(&facet.corners[1]))).collect();
+            let ends = facet_wall.facets.first().map(|facet| place(&facet.corners[0]));
+            let points =
+                ends.into_iter().chain(facet_wall.facets.iter().map(|facet| place(&facet.corners[1]))).collect();
             panel.series.push(Series::new("", Mark::Reference, 0, points));
         }
         panel
@@ -44,7 +45,7 @@ pub(super) fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) ->
     }
     let point = |place: &Vector<2>| (place[0], place[1]);
     for (slot, wall) in parameters.walls.iter().enumerate() {
-        let facets = wall.shell().facets;
+        let facets = wall.facet_wall().facets;
         let first = facets.first().map(|facet| point(&facet.corners[0]));
         let points: Vec<_> = first.into_iter().chain(facets.iter().map(|facet| point(&facet.corners[1]))).collect();
         panel.series.push(Series::new(wall.name(), Mark::Line, slot, points));

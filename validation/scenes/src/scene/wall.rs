@@ -5,7 +5,7 @@ use crate::case::ParameterError;
 use crate::enclosed::setting::{self, vector};
 use crate::enclosed::{DomainSide, sides};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::shell::{Motion, Shell, Side};
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion, Side};
 use bagnold_solver::weakly_compressible::walls::Surface;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -63,7 +63,7 @@ impl setting::SceneWall<2> for WallLine {
         self.both_sides
     }
 
-    fn shell(&self) -> Shell<2> {
+    fn facet_wall(&self) -> FacetWall<2> {
         let mut points: Vec<Vector<2>> = self.points.iter().map(vector).collect();
         if self.closed {
             points.extend(points.first().copied());
@@ -72,13 +72,13 @@ impl setting::SceneWall<2> for WallLine {
             FlowSide::Left => Side::Left,
             FlowSide::Right => Side::Right,
         };
-        let mut shell = Shell::polyline(&self.name, &points, side);
-        shell.roughness = self.surface;
-        shell.motion = Motion {
+        let mut facet_wall = FacetWall::polyline(&self.name, &points, side);
+        facet_wall.roughness = self.surface;
+        facet_wall.motion = Motion {
             times: self.motion.iter().map(|row| row.0).collect(),
             displacements: self.motion.iter().map(|row| Vector::<2>::new(row.1, row.2)).collect(),
         };
-        shell
+        facet_wall
     }
 
     fn hull(&self) -> Vec<Vector<2>> {
@@ -86,7 +86,7 @@ impl setting::SceneWall<2> for WallLine {
     }
 
     fn measure(&self) -> f64 {
-        self.shell().facets.iter().map(|facet| (facet.corners[1] - facet.corners[0]).norm()).sum()
+        self.facet_wall().facets.iter().map(|facet| (facet.corners[1] - facet.corners[0]).norm()).sum()
     }
 
     fn check(&self, spacing: f64) -> Result<(), ParameterError> {
@@ -145,7 +145,7 @@ mod tests {
         };
         let normals = |points, flow| -> Vec<Vector<2>> {
             let mut normals: Vec<Vector<2>> =
-                wall(points, flow).shell().facets.iter().map(|facet| facet.normal).collect();
+                wall(points, flow).facet_wall().facets.iter().map(|facet| facet.normal).collect();
             normals.sort_by(|one, other| one[1].abs().total_cmp(&other[1].abs()));
             normals
         };

@@ -6,7 +6,7 @@ use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
-use bagnold_solver::weakly_compressible::enclosure::shell::Shell;
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::FacetWall;
 use std::collections::BTreeMap;
 
 /// Most edges that are drawn of the walls: a fine mesh would cover what it holds.
@@ -30,20 +30,20 @@ const VIEWS: [ViewDirection; 2] = [
 /// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
 pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
-    let walls: Vec<(Shell<3>, Vec<[Vector<3>; 2]>)> = parameters
+    let walls: Vec<(FacetWall<3>, Vec<[Vector<3>; 2]>)> = parameters
         .walls
         .iter()
         .map(|wall| {
-            let shell = wall.shell();
-            let edges = sharp_edges(&shell.facets);
-            (shell, edges)
+            let facet_wall = wall.facet_wall();
+            let edges = sharp_edges(&facet_wall.facets);
+            (facet_wall, edges)
         })
         .collect();
     let panels = frames.iter().flat_map(|frame| VIEWS.iter().map(move |view| (frame, view)));
     let panels = panels.map(|(frame, view)| {
         let mut panel = material(parameters, frame, view, fastest);
-        let moved = walls.iter().flat_map(|(shell, edges)| {
-            let moved = shell.motion.displacement(frame.time);
+        let moved = walls.iter().flat_map(|(facet_wall, edges)| {
+            let moved = facet_wall.motion.displacement(frame.time);
             edges.iter().map(move |edge| edge.map(|end| end + moved))
         });
         for edge in moved.take(MOST_EDGES) {
@@ -98,7 +98,7 @@ pub(super) fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) ->
             panel.field = Some(Field::new("behind [-]", parameters.spacing, (0.0, 1.0), points, values));
         }
         for (slot, wall) in parameters.walls.iter().enumerate() {
-            for (k, edge) in sharp_edges(&wall.shell().facets).iter().take(MOST_EDGES).enumerate() {
+            for (k, edge) in sharp_edges(&wall.facet_wall().facets).iter().take(MOST_EDGES).enumerate() {
                 let points = edge.iter().map(|end| (end[view.right], end[view.up])).collect();
                 let label = if k == 0 { wall.name() } else { "" };
                 panel.series.push(Series::new(label, Mark::Line, slot, points));

@@ -5,7 +5,7 @@ use crate::case::ParameterError;
 use crate::enclosed::setting::{self, shown, vector};
 use crate::enclosed::{DomainSide, shapes, sides};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::shell::{Motion, Shell};
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion};
 use bagnold_solver::weakly_compressible::walls::Surface;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -79,14 +79,14 @@ impl setting::SceneWall<3> for SpaceWall {
         self.both_sides
     }
 
-    fn shell(&self) -> Shell<3> {
-        let mut shell = Shell::mesh(&self.name, &self.corners());
-        shell.roughness = self.surface;
-        shell.motion = Motion {
+    fn facet_wall(&self) -> FacetWall<3> {
+        let mut facet_wall = FacetWall::mesh(&self.name, &self.corners());
+        facet_wall.roughness = self.surface;
+        facet_wall.motion = Motion {
             times: self.motion.iter().map(|row| row.0).collect(),
             displacements: self.motion.iter().map(|row| Vector::<3>::new(row.1, row.2, row.3)).collect(),
         };
-        shell
+        facet_wall
     }
 
     /// The corners of its box: a mesh has many.
@@ -187,9 +187,9 @@ mod tests {
         let wall =
             SpaceWall { boxes: vec![((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))], ..SpaceWall::of_quads("box", Vec::new()) };
         let middle = Vector::<3>::new(0.5, 1.0, 1.5);
-        let shell = wall.shell();
-        assert_eq!(shell.facets.len(), 12);
-        assert!(shell.facets.iter().all(|facet| facet.height(&middle) < -0.4));
+        let facet_wall = wall.facet_wall();
+        assert_eq!(facet_wall.facets.len(), 12);
+        assert!(facet_wall.facets.iter().all(|facet| facet.height(&middle) < -0.4));
         assert!((wall.measure() - 22.0).abs() < 1e-12 && wall.check(0.1).is_ok());
     }
 

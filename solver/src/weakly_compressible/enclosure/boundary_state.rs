@@ -1,37 +1,37 @@
-//! Shells, open sides and inlets of a running simulation: where the shells stand, what they have given to the flow, who
-//! has left and who has come in. The rows of inlets are the last of the shells.
+//! Facet walls, open sides and inlets of a running simulation: displacements, impulses on the flow, outflow and inflow. The rows of
+//! inlets are the last of the facet walls.
 
-use super::boundary_set::{Departures, Enclosure, Exits};
+use super::boundary_set::{BoundarySet, Exits, OutflowBySide};
 use super::facet_grid::FacetGrid;
-use super::inlet::{Arrivals, Inlet};
-use super::shell::{BackingParticle, Shell};
+use super::facet_wall::{BackingParticle, FacetWall};
+use super::inlet::{Inflow, Inlet};
 use crate::run::ForeignState;
 use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
 
-/// What the scene says of its enclosure, and what has become of it.
+/// Boundaries of the scene, and their state.
 #[derive(Debug)]
-pub(crate) struct Surroundings<const D: usize> {
-    /// The shells, then the rows of each inlet, at the start.
-    pub(crate) shells: Vec<Shell<D>>,
-    /// Plane walls, which come before the shells in the numbering of walls.
+pub(crate) struct BoundaryState<const D: usize> {
+    /// The facet walls, then the rows of each inlet, at the start.
+    pub(crate) walls: Vec<FacetWall<D>>,
+    /// Plane walls, which come before the facet walls in the numbering of walls.
     pub(super) plane_walls: usize,
-    /// Which facets of each are near a place, where they are at the start.
+    /// Grids to find facets by, wall by wall, at the start.
     pub(super) grids: Vec<FacetGrid<D>>,
-    /// Distance from a shell within which a particle is touched `[m]`.
+    /// Distance from a facet wall within which a particle is touched `[m]`.
     pub(super) range: f64,
     pub(super) exits: Exits<D>,
     pub(crate) inlets: Vec<Inlet<D>>,
-    /// Where the particles of each inlet's rows begin among all wall particles.
+    /// First particle of each inlet's rows among all wall particles.
     pub(super) first_particles: Vec<usize>,
     /// Particles of the flow at the start.
     begun: u32,
-    /// How far each shell has moved since the start `[m]`, and in the last step.
+    /// Displacement of each facet wall since the start `[m]`, and in the last step.
     pub(crate) displacements: Vec<Vector<D>>,
     pub(super) last: Vec<Vector<D>>,
     /// Mean velocity of each in the present step `[m/s]`.
     pub(super) velocities: Vec<Vector<D>>,
-    /// The shell of every particle in the arrays; none of the flow.
+    /// The facet wall of every particle in the arrays; none of the flow.
     pub(super) owners: Vec<u32>,
     /// Impulses of a step, block by block.
     pub(super) blocks: Vec<Vector<D>>,
@@ -39,37 +39,37 @@ pub(crate) struct Surroundings<const D: usize> {
     pub(crate) books: Books<D>,
 }
 
-/// What is kept of a simulation beside what the scene and its time say.
+/// Sums over a run, which neither the scene nor the time gives.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Books<const D: usize> {
-    /// Impulse that each shell has given to the flow since the start `[kg m/s]`.
+    /// Impulse that each facet wall has given to the flow since the start `[kg m/s]`.
     pub(crate) impulses: Vec<Vector<D>>,
-    pub(crate) departures: Departures<D>,
-    pub(crate) arrivals: Arrivals<D>,
+    pub(crate) outflow: OutflowBySide<D>,
+    pub(crate) inflow: Inflow<D>,
     /// Impulse that implicit viscous steps have left out since the start `[kg m/s]`.
     pub(crate) unsolved: Vector<D>,
 }
 
-impl<const D: usize> Surroundings<D> {
+impl<const D: usize> BoundaryState<D> {
     /// State at the start at a spacing `[m]`, with numbers of plane walls, of their particles and of particles of the flow, and the dummy
-    /// particles of each shell.
+    /// particles of each facet wall.
     pub(crate) fn new(
-        enclosure: Enclosure<D>,
+        enclosure: BoundarySet<D>,
         spacing: f64,
         (plane_walls, plane): (usize, usize),
         flow: usize,
         backing: &[Vec<BackingParticle<D>>],
     ) -> Self {
-        let Enclosure { mut shells, exits, inlets } = enclosure;
-        shells.extend(inlets.iter().map(Inlet::shell));
-        let before = |shell: usize| plane + backing[..shell].iter().map(Vec::len).sum::<usize>();
-        let first_particles = (shells.len() - inlets.len()..shells.len()).map(before).collect();
+        let BoundarySet { mut walls, exits, inlets } = enclosure;
+        walls.extend(inlets.iter().map(Inlet::wall));
+        let before = |wall: usize| plane + backing[..wall].iter().map(Vec::len).sum::<usize>();
+        let first_particles = (walls.len() - inlets.len()..walls.len()).map(before).collect();
         let range = 0.5 * spacing;
-        let none = vec![Vector::zeros(); shells.len()];
-        let displacements = shells.iter().map(|shell| shell.motion.displacement(0.0)).collect();
+        let none = vec![Vector::zeros(); walls.len()];
+        let displacements = walls.iter().map(|wall| wall.motion.displacement(0.0)).collect();
         Self {
             plane_walls,
-            grids: shells.iter().map(|shell| FacetGrid::new(&shell.facets, range)).collect(),
+            grids: walls.iter().map(|wall| FacetGrid::new(&wall.facets, range)).collect(),
             range,
             exits,
             first_particles,
@@ -82,63 +82,63 @@ impl<const D: usize> Surroundings<D> {
             gone: Vec::new(),
             books: Books {
                 impulses: none,
-                departures: Departures::default(),
-                arrivals: Arrivals::none(inlets.len()),
+                outflow: OutflowBySide::default(),
+                inflow: Inflow::none(inlets.len()),
                 unsolved: Vector::zeros(),
             },
             inlets,
-            shells,
+            walls,
         }
     }
 
     /// Continues from books and a time.
     pub(crate) fn restore(&mut self, books: Books<D>, time: f64) {
         self.books = books;
-        for shell in 0..self.shells.len() {
-            self.displacements[shell] = self.place(shell, time);
+        for wall in 0..self.walls.len() {
+            self.displacements[wall] = self.place(wall, time);
         }
     }
 
-    /// The largest speed that any shell ever has `[m/s]`.
+    /// Largest speed of any facet wall at any time `[m/s]`.
     pub(crate) fn largest_speed(&self) -> f64 {
         let inlets = self.inlets.iter().map(Inlet::largest_speed);
-        self.shells.iter().map(|shell| shell.motion.largest_speed()).chain(inlets).fold(0.0, f64::max)
+        self.walls.iter().map(|wall| wall.motion.largest_speed()).chain(inlets).fold(0.0, f64::max)
     }
 
-    /// Whether there is nothing, neither shells nor open sides.
+    /// Whether there is nothing, neither facet walls nor open sides.
     pub(crate) fn is_empty(&self) -> bool {
-        self.shells.is_empty() && self.exits == Exits::default()
+        self.walls.is_empty() && self.exits == Exits::default()
     }
 
-    /// The place of the first inlet's rows among the shells.
+    /// The place of the first inlet's rows among the facet walls.
     pub(super) fn first_inlet(&self) -> usize {
-        self.shells.len() - self.inlets.len()
+        self.walls.len() - self.inlets.len()
     }
 
-    /// How far a shell, or the rows of an inlet, are from their start at a time `[m]`.
-    pub(super) fn place(&self, shell: usize, time: f64) -> Vector<D> {
-        match shell.checked_sub(self.first_inlet()) {
-            Some(inlet) => self.inlets[inlet].displacement(time, self.books.arrivals.inlets[inlet].rows),
-            None => self.shells[shell].motion.displacement(time),
+    /// Displacement of a facet wall, or of the rows of an inlet, at a time `[m]`.
+    pub(super) fn place(&self, wall: usize, time: f64) -> Vector<D> {
+        match wall.checked_sub(self.first_inlet()) {
+            Some(inlet) => self.inlets[inlet].displacement(time, self.books.inflow.inlets[inlet].rows),
+            None => self.walls[wall].motion.displacement(time),
         }
     }
 
-    /// Velocity of a shell, or of the rows of an inlet, right after a time `[m/s]`.
-    pub(crate) fn velocity(&self, shell: usize, time: f64) -> Vector<D> {
-        match shell.checked_sub(self.first_inlet()) {
+    /// Velocity of a facet wall, or of the rows of an inlet, right after a time `[m/s]`.
+    pub(crate) fn velocity(&self, wall: usize, time: f64) -> Vector<D> {
+        match wall.checked_sub(self.first_inlet()) {
             Some(inlet) => self.inlets[inlet].direction() * self.inlets[inlet].speed(time),
-            None => self.shells[shell].motion.velocity(time),
+            None => self.walls[wall].motion.velocity(time),
         }
     }
 
     /// Identity of the next particle that an inlet sets free.
     pub(super) fn next_identity(&self) -> u32 {
-        self.begun + self.books.arrivals.particles() as u32
+        self.begun + self.books.inflow.particles() as u32
     }
 
     /// Adds the impulses of a step, in the order of the blocks.
     pub(super) fn close_impulses(&mut self) {
-        for block in self.blocks.chunks_exact_mut(self.shells.len()) {
+        for block in self.blocks.chunks_exact_mut(self.walls.len().max(1)) {
             for (sum, impulse) in self.books.impulses.iter_mut().zip(block) {
                 *sum += std::mem::replace(impulse, Vector::zeros());
             }
@@ -152,19 +152,19 @@ impl<const D: usize> Books<D> {
     /// # Errors
     /// Rows of other inlets than these.
     pub(crate) fn check_rows(&self, inlets: &[Inlet<D>], flow: usize) -> Result<usize, ForeignState> {
-        ForeignState::check("inlets", self.arrivals.inlets.len(), inlets.len())?;
+        ForeignState::check("inlets", self.inflow.inlets.len(), inlets.len())?;
         let cells = |inlet: usize| inlets.get(inlet).map_or(0, |inlet| inlet.cells.len() as u64);
         let mut rows = vec![0; inlets.len()];
         let mut next = flow as u64;
         let mut sound = true;
-        for row in &self.arrivals.rows {
+        for row in &self.inflow.rows {
             let inlet = row.inlet as usize;
             sound &= inlet < inlets.len() && u64::from(row.first) == next;
             next = next.saturating_add(cells(inlet));
             rows.get_mut(inlet).into_iter().for_each(|rows| *rows += 1);
         }
         let counted = |(inlet, rows): (usize, &u64)| {
-            let fed = &self.arrivals.inlets[inlet];
+            let fed = &self.inflow.inlets[inlet];
             fed.rows == *rows && fed.particles == rows.saturating_mul(cells(inlet))
         };
         sound &= rows.iter().enumerate().all(counted);

@@ -1,4 +1,4 @@
-//! Where a place stands with regard to facets: in front of a wall, or behind it.
+//! Side of facets on which a place is: in front of a wall, or behind it.
 //!
 //! The facet nearest to it decides. At a corner several are equally near; the sign then is that of the sum of
 //! their normals, in space each times the angle that its triangle fills there, which is right for corners into the flow
@@ -7,14 +7,14 @@
 use super::facet::Facet;
 use crate::vector::Vector;
 
-/// How much farther than the nearest a facet may be to count as equally near `[-]`.
+/// Relative distance beyond the nearest up to which a facet counts as equally near `[-]`.
 const TIE: f64 = 1e-9;
-/// How far the cosine between two edges that are one may be from 1 `[-]`.
+/// Largest deviation from 1 of the cosine between two edges that are one `[-]`.
 const ALONG: f64 = 1e-6;
 
-/// Where a place stands with regard to some facets.
+/// Distance of a place from some facets, signed by the side.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Standing {
+pub struct FacetSide {
     /// Distance from the nearest facet `[m]`, negative behind it. Beyond a rim where the facets end it is positive.
     pub distance: f64,
     /// The nearest facet, by its place among them: where several are equally near, the one that the place is behind of by
@@ -22,10 +22,10 @@ pub struct Standing {
     pub facet: usize,
 }
 
-/// Where a place stands; none without facets. `facets` yields them with the place as each of them sees it.
-pub fn standing<'a, const D: usize>(
+/// Side of facets on which a place is; none without facets. `facets` yields them with the place as each of them sees it.
+pub fn facet_side<'a, const D: usize>(
     facets: impl Iterator<Item = (&'a Facet<D>, Vector<D>)> + Clone,
-) -> Option<Standing> {
+) -> Option<FacetSide> {
     let ways = facets.clone().map(|(facet, place)| (place - facet.nearest(&place)).norm());
     let least = ways.fold(f64::INFINITY, f64::min);
     if least == f64::INFINITY {
@@ -58,7 +58,7 @@ pub fn standing<'a, const D: usize>(
     let behind = if cancel { behind_one } else { way.dot(&sum) < 0.0 };
     let beyond = |facets| if D < 3 { tied == 1 && beyond_a_rim } else { !on_a_face && is_open(facets, least) };
     let behind = behind && !beyond(facets);
-    Some(Standing { distance: if behind { -least } else { least }, facet: owner.unwrap_or(first) })
+    Some(FacetSide { distance: if behind { -least } else { least }, facet: owner.unwrap_or(first) })
 }
 
 /// Whether triangles that are equally near by their rims leave a gap around the point that is nearest: an edge there has a
@@ -82,9 +82,9 @@ mod tests {
         points.windows(2).filter_map(|ends| Facet::segment(ends[0].into(), ends[1].into())).collect()
     }
 
-    fn stands(facets: &[Facet<2>], x: f64, y: f64) -> Standing {
+    fn stands(facets: &[Facet<2>], x: f64, y: f64) -> FacetSide {
         let place = Vector::<2>::new(x, y);
-        standing(facets.iter().map(|facet| (facet, place))).expect("facets")
+        facet_side(facets.iter().map(|facet| (facet, place))).expect("facets")
     }
 
     #[test]
@@ -128,7 +128,7 @@ mod tests {
     }
 
     fn distance(facets: &[Facet<3>], place: [f64; 3]) -> f64 {
-        standing(facets.iter().map(|facet| (facet, Vector::<3>::from(place)))).expect("facets").distance
+        facet_side(facets.iter().map(|facet| (facet, Vector::<3>::from(place)))).expect("facets").distance
     }
 
     #[test]

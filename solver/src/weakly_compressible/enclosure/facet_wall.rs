@@ -1,10 +1,10 @@
-//! A shell: a wall of facets of any shape, at rest or moved along by a table of times.
+//! A wall of facets of any shape, at rest or moved along by a table of times.
 
 use super::facet::Facet;
 use crate::vector::Vector;
 use crate::weakly_compressible::walls::Surface;
 
-/// On which side of a polyline the flow is, seen along its points.
+/// Side of a polyline on which the flow is, seen along its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     /// To the left.
@@ -13,7 +13,7 @@ pub enum Side {
     Right,
 }
 
-/// One dummy particle behind a shell.
+/// One dummy particle behind a facet wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BackingParticle<const D: usize> {
     /// Position at the start `[m]`.
@@ -22,7 +22,7 @@ pub struct BackingParticle<const D: usize> {
     pub normal: Vector<D>,
     /// Depth behind the plane of its facet `[m]`.
     pub depth: f64,
-    /// Its share of the space behind the shell `[m^D]`.
+    /// Its share of the space behind the facet wall `[m^D]`.
     pub volume: f64,
 }
 
@@ -84,18 +84,18 @@ impl<const D: usize> Motion<D> {
 
 /// A wall of facets.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shell<const D: usize> {
-    /// What it is called in messages and results.
+pub struct FacetWall<const D: usize> {
+    /// Name in messages and results.
     pub name: String,
     /// Its facets at the start, with the flow on the side of their normals.
     pub facets: Vec<Facet<D>>,
     /// Rough or smooth.
     pub roughness: Surface,
-    /// How it moves.
+    /// Motion from the start.
     pub motion: Motion<D>,
 }
 
-impl Shell<2> {
+impl FacetWall<2> {
     /// The wall along a polyline `[m]`, at rest and rough; points that repeat are left out.
     #[must_use]
     pub fn polyline(name: &str, points: &[Vector<2>], flow: Side) -> Self {
@@ -130,10 +130,10 @@ mod tests {
     #[test]
     fn the_flow_is_on_the_side_that_was_named() {
         let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [1.0, 1.0]].map(Vector::<2>::from);
-        let left = Shell::polyline("corner", &points, Side::Left);
+        let left = FacetWall::polyline("corner", &points, Side::Left);
         assert_eq!(left.facets.len(), 2);
         assert!(left.facets[0].normal == Vector::<2>::new(0.0, 1.0));
-        let right = Shell::polyline("corner", &points, Side::Right);
+        let right = FacetWall::polyline("corner", &points, Side::Right);
         assert!(right.facets[1].normal == Vector::<2>::new(0.0, -1.0));
         assert!(right.facets[0].corners == [points[3], points[1]]);
     }

@@ -1,10 +1,10 @@
-//! Contact with shells: a particle within half a spacing may not approach further, wherever it is on the wall. What is
-//! found behind one has passed it.
+//! Contact with facet walls: a particle within half a spacing may not approach further, wherever it is on the wall. A particle behind
+//! a wall has passed it.
 
 use super::facet::Facet;
 use super::facet_grid::FacetGrid;
-use super::shell::Shell;
-use super::standing::{Standing, standing};
+use super::facet_side::{FacetSide, facet_side};
+use super::facet_wall::FacetWall;
 use crate::lanes::LANES;
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
@@ -22,13 +22,13 @@ const ROUNDING: f64 = 1e-12;
 /// How much farther than the nearest a rim may be to be touched `[-]`.
 const TIE: f64 = 1e-9;
 
-/// Shells where they stand in a step.
+/// Facet walls in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch<'a, const D: usize> {
-    pub(super) shells: &'a [Shell<D>],
-    /// Which of their facets are near a place, shell by shell.
+    pub(super) walls: &'a [FacetWall<D>],
+    /// Grids to find their facets by, wall by wall.
     pub(super) grids: &'a [FacetGrid<D>],
-    /// How far each has moved since the start `[m]`.
+    /// Displacement of each since the start `[m]`.
     pub(super) displacements: &'a [Vector<D>],
     /// Mean velocity of each in the step `[m/s]`.
     pub(super) velocities: &'a [Vector<D>],
@@ -38,38 +38,38 @@ pub(super) struct Touch<'a, const D: usize> {
     pub(super) friction: f64,
 }
 
-/// A particle behind a shell.
+/// A particle behind a facet wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Passed {
-    /// Which shell.
-    pub(super) shell: usize,
+    /// The wall among all.
+    pub(super) wall: usize,
     /// Distance, negative `[m]`.
     pub(super) distance: f64,
 }
 
 /// A facet that is touched.
 struct Contact<const D: usize> {
-    shell: usize,
+    wall: usize,
     /// From the wall to the particle `[-]`.
     normal: Vector<D>,
 }
 
 impl<'a, const D: usize> Touch<'a, D> {
-    /// Facets whose boxes hold a place, with their shell and the place as the shell sees it.
+    /// Facets whose boxes hold a place, with their wall and the place in the wall's frame.
     fn near(self, position: Vector<D>) -> impl Iterator<Item = (usize, &'a Facet<D>, Vector<D>)> + Clone {
-        self.shells.iter().enumerate().flat_map(move |(k, shell)| {
+        self.walls.iter().enumerate().flat_map(move |(k, wall)| {
             let place = position - self.displacements[k];
             let near = move |facet: &&Facet<D>| facet.may_reach(&place, self.range);
-            let listed = self.grids[k].near(&place).iter().map(|&index| &shell.facets[index as usize]);
+            let listed = self.grids[k].near(&place).iter().map(|&index| &wall.facets[index as usize]);
             listed.filter(near).map(move |facet| (k, facet, place))
         })
     }
 
-    /// Stops the approach of a particle to all shells and rubs it, as plane walls do. `book` gets the change of velocity
-    /// `[m/s]` that each shell causes. Returns the whole change.
+    /// Stops the approach of a particle to all facet walls and rubs it, as plane walls do. `book` gets the change of velocity
+    /// `[m/s]` that each facet wall causes. Returns the whole change.
     ///
     /// # Errors
-    /// The shell that the particle is behind of.
+    /// The facet wall that the particle is behind of.
     pub(super) fn respond(
         self,
         position: &Vector<D>,
@@ -78,28 +78,29 @@ impl<'a, const D: usize> Touch<'a, D> {
     ) -> Result<Vector<D>, Passed> {
         let mut change = Vector::zeros();
         let near = self.near(*position);
-        let Some(Standing { distance, facet }) = standing(near.clone().map(|(_, facet, place)| (facet, place))) else {
+        let Some(FacetSide { distance, facet }) = facet_side(near.clone().map(|(_, facet, place)| (facet, place)))
+        else {
             return Ok(change);
         };
         if distance < 0.0 && -distance < self.range {
-            let shell = near.clone().nth(facet).map_or(0, |(shell, ..)| shell);
-            return Err(Passed { shell, distance });
+            let wall = near.clone().nth(facet).map_or(0, |(wall, ..)| wall);
+            return Err(Passed { wall, distance });
         }
         if distance.abs() >= self.range {
             return Ok(change);
         }
         for sweep in 0..=SWEEPS {
             let mut approached = false;
-            for (shell, facet, place) in near.clone() {
-                let Some(contact) = self.contact(shell, facet, &place, distance) else { continue };
-                let relative = velocity + change - self.velocities[shell];
+            for (wall, facet, place) in near.clone() {
+                let Some(contact) = self.contact(wall, facet, &place, distance) else { continue };
+                let relative = velocity + change - self.velocities[wall];
                 let approach = relative.dot(&contact.normal);
                 if approach < 0.0 && (sweep == 0 || -approach > ROUNDING * velocity.norm()) {
                     approached = true;
                     // the last sweep: a corner too narrow to slide in
                     let push = if sweep == SWEEPS { -relative } else { self.push(&contact, &relative, -approach) };
                     change += push;
-                    book(shell, push);
+                    book(wall, push);
                 }
             }
             if !approached {
@@ -110,7 +111,7 @@ impl<'a, const D: usize> Touch<'a, D> {
     }
 
     /// The contact with a facet: on its face along its normal, at its rim only where nothing is nearer.
-    fn contact(self, shell: usize, facet: &Facet<D>, place: &Vector<D>, least: f64) -> Option<Contact<D>> {
+    fn contact(self, wall: usize, facet: &Facet<D>, place: &Vector<D>, least: f64) -> Option<Contact<D>> {
         let way = place - facet.nearest(place);
         let (distance, height) = (way.norm(), facet.height(place));
         if distance >= self.range {
@@ -118,14 +119,14 @@ impl<'a, const D: usize> Touch<'a, D> {
         }
         let on_its_face = height.abs() >= (1.0 - TIE) * distance;
         if on_its_face {
-            return (height >= 0.0).then_some(Contact { shell, normal: facet.normal });
+            return (height >= 0.0).then_some(Contact { wall, normal: facet.normal });
         }
-        (distance <= least * (1.0 + TIE)).then(|| Contact { shell, normal: way / distance })
+        (distance <= least * (1.0 + TIE)).then(|| Contact { wall, normal: way / distance })
     }
 
     /// Change of velocity that ends an approach `[m/s]` and rubs along the wall.
     fn push(self, contact: &Contact<D>, relative: &Vector<D>, approach: f64) -> Vector<D> {
-        let rough = self.shells[contact.shell].roughness == Surface::Rough;
+        let rough = self.walls[contact.wall].roughness == Surface::Rough;
         let friction = if rough { self.friction } else { 0.0 };
         let tangential = relative + contact.normal * approach;
         let speed = tangential.norm();
@@ -140,12 +141,12 @@ impl<'a, const D: usize> Touch<'a, D> {
 pub(super) struct Extremes {
     /// Largest speed squared of a particle that was touched `[m²/s²]`.
     pub(super) largest: f64,
-    /// The first particle that was found behind a shell.
+    /// The first particle that was found behind a facet wall.
     pub(super) passed: Option<(usize, Passed)>,
 }
 
-/// Stops particles that approach a shell, after the velocities have been stepped. Adds the impulses, block by block of flow particles
-/// and in each shell by shell `[kg m/s]`.
+/// Stops particles that approach a facet wall, after the velocities have been stepped. Adds the impulses, block by block of flow particles
+/// and in each wall by wall `[kg m/s]`.
 pub(super) fn run<const D: usize>(
     model: &Model<D>,
     particles: &mut Particles<D>,
@@ -162,7 +163,7 @@ pub(super) fn run<const D: usize>(
         particles.velocity[..flow].par_chunks_mut(BLOCK),
         particles.support_impulse.par_chunks_mut(BLOCK),
         energy,
-        impulses.par_chunks_mut(touch.shells.len()),
+        impulses.par_chunks_mut(touch.walls.len()),
     )
         .into_par_iter()
         .with_min_len(16)
@@ -175,11 +176,11 @@ pub(super) fn run<const D: usize>(
                     continue;
                 }
                 let mass = mass[index];
-                // what the shells do by moving
+                // work of the walls by moving
                 let mut given = 0.0;
-                let book = |shell: usize, push: Vector<D>| {
-                    out[shell] += push * mass;
-                    given += mass * push.dot(&touch.velocities[shell]);
+                let book = |wall: usize, push: Vector<D>| {
+                    out[wall] += push * mass;
+                    given += mass * push.dot(&touch.velocities[wall]);
                 };
                 match touch.respond(&position[index], velocity, book) {
                     Ok(push) => {
@@ -220,17 +221,17 @@ pub(super) fn run<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::weakly_compressible::enclosure::shell::Side;
+    use crate::weakly_compressible::enclosure::facet_wall::Side;
 
-    fn shells(points: &[[f64; 2]]) -> Vec<Shell<2>> {
+    fn polyline(points: &[[f64; 2]]) -> Vec<FacetWall<2>> {
         let points: Vec<_> = points.iter().map(|&point| point.into()).collect();
-        vec![Shell::polyline("wall", &points, Side::Left)]
+        vec![FacetWall::polyline("wall", &points, Side::Left)]
     }
 
-    fn after(shells: &[Shell<2>], place: [f64; 2], velocity: [f64; 2]) -> Result<Vector<2>, Passed> {
-        let rest = vec![Vector::zeros(); shells.len()];
-        let grids: Vec<_> = shells.iter().map(|shell| FacetGrid::new(&shell.facets, 0.5)).collect();
-        let touch = Touch { shells, grids: &grids, displacements: &rest, velocities: &rest, range: 0.5, friction: 0.4 };
+    fn after(walls: &[FacetWall<2>], place: [f64; 2], velocity: [f64; 2]) -> Result<Vector<2>, Passed> {
+        let rest = vec![Vector::zeros(); walls.len()];
+        let grids: Vec<_> = walls.iter().map(|wall| FacetGrid::new(&wall.facets, 0.5)).collect();
+        let touch = Touch { walls, grids: &grids, displacements: &rest, velocities: &rest, range: 0.5, friction: 0.4 };
         let mut booked = Vector::<2>::zeros();
         let velocity = Vector::from(velocity);
         let change = touch.respond(&place.into(), &velocity, |_, push| booked += push)?;
@@ -240,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_straight_wall_of_segments_stops_and_rubs_as_a_plane_one() {
-        let bed = shells(&[[-3.0, 0.0], [-0.2, 0.0], [0.1, 0.0], [3.0, 0.0]]);
+        let bed = polyline(&[[-3.0, 0.0], [-0.2, 0.0], [0.1, 0.0], [3.0, 0.0]]);
         for x in [-1.0, -0.25, -0.2, 0.0, 0.1, 0.3] {
             let found = after(&bed, [x, 0.3], [2.0, -1.0]).expect("in front");
             assert!((found - Vector::<2>::new(1.6, 0.0)).norm() < 1e-15, "{found} at {x}");
@@ -248,7 +249,7 @@ mod tests {
             assert!(after(&bed, [x, 0.6], [2.0, -1.0]).expect("in front") == Vector::<2>::new(2.0, -1.0));
         }
         let passed = after(&bed, [0.4, -0.1], [0.0, 1.0]).expect_err("behind");
-        assert!((passed.distance + 0.1).abs() < 1e-15 && passed.shell == 0);
+        assert!((passed.distance + 0.1).abs() < 1e-15 && passed.wall == 0);
     }
 
     #[test]
@@ -256,14 +257,14 @@ mod tests {
         let (cos, sin) = (15_f64.to_radians().cos(), 15_f64.to_radians().sin());
         let trough = [[-9.0 * cos, -9.0 * sin], [0.0, 0.0], [-9.0 * cos, 9.0 * sin]];
         for (y, velocity) in [(0.0, [10.0, 0.0]), (0.05, [10.0, 3.0]), (-0.1, [7.0, -7.0])] {
-            let found = after(&shells(&trough), [-0.8, y], velocity).expect("between the walls");
+            let found = after(&polyline(&trough), [-0.8, y], velocity).expect("between the walls");
             for normal in [[-sin, cos], [-sin, -cos]].map(Vector::<2>::from) {
                 assert!(found.dot(&normal) > -1e-9, "{found} from {velocity:?}");
             }
         }
         let edge: Vec<_> = trough.iter().rev().copied().collect();
-        let found = after(&shells(&edge), [0.3, 0.0], [-10.0, 0.0]).expect("before the edge");
+        let found = after(&polyline(&edge), [0.3, 0.0], [-10.0, 0.0]).expect("before the edge");
         assert!(found.norm() < 1e-12, "{found}");
-        assert!(after(&shells(&edge), [-0.3, 0.0], [0.0, 0.0]).is_err());
+        assert!(after(&polyline(&edge), [-0.3, 0.0], [0.0, 0.0]).is_err());
     }
 }

@@ -1,8 +1,8 @@
-//! Shells and open sides in a step: impulses on the flow, contacts, outflow. The rows of inlets are shells here.
+//! Facet walls and open sides in a step: impulses on the flow, contacts, outflow. The rows of inlets are facet walls here.
 
 use super::boundary_set::Exits;
-use super::shell_contact::{self, Passed, Touch};
-use super::surroundings::Surroundings;
+use super::boundary_state::BoundaryState;
+use super::facet_contact::{self, Passed, Touch};
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
 use crate::weakly_compressible::energy::{EnergyLedger, energy_of};
@@ -11,10 +11,10 @@ use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::numerics::Contact;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
-use crate::weakly_compressible::passes::shell_impulse::{self, Booking, NO_SHELL};
+use crate::weakly_compressible::passes::shell_impulse::{self, Booking, NO_OWNER};
 use crate::weakly_compressible::walls::Images;
 
-impl<const D: usize> Surroundings<D> {
+impl<const D: usize> BoundaryState<D> {
     /// Takes out the particles that have left the domain by an open side, at a time `[s]`.
     pub(crate) fn release(&mut self, particles: &mut Particles<D>, model: &Model<D>, time: f64) {
         let Self { exits, gone, books, .. } = self;
@@ -31,43 +31,43 @@ impl<const D: usize> Surroundings<D> {
         // in the order of the scene, so that the sums are those of any order in memory
         for index in particles.by_identity() {
             let Some(side) = exits.side(&particles.position[index]) else { continue };
-            let departed = &mut books.departures.sides[side];
-            departed.particles += 1;
-            departed.mass += particles.mass[index];
-            departed.mass_times_time += particles.mass[index] * time;
-            departed.momentum += particles.velocity[index] * particles.mass[index];
-            departed.support += particles.support_impulse[index];
-            departed.energy += energy_of(particles, index, model);
+            let outflow = &mut books.outflow.sides[side];
+            outflow.particles += 1;
+            outflow.mass += particles.mass[index];
+            outflow.mass_times_time += particles.mass[index] * time;
+            outflow.momentum += particles.velocity[index] * particles.mass[index];
+            outflow.support += particles.support_impulse[index];
+            outflow.energy += energy_of(particles, index, model);
         }
         particles.remove(gone);
     }
 
-    /// Finds the shells of all particles, after a search.
+    /// Finds the facet walls of all particles, after a search.
     pub(crate) fn assign_owners(&mut self, particles: &Particles<D>, images: &Images<D>) {
-        let Self { shells, owners, plane_walls, .. } = self;
-        if shells.is_empty() {
+        let Self { walls, owners, plane_walls, .. } = self;
+        if walls.is_empty() {
             return;
         }
         let (flow, real) = (particles.flow_count(), particles.real_count());
         owners.clear();
-        owners.resize(particles.position.len(), NO_SHELL);
+        owners.resize(particles.position.len(), NO_OWNER);
         for index in flow..real {
             let wall = particles.wall(index - flow);
-            owners[index] = wall.checked_sub(*plane_walls).map_or(NO_SHELL, |shell| shell as u32);
+            owners[index] = wall.checked_sub(*plane_walls).map_or(NO_OWNER, |wall| wall as u32);
         }
         for image in 0..images.len() {
             owners[real + image] = owners[images.source(image)];
         }
     }
 
-    /// Room for the impulses of a step on a flow of so many particles. No shell still has a slot for every block.
+    /// Room for the impulses of a step on a flow of so many particles. Without facet walls every block still has a slot.
     pub(crate) fn booking(&mut self, flow: usize) -> Booking<'_, D> {
-        let shells = self.shells.len();
-        self.blocks.resize(flow.div_ceil(BLOCK) * shells.max(1), Vector::zeros());
-        Booking { owners: &self.owners, shells, impulses: &mut self.blocks }
+        let walls = self.walls.len();
+        self.blocks.resize(flow.div_ceil(BLOCK) * walls.max(1), Vector::zeros());
+        Booking { owners: &self.owners, walls, impulses: &mut self.blocks }
     }
 
-    /// Books the forces of the shells' wall particles in a step.
+    /// Books the forces of facet walls in a step.
     pub(crate) fn book_wall_forces(
         &mut self,
         model: &Model<D>,
@@ -75,7 +75,7 @@ impl<const D: usize> Surroundings<D> {
         pairs: &PairData<D>,
         time_step: f64,
     ) {
-        if !self.shells.is_empty() {
+        if !self.walls.is_empty() {
             shell_impulse::run(model, particles, pairs, time_step, self.booking(particles.flow_count()));
             self.close_impulses();
         }
@@ -84,13 +84,11 @@ impl<const D: usize> Surroundings<D> {
     /// Closes the impulses of an implicit viscous step, which has left out a part of the flow's `[kg m/s]`.
     pub(crate) fn close_reaction(&mut self, unsolved: Vector<D>) {
         self.books.unsolved += unsolved;
-        if !self.shells.is_empty() {
-            self.close_impulses();
-        }
+        self.close_impulses();
     }
 
-    /// Stops particles that approach a shell in a step from a time on `[s]`, with a friction `[-]`. Returns the largest speed of those `[m/s]`,
-    /// and the first particle that was found behind a shell; none without shells.
+    /// Stops particles that approach a facet wall in a step from a time on `[s]`, with a friction `[-]`. Returns their largest speed
+    /// `[m/s]` and the first particle that was found behind a wall; none without facet walls.
     pub(crate) fn touch(
         &mut self,
         model: &Model<D>,
@@ -99,44 +97,44 @@ impl<const D: usize> Surroundings<D> {
         friction: f64,
         (time, time_step): (f64, f64),
     ) -> Option<(f64, Option<OutOfRange>)> {
-        if self.shells.is_empty() || model.numerics.contact == Contact::None {
+        if self.walls.is_empty() || model.numerics.contact == Contact::None {
             return None;
         }
-        for shell in 0..self.shells.len() {
-            let way = self.place(shell, time + time_step) - self.displacements[shell];
-            self.velocities[shell] = way / time_step;
+        for wall in 0..self.walls.len() {
+            let way = self.place(wall, time + time_step) - self.displacements[wall];
+            self.velocities[wall] = way / time_step;
         }
-        let Self { shells, grids, range, displacements, velocities, blocks, .. } = self;
-        let touch = Touch { shells, grids, displacements, velocities, range: *range, friction };
-        let found = shell_contact::run(model, particles, energy, touch, time_step, blocks);
+        let Self { walls, grids, range, displacements, velocities, blocks, .. } = self;
+        let touch = Touch { walls, grids, displacements, velocities, range: *range, friction };
+        let found = facet_contact::run(model, particles, energy, touch, time_step, blocks);
         self.close_impulses();
-        let passed = found.passed.map(|(index, Passed { shell, distance })| OutOfRange {
+        let passed = found.passed.map(|(index, Passed { wall, distance })| OutOfRange {
             index,
             identity: particles.identity[index],
-            quantity: Quantity::Penetration { wall: self.shells[shell].name.clone() },
+            quantity: Quantity::Penetration { wall: self.walls[wall].name.clone() },
             value: distance,
         });
         Some((found.largest.sqrt(), passed))
     }
 
-    /// Moves the shells in a step from a time on `[s]`; returns the speed of the fastest `[m/s]`.
+    /// Moves the facet walls in a step from a time on `[s]`; returns the speed of the fastest `[m/s]`.
     pub(crate) fn advance(
         &mut self,
         particles: &mut Particles<D>,
         images: &Images<D>,
         (time, step): (f64, f64),
     ) -> f64 {
-        if self.inlets.is_empty() && self.shells.iter().all(|shell| shell.motion.is_rest()) {
+        if self.inlets.is_empty() && self.walls.iter().all(|wall| wall.motion.is_rest()) {
             return 0.0;
         }
         let (end, mut fastest) = (time + step, 0.0_f64);
-        for shell in 0..self.shells.len() {
-            let next = self.place(shell, end);
-            self.last[shell] = next - self.displacements[shell];
-            self.displacements[shell] = next;
-            fastest = fastest.max(self.last[shell].norm() / step);
+        for wall in 0..self.walls.len() {
+            let next = self.place(wall, end);
+            self.last[wall] = next - self.displacements[wall];
+            self.displacements[wall] = next;
+            fastest = fastest.max(self.last[wall].norm() / step);
         }
-        particles.move_walls(self.plane_walls, &self.last, |shell| self.velocity(shell, end));
+        particles.move_walls(self.plane_walls, &self.last, |wall| self.velocity(wall, end));
         images.copy_wall_vectors(&mut particles.walls.velocity);
         fastest
     }
