@@ -12,7 +12,6 @@ use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::walls::wall;
-use bagnold_reference::{BagnoldProfile, NonlocalLayer, NonlocalProfile};
 use rayon::ThreadPoolBuilder;
 
 const BEADS: MuI = MuI {

@@ -7,7 +7,7 @@ use crate::patches::{
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::rheology::{Bingham, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
-use bagnold_solver::weakly_compressible::numerics::{HourglassDirection, MomentumOperator, Numerics, ViscositySwitch};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscositySwitch};
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::walls::{WallTreatment, wall};

@@ -101,6 +101,36 @@ where
         Self::compiled_new(scene)
     }
 
+    fn set_up(scene: Scene<D>) -> Result<Self, SceneError> {
+        let mut state = Self::laid(scene)?;
+        let out_of_range = |divergence: Divergence<D>| SceneError::Value {
+            quantity: divergence.quantity,
+            particle: divergence.particle as usize,
+            value: divergence.value,
+            rule: "in the range that the model allows",
+        };
+        state.search_neighbours().map_err(out_of_range)?;
+        state.prime().map_err(out_of_range)?;
+        Ok(Self { state })
+    }
+
+    /// The state of a scene, with dummy particles behind its facets and in the rows of its inlets.
+    ///
+    /// # Errors
+    /// A scene that breaks a rule, or has more particles than the neighbour list can address.
+    pub(crate) fn laid(scene: Scene<D>) -> Result<State<D>, SceneError> {
+        scene.check()?;
+        let rows = wall::rows(scene.numerics.smoothing_ratio);
+        let mut backing = Self::compiled_backing(&scene, rows);
+        backing.extend(scene.enclosure.inlets.iter().map(|inlet| inlet.backing(rows)));
+        let flow = scene.flow.position.len();
+        let dummies = scene.wall_particles.len() + backing.iter().map(Vec::len).sum::<usize>();
+        if flow + dummies > MOST_PARTICLES {
+            return Err(SceneError::TooLarge(flow));
+        }
+        Ok(State::new(scene, &backing))
+    }
+
     /// Takes one step as long as the bounds allow.
     ///
     /// # Errors
@@ -161,42 +191,6 @@ where
 }
 
 impl<const D: usize> Simulation<D> {
-    fn set_up(scene: Scene<D>) -> Result<Self, SceneError>
-    where
-        Self: Compiled<D>,
-    {
-        let mut state = Self::laid(scene)?;
-        let out_of_range = |divergence: Divergence<D>| SceneError::Value {
-            quantity: divergence.quantity,
-            particle: divergence.particle as usize,
-            value: divergence.value,
-            rule: "in the range that the model allows",
-        };
-        state.search_neighbours().map_err(out_of_range)?;
-        state.prime().map_err(out_of_range)?;
-        Ok(Self { state })
-    }
-
-    /// The state of a scene, with dummy particles behind its facets and in the rows of its inlets.
-    ///
-    /// # Errors
-    /// A scene that breaks a rule, or has more particles than the neighbour list can address.
-    pub(crate) fn laid(scene: Scene<D>) -> Result<State<D>, SceneError>
-    where
-        Self: Compiled<D>,
-    {
-        scene.check()?;
-        let rows = wall::rows(scene.numerics.smoothing_ratio);
-        let mut backing = Self::compiled_backing(&scene, rows);
-        backing.extend(scene.enclosure.inlets.iter().map(|inlet| inlet.backing(rows)));
-        let flow = scene.flow.position.len();
-        let dummies = scene.wall_particles.len() + backing.iter().map(Vec::len).sum::<usize>();
-        if flow + dummies > MOST_PARTICLES {
-            return Err(SceneError::TooLarge(flow));
-        }
-        Ok(State::new(scene, &backing))
-    }
-
     /// Uses another instruction set: the speed changes, the result does not.
     pub fn use_instruction_set(&mut self, instruction_set: InstructionSet) {
         self.state.model.instruction_set = instruction_set;

@@ -54,13 +54,8 @@ impl<const D: usize> State<D> {
         let numerics = scene.numerics;
         let kernel = Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
         let planes = (scene.walls.len(), scene.wall_particles.len());
-        let enclosure = BoundaryState::new(
-            std::mem::take(&mut scene.enclosure),
-            scene.spacing,
-            planes,
-            scene.flow.position.len(),
-            backing,
-        );
+        let (enclosure, flow) = (std::mem::take(&mut scene.enclosure), scene.flow.position.len());
+        let enclosure = BoundaryState::new(enclosure, scene.spacing, planes, flow, backing);
         let mut particles = Particles::new(&scene, backing, &enclosure);
         particles.viscosity.fill(scene.rheology.viscosity(0.0, 0.0));
         let model = Model {

@@ -36,31 +36,15 @@ impl<const D: usize> State<D> {
     }
 
     fn update_pressure(&mut self) {
-        let flow = self.particles.flow_count();
-        let equation_of_state = self.model.equation_of_state;
-        let particles = &mut self.particles;
-        if let (true, Some(field)) = (self.model.dilates, &particles.field) {
-            let model = &self.model;
-            (
-                &mut particles.pressure[..flow],
-                &mut particles.volume[..flow],
-                &particles.density[..flow],
-                &particles.mass,
-                &field[..flow],
-            )
-                .into_par_iter()
-                .with_min_len(4096)
-                .for_each(|(pressure, volume, density, mass, field)| {
-                    *pressure = model.pressure(*density, *field);
-                    *volume = mass / density;
-                });
-            return;
-        }
+        let (model, particles) = (&self.model, &mut self.particles);
+        let flow = particles.flow_count();
+        let field = particles.field.as_deref().filter(|_| model.dilates);
         (&mut particles.pressure[..flow], &mut particles.volume[..flow], &particles.density[..flow], &particles.mass)
             .into_par_iter()
             .with_min_len(4096)
-            .for_each(|(pressure, volume, density, mass)| {
-                *pressure = equation_of_state.pressure(*density);
+            .enumerate()
+            .for_each(|(index, (pressure, volume, density, mass))| {
+                *pressure = model.pressure(*density, field.map_or(0.0, |field| field[index]));
                 *volume = mass / density;
             });
     }
@@ -156,8 +140,8 @@ impl<const D: usize> State<D> {
             .into_par_iter()
             .with_min_len(4096)
             .for_each(|(position, velocity): (&mut Vector<D>, &Vector<D>)| *position += velocity * time_step);
-        let times = (self.time, time_step);
-        let fastest_facet = self.enclosure.advance(&mut self.particles, &self.images, times);
+        let end = self.time + time_step;
+        let fastest_facet = self.enclosure.advance(&mut self.particles, &self.images, end, time_step);
         let fastest_wall = self.move_walls(time_step).max(fastest_facet);
         self.images.copy_positions(&mut self.particles.position);
         self.displacement += time_step * self.largest_speed.max(fastest_wall);

@@ -117,17 +117,12 @@ impl<const D: usize> BoundaryState<D> {
         Some((found.largest.sqrt(), passed))
     }
 
-    /// Moves the facet walls in a step from a time on `[s]`; returns the speed of the fastest `[m/s]`.
-    pub(crate) fn advance(
-        &mut self,
-        particles: &mut Particles<D>,
-        images: &Images<D>,
-        (time, step): (f64, f64),
-    ) -> f64 {
+    /// Moves the facet walls in a step that ends at a time `[s]`; returns the speed of the fastest `[m/s]`.
+    pub(crate) fn advance(&mut self, particles: &mut Particles<D>, images: &Images<D>, end: f64, step: f64) -> f64 {
         if self.inlets.is_empty() && self.walls.iter().all(|wall| wall.motion.is_rest()) {
             return 0.0;
         }
-        let (end, mut fastest) = (time + step, 0.0_f64);
+        let mut fastest = 0.0_f64;
         for wall in 0..self.walls.len() {
             let next = self.place(wall, end);
             self.last[wall] = next - self.displacements[wall];

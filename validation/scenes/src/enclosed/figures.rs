@@ -6,7 +6,6 @@ use super::series;
 use super::surfaces::Surfaces;
 use super::{SceneObservation, SceneParameters, SceneRecord};
 use crate::figure::{Axis, Figure, Panel};
-use crate::setup::wall_rows;
 
 pub(crate) fn all<S: Setting<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
@@ -22,8 +21,7 @@ pub(crate) fn all<S: Setting<D>, const D: usize>(
 
 /// Where particles start, and what walls take of the bodies.
 pub(crate) fn setup<S: Setting<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Figure {
-    let range = wall_rows(parameters.numerics.smoothing_ratio) as f64 * parameters.spacing;
-    let sites = parameters.survey(&Surfaces::of(&parameters.enclosure(), range));
+    let sites = parameters.survey(&Surfaces::of(&parameters.enclosure(), parameters.depth_of_walls()));
     let count = |fate: SiteFate| sites.iter().filter(|(_, other)| *other == fate).count();
     let caption = format!(
         "Of {} sites that the bodies hold, {} get particles (0), {} are too near to a wall (½), {} are behind one (1).",

@@ -163,6 +163,7 @@ mod tests {
     use crate::scene::{Plane, PlaneBody};
     use crate::scene_space::{Space, SpaceBody};
     use bagnold_solver::material::equation_of_state::Tension;
+    use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 
     #[test]
     fn a_body_of_broken_spacings_is_said_to_lose_mass() {
@@ -188,7 +189,7 @@ mod tests {
     fn filled<S: Setting<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64 {
         let scene = SceneParameters { bodies, spacing, walls: Vec::new(), ..S::of_tier(Tier::Quick) };
         let law = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e6, tension: Tension::Cut };
-        let (flow, _) = scene.fill(&Surfaces::of(&[], &[], spacing), &law).expect("filled");
+        let (flow, _) = scene.fill(&Surfaces::of(&BoundarySet::default(), spacing), &law).expect("filled");
         flow.mass.iter().zip(&flow.density).map(|(mass, density)| mass / density).sum()
     }
 

@@ -29,6 +29,11 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
         BoundarySet { walls, exits: self.sides.exits(), inlets: self.feeds() }
     }
 
+    /// Depth of the dummy particles behind walls and of the rows of inlets `[m]`.
+    pub(super) fn depth_of_walls(&self) -> f64 {
+        wall_rows(self.numerics.smoothing_ratio) as f64 * self.spacing
+    }
+
     fn feed(&self, inlet: &S::Inlet, rate: FeedRate) -> Option<Inlet<D>> {
         let density = self.equation_of_state().reference_density;
         inlet.feed(Supply { spacing: self.spacing, density, rate })

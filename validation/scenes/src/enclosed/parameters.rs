@@ -10,6 +10,7 @@ use crate::case::Tier;
 use crate::figure::{Figure, Panel};
 use crate::metric::Quantity;
 use crate::observation::Frame;
+use crate::setup::Bulk;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{between, positive};

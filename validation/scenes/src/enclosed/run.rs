@@ -12,7 +12,6 @@ use crate::case::recording::{self, Beginning, Ending, Followed, SimulationStage}
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
-use crate::setup::wall_rows;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::weakly_compressible::enclosure::Inlet;
 use bagnold_solver::weakly_compressible::enclosure::boundary_set::Exits;
@@ -133,11 +132,6 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
         Variant::of("scene", self.scene.name.as_str())
     }
 
-    /// Rows of dummy particles.
-    fn rows(&self) -> usize {
-        wall_rows(self.scene.numerics.smoothing_ratio)
-    }
-
     /// Particles of the bodies, and of what inlets have fed. Where there are open sides, what is beyond all that the scene's box holds
     /// is taken to have left by them.
     fn flow_particles(&self, moment: Moment) -> f64 {
@@ -162,7 +156,7 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
     fn wall_particles(&self) -> f64 {
         let walls: f64 = self.scene.walls.iter().map(SceneWall::measure).sum();
         let openings: f64 = self.scene.inlets.iter().map(|inlet| inlet.edges().iter().product::<f64>()).sum();
-        (walls + openings) / self.scene.spacing.powi(D as i32 - 1) * self.rows() as f64
+        (walls + openings) * self.scene.depth_of_walls() / self.scene.spacing.powi(D as i32)
     }
 
     /// The solver's own bounds of a step, with the largest viscosity and speed that the scene can come to.
@@ -228,7 +222,7 @@ impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
     fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
         let SceneParameters { spacing, numerics, material, .. } = self.scene;
         let (equation_of_state, enclosure) = (self.scene.equation_of_state(), self.scene.enclosure());
-        let surfaces = Surfaces::of(&enclosure, self.rows() as f64 * spacing);
+        let surfaces = Surfaces::of(&enclosure, self.scene.depth_of_walls());
         self.scene.check_openings(&enclosure.inlets, &surfaces)?;
         let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state)?;
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
