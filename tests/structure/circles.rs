@@ -46,21 +46,64 @@ struct Circle {
     lines: Vec<String>,
 }
 
-/// All circles. A folder's own file (`mod.rs`) passes on what its files hold and is no member.
+/// What a file takes for itself: all that it names of `crate` and `super`, and of its own children what its code names, not what it
+/// only passes on.
+fn taken(source: &Source, modules: &Modules) -> Vec<Import> {
+    let mut found = imports(source);
+    let rest = without_uses(&source.code);
+    let is_child = |import: &Import| {
+        import.path.get(..=source.module.len()).is_some_and(|child| modules.passed_on.contains_key(child))
+    };
+    let is_named = |import: &Import| import.path.last().is_some_and(|item| words(&rest).any(|(_, word)| word == item));
+    found.extend(passed_on(source).into_iter().filter(|import| is_child(import) && is_named(import)));
+    for (start, word) in words(&rest) {
+        let Some((_, item)) = rest[start + word.len()..].strip_prefix("::").and_then(|rest| words(rest).next()) else {
+            continue;
+        };
+        let path = source.module.iter().cloned().chain([word.to_owned(), item.to_owned()]).collect();
+        let import = Import { path, line: source.line(start) };
+        if !rest[..start].ends_with(':') && is_child(&import) {
+            found.push(import);
+        }
+    }
+    found
+}
+
+/// Code with its `use` items blanked.
+fn without_uses(code: &str) -> String {
+    let mut rest = code.to_owned();
+    for (start, _) in words(code).filter(|(_, word)| *word == "use") {
+        let end = code[start..].find(';').map_or(code.len(), |length| start + length);
+        let blank: String =
+            code[start..end].chars().map(|c| if c == '\n' { "\n".into() } else { " ".repeat(c.len_utf8()) }).collect();
+        rest.replace_range(start..end, &blank);
+    }
+    rest
+}
+
+/// The words of a text, each with its position.
+fn words(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter_map(|word| {
+        let place = word.as_ptr() as usize - text.as_ptr() as usize;
+        (!word.is_empty()).then_some((place, word))
+    })
+}
+
+/// All circles. A folder's own file (`mod.rs`) is a member by what it defines, not by what it passes on, and what a file takes of the
+/// folders that it is in does not count.
 fn circles(all: &[Source]) -> Vec<Circle> {
     let modules = Modules::of(all);
-    let is_file = |source: &&Source| !source.path.ends_with("/mod.rs") && !source.path.ends_with("/lib.rs");
     let name = |module: &[String]| module.join("::");
-    let files: BTreeMap<String, &Source> =
-        all.iter().filter(is_file).map(|source| (name(&source.module), source)).collect();
+    let files: BTreeMap<String, &Source> = all.iter().map(|source| (name(&source.module), source)).collect();
     // the first line by which a file takes something of another
     let uses: BTreeMap<&String, BTreeMap<String, String>> = files
         .iter()
         .map(|(own, source)| {
             let mut others = BTreeMap::new();
-            for import in imports(source) {
-                let Some(other) = modules.file(&import.path).map(|module| name(&module)) else { continue };
-                if other != *own && files.contains_key(&other) {
+            for import in taken(source, &modules) {
+                let Some(module) = modules.file(&import.path) else { continue };
+                let other = name(&module);
+                if !source.module.starts_with(&module) && files.contains_key(&other) {
                     let item = import.path.last().map_or("", String::as_str);
                     others.entry(other).or_insert_with(|| format!("{}:{} takes {item}", source.path, import.line));
                 }
@@ -111,13 +154,16 @@ fn no_file_leads_back_to_itself() {
     assert!(found.is_empty(), "{} circles of files:\n{}", found.len(), found.join("\n"));
 }
 
-#[test]
-fn a_circle_through_what_a_folder_passes_on_is_found() {
-    let source = |path: &str, module: &[&str], code: &str| Source {
+fn source(path: &str, module: &[&str], code: &str) -> Source {
+    Source {
         path: format!("src/{path}"),
         module: module.iter().map(|&part| part.to_owned()).collect(),
         code: code.to_owned(),
-    };
+    }
+}
+
+#[test]
+fn a_circle_through_what_a_folder_passes_on_is_found() {
     let of = |b: &str| {
         circles(&[
             source("lib.rs", &[], ""),
@@ -131,4 +177,22 @@ fn a_circle_through_what_a_folder_passes_on_is_found() {
     assert_eq!(found.len(), 1);
     assert_eq!(found[0].files, BTreeSet::from(["m::a".to_owned(), "m::b".to_owned()]));
     assert_eq!(found[0].lines, ["  src/m/a.rs:1 takes B of m::b", "  src/m/b.rs:1 takes C of m::a"]);
+}
+
+#[test]
+fn a_circle_through_what_a_folder_defines_itself_is_found() {
+    let of = |folder: &str| {
+        circles(&[
+            source("m/mod.rs", &["m"], folder),
+            source("m/a.rs", &["m", "a"], "use super::Own;\nuse crate::n::N;\nstruct A;\n"),
+            source("n.rs", &["n"], "use crate::m::Own;\n"),
+        ])
+    };
+    assert!(of("mod a;\npub use a::A;\nstruct Own;\n").is_empty());
+    for folder in ["mod a;\nuse a::{A, B};\nstruct Own(A);\n", "mod a;\n\nstruct Own(a::A);\n"] {
+        let found = of(folder);
+        assert_eq!(found.len(), 1, "{folder}");
+        assert_eq!(found[0].files, ["m", "m::a", "n"].map(str::to_owned).into());
+        assert!(found[0].lines[0].ends_with(" takes A of m::a"), "{}", found[0].lines[0]);
+    }
 }

@@ -1,6 +1,6 @@
 //! Why the program ends with exit code 2.
 
-use super::new::NewError;
+use super::new::error::NewError;
 use crate::calibration::CalibrationError;
 use crate::case::ParameterError;
 use crate::compare::CompareError;

@@ -37,7 +37,7 @@ mod verify;
 pub use arguments::{Arguments, Command};
 pub use error::ProgramError;
 pub use exit::Exit;
-pub use new::NewError;
+pub use new::error::NewError;
 
 use crate::case::{Limits, ParameterError, Registry, Tier};
 use crate::checkpoint::{self, InterruptedRuns};

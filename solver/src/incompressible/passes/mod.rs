@@ -2,6 +2,7 @@
 
 pub(super) mod drag_exchange;
 pub(super) mod pair_rows;
+pub(super) mod pressure_rows;
 pub(super) mod search;
 pub(super) mod shifting;
 pub(super) mod surroundings;

@@ -8,10 +8,10 @@ use super::super::boundary::AT_SURFACE;
 use super::super::neighbours::{LEAST_GROUPS, Periods};
 use super::super::numerics::{ProjectionNumerics, SurfaceTreatment};
 use super::super::phase::{Phase, records};
-use super::super::projection::LinkChunk;
 use super::super::scene::height_axis;
 use super::super::stratification::Stratification;
 use super::super::terms::viscous_pair;
+use super::pressure_rows::PressureRows;
 use crate::kernel::Kernel;
 use crate::lanes::algebra::dot;
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, SingleLanes, gather};
@@ -44,16 +44,6 @@ pub(crate) struct MiddleViscosity<'a> {
     /// Density `[kg/m³]` and kinematic viscosity `[m²/s]`.
     pub(crate) density: f64,
     pub(crate) kinematic_viscosity: f64,
-}
-
-/// Rows of the pressure: links, their chunks in every group, Σ_b g_ab with the walls', the diagonal, and what it has beyond its
-/// links.
-pub(crate) struct PressureRows<'a, const D: usize> {
-    pub(crate) links: &'a mut [LinkChunk<D>],
-    pub(crate) width: &'a mut [u32],
-    pub(crate) own: &'a mut [Vector<D>],
-    pub(crate) diagonal: &'a mut [f64],
-    pub(crate) held: &'a mut [f64],
 }
 
 /// Rows of the friction: Δt k_ab `[kg]`, their chunks in every group, and Σ_b Δt k_ab `[kg]`.

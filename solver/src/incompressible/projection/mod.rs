@@ -9,7 +9,6 @@ mod pressure_links;
 mod pressure_poisson;
 
 pub(super) use mixture::{Flux, Mixture};
-pub(super) use pressure_links::LinkChunk;
 pub(super) use pressure_poisson::PressurePoisson;
 
 use super::divergence::{Failure, Quantity};

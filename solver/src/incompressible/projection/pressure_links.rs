@@ -1,7 +1,8 @@
 //! The pairs of the pressure Poisson equation with their coefficients, and the passes of A and s D G over them.
 
+use super::super::passes::pressure_rows::LinkChunk;
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
-use crate::linear::{Coefficients, LaneRows};
+use crate::linear::LaneRows;
 use crate::vector::Vector;
 
 /// A pair of two free particles.
@@ -12,37 +13,6 @@ pub(crate) struct Link<const D: usize> {
     pub(crate) gradient: Vector<D>,
     /// Coefficient of A, 2 V (−F) `[1/m²]`.
     pub(crate) laplacian: f64,
-}
-
-/// Eight links, one a lane.
-#[derive(Debug, Clone, Copy)]
-#[repr(align(32))]
-pub(crate) struct LinkChunk<const D: usize> {
-    pub(crate) gradient: [[f32; LANES]; D],
-    pub(crate) laplacian: [f32; LANES],
-}
-
-impl<const D: usize> Coefficients for LinkChunk<D> {
-    type Entry = (Vector<D>, f64);
-    const ZERO: Self = Self { gradient: [[0.0; LANES]; D], laplacian: [0.0; LANES] };
-
-    #[inline(always)]
-    fn entry(&self, lane: usize) -> (Vector<D>, f64) {
-        (Vector::from_fn(|axis, _| f64::from(self.gradient[axis][lane])), f64::from(self.laplacian[lane]))
-    }
-
-    #[inline(always)]
-    fn set(&mut self, lane: usize, (gradient, laplacian): (Vector<D>, f64)) {
-        for axis in 0..D {
-            self.gradient[axis][lane] = gradient[axis] as f32;
-        }
-        self.laplacian[lane] = laplacian as f32;
-    }
-
-    #[inline(always)]
-    fn clear(&mut self, lane: usize) {
-        self.set(lane, (Vector::zeros(), 0.0));
-    }
 }
 
 /// D u of some rows.

@@ -20,11 +20,11 @@
 
 use super::super::neighbours::LEAST_TASK;
 use super::super::numerics::{MOST_ITERATIONS, PressureSource, ProjectionNumerics, SurfaceTreatment};
-use super::super::passes::pair_rows::PressureRows;
+use super::super::passes::pressure_rows::{LinkChunk, PressureRows};
 use super::super::phase::Phase;
 use super::correction::Correction;
 use super::gauge::Gauge;
-use super::pressure_links::{Divergence, FirstPass, Gradient, Link, LinkChunk, SecondPass};
+use super::pressure_links::{Divergence, FirstPass, Gradient, Link, SecondPass};
 use crate::domain::Domain;
 use crate::linear::{
     ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, Lattices, NotConverged, Rows, TASK_ROWS,

@@ -2,12 +2,12 @@
 //! it needs is then at hand, the new stress of each particle.
 
 use super::PairData;
-use super::layout;
-use super::new_state::{Advance, Extremes, FieldSums, Output, RateSums};
-use super::records::{self, LaneRecord};
-use super::single;
-use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load, sum_of, zero_tensor};
-use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
+use super::new_state::{Advance, Extremes, Output, RateSums};
+use super::pair_weights::{Weighing, Weights, flush, flush_tensor, widened};
+use super::precision::Precision;
+use super::records::{self, LaneRecord, Records};
+use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load, sum_of};
+use crate::lanes::{LANES, LanePass, Lanes, Real, gather, gather_vectors};
 use crate::material::rheology::field::Memory;
 use crate::parallel::prelude::*;
 use crate::vector::equivalent_shear_stress;
@@ -16,73 +16,54 @@ use crate::weakly_compressible::model::{GradientUse, Model, PairDiffusion};
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{continuity, density_coupling, field_diffusion, stress_diffusion};
+use std::marker::PhantomData;
 
-/// What diffuses among pairs, as a constant of the loops.
-pub(super) mod diffusion {
-    pub(in super::super) const NONE: u8 = 0;
-    pub(in super::super) const STRESS_RATIO: u8 = 1;
-    /// The law's field beside the stress ratio.
-    pub(in super::super) const FIELD: u8 = 2;
-}
+/// What diffuses among pairs, as a constant of the loops; the field does beside the stress ratio.
+const NONE: u8 = PairDiffusion::None as u8;
+const STRESS_RATIO: u8 = PairDiffusion::StressRatio as u8;
+const FIELD: u8 = PairDiffusion::Field as u8;
 
-/// Values of a record: [`Partner`], then if they diffuse [`Yielding`] and the law's field.
-const fn full_values(dimension: usize, diffusion: u8) -> usize {
-    layout::continuity(dimension)
-        + match diffusion {
-            diffusion::STRESS_RATIO => 1 + records::deviator_values(dimension),
-            diffusion::FIELD => 2 + records::deviator_values(dimension),
-            _ => 0,
+/// Places in a record, which begins with a position and, where weights are computed anew, a volume.
+struct Place<P, const D: usize>(PhantomData<P>);
+
+impl<P: Precision, const D: usize> Place<P, D> {
+    const VELOCITY: usize = D + P::VOLUMES;
+    /// Behind it is what the density alone does not take.
+    const PRESSURE: usize = Self::VELOCITY + D;
+    /// Corrected pressure gradient; of a wall particle the velocity that the continuity of a liquid takes.
+    const GRADIENT: usize = Self::PRESSURE + 1;
+    /// What of the particle yields `[-]`, and behind it s: what the diffusion of the stress ratio takes.
+    const YIELDING: usize = Self::GRADIENT + D;
+    /// The law's field, if it diffuses.
+    const FIELD: usize = Self::YIELDING + 1 + records::deviator_values(D);
+
+    const fn values(diffusion: u8) -> usize {
+        match diffusion {
+            STRESS_RATIO => Self::FIELD,
+            FIELD => Self::FIELD + 1,
+            _ => Self::YIELDING,
         }
+    }
 }
 
-/// Values of a record if the density alone is updated: position, velocity.
-const fn short_values(dimension: usize) -> usize {
-    2 * dimension
-}
-
-/// What is read of a flow particle.
+/// What is read of a particle, whatever diffuses.
 struct Partner<V, const D: usize> {
     position: [V; D],
     velocity: [V; D],
     pressure: V,
-    /// Corrected pressure gradient; of a wall particle the velocity that the continuity of a liquid takes.
     pressure_gradient: [V; D],
 }
 
-impl<V: Lanes, const D: usize> Partner<V, D> {
+impl<V: Real, const D: usize> Partner<V, D> {
     #[inline(always)]
-    fn of(record: &LaneRecord<V>) -> Self {
+    fn of<P: Precision>(record: &LaneRecord<V>) -> Self {
         Self {
             position: records::vector(record, 0),
-            velocity: records::vector(record, D),
-            pressure: records::scalar(record, 2 * D),
-            pressure_gradient: records::vector(record, 2 * D + 1),
+            velocity: records::vector(record, Place::<P, D>::VELOCITY),
+            pressure: records::scalar(record, Place::<P, D>::PRESSURE),
+            pressure_gradient: records::vector(record, Place::<P, D>::GRADIENT),
         }
     }
-}
-
-/// What the diffusion of the stress ratio reads beside it.
-struct Yielding<V, const D: usize> {
-    /// What of the particle yields `[-]`.
-    part: V,
-    /// Upper triangle of s `[Pa]`.
-    stress: [[V; D]; D],
-}
-
-impl<V: Lanes, const D: usize> Yielding<V, D> {
-    #[inline(always)]
-    fn of(record: &LaneRecord<V>) -> Self {
-        Self {
-            part: records::scalar(record, layout::continuity(D)),
-            stress: records::deviator(record, layout::continuity(D) + 1),
-        }
-    }
-}
-
-/// Quads of a record of continuity.
-#[inline(always)]
-const fn quads(dimension: usize, diffusion: u8) -> usize {
-    full_values(dimension, diffusion).div_ceil(4)
 }
 
 /// Advances density, velocity gradient and stress of the flow particles by one time step `[s]`.
@@ -95,9 +76,9 @@ pub(crate) fn run<const D: usize>(
     let flow = particles.flow_count();
     let gradient = model.gradient_use();
     if model.pairs_in_single() {
-        single::continuity::fill(model, particles, &mut pairs.single);
+        fill(model, particles, &mut pairs.single, true);
     } else {
-        fill_records(model, particles, pairs, gradient);
+        fill(model, particles, &mut pairs.continuity, gradient != GradientUse::None);
     }
     pairs.open_ledger(flow);
     let mut energy = std::mem::take(&mut pairs.energy);
@@ -168,42 +149,41 @@ pub(crate) fn run<const D: usize>(
     extremes
 }
 
-/// Records in the layout of [`Partner`] with [`Yielding`] behind it, or the first part of it.
-fn fill_records<const D: usize>(
+/// Records of flow and walls, or unless `in_full` only the first part of them.
+fn fill<P: Precision, const D: usize>(
     model: &Model<D>,
     particles: &Particles<D>,
-    pairs: &mut PairData<D>,
-    gradient: GradientUse,
+    records: &mut Records<P>,
+    in_full: bool,
 ) {
-    let (full, diffusion) = (gradient != GradientUse::None, model.pair_diffusion());
-    pairs.continuity.set_values(match (full, diffusion) {
-        (false, _) => short_values(D),
-        (true, PairDiffusion::None) => full_values(D, diffusion::NONE),
-        (true, PairDiffusion::StressRatio) => full_values(D, diffusion::STRESS_RATIO),
-        (true, PairDiffusion::Field) => full_values(D, diffusion::FIELD),
-    });
-    pairs.continuity.fill(particles.position.len(), |index, record| {
-        record.vector(&particles.position[index]);
+    let diffusion = model.pair_diffusion();
+    let values = if in_full { Place::<P, D>::values(diffusion as u8) } else { Place::<P, D>::PRESSURE };
+    records.fill(particles.position.len(), values, model.kernel.smoothing_length(), |index, record| {
+        record.position(&particles.position[index]);
+        if P::SINGLE {
+            record.scalar(particles.volume[index]);
+        }
         record.vector(&particles.velocity[index]);
-        if full {
-            let pressure = particles.pressure[index];
-            record.scalar(pressure);
-            let wall = particles.is_wall(index);
-            record.vector(if wall {
-                &particles.walls.sliding_velocity[index - particles.flow_count()]
-            } else {
-                &particles.pressure_gradient[index]
-            });
-            if diffusion != PairDiffusion::None {
-                let stress = &particles.stress[index];
-                let kept = particles.kept(index);
-                let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, &kept);
-                record.scalar(stress_diffusion::yielding(elasticity, pressure));
-                record.deviator(stress);
-            }
-            if diffusion == PairDiffusion::Field {
-                record.scalar(particles.field.as_ref().map_or(0.0, |field| field[index]));
-            }
+        if !in_full {
+            return;
+        }
+        let pressure = particles.pressure[index];
+        record.scalar(pressure);
+        let wall = particles.is_wall(index);
+        record.vector(if wall {
+            &particles.walls.sliding_velocity[index - particles.flow_count()]
+        } else {
+            &particles.pressure_gradient[index]
+        });
+        if diffusion != PairDiffusion::None {
+            let stress = &particles.stress[index];
+            let kept = particles.kept(index);
+            let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, &kept);
+            record.scalar(stress_diffusion::yielding(elasticity, pressure));
+            record.deviator(stress);
+        }
+        if diffusion == PairDiffusion::Field {
+            record.scalar(particles.field.as_ref().map_or(0.0, |field| field[index]));
         }
     });
 }
@@ -221,35 +201,18 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let Self { advance, pairs, mut out, extremes } = self;
         let count = out.density.len();
         let mut work = StressWork::<V>::new();
-        let (in_single, diffusion) = (advance.model.pairs_in_single(), advance.model.pair_diffusion());
+        let in_single = advance.model.pairs_in_single();
         let meets_surface = advance.model.field_meets_surface();
         let mut offset = 0;
         while offset < count {
             let group = advance.model.list.group((advance.block_start + offset) / LANES);
-            let (model, particles) = (advance.model, advance.particles);
-            let mut sums = match (in_single, diffusion) {
-                (true, PairDiffusion::StressRatio) => {
-                    single::continuity::pair_sums::<V, D, { diffusion::STRESS_RATIO }>(
-                        model,
-                        particles,
-                        &pairs.single,
-                        &group,
-                    )
-                }
-                (true, PairDiffusion::Field) => {
-                    single::continuity::pair_sums::<V, D, { diffusion::FIELD }>(model, particles, &pairs.single, &group)
-                }
-                (true, PairDiffusion::None) => {
-                    single::continuity::pair_sums::<V, D, { diffusion::NONE }>(model, particles, &pairs.single, &group)
-                }
-                (false, _) if advance.gradient == GradientUse::None => divergence_only::<V, D>(pairs, &group),
-                (false, PairDiffusion::StressRatio) => {
-                    all_sums::<V, D, { diffusion::STRESS_RATIO }>(model, particles, pairs, &group)
-                }
-                (false, PairDiffusion::Field) => {
-                    all_sums::<V, D, { diffusion::FIELD }>(model, particles, pairs, &group)
-                }
-                (false, PairDiffusion::None) => all_sums::<V, D, { diffusion::NONE }>(model, particles, pairs, &group),
+            let inputs = Inputs { model: advance.model, particles: advance.particles, group };
+            let mut sums = if in_single {
+                sums_of::<V, f32, D>(inputs, &pairs.single, &[])
+            } else if advance.gradient == GradientUse::None {
+                divergence_only(&pairs.continuity, &group, &pairs.weights[group.first_pair..])
+            } else {
+                sums_of::<V, f64, D>(inputs, &pairs.continuity, &pairs.weights[group.first_pair..])
             };
             if meets_surface {
                 let first = advance.block_start + offset;
@@ -264,94 +227,141 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     }
 }
 
+/// What the loops over neighbours read beside their records.
+#[derive(Clone, Copy)]
+struct Inputs<'a, const D: usize> {
+    model: &'a Model<D>,
+    particles: &'a Particles<D>,
+    group: NeighbourGroup<'a>,
+}
+
+/// Pair sums of a group, whatever diffuses.
 #[inline(always)]
-fn all_sums<V: Lanes, const D: usize, const DIFFUSION: u8>(
-    model: &Model<D>,
-    particles: &Particles<D>,
-    pairs: &PairData<D>,
-    group: &NeighbourGroup<'_>,
+fn sums_of<V: Lanes, P: Precision, const D: usize>(
+    inputs: Inputs<'_, D>,
+    records: &Records<P>,
+    weights: &[Weights<P>],
 ) -> RateSums<V, D> {
-    let all = &pairs.continuity;
-    let quads = const { quads(D, DIFFUSION) };
-    let record = all.load::<V>(quads, &group.own);
-    let own = Partner::<V, D>::of(&record);
-    let own_yielding = Yielding::<V, D>::of(&record);
-    let mut coupling = V::splat(0.0);
-    let (mut gradient, mut wall_gradient) = (zero_tensor::<V, D>(), zero_tensor::<V, D>());
-    let mut wall_compression = V::splat(0.0);
-    let mut diffused = zero_tensor::<V, D>();
-    let mut field = FieldSums::none();
-    let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
-    for (b, weight) in group.flow.zip(flow_weights) {
-        let record = all.load::<V>(quads, &b);
-        let other = Partner::<V, D>::of(&record);
-        let r = difference(&own.position, &other.position);
-        let weight = V::load(weight);
-        if DIFFUSION == diffusion::FIELD {
-            field.add_flow(weight, records::scalar(&record, const { full_values(D, diffusion::STRESS_RATIO) }));
-        }
-        if DIFFUSION != diffusion::NONE {
-            let yielding = Yielding::<V, D>::of(&record);
-            let pressure_sum = own.pressure + other.pressure;
-            let factor = stress_diffusion::pair_factor(own_yielding.part, yielding.part, pressure_sum);
-            stress_diffusion::accumulate_bracket(
-                &mut diffused,
-                weight * factor,
-                (&own_yielding.stress, own.pressure),
-                (&yielding.stress, other.pressure),
-            );
-        }
-        let sum = sum_of(&own.pressure_gradient, &other.pressure_gradient);
-        coupling = coupling + weight * density_coupling::bracket(own.pressure - other.pressure, &sum, &r);
-        accumulate_outer(&mut gradient, weight, &difference(&other.velocity, &own.velocity), &r);
+    match inputs.model.pair_diffusion() {
+        PairDiffusion::None => pair_sums::<V, P, D, NONE>(inputs, records, weights),
+        PairDiffusion::StressRatio => pair_sums::<V, P, D, STRESS_RATIO>(inputs, records, weights),
+        PairDiffusion::Field => pair_sums::<V, P, D, FIELD>(inputs, records, weights),
     }
-    for (w, weight) in group.wall.zip(wall_weights) {
-        let record = all.load_start::<V>(quads, const { layout::continuity(D).div_ceil(4) }, &w);
-        let wall = Partner::<V, D>::of(&record);
-        let r = difference(&own.position, &wall.position);
-        let weight = V::load(weight);
-        accumulate_outer(&mut wall_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
-        let sliding = difference(&own.velocity, &wall.pressure_gradient);
-        wall_compression = wall_compression + weight * dot(&sliding, &r);
-        if DIFFUSION == diffusion::FIELD {
-            let places = w.places_from(particles.flow_count());
-            let places = places.indices();
-            let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
-            let depth: V = gather(&particles.walls.depth, &places);
-            let smoothness: V = gather(&particles.walls.smoothness, &places);
-            field.add_wall(weight, field_diffusion::wall_factor(&r, &normal, depth, smoothness, model.spacing));
-        }
-    }
-    let compression = continuity::compression(&gradient) + wall_compression;
-    for i in 0..D {
-        accumulate(&mut gradient[i], V::splat(1.0), &wall_gradient[i]);
-    }
-    stress_diffusion::complete(&mut diffused);
-    RateSums { compression, wall_compression, coupling, gradient, wall_gradient, stress_diffusion: diffused, field }
 }
 
 #[inline(always)]
-fn divergence_only<V: Lanes, const D: usize>(pairs: &PairData<D>, group: &NeighbourGroup<'_>) -> RateSums<V, D> {
-    let all = &pairs.continuity;
-    let own = all.load::<V>(const { short_values(D).div_ceil(4) }, &group.own);
-    let place = records::vector::<V, D>(&own, 0);
-    let velocity_a = records::vector::<V, D>(&own, D);
-    let mut compression = V::splat(0.0);
-    for (b, weight) in group.pairs.zip(&pairs.weights[group.first_pair..]) {
-        let record = all.load::<V>(const { short_values(D).div_ceil(4) }, &b);
-        let position = records::vector::<V, D>(&record, 0);
-        let velocity = records::vector::<V, D>(&record, D);
-        let r = difference(&place, &position);
-        compression = compression + V::load(weight) * dot(&difference(&velocity_a, &velocity), &r);
+fn pair_sums<V: Lanes, P: Precision, const D: usize, const DIFFUSION: u8>(
+    Inputs { model, particles, group }: Inputs<'_, D>,
+    records: &Records<P>,
+    weights: &[Weights<P>],
+) -> RateSums<V, D> {
+    let quads = const { Place::<P, D>::values(DIFFUSION).div_ceil(4) };
+    let record = records.load::<V>(quads, &group.own);
+    let own = Partner::of::<P>(&record);
+    let own_yields = records::scalar(&record, Place::<P, D>::YIELDING);
+    let own_stress: [[_; D]; D] = records::deviator(&record, Place::<P, D>::YIELDING + 1);
+    let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: own.position };
+    let (flow_weights, wall_weights) = weights.split_at(group.flow.len().min(weights.len()));
+    let (mut sums, mut part) = (RateSums::<V, D>::none(), RateSums::<P::Lanes<V>, D>::none());
+    // Σ f p_b of the stress ratio's diffusion
+    let (mut pressures, mut part_pressures) = (V::splat(0.0), P::Lanes::<V>::splat(0.0));
+    let mut pairs = weighing.pairs(group.flow, flow_weights);
+    while let Some(pairs) = pairs.next() {
+        for (b, weight) in pairs {
+            let record = records.load::<V>(quads, &b);
+            let other = Partner::of::<P>(&record);
+            let r = records.apart::<V, D>(&own.position, &other.position);
+            let weight = P::load::<V>(weight);
+            if DIFFUSION == FIELD {
+                part.field.taken = part.field.taken + weight * records::scalar(&record, Place::<P, D>::FIELD);
+                part.field.weights = part.field.weights + weight;
+            }
+            if DIFFUSION != NONE {
+                let yields = records::scalar(&record, Place::<P, D>::YIELDING);
+                let stress = records::deviator(&record, Place::<P, D>::YIELDING + 1);
+                let pressure_sum = own.pressure + other.pressure;
+                let factor = weight * stress_diffusion::pair_factor(own_yields, yields, pressure_sum);
+                let sum = &mut part.stress_diffusion;
+                if P::SINGLE {
+                    part_pressures = part_pressures + factor * other.pressure;
+                    stress_diffusion::accumulate_stress(sum, factor, &stress);
+                } else {
+                    let (of_a, of_b) = ((&own_stress, own.pressure), (&stress, other.pressure));
+                    stress_diffusion::accumulate_bracket(sum, factor, of_a, of_b);
+                }
+            }
+            let sum = sum_of(&own.pressure_gradient, &other.pressure_gradient);
+            let bracket = density_coupling::bracket(own.pressure - other.pressure, &sum, &r);
+            part.coupling = part.coupling + weight * bracket;
+            accumulate_outer(&mut part.gradient, weight, &difference(&other.velocity, &own.velocity), &r);
+        }
+        flush::<V, P>(&mut sums.coupling, &mut part.coupling);
+        flush_tensor::<V, P, D>(&mut sums.gradient, &mut part.gradient);
+        if DIFFUSION == FIELD {
+            flush::<V, P>(&mut sums.field.taken, &mut part.field.taken);
+            flush::<V, P>(&mut sums.field.weights, &mut part.field.weights);
+        }
+        if DIFFUSION != NONE {
+            flush::<V, P>(&mut pressures, &mut part_pressures);
+            flush_tensor::<V, P, D>(&mut sums.stress_diffusion, &mut part.stress_diffusion);
+        }
     }
-    let (zero, none) = (V::splat(0.0), zero_tensor());
-    RateSums {
-        compression,
-        wall_compression: zero,
-        coupling: zero,
-        gradient: none,
-        wall_gradient: none,
-        stress_diffusion: none,
-        field: FieldSums::none(),
+    sums.field.given = sums.field.weights;
+    let mut walls = weighing.pairs(group.wall, wall_weights);
+    while let Some(walls) = walls.next() {
+        for (w, weight) in walls {
+            let first = const { Place::<P, D>::YIELDING.div_ceil(4) };
+            let wall = Partner::of::<P>(&records.load_start::<V>(quads, first, &w));
+            let r = records.apart::<V, D>(&own.position, &wall.position);
+            let weight = P::load::<V>(weight);
+            accumulate_outer(&mut part.wall_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
+            let sliding = difference(&own.velocity, &wall.pressure_gradient);
+            part.wall_compression = part.wall_compression + weight * dot(&sliding, &r);
+            if DIFFUSION == FIELD {
+                let places = w.places_from(particles.flow_count());
+                let places = places.indices();
+                let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
+                let depth: V = gather(&particles.walls.depth, &places);
+                let smoothness: V = gather(&particles.walls.smoothness, &places);
+                let (weight, r) = (P::widen::<V>(weight), widened::<V, P, D>(&r));
+                let factor = field_diffusion::wall_factor(&r, &normal, depth, smoothness, model.spacing);
+                sums.field.given = sums.field.given + weight * factor;
+                sums.field.weights = sums.field.weights + weight;
+            }
+        }
+        flush_tensor::<V, P, D>(&mut sums.wall_gradient, &mut part.wall_gradient);
+        flush::<V, P>(&mut sums.wall_compression, &mut part.wall_compression);
     }
+    sums.compression = continuity::compression(&sums.gradient) + sums.wall_compression;
+    for i in 0..D {
+        accumulate(&mut sums.gradient[i], V::splat(1.0), &sums.wall_gradient[i]);
+        if P::SINGLE && DIFFUSION != NONE {
+            for j in 0..D {
+                let (stress_a, pressure_a) = (P::widen::<V>(own_stress[i][j]), P::widen::<V>(own.pressure));
+                sums.stress_diffusion[i][j] = pressures * stress_a - pressure_a * sums.stress_diffusion[i][j];
+            }
+        }
+    }
+    stress_diffusion::complete(&mut sums.stress_diffusion);
+    sums
+}
+
+/// Pair sums where the density alone is updated, in double precision.
+#[inline(always)]
+fn divergence_only<V: Lanes, const D: usize>(
+    records: &Records,
+    group: &NeighbourGroup<'_>,
+    weights: &[Weights<f64>],
+) -> RateSums<V, D> {
+    let (quads, velocity) = const { (Place::<f64, D>::PRESSURE.div_ceil(4), Place::<f64, D>::VELOCITY) };
+    let own = records.load::<V>(quads, &group.own);
+    let (place, velocity_a) = (records::vector(&own, 0), records::vector(&own, velocity));
+    let mut sums = RateSums::none();
+    for (b, weight) in group.pairs.zip(weights) {
+        let other = records.load::<V>(quads, &b);
+        let r: [V; D] = difference(&place, &records::vector(&other, 0));
+        let slip = difference(&velocity_a, &records::vector(&other, velocity));
+        sums.compression = sums.compression + V::load(weight) * dot(&slip, &r);
+    }
+    sums
 }

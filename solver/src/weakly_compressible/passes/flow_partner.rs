@@ -1,8 +1,9 @@
 //! What the momentum equation reads of a flow particle and of the numerics.
 
-use super::layout;
-use super::records::{self, LaneRecord, Records};
-use crate::lanes::{LaneIndices, Lanes};
+use super::layout::Momentum;
+use super::precision::Precision;
+use super::records::{self, LaneRecord};
+use crate::lanes::Real;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
@@ -14,25 +15,26 @@ pub(super) struct FlowPartner<V, const D: usize> {
     pub(super) density: V,
     /// √(p/ρ0) `[m/s]`.
     pub(super) pressure_speed: V,
-    /// α of (15) `[-]`.
+    /// α of (15) `[-]`, in double precision only.
     pub(super) alpha: V,
     /// σE `[Pa]`.
     pub(super) corrected_stress: [[V; D]; D],
+    /// In single precision the coefficients of r_i r_j in ½ r·∇v r, i ≤ j.
     pub(super) velocity_gradient: [[V; D]; D],
 }
 
-impl<V: Lanes, const D: usize> FlowPartner<V, D> {
+impl<V: Real, const D: usize> FlowPartner<V, D> {
     #[inline(always)]
-    pub(super) fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
-        let record: LaneRecord<V> = records.load(const { layout::momentum(D).div_ceil(4) }, indices);
+    pub(super) fn of<P: Precision>(record: &LaneRecord<V>) -> Self {
+        let last = Momentum::<P, D>::LAST;
         Self {
-            position: records::vector(&record, 0),
-            velocity: records::vector(&record, D),
-            density: records::scalar(&record, 2 * D),
-            pressure_speed: records::scalar(&record, 2 * D + 1),
-            alpha: records::scalar(&record, 2 * D + 2),
-            corrected_stress: records::tensor(&record, 2 * D + 3),
-            velocity_gradient: records::tensor(&record, 2 * D + 3 + D * D),
+            position: records::vector(record, 0),
+            velocity: records::vector(record, Momentum::<P, D>::VELOCITY),
+            density: records::scalar(record, Momentum::<P, D>::DENSITY),
+            pressure_speed: records::scalar(record, Momentum::<P, D>::SPEED),
+            alpha: if P::SINGLE { V::splat(0.0) } else { records::scalar(record, Momentum::<P, D>::ALPHA) },
+            corrected_stress: records::tensor(record, Momentum::<P, D>::STRESS),
+            velocity_gradient: if P::SINGLE { records::triangle(record, last) } else { records::tensor(record, last) },
         }
     }
 }

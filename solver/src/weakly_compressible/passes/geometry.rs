@@ -3,13 +3,14 @@
 
 use super::PairData;
 use super::layout;
-use super::records;
-use super::single;
+use super::pair_weights::{Weighing, Weights, flush_tensor, flush_vector};
+use super::precision::Precision;
+use super::records::{self, Records};
 use crate::lanes::algebra::{
-    accumulate, deviatoric_rate, difference, dot, load, load_tensor, matrix_product, product, store, store_tensor,
-    store_vector, zero_tensor, zero_vector,
+    accumulate, deviatoric_rate, load, load_tensor, matrix_product, product, store, store_tensor, store_vector,
+    zero_tensor, zero_vector,
 };
-use crate::lanes::{LANES, LanePass, LaneTensorsMut, Lanes};
+use crate::lanes::{LANES, LanePass, LaneTensorsMut, Lanes, Real};
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::model::Model;
@@ -33,18 +34,14 @@ struct Output<'a, const D: usize> {
 pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
     let flow = particles.flow_count();
     let shared = &*particles;
+    let PairData { weights, eigenvalues, geometry, single, .. } = pairs;
     let in_single = model.pairs_in_single();
     if in_single {
-        single::geometry::fill(model, shared, &mut pairs.single);
+        fill(model, shared, single);
     } else {
-        pairs.geometry.fill(shared.position.len(), |index, record| {
-            record.vector(&shared.position[index]);
-            record.scalar(shared.volume[index]);
-            record.scalar(shared.pressure[index]);
-        });
+        fill(model, shared, geometry);
     }
-    let PairData { weights, eigenvalues, geometry, single, .. } = pairs;
-    let records = if in_single { GeometryRecords::Single(single) } else { GeometryRecords::Double(geometry) };
+    let records = (&*geometry, &*single);
     let mut correction = std::mem::take(&mut particles.correction);
     let mut force_correction = std::mem::take(&mut particles.force_correction);
     correction.resize(flow);
@@ -82,16 +79,21 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     particles.corrected_stress = corrected_stress;
 }
 
-#[derive(Clone, Copy)]
-enum GeometryRecords<'a> {
-    Double(&'a records::Records),
-    Single(&'a single::SingleRecords),
+/// Records of position, volume and pressure.
+fn fill<P: Precision, const D: usize>(model: &Model<D>, particles: &Particles<D>, records: &mut Records<P>) {
+    let (count, values) = (particles.position.len(), layout::geometry(D));
+    records.fill(count, values, model.kernel.smoothing_length(), |index, record| {
+        record.position(&particles.position[index]);
+        record.scalar(particles.volume[index]);
+        record.scalar(particles.pressure[index]);
+    });
 }
 
 struct Pass<'a, const D: usize> {
     model: &'a Model<D>,
     particles: &'a Particles<D>,
-    records: GeometryRecords<'a>,
+    /// In double and in single precision.
+    records: (&'a Records, &'a Records<f32>),
     block: usize,
     out: Output<'a, D>,
 }
@@ -109,15 +111,10 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             let first = self.block * BLOCK + offset;
             let group = list.group(first / LANES);
             let end = (offset + LANES).min(count);
-            let sums = match self.records {
-                GeometryRecords::Double(records) => {
-                    let weights = &mut self.out.weights[group.first_pair - region_start..];
-                    pair_sums::<V, D>(self.model, records, &group, weights)
-                }
-                GeometryRecords::Single(records) => {
-                    let pressure = load::<V>(&self.particles.pressure[first..first + end - offset]);
-                    single::geometry::pair_sums::<V, D>(self.model, records, &group, pressure)
-                }
+            let sums: GeometrySums<V, D> = if self.model.pairs_in_single() {
+                pair_sums(self.model, self.records.1, &group, &mut [])
+            } else {
+                pair_sums(self.model, self.records.0, &group, &mut self.out.weights[group.first_pair - region_start..])
             };
             let (for_gradients, mut for_forces) = if meets_surface {
                 let (for_gradients, for_forces, eigenvalue) =
@@ -130,7 +127,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             if !corrects_forces {
                 for_forces = identity();
             }
-            let stress = self.stress(first..first + end - offset, sums.pressure);
+            let stress = self.stress::<V>(first..first + end - offset);
             let out = &mut self.out;
             out.correction.store(offset / LANES, &for_gradients);
             out.force_correction.store(offset / LANES, &for_forces);
@@ -142,51 +139,62 @@ impl<const D: usize> LanePass for Pass<'_, D> {
 }
 
 /// The pair sums of eight particles.
-pub(super) struct GeometrySums<V, const D: usize> {
+struct GeometrySums<V, const D: usize> {
     /// M = −Σ V F r ⊗ r `[-]`.
-    pub(super) moment: [[V; D]; D],
+    moment: [[V; D]; D],
     /// Pressure gradient before its correction `[Pa/m]`.
-    pub(super) gradient: [V; D],
-    /// Their own pressures `[Pa]`.
-    pub(super) pressure: V,
+    gradient: [V; D],
 }
 
-/// Pair sums of a group; the weights are kept for the other passes.
+impl<V: Real, const D: usize> GeometrySums<V, D> {
+    #[inline(always)]
+    fn none() -> Self {
+        Self { moment: zero_tensor(), gradient: zero_vector() }
+    }
+}
+
+/// Pair sums of a group. In double precision its weights are made first and kept for the other passes.
 #[inline(always)]
-fn pair_sums<V: Lanes, const D: usize>(
+fn pair_sums<V: Lanes, P: Precision, const D: usize>(
     model: &Model<D>,
-    records: &records::Records,
+    records: &Records<P>,
     group: &NeighbourGroup<'_>,
-    weights: &mut [[f64; LANES]],
+    weights: &mut [Weights<P>],
 ) -> GeometrySums<V, D> {
-    let own = records.load::<V>(const { layout::geometry(D).div_ceil(4) }, &group.own);
-    let place = records::vector::<V, D>(&own, 0);
+    let quads = const { layout::geometry(D).div_ceil(4) };
+    let own = records.load::<V>(quads, &group.own);
     let pressure_a = records::scalar(&own, D + 1);
-    // M is symmetric: only the upper triangle is summed
-    let mut moment = zero_tensor::<V, D>();
-    let mut gradient = zero_vector::<V, D>();
-    for (b, stored) in group.pairs.zip(weights) {
-        let record = records.load::<V>(const { layout::geometry(D).div_ceil(4) }, &b);
-        let position = records::vector::<V, D>(&record, 0);
-        let volume = records::scalar(&record, D);
-        let pressure = records::scalar(&record, D + 1);
-        let r = difference(&place, &position);
-        let weight = model.kernel.gradient_weight(dot(&r, &r), volume);
-        *stored = weight.to_array();
-        accumulate(&mut gradient, (pressure - pressure_a) * weight, &r);
-        for i in 0..D {
-            let weighted = weight * r[i];
-            for j in i..D {
-                moment[i][j] = moment[i][j] - weighted * r[j];
+    let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: records::vector(&own, 0) };
+    if !P::SINGLE {
+        weighing.weigh(group.pairs, weights);
+    }
+    let (mut sums, mut part) = (GeometrySums::<V, D>::none(), GeometrySums::<P::Lanes<V>, D>::none());
+    let mut pairs = weighing.pairs(group.pairs, weights);
+    while let Some(pairs) = pairs.next() {
+        for (b, weight) in pairs {
+            let other = records.load::<V>(quads, &b);
+            let r = records.apart::<V, D>(&weighing.place, &records::vector(&other, 0));
+            let weight = P::load::<V>(weight);
+            let step = records::scalar(&other, D + 1) - pressure_a;
+            // M is symmetric: only the upper triangle is summed
+            for i in 0..D {
+                let weighted = weight * r[i];
+                let rise = if P::SINGLE { step * weighted } else { (step * weight) * r[i] };
+                part.gradient[i] = part.gradient[i] + rise;
+                for j in i..D {
+                    part.moment[i][j] = part.moment[i][j] - weighted * r[j];
+                }
             }
         }
+        flush_tensor::<V, P, D>(&mut sums.moment, &mut part.moment);
+        flush_vector::<V, P, D>(&mut sums.gradient, &mut part.gradient);
     }
     for i in 1..D {
         for j in 0..i {
-            moment[i][j] = moment[j][i];
+            sums.moment[i][j] = sums.moment[j][i];
         }
     }
-    GeometrySums { moment, gradient, pressure: pressure_a }
+    sums
 }
 
 #[inline(always)]
@@ -201,8 +209,9 @@ fn identity<V: Lanes, const D: usize>() -> [[V; D]; D] {
 impl<const D: usize> Pass<'_, D> {
     /// σ = s − pI `[Pa]` of eight particles with the stresses that their law does not carry.
     #[inline(always)]
-    fn stress<V: Lanes>(&self, places: Range<usize>, pressure: V) -> [[V; D]; D] {
+    fn stress<V: Lanes>(&self, places: Range<usize>) -> [[V; D]; D] {
         let particles = self.particles;
+        let pressure = load::<V>(&particles.pressure[places.clone()]);
         let mut stress = load_tensor::<V, D>(&particles.stress[places.clone()]);
         let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]);
         let density = load::<V>(&particles.density[places.clone()]);

@@ -4,11 +4,13 @@
 
 use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
-use super::records::{Records, Writer};
-use super::single;
-use super::wall_partner::{WallPair, WallPartner};
+use super::layout::Momentum;
+use super::pair_weights::{Weighing, Weights, flush_vector};
+use super::precision::Precision;
+use super::records::Records;
+use super::wall_partner::{WallGroup, WallPair};
 use crate::lanes::algebra::{accumulate, difference, dot, load, store_vector, zero_vector};
-use crate::lanes::{LANES, LanePass, Lanes};
+use crate::lanes::{LANES, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
@@ -17,32 +19,41 @@ use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, hourglass, pair_distance, stress_divergence};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
+use std::ops::Range;
 
-/// Writes a record in the layout of [`FlowPartner`] or, for wall particles, of [`WallPartner`].
-#[inline(always)]
-fn write<const D: usize>(particles: &Particles<D>, inverse_density: f64, index: usize, record: &mut Writer<'_>) {
-    let wall = particles.is_wall(index).then(|| index - particles.flow_count());
-    let walls = &particles.walls;
-    record.vector(&particles.position[index]);
-    record.vector(wall.map_or(&particles.velocity[index], |wall| &walls.velocity[wall]));
-    record.scalar(wall.map_or(particles.density[index], |wall| walls.depth[wall]));
-    record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
-    record.scalar(wall.map_or(particles.artificial_viscosity[index], |_| 0.0));
-    record.tensor(&particles.corrected_stress[index]);
-    match wall {
-        Some(wall) => record.vector(&walls.normal[wall]),
-        None => record.tensor(&particles.velocity_gradient[index]),
-    }
+/// Records of flow and walls in the layout of [`Momentum`].
+fn fill<P: Precision, const D: usize>(model: &Model<D>, particles: &Particles<D>, records: &mut Records<P>) {
+    let inverse_density = 1.0 / model.equation_of_state.reference_density;
+    let (count, values) = (particles.position.len(), Momentum::<P, D>::VALUES);
+    records.fill(count, values, model.kernel.smoothing_length(), |index, record| {
+        let wall = particles.is_wall(index).then(|| index - particles.flow_count());
+        let walls = &particles.walls;
+        record.position(&particles.position[index]);
+        if P::SINGLE {
+            record.scalar(particles.volume[index]);
+        }
+        record.scalar(wall.map_or(particles.density[index], |wall| walls.depth[wall]));
+        record.vector(wall.map_or(&particles.velocity[index], |wall| &walls.velocity[wall]));
+        record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
+        record.tensor(&particles.corrected_stress[index]);
+        match wall {
+            Some(wall) => record.vector(&walls.normal[wall]),
+            None if P::SINGLE => record.half_form(&particles.velocity_gradient[index]),
+            None => {
+                record.tensor(&particles.velocity_gradient[index]);
+                record.scalar(particles.artificial_viscosity[index]);
+            }
+        }
+    });
 }
 
 /// Accelerations `[m/s²]` of the flow particles, and what walls and mirrors have of it.
 pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
     let shared = &*particles;
-    let inverse_density = 1.0 / model.equation_of_state.reference_density;
     if model.pairs_in_single() {
-        single::momentum::fill(model, shared, &mut pairs.single);
+        fill(model, shared, &mut pairs.single);
     } else {
-        pairs.momentum.fill(shared.position.len(), |index, record| write(shared, inverse_density, index, record));
+        fill(model, shared, &mut pairs.momentum);
     }
     let pairs = &*pairs;
     let mut acceleration = std::mem::take(&mut particles.acceleration);
@@ -92,15 +103,39 @@ struct Output<'a, const D: usize> {
 
 /// The pair sums of eight particles with the flow, images included, the part of them that images behind mirrors cause,
 /// and the pair sums with walls.
-pub(super) struct Forces<V, const D: usize> {
+struct Forces<V, const D: usize> {
     /// Σ V F traction `[N/m³]`.
-    pub(super) divergence: [V; D],
+    divergence: [V; D],
     /// Artificial viscosity, artificial stress and hourglass control `[m/s²]`.
-    pub(super) damping: [V; D],
-    pub(super) mirror_divergence: [V; D],
-    pub(super) mirror_damping: [V; D],
-    pub(super) wall_divergence: [V; D],
-    pub(super) wall_control: [V; D],
+    damping: [V; D],
+    mirror_divergence: [V; D],
+    mirror_damping: [V; D],
+    wall_divergence: [V; D],
+    wall_control: [V; D],
+}
+
+impl<V: Real, const D: usize> Forces<V, D> {
+    #[inline(always)]
+    fn none() -> Self {
+        let none = zero_vector::<V, D>();
+        Self {
+            divergence: none,
+            damping: none,
+            mirror_divergence: none,
+            mirror_damping: none,
+            wall_divergence: none,
+            wall_control: none,
+        }
+    }
+
+    /// Adds a part of the damping, and if images are about to that of mirrors.
+    #[inline(always)]
+    fn damp(&mut self, mirrored: Option<V>, factor: V, direction: &[V; D]) {
+        accumulate(&mut self.damping, factor, direction);
+        if let Some(mirrored) = mirrored {
+            accumulate(&mut self.mirror_damping, mirrored * factor, direction);
+        }
+    }
 }
 
 impl<const D: usize> LanePass for Pass<'_, D> {
@@ -109,34 +144,18 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let Self { model, particles, pairs, block, out } = self;
         let constants = Constants::of(model);
         let count = out.acceleration.len();
-        let in_single = model.pairs_in_single();
         for offset in 0..count.div_ceil(LANES) {
             let group = model.list.group(block * (BLOCK / LANES) + offset);
-            let none = zero_vector::<V, D>();
-            let mut forces = Forces {
-                divergence: none,
-                damping: none,
-                mirror_divergence: none,
-                mirror_damping: none,
-                wall_divergence: none,
-                wall_control: none,
-            };
             let places = offset * LANES..(offset * LANES + LANES).min(count);
             let first = block * BLOCK + places.start;
             let here = first..first + places.len();
-            let density = if in_single {
-                single::momentum::flow_forces(model, &constants, particles, &pairs.single, &group, &mut forces);
-                let density = load::<V>(&particles.density[here.clone()]);
-                single::momentum::wall_forces(model, &constants, particles, &pairs.single, &group, here, &mut forces);
-                density
+            let inputs = Inputs { model, constants: &constants, particles, group, here: here.clone() };
+            let forces: Forces<V, D> = if model.pairs_in_single() {
+                pair_sums(inputs, &pairs.single, &[])
             } else {
-                let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
-                let (flow_weights, wall_weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
-                flow_forces(&constants, particles, &pairs.momentum, &group, flow_weights, &own, &mut forces);
-                let correction = particles.force_correction.load::<V>(first / LANES);
-                wall_forces(&constants, &pairs.momentum, &group, wall_weights, &own, &correction, &mut forces);
-                own.density
+                pair_sums(inputs, &pairs.momentum, &pairs.weights[group.first_pair..])
             };
+            let density = load::<V>(&particles.density[here]);
             let (mut total, mut supported, mut by_walls) = (forces.damping, forces.damping, forces.damping);
             for i in 0..D {
                 by_walls[i] = forces.wall_divergence[i] / density;
@@ -153,74 +172,102 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     }
 }
 
-#[inline(always)]
-fn flow_forces<V: Lanes, const D: usize>(
-    constants: &Constants,
-    particles: &Particles<D>,
-    records: &Records,
-    group: &NeighbourGroup<'_>,
-    weights: &[[f64; LANES]],
-    own: &FlowPartner<V, D>,
-    forces: &mut Forces<V, D>,
-) {
-    let regularisation = V::splat(pair_distance::regularisation(constants.smoothing_length));
-    for (b, weight) in group.flow.zip(weights) {
-        let other = FlowPartner::<V, D>::load(records, &b);
-        let r = difference(&own.position, &other.position);
-        let slip = difference(&own.velocity, &other.velocity);
-        let weight = V::load(weight);
-        let regular = dot(&r, &r) + regularisation;
-        // one division serves 1/(ρ̄ r²) of (15) and 2/(ρ_a + ρ_b) of the hourglass control
-        let inverse = V::splat(2.0) / ((own.density + other.density) * regular);
-        let alpha = match constants.viscosity_switch {
-            ViscositySwitch::Constant => V::splat(constants.artificial_viscosity * constants.speed_length),
-            ViscositySwitch::MorrisMonaghan => {
-                artificial_viscosity::mean_strength(own.alpha, other.alpha, constants.speed_length)
-            }
-        };
-        let traction = stress_divergence::traction(&own.corrected_stress, &other.corrected_stress, &r);
-        let push = artificial_viscosity::pair_factor(alpha, dot(&r, &slip), inverse);
-        let speed_sum = own.pressure_speed + other.pressure_speed;
-        let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
-        let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
-        let unexplained = hourglass::along_pair(&unexplained, &r, regular);
-        let mass_weight = weight * other.density;
-        accumulate(&mut forces.divergence, weight, &traction);
-        accumulate(&mut forces.damping, mass_weight * push, &r);
-        accumulate(&mut forces.damping, mass_weight * drag, &unexplained);
-        let mut relief = V::splat(0.0);
-        if let Some(artificial_stress) = &constants.artificial_stress {
-            let square = dot(&r, &r);
-            relief = weight * artificial_stress.factor(square, dot(&traction, &r) / regular) / own.density;
-            accumulate(&mut forces.damping, relief, &r);
-        }
-        if group.has_images {
-            let mirrored: V = mirrored_lanes(&particles.mirrored, particles.real_count(), &b);
-            accumulate(&mut forces.mirror_divergence, mirrored * weight, &traction);
-            accumulate(&mut forces.mirror_damping, mirrored * (mass_weight * push), &r);
-            accumulate(&mut forces.mirror_damping, mirrored * (mass_weight * drag), &unexplained);
-            if constants.artificial_stress.is_some() {
-                accumulate(&mut forces.mirror_damping, mirrored * relief, &r);
-            }
-        }
-    }
+/// What the loops over neighbours read beside their records.
+struct Inputs<'a, const D: usize> {
+    model: &'a Model<D>,
+    constants: &'a Constants,
+    particles: &'a Particles<D>,
+    group: NeighbourGroup<'a>,
+    /// Places of the group's particles.
+    here: Range<usize>,
 }
 
 #[inline(always)]
-fn wall_forces<V: Lanes, const D: usize>(
-    constants: &Constants,
-    records: &Records,
-    group: &NeighbourGroup<'_>,
-    weights: &[[f64; LANES]],
-    own: &FlowPartner<V, D>,
-    correction: &[[V; D]; D],
-    forces: &mut Forces<V, D>,
-) {
-    for (w, weight) in group.wall.zip(weights) {
-        let wall = WallPartner::<V, D>::load(records, &w);
-        let WallPair { traction, drag, unexplained } = WallPair::of(constants, own, &wall, correction);
-        let weight = V::load(weight);
-        accumulate(&mut forces.wall_divergence, weight, &traction);
-        accumulate(&mut forces.wall_control, weight * drag, &unexplained);
+fn pair_sums<V: Lanes, P: Precision, const D: usize>(
+    Inputs { model, constants, particles, group, here }: Inputs<'_, D>,
+    records: &Records<P>,
+    weights: &[Weights<P>],
+) -> Forces<V, D> {
+    let (quads, half) = (const { Momentum::<P, D>::QUADS }, P::Lanes::<V>::splat(0.5));
+    let regularisation = P::Lanes::<V>::splat(pair_distance::regularisation(constants.smoothing_length));
+    let own = FlowPartner::of::<P>(&records.load::<V>(quads, &group.own));
+    let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: own.position };
+    let (flow_weights, wall_weights) = weights.split_at(group.flow.len().min(weights.len()));
+    let (mut forces, mut part) = (Forces::none(), Forces::<P::Lanes<V>, D>::none());
+    let mut pairs = weighing.pairs(group.flow, flow_weights);
+    while let Some(pairs) = pairs.next() {
+        for (b, weight) in pairs {
+            let other = FlowPartner::of::<P>(&records.load::<V>(quads, &b));
+            let r = records.apart::<V, D>(&own.position, &other.position);
+            let slip = difference(&own.velocity, &other.velocity);
+            let weight = P::load::<V>(weight);
+            let (square, approach) = (dot(&r, &r), dot(&r, &slip));
+            let regular = square + regularisation;
+            let density_sum = own.density + other.density;
+            // one division serves 1/(ρ̄ r²) of (15), 2/(ρ_a + ρ_b) of the hourglass control and 1/r² of its half form
+            let inverse = P::Lanes::<V>::splat(2.0) / (density_sum * regular);
+            let alpha = match constants.viscosity_switch {
+                ViscositySwitch::MorrisMonaghan if !P::SINGLE => {
+                    artificial_viscosity::mean_strength(own.alpha, other.alpha, constants.speed_length)
+                }
+                _ => P::Lanes::<V>::splat(constants.artificial_viscosity * constants.speed_length),
+            };
+            let traction = stress_divergence::traction(&own.corrected_stress, &other.corrected_stress, &r);
+            let push = artificial_viscosity::pair_factor(alpha, approach, inverse);
+            let speed_sum = own.pressure_speed + other.pressure_speed;
+            let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
+            let mass_weight = weight * other.density;
+            let mut mirrored = None;
+            accumulate(&mut part.divergence, weight, &traction);
+            if group.has_images {
+                let lanes = P::narrow(mirrored_lanes::<V>(&particles.mirrored, particles.real_count(), &b));
+                accumulate(&mut part.mirror_divergence, lanes * weight, &traction);
+                mirrored = Some(lanes);
+            }
+            let mut relief = None;
+            if let Some(artificial_stress) = &constants.artificial_stress {
+                relief = Some(weight * artificial_stress.factor(square, dot(&traction, &r) / regular) / own.density);
+            }
+            if P::SINGLE {
+                // all of it acts along the pair: one factor of r
+                let explained = hourglass::explained_along(&own.velocity_gradient, &other.velocity_gradient, &r);
+                let along = (approach - explained) * (half * inverse * density_sum);
+                let mut pull = mass_weight * (push + drag * along);
+                if let Some(relief) = relief {
+                    pull = pull + relief;
+                }
+                part.damp(mirrored, pull, &r);
+            } else {
+                let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
+                let unexplained = hourglass::along_pair(&unexplained, &r, regular);
+                part.damp(mirrored, mass_weight * push, &r);
+                part.damp(mirrored, mass_weight * drag, &unexplained);
+                if let Some(relief) = relief {
+                    part.damp(mirrored, relief, &r);
+                }
+            }
+        }
+        flush_vector::<V, P, D>(&mut forces.divergence, &mut part.divergence);
+        flush_vector::<V, P, D>(&mut forces.damping, &mut part.damping);
+        if group.has_images {
+            flush_vector::<V, P, D>(&mut forces.mirror_divergence, &mut part.mirror_divergence);
+            flush_vector::<V, P, D>(&mut forces.mirror_damping, &mut part.mirror_damping);
+        }
     }
+    if group.wall.is_empty() {
+        return forces;
+    }
+    let seen = WallGroup::of::<V, P>(particles, own, here);
+    let mut walls = weighing.pairs(group.wall, wall_weights);
+    while let Some(walls) = walls.next() {
+        for (w, weight) in walls {
+            let WallPair { traction, drag, unexplained } = seen.pair::<V, P>(constants, records, &w);
+            let weight = P::load::<V>(weight);
+            accumulate(&mut part.wall_divergence, weight, &traction);
+            accumulate(&mut part.wall_control, weight * drag, &unexplained);
+        }
+        flush_vector::<V, P, D>(&mut forces.wall_divergence, &mut part.wall_divergence);
+        flush_vector::<V, P, D>(&mut forces.wall_control, &mut part.wall_control);
+    }
+    forces
 }

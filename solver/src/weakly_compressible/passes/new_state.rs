@@ -4,7 +4,7 @@
 use crate::lanes::algebra::{
     accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
 };
-use crate::lanes::{LANES, Lanes};
+use crate::lanes::{LANES, Lanes, Real};
 use crate::material::rheology::field::{FieldBoundary, FieldStep, Memory};
 use crate::vector::{Tensor, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
@@ -68,47 +68,32 @@ pub(super) struct RateSums<V, const D: usize> {
     pub(super) field: FieldSums<V>,
 }
 
+impl<V: Real, const D: usize> RateSums<V, D> {
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        let (zero, none) = (V::splat(0.0), zero_tensor());
+        Self {
+            compression: zero,
+            wall_compression: zero,
+            coupling: zero,
+            gradient: none,
+            wall_gradient: none,
+            stress_diffusion: none,
+            field: FieldSums { taken: zero, given: zero, weights: zero, eigenvalue: V::splat(1.0) },
+        }
+    }
+}
+
 /// The pair sums of a field's diffusion, with the weights V F ≤ 0 `[1/m²]`.
 pub(super) struct FieldSums<V> {
     /// Σ V F f_b over the flow.
-    taken: V,
+    pub(super) taken: V,
     /// Σ V F over the flow, and with their factors over walls.
-    given: V,
+    pub(super) given: V,
     /// Σ V F over all.
-    weights: V,
+    pub(super) weights: V,
     /// Smallest eigenvalue of the moment matrix `[-]`, where it is asked for.
     pub(super) eigenvalue: V,
-}
-
-impl<V: Lanes> FieldSums<V> {
-    #[inline(always)]
-    pub(super) fn none() -> Self {
-        let zero = V::splat(0.0);
-        Self { taken: zero, given: zero, weights: zero, eigenvalue: V::splat(1.0) }
-    }
-
-    /// Adds a neighbour of the flow.
-    #[inline(always)]
-    pub(super) fn add_flow(&mut self, weight: V, field: V) {
-        self.taken = self.taken + weight * field;
-        self.given = self.given + weight;
-        self.weights = self.weights + weight;
-    }
-
-    /// Adds a wall particle with a factor of its own.
-    #[inline(always)]
-    pub(super) fn add_wall(&mut self, weight: V, factor: V) {
-        self.given = self.given + weight * factor;
-        self.weights = self.weights + weight;
-    }
-
-    /// Adds sums of flow neighbours, Σ V F f_b and Σ V F.
-    #[inline(always)]
-    pub(super) fn add_flow_sums(&mut self, taken: V, weights: V) {
-        self.taken = self.taken + taken;
-        self.given = self.given + weights;
-        self.weights = self.weights + weights;
-    }
 }
 
 /// What the law takes a step from: the new density, and the pressure at it with the field before the step.

@@ -1,8 +1,6 @@
 //! What the passes hand on to each other and reuse from step to step.
 
-use super::layout;
 use super::records::Records;
-use super::single::SingleRecords;
 use crate::lanes::LANES;
 use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
@@ -23,7 +21,7 @@ pub(crate) struct PairData<const D: usize> {
     /// Likewise where the law keeps nothing beside its field.
     pub(super) no_memory: Vec<Memory<f64>>,
     /// What the pass that runs reads of a neighbour, where pairs are in single precision.
-    pub(super) single: SingleRecords,
+    pub(super) single: Records<f32>,
     /// What the geometry pass reads of a neighbour.
     pub(crate) geometry: Records,
     /// What the momentum pass reads of a neighbour.
@@ -45,10 +43,10 @@ impl<const D: usize> PairData<D> {
             eigenvalues: Vec::new(),
             no_field: Vec::new(),
             no_memory: Vec::new(),
-            single: SingleRecords::default(),
-            geometry: Records::new(layout::geometry(D)),
-            momentum: Records::new(layout::momentum(D)),
-            continuity: Records::new(layout::continuity(D)),
+            single: Records::new(0),
+            geometry: Records::new(0),
+            momentum: Records::new(0),
+            continuity: Records::new(0),
             energy: Vec::new(),
             wall_stress: Vec::new(),
             wall_velocity: Vec::new(),

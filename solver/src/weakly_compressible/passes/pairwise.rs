@@ -52,9 +52,8 @@ impl<V: Lanes, const D: usize> Partner<V, D> {
 /// over pairs, so these operators have no momentum balance to close.
 pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
     let shared = &*particles;
-    pairs.momentum.set_values(values(D));
-    pairs.momentum.fill(shared.position.len(), |index, record| {
-        record.vector(&shared.position[index]);
+    pairs.momentum.fill(shared.position.len(), values(D), model.kernel.smoothing_length(), |index, record| {
+        record.position(&shared.position[index]);
         record.vector(&shared.velocity[index]);
         record.scalar(shared.volume[index]);
         record.scalar(shared.density[index]);

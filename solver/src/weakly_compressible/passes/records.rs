@@ -4,6 +4,7 @@
 //! lanes with plain loads, which is faster than gather instructions on every processor tried (some run those from
 //! slow microcode).
 
+use super::precision::Precision;
 use crate::lanes::{LaneIndices, Lanes, Real};
 use crate::parallel::{ChunksMut, prelude::*};
 use crate::vector::{Tensor, Vector};
@@ -13,46 +14,95 @@ pub(crate) const QUADS: usize = 7;
 
 /// Records of `quads` × 4 values.
 #[derive(Debug)]
-pub(crate) struct Records {
+pub(crate) struct Records<P: Precision = f64> {
     quads: usize,
-    data: Vec<[f64; 4]>,
+    /// What gives the unit of positions `[m]`.
+    smoothing_length: f64,
+    data: Vec<[P; 4]>,
 }
 
 /// A record's values in lanes.
 pub(crate) type LaneRecord<V> = [[V; 4]; QUADS];
 
-impl Records {
+impl<P: Precision> Records<P> {
+    /// Empty records of so many values.
     pub(crate) fn new(values: usize) -> Self {
-        Self { quads: values.div_ceil(4), data: Vec::new() }
+        Self { quads: values.div_ceil(4), smoothing_length: 0.0, data: Vec::new() }
     }
 
-    /// Changes the number of values of a record.
-    pub(crate) fn set_values(&mut self, values: usize) {
-        self.quads = values.div_ceil(4);
-    }
-
-    /// Fills one record for every particle.
-    pub(crate) fn fill(&mut self, particles: usize, write: impl Fn(usize, &mut Writer<'_>) + Sync) {
-        let quads = self.quads;
+    /// Fills a record of so many values for every particle; room is kept.
+    pub(crate) fn fill(
+        &mut self,
+        particles: usize,
+        values: usize,
+        smoothing_length: f64,
+        write: impl Fn(usize, &mut Writer<'_, P>) + Sync,
+    ) {
+        let quads = values.div_ceil(4);
+        (self.quads, self.smoothing_length) = (quads, smoothing_length);
         let needed = particles * quads;
-        if self.data.capacity() < needed {
-            self.data.reserve_exact(needed + needed / 8 + 64 - self.data.len());
+        if self.data.len() < needed {
+            self.reserve(needed);
+            self.data.resize(needed, [P::default(); 4]);
         }
-        self.data.resize(needed, [0.0; 4]);
         const BLOCK: usize = 1024;
-        self.data.par_chunks_mut(quads * BLOCK).enumerate().for_each(|(block, chunk)| {
+        self.data[..needed].par_chunks_mut(quads * BLOCK).enumerate().for_each(|(block, chunk)| {
             for (offset, record) in chunk.chunks_exact_mut(quads).enumerate() {
-                write(block * BLOCK + offset, &mut Writer { record: record.as_flattened_mut(), next: 0 });
+                let record = record.as_flattened_mut();
+                write(block * BLOCK + offset, &mut Writer { record, next: 0, smoothing_length });
             }
         });
     }
 
-    /// Room for one record per particle, of the values that they had, without any in new ones; the sentinel's is zero.
-    pub(crate) fn resize(&mut self, particles: usize) {
-        let needed = particles * self.quads;
+    /// Room for so many quads, with some head room if it is new.
+    fn reserve(&mut self, needed: usize) {
         if self.data.capacity() < needed {
             self.data.reserve_exact(needed + needed / 8 + 64 - self.data.len());
         }
+    }
+
+    /// Loads the records of eight particles; `quads` is their length in quads.
+    #[inline(always)]
+    pub(crate) fn load<V: Lanes>(&self, quads: usize, indices: &LaneIndices<'_>) -> LaneRecord<P::Lanes<V>> {
+        self.load_start::<V>(quads, quads, indices)
+    }
+
+    /// Loads the first `wanted` quads of the records of eight particles, which are `quads` long.
+    #[inline(always)]
+    pub(crate) fn load_start<V: Lanes>(
+        &self,
+        quads: usize,
+        wanted: usize,
+        indices: &LaneIndices<'_>,
+    ) -> LaneRecord<P::Lanes<V>> {
+        debug_assert_eq!(quads, self.quads);
+        let mut record = [[P::Lanes::<V>::splat(0.0); 4]; QUADS];
+        for quad in 0..wanted {
+            record[quad] = P::load_quads::<V>(&self.data, quads, quad, indices);
+        }
+        record
+    }
+
+    /// a − b `[m]` of two positions in records.
+    #[inline(always)]
+    pub(super) fn apart<V: Lanes, const D: usize>(
+        &self,
+        a: &[P::Lanes<V>; D],
+        b: &[P::Lanes<V>; D],
+    ) -> [P::Lanes<V>; D] {
+        let mut lanes = *a;
+        for i in 0..D {
+            lanes[i] = P::apart::<V>(a[i], b[i], self.smoothing_length);
+        }
+        lanes
+    }
+}
+
+impl Records {
+    /// Room for one record per particle, of the values that they had, without any in new ones; the sentinel's is zero.
+    pub(crate) fn resize(&mut self, particles: usize) {
+        let needed = particles * self.quads;
+        self.reserve(needed);
         self.data.resize(needed, [0.0; 4]);
         self.data[needed - self.quads..].fill([0.0; 4]);
     }
@@ -71,37 +121,33 @@ impl Records {
             self.data[slot * self.quads + quad][component] = value * sign;
         }
     }
-
-    /// Loads the records of eight particles; `quads` is their length in quads.
-    #[inline(always)]
-    pub(crate) fn load<V: Lanes>(&self, quads: usize, indices: &LaneIndices<'_>) -> LaneRecord<V> {
-        self.load_start(quads, quads, indices)
-    }
-
-    /// Loads the first `wanted` quads of the records of eight particles, which are `quads` long.
-    #[inline(always)]
-    pub(crate) fn load_start<V: Lanes>(&self, quads: usize, wanted: usize, indices: &LaneIndices<'_>) -> LaneRecord<V> {
-        debug_assert_eq!(quads, self.quads);
-        let mut record = [[V::splat(0.0); 4]; QUADS];
-        for quad in 0..wanted {
-            record[quad] = V::load_quads(&self.data, quads, quad, indices);
-        }
-        record
-    }
 }
 
 /// Writes a record value by value.
 #[derive(Debug)]
-pub(crate) struct Writer<'a> {
-    record: &'a mut [f64],
+pub(crate) struct Writer<'a, P: Precision> {
+    record: &'a mut [P],
     next: usize,
+    smoothing_length: f64,
 }
 
-impl Writer<'_> {
+impl<P: Precision> Writer<'_, P> {
     #[inline(always)]
-    pub(crate) fn scalar(&mut self, value: f64) {
+    fn put(&mut self, value: P) {
         self.record[self.next] = value;
         self.next += 1;
+    }
+
+    #[inline(always)]
+    pub(crate) fn scalar(&mut self, number: f64) {
+        self.put(P::of(number));
+    }
+
+    #[inline(always)]
+    pub(crate) fn position<const D: usize>(&mut self, position: &Vector<D>) {
+        for i in 0..D {
+            self.put(P::of_coordinate(position[i], self.smoothing_length));
+        }
     }
 
     #[inline(always)]
@@ -117,6 +163,17 @@ impl Writer<'_> {
         for i in 0..D - 1 {
             for j in i..D {
                 self.scalar(deviator[(i, j)]);
+            }
+        }
+    }
+
+    /// The coefficients of r_i r_j in ½ r·T r, i ≤ j.
+    #[inline(always)]
+    pub(super) fn half_form<const D: usize>(&mut self, tensor: &Tensor<D>) {
+        for i in 0..D {
+            self.scalar(0.5 * tensor[(i, i)]);
+            for j in i + 1..D {
+                self.scalar(0.5 * (tensor[(i, j)] + tensor[(j, i)]));
             }
         }
     }
@@ -162,13 +219,24 @@ pub(crate) const fn deviator_values(dimension: usize) -> usize {
     dimension * (dimension + 1) / 2 - 1
 }
 
+/// The upper triangle that starts at `place` of a record, the rest zero.
+#[inline(always)]
+pub(crate) fn triangle<V: Real, const D: usize>(record: &LaneRecord<V>, place: usize) -> [[V; D]; D] {
+    rows_from_diagonal::<V, D>(record, place, D)
+}
+
 /// The symmetric tensor without trace that starts at `place` of a record: its upper triangle except the last entry of
 /// the diagonal, the rest zero.
 #[inline(always)]
 pub(crate) fn deviator<V: Real, const D: usize>(record: &LaneRecord<V>, place: usize) -> [[V; D]; D] {
+    rows_from_diagonal::<V, D>(record, place, D - 1)
+}
+
+#[inline(always)]
+fn rows_from_diagonal<V: Real, const D: usize>(record: &LaneRecord<V>, place: usize, rows: usize) -> [[V; D]; D] {
     let mut lanes = [[V::splat(0.0); D]; D];
     let mut next = place;
-    for i in 0..D - 1 {
+    for i in 0..rows {
         for j in i..D {
             lanes[i][j] = scalar(record, next);
             next += 1;

@@ -3,15 +3,20 @@
 
 use super::PairData;
 use super::flow_partner::{Constants, FlowPartner};
-use super::single::momentum::WallGroup;
-use super::wall_partner::{WallPair, WallPartner};
+use super::layout::Momentum;
+use super::pair_weights::{Weighing, Weights, widened};
+use super::precision::Precision;
+use super::records::Records;
+use super::wall_partner::{WallGroup, WallPair};
 use crate::lanes::algebra::{load, scaled, store_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
-use crate::weakly_compressible::neighbours::BLOCK;
+use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::particles::Particles;
+
+use std::ops::Range;
 
 /// The owner of particles that belong to no facet wall.
 pub(crate) const NO_OWNER: u32 = u32::MAX;
@@ -52,55 +57,66 @@ struct Pass<'a, const D: usize> {
 
 impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
-    fn run<V: Lanes>(self) {
-        let Self { model, particles, pairs, owners, block, time_step, out } = self;
-        let constants = Constants::of(model);
-        let count = (particles.flow_count() - block * BLOCK).min(BLOCK);
+    fn run<V: Lanes>(mut self) {
+        let count = (self.particles.flow_count() - self.block * BLOCK).min(BLOCK);
         for offset in 0..count.div_ceil(LANES) {
-            let group = model.list.group(block * (BLOCK / LANES) + offset);
-            let owned = group.wall.raw();
-            if owned.is_empty() {
+            let group = self.model.list.group(self.block * (BLOCK / LANES) + offset);
+            if group.wall.is_empty() {
                 continue;
             }
-            let first = block * BLOCK + offset * LANES;
-            let places = first..(first + LANES).min(block * BLOCK + count);
-            let impulse = load::<V>(&particles.mass[places.clone()]) * V::splat(time_step);
-            let count = places.len();
-            if model.pairs_in_single() {
-                let density = load::<V>(&particles.density[places.clone()]);
-                let seen = WallGroup::of::<V>(particles, &pairs.single, &group, places);
-                for (w, partners) in group.wall.zip(owned) {
-                    let (weight, pair) = seen.pair(model, &constants, &pairs.single, &w);
-                    let WallPair { traction, drag, unexplained } = pair;
-                    let from_stress = widened::<V, D>(impulse / density, &scaled(weight, &traction));
-                    let from_control = widened::<V, D>(impulse, &scaled(weight * drag, &unexplained));
-                    book(owners, &partners[..count], &from_stress, &from_control, out);
-                }
-                continue;
-            }
-            let own = FlowPartner::<V, D>::load(&pairs.momentum, &group.own);
-            let correction = particles.force_correction.load::<V>(first / LANES);
-            let (_, weights) = pairs.weights[group.first_pair..].split_at(group.flow.len());
-            for ((w, weight), partners) in group.wall.zip(weights).zip(owned) {
-                let wall = WallPartner::<V, D>::load(&pairs.momentum, &w);
-                let WallPair { traction, drag, unexplained } = WallPair::of(&constants, &own, &wall, &correction);
-                let weight = impulse * V::load(weight);
-                let from_stress = scaled(weight / own.density, &traction);
-                let from_control = scaled(weight * drag, &unexplained);
-                book(owners, &partners[..count], &from_stress, &from_control, out);
+            let first = self.block * BLOCK + offset * LANES;
+            let places = first..(first + LANES).min(self.block * BLOCK + count);
+            if self.model.pairs_in_single() {
+                self.book_group::<V, _>(&self.pairs.single, &[], &group, places);
+            } else {
+                let weights = &self.pairs.weights[group.first_pair + group.flow.len()..];
+                self.book_group::<V, _>(&self.pairs.momentum, weights, &group, places);
             }
         }
     }
 }
 
-/// f a of a vector in single precision.
-#[inline(always)]
-fn widened<V: Lanes, const D: usize>(factor: V, vector: &[V::Single; D]) -> [V; D] {
-    let mut lanes = [V::splat(0.0); D];
-    for i in 0..D {
-        lanes[i] = factor * V::widen(vector[i]);
+impl<const D: usize> Pass<'_, D> {
+    /// Books what walls give to the particles of a group; `weights` are those of its walls.
+    #[inline(always)]
+    fn book_group<V: Lanes, P: Precision>(
+        &mut self,
+        records: &Records<P>,
+        weights: &[Weights<P>],
+        group: &NeighbourGroup<'_>,
+        places: Range<usize>,
+    ) {
+        let Self { model, particles, owners, time_step, .. } = *self;
+        let count = places.len();
+        let impulse = load::<V>(&particles.mass[places.clone()]) * V::splat(time_step);
+        let density = load::<V>(&particles.density[places.clone()]);
+        let constants = Constants::of(model);
+        let quads = const { Momentum::<P, D>::QUADS };
+        let own = FlowPartner::of::<P>(&records.load::<V>(quads, &group.own));
+        let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: own.position };
+        let seen = WallGroup::of::<V, P>(particles, own, places);
+        let mut walls = weighing.pairs(group.wall, weights);
+        while let Some(walls) = walls.next() {
+            for (w, weight) in walls {
+                let WallPair { traction, drag, unexplained } = seen.pair::<V, P>(&constants, records, &w);
+                let weight = P::load::<V>(weight);
+                let (from_stress, from_control) = if P::SINGLE {
+                    let (traction, unexplained) = (scaled(weight, &traction), scaled(weight * drag, &unexplained));
+                    (
+                        scaled(impulse / density, &widened::<V, P, D>(&traction)),
+                        scaled(impulse, &widened::<V, P, D>(&unexplained)),
+                    )
+                } else {
+                    let weight = impulse * P::widen(weight);
+                    (
+                        scaled(weight / density, &widened::<V, P, D>(&traction)),
+                        scaled(weight * P::widen(drag), &widened::<V, P, D>(&unexplained)),
+                    )
+                };
+                book(owners, &w.raw()[..count], &from_stress, &from_control, self.out);
+            }
+        }
     }
-    lanes
 }
 
 /// Adds what the wall particles `partners` give, lane by lane, to their facet walls.

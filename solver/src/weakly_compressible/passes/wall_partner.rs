@@ -2,11 +2,14 @@
 //! that books them to facet walls.
 
 use super::flow_partner::{Constants, FlowPartner};
-use super::layout;
+use super::layout::Momentum;
+use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
-use crate::lanes::algebra::{difference, scaled};
-use crate::lanes::{LaneIndices, Lanes, Real};
+use crate::lanes::algebra::{difference, load_tensor, scaled};
+use crate::lanes::{LANES, LaneIndices, Lanes, Real};
+use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{hourglass, stress_divergence, wall_slip};
+use std::ops::Range;
 
 /// What is read of a wall particle: records of the length of [`FlowPartner`]'s with a layout of their own.
 pub(super) struct WallPartner<V, const D: usize> {
@@ -22,17 +25,16 @@ pub(super) struct WallPartner<V, const D: usize> {
     pub(super) normal: [V; D],
 }
 
-impl<V: Lanes, const D: usize> WallPartner<V, D> {
+impl<V: Real, const D: usize> WallPartner<V, D> {
     #[inline(always)]
-    pub(super) fn load(records: &Records, indices: &LaneIndices<'_>) -> Self {
-        let record: LaneRecord<V> = records.load(const { layout::momentum(D).div_ceil(4) }, indices);
+    fn of<P: Precision>(record: &LaneRecord<V>) -> Self {
         Self {
-            position: records::vector(&record, 0),
-            velocity: records::vector(&record, D),
-            depth: records::scalar(&record, 2 * D),
-            pressure_speed: records::scalar(&record, 2 * D + 1),
-            stress: records::tensor(&record, 2 * D + 3),
-            normal: records::vector(&record, 2 * D + 3 + D * D),
+            position: records::vector(record, 0),
+            velocity: records::vector(record, Momentum::<P, D>::VELOCITY),
+            depth: records::scalar(record, Momentum::<P, D>::DENSITY),
+            pressure_speed: records::scalar(record, Momentum::<P, D>::SPEED),
+            stress: records::tensor(record, Momentum::<P, D>::STRESS),
+            normal: records::vector(record, Momentum::<P, D>::LAST),
         }
     }
 }
@@ -47,32 +49,49 @@ pub(super) struct WallPair<V, const D: usize> {
     pub(super) unexplained: [V; D],
 }
 
-impl<V: Real, const D: usize> WallPair<V, D> {
+/// A group as its walls see it.
+pub(super) struct WallGroup<V, const D: usize> {
+    own: FlowPartner<V, D>,
+    correction: [[V; D]; D],
+}
+
+impl<S: Real, const D: usize> WallGroup<S, D> {
+    /// Of the particles at `places`, whose velocity gradient is whole, unlike in a record.
     #[inline(always)]
-    pub(super) fn of(
-        constants: &Constants,
-        own: &FlowPartner<V, D>,
-        wall: &WallPartner<V, D>,
-        correction: &[[V; D]; D],
+    pub(super) fn of<V: Lanes, P: Precision<Lanes<V> = S>>(
+        particles: &Particles<D>,
+        mut own: FlowPartner<S, D>,
+        places: Range<usize>,
     ) -> Self {
-        Self::at(constants, own, wall, correction, &difference(&own.position, &wall.position))
+        let whole = particles.force_correction.load::<V>(places.start / LANES);
+        let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places]);
+        let mut correction = own.velocity_gradient;
+        for i in 0..D {
+            for j in 0..D {
+                own.velocity_gradient[i][j] = P::narrow(gradient[i][j]);
+                correction[i][j] = P::narrow(whole[i][j]);
+            }
+        }
+        Self { own, correction }
     }
 
-    /// The same at a distance r `[m]` of its own.
+    /// Parts of the forces of eight wall particles.
     #[inline(always)]
-    pub(super) fn at(
+    pub(super) fn pair<V: Lanes, P: Precision<Lanes<V> = S>>(
+        &self,
         constants: &Constants,
-        own: &FlowPartner<V, D>,
-        wall: &WallPartner<V, D>,
-        correction: &[[V; D]; D],
-        r: &[V; D],
-    ) -> Self {
-        let beta = wall_slip::factor(r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
+        records: &Records<P>,
+        indices: &LaneIndices<'_>,
+    ) -> WallPair<S, D> {
+        let Self { own, correction } = self;
+        let wall = WallPartner::of::<P>(&records.load::<V>(const { Momentum::<P, D>::QUADS }, indices));
+        let r = records.apart::<V, D>(&own.position, &wall.position);
+        let beta = wall_slip::factor(&r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
         let slip = scaled(beta, &difference(&own.velocity, &wall.velocity));
-        let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, r);
+        let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
         let speed_sum = own.pressure_speed + wall.pressure_speed;
-        let drag = hourglass::twice_viscosity::<V>(constants.hourglass_strength, speed_sum);
-        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, r, &wall.normal);
-        Self { traction, drag, unexplained }
+        let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum);
+        let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal);
+        WallPair { traction, drag, unexplained }
     }
 }

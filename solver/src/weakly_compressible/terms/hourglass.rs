@@ -42,6 +42,21 @@ pub fn along_pair<V: Real, const D: usize>(vector: &[V; D], r: &[V; D], regular:
     scaled(dot(vector, r) / regular, r)
 }
 
+/// The explained part of r·v_ab, r·½(∇v_a + ∇v_b) r `[m²/s]`, from the coefficients of r_i r_j in ½ r·∇v r, i ≤ j.
+#[inline(always)]
+pub fn explained_along<V: Real, const D: usize>(half_a: &[[V; D]; D], half_b: &[[V; D]; D], r: &[V; D]) -> V {
+    let mut explained = (half_a[0][0] + half_b[0][0]) * (r[0] * r[0]);
+    for i in 1..D {
+        explained = explained + (half_a[i][i] + half_b[i][i]) * (r[i] * r[i]);
+    }
+    for i in 0..D {
+        for j in i + 1..D {
+            explained = explained + (half_a[i][j] + half_b[i][j]) * (r[i] * r[j]);
+        }
+    }
+    explained
+}
+
 /// The unexplained velocity difference at a wall along its normal `[m/s]`: `slip` is β (v_a − v_wall) `[m/s]`, and the wall's gradient
 /// is that of a. Along a rough wall it would act as a friction of the bed on curved flow.
 #[inline(always)]

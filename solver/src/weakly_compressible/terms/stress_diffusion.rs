@@ -43,6 +43,17 @@ pub fn accumulate_bracket<V: Real, const D: usize>(
     }
 }
 
+/// Adds f s_b to the upper triangle of a sum, without the last entry of the diagonal. With Σ f p_b the brackets are made of it at the
+/// end: (Σ f p_b) s_a − p_a Σ f s_b, the form of single precision.
+#[inline(always)]
+pub fn accumulate_stress<V: Real, const D: usize>(sum: &mut [[V; D]; D], factor: V, stress: &[[V; D]; D]) {
+    for i in 0..D - 1 {
+        for j in i..D {
+            sum[i][j] = sum[i][j] + factor * stress[i][j];
+        }
+    }
+}
+
 /// Fills what [`accumulate_bracket`] leaves out: the lower triangle, and the last entry of a tensor without trace.
 #[inline(always)]
 pub fn complete<V: Real, const D: usize>(deviator: &mut [[V; D]; D]) {

@@ -1,33 +1,15 @@
 //! `bagnold new`: a crate with a law or a case of a user's own, which builds and runs as it is.
 
+pub(super) mod error;
 mod name;
 
 use super::arguments::{NewArguments, NewCrate};
 use super::error::ProgramError;
 use super::{Exit, say};
-use crate::input::FieldError;
 use crate::output::FileError;
+use error::NewError;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
-
-/// Why no crate was made.
-#[derive(Debug, thiserror::Error)]
-pub enum NewError {
-    /// A name that no crate, law or case can have.
-    #[error(transparent)]
-    Name(#[from] FieldError),
-    /// A folder that is there already.
-    #[error(
-        "{}: exists already, so nothing was changed; name a new folder with --out, or remove this one", .folder.display()
-    )]
-    Exists {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// Files that cannot be written.
-    #[error(transparent)]
-    File(#[from] FileError),
-}
 
 /// A file of a crate: its path, and its text with places for the name.
 type Template = (&'static str, &'static str);

@@ -3,11 +3,13 @@
 mod barrier;
 mod design;
 mod differences;
+mod evaluated;
 mod recorder;
 mod starts;
 mod trust_region;
 
 pub use design::search_design;
+pub use evaluated::Evaluated;
 pub(super) use recorder::{Halt, Recorder};
 
 use super::Evaluate;
@@ -64,27 +66,6 @@ impl Budget {
     /// The change of χ² `[-]` that is not worth an evaluation, where χ² of `data` data has this value.
     pub(super) fn negligible(&self, chi_squared: f64, data: usize) -> f64 {
         self.tolerance * (chi_squared / data.max(1) as f64).max(1.0)
-    }
-}
-
-/// The model at one point.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Evaluated {
-    /// Coordinates in the unit cube.
-    pub point: Vec<f64>,
-    /// Weighted residuals `[-]`; none where the model failed.
-    pub residuals: Option<Vec<f64>>,
-    /// χ² `[-]`; none where the model failed.
-    pub chi_squared: Option<f64>,
-}
-
-impl Evaluated {
-    /// A point with what the model returned there; a residual that is no finite number is a failure.
-    #[must_use]
-    pub fn new(point: Vec<f64>, residuals: Option<Vec<f64>>) -> Self {
-        let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
-        let chi_squared = residuals.as_deref().map(super::chi_squared);
-        Self { point, residuals, chi_squared }
     }
 }
 

@@ -1,0 +1,25 @@
+//! A point at which the model was evaluated.
+
+use super::super::chi_squared;
+use serde::{Deserialize, Serialize};
+
+/// The model at one point.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Evaluated {
+    /// Coordinates in the unit cube.
+    pub point: Vec<f64>,
+    /// Weighted residuals `[-]`; none where the model failed.
+    pub residuals: Option<Vec<f64>>,
+    /// χ² `[-]`; none where the model failed.
+    pub chi_squared: Option<f64>,
+}
+
+impl Evaluated {
+    /// A point with what the model returned there; a residual that is no finite number is a failure.
+    #[must_use]
+    pub fn new(point: Vec<f64>, residuals: Option<Vec<f64>>) -> Self {
+        let residuals = residuals.filter(|list| list.iter().all(|residual| residual.is_finite()));
+        let chi_squared = residuals.as_deref().map(chi_squared);
+        Self { point, residuals, chi_squared }
+    }
+}
