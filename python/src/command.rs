@@ -16,7 +16,7 @@ pub(crate) fn command(py: Python<'_>, words: Vec<String>) -> PyResult<(u8, Strin
     };
     wait_for(py, None, || {
         let mut output = Vec::new();
-        let exit = execute(&arguments, REGISTRY, &mut output)?;
+        let exit = execute(&arguments, *REGISTRY, &mut output)?;
         Ok::<_, bagnold_validation::cli::ProgramError>((exit as u8, String::from_utf8_lossy(&output).into_owned()))
     })
 }

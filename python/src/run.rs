@@ -40,7 +40,7 @@ pub(crate) fn run<'py>(
     let policy = if fresh { StorePolicy::Refresh } else { StorePolicy::Use };
     let (result, document) = wait_for(py, threads, || {
         let request = Request { target, tier, settings: &settings, only: &only, limits: Limits::of(None, None) };
-        let Requested { prepared, overlay: named, .. } = request.prepare(REGISTRY)?;
+        let Requested { prepared, overlay: named, .. } = request.prepare(*REGISTRY)?;
         let measured =
             named.iter().chain(&overlay).map(|file| Measurements::read(file)).collect::<Result<Vec<_>, _>>()?;
         let store = store.map_or_else(|| Store::open(policy), |folder| Store::at(&folder, policy));

@@ -20,8 +20,11 @@ fn first_cells(document: &str, heading: &str) -> Vec<String> {
 }
 
 #[test]
-fn readmes_table_of_cases_is_the_registry() {
-    assert_eq!(first_cells(&text("README.md"), "| case | what |"), registered());
+fn readmes_tables_of_cases_and_studies_are_the_registry() {
+    let readme = text("README.md");
+    assert_eq!(first_cells(&readme, "| case | what |"), registered());
+    let studies: Vec<&str> = REGISTRY.studies().map(|study| study.name()).collect();
+    assert_eq!(first_cells(&readme, "| study | what |"), studies);
 }
 
 #[test]
