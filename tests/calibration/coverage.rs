@@ -2,7 +2,7 @@
 
 use bagnold_inference::inference::diagnosis::{outliers, serial_correlation};
 use bagnold_inference::inference::{
-    Answer, Budget, Evaluate, Evaluated, Method, Repeatability, SolvePlan, Stopped, UNLIKELY, chi_squared, solve,
+    Answer, Budget, Evaluate, Evaluated, Method, Repeatability, SolvePlan, Termination, UNLIKELY, chi_squared, solve,
 };
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -95,7 +95,7 @@ impl Tally {
         self.raised += usize::from(
             unlikely
                 || !explored.is_settled()
-                || !matches!(answer.search.stopped, Stopped::Converged | Stopped::AtRest)
+                || !matches!(answer.search.stopped, Termination::Converged | Termination::AtRest)
                 || !answer.search.every_start
                 || !outliers(&residuals, problem.truth.len()).is_empty()
                 || serial_correlation(&residuals, 1).is_some(),

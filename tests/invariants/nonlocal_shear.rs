@@ -2,9 +2,10 @@
 
 use crate::nonlocal_layers::on_one_thread;
 use bagnold_cases::nonlocal_shear::{
-    Above, Channel, ChannelGrains, ExactShear, Motion, NonlocalShearParameters, ShearFlow, ShearRun, ShearedGrains,
+    Channel, ChannelGrains, ExactShear, Motion, NonlocalShearParameters, ShearFlow, ShearRun, ShearedGrains,
+    UpperBoundary,
 };
-use bagnold_harness::case::recording::Beginning;
+use bagnold_harness::case::recording::StartState;
 use bagnold_harness::case::{Parameters, Tier};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -22,7 +23,7 @@ fn remaining(run: &ShearRun, grains: &ShearedGrains, start: &ExactShear, wall_fr
         width: flow.width(),
         gravity: flow.gravity(grains),
         pressure: &|_| grains.load,
-        above: Above::Wall(0.0),
+        above: UpperBoundary::Wall(0.0),
         rheology: Rheology::NonlocalMuI(run.grains.law),
         start: &|y| Motion {
             velocity: start.velocity(y),
@@ -30,7 +31,7 @@ fn remaining(run: &ShearRun, grains: &ShearedGrains, start: &ExactShear, wall_fr
             shear_stress: start.shear_stress(y),
         },
     };
-    let scene = channel.scene(Beginning::New).expect("a valid scene");
+    let scene = channel.scene(StartState::New).expect("a valid scene");
     let mut simulation = Simulation::new(scene).expect("a valid scene");
     while simulation.time() < 0.5 {
         simulation.step().expect("a stable step");

@@ -10,7 +10,7 @@ use crate::shells;
 use crate::two_phases;
 use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, SavedIncompressible};
 use bagnold_solver::material::rheology::Rheology;
-use bagnold_solver::run::{Course, Observer, StopReason};
+use bagnold_solver::run::{Observer, RunProgress, StopReason};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::SavedSimulation;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscousStep};
@@ -198,7 +198,7 @@ impl Observer<Simulation<2>> for Interrupting {
         ControlFlow::Continue(())
     }
 
-    fn pause(&mut self, simulation: &Simulation<2>, _: &Course) -> ControlFlow<()> {
+    fn pause(&mut self, simulation: &Simulation<2>, _: &RunProgress) -> ControlFlow<()> {
         if simulation.steps() == self.steps { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
@@ -209,14 +209,15 @@ fn an_interrupted_course_shows_what_it_would_have_shown() {
     let run = |interruptions: &[u64]| {
         let scene = column([20, 12]);
         let mut going = simulation(scene.clone());
-        let mut course = Course::new(end, interval);
+        let mut course = RunProgress::new(end, interval);
         let mut seen = Vec::new();
         for &steps in interruptions {
             let mut observer = Interrupting { steps, seen };
             assert_eq!(going.follow(&mut course, &mut observer), StopReason::Interrupted);
             seen = observer.seen;
             let written = postcard::to_stdvec(&(course, going.save())).expect("written");
-            let (read, saved): (Course, SavedSimulation<'static, 2>) = postcard::from_bytes(&written).expect("read");
+            let (read, saved): (RunProgress, SavedSimulation<'static, 2>) =
+                postcard::from_bytes(&written).expect("read");
             assert_eq!(read, course);
             course = read;
             going = Simulation::continued(scene.clone(), saved).expect("the same scene");

@@ -5,7 +5,7 @@ use super::snapshot::{IncompressibleSnapshot, PhaseSnapshot};
 use super::state::State;
 use super::step::step;
 use crate::run::observed_run::{self, Stepping};
-use crate::run::{Course, Divergence, Observer, SceneError, StopReason, Watching};
+use crate::run::{Divergence, Observer, RunProgress, SceneError, StopReason, Watching};
 use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -51,11 +51,11 @@ impl IncompressibleSimulation<2> {
     /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
     /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
     pub fn run(&mut self, end: f64, interval: f64, observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<2> {
-        self.follow(&mut Course::new(end, interval), &mut Watching(observe))
+        self.follow(&mut RunProgress::new(end, interval), &mut Watching(observe))
     }
 
     /// Runs along a course, from its start or from where the simulation that is continued was saved.
-    pub fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<2> {
+    pub fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> StopReason<2> {
         observed_run::run(self, course, observer)
     }
 }

@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// How far a run is to go, and which observations it has behind it: with the simulation and what its observer keeps, all
+/// Progress of a run: its end, and the observations already made. With the simulation and what its observer keeps, all
 /// that the rest of the run follows from.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Course {
+pub struct RunProgress {
     /// End of the run `[s]`.
     pub(super) end: f64,
     /// Time between two observations `[s]`.
@@ -19,7 +19,7 @@ pub struct Course {
     pub(super) observed_step: u64,
 }
 
-impl Course {
+impl RunProgress {
     /// A run up to `end` `[s]`, observed at intervals `[s]`.
     #[must_use]
     pub fn new(end: f64, interval: f64) -> Self {
@@ -34,7 +34,7 @@ pub trait Observer<S> {
 
     /// Called before every step. [`ControlFlow::Break`] interrupts the run, which the same course continues, with this
     /// simulation or with one that was saved here and has been continued.
-    fn pause(&mut self, _simulation: &S, _course: &Course) -> ControlFlow<()> {
+    fn pause(&mut self, _simulation: &S, _course: &RunProgress) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
 }

@@ -8,7 +8,7 @@ mod scene_error;
 mod stop_reason;
 
 pub(crate) use course::Watching;
-pub use course::{Course, Observer};
+pub use course::{Observer, RunProgress};
 pub use divergence::Divergence;
 pub use saved::{ContinueError, ForeignState};
 pub use scene_error::SceneError;

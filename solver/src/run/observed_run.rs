@@ -1,6 +1,6 @@
 //! The loop of a run: steps until an end time, with an observer on the way.
 
-use crate::run::{Course, Divergence, Observer, StopReason};
+use crate::run::{Divergence, Observer, RunProgress, StopReason};
 
 /// What can be run.
 pub(crate) trait Stepping<const D: usize> {
@@ -18,7 +18,7 @@ pub(crate) trait Stepping<const D: usize> {
 /// interval, and at the end.
 pub(crate) fn run<S: Stepping<D>, const D: usize>(
     simulation: &mut S,
-    course: &mut Course,
+    course: &mut RunProgress,
     observer: &mut impl Observer<S>,
 ) -> StopReason<D> {
     let origin = match course.origin {

@@ -4,7 +4,7 @@ use crate::lanes::InstructionSet;
 use crate::material::equation_of_state::EquationOfState;
 use crate::material::rheology::Rheology;
 use crate::run::observed_run::{self, Stepping};
-use crate::run::{Course, Divergence, Observer, SceneError, StopReason, Watching};
+use crate::run::{Divergence, Observer, RunProgress, SceneError, StopReason, Watching};
 use crate::vector::Vector;
 use crate::weakly_compressible::enclosure::boundary_set::OutflowBySide;
 use crate::weakly_compressible::enclosure::facet_wall::{BackingParticle, FacetWall};
@@ -160,11 +160,11 @@ where
     /// Runs until `end` `[s]`, calling `observe` at the start, then at the first step after every multiple of
     /// `interval` `[s]`, and at the end. The observer ends the run with [`ControlFlow::Break`].
     pub fn run(&mut self, end: f64, interval: f64, observe: impl FnMut(&Self) -> ControlFlow<()>) -> StopReason<D> {
-        self.follow(&mut Course::new(end, interval), &mut Watching(observe))
+        self.follow(&mut RunProgress::new(end, interval), &mut Watching(observe))
     }
 
     /// Runs along a course, from its start or from where the simulation that is continued was saved.
-    pub fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<D> {
+    pub fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> StopReason<D> {
         observed_run::run(self, course, observer)
     }
 }

@@ -16,7 +16,7 @@ pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
 pub(super) use upkeep::{
     DevCommand, MutateArguments, SensitivitiesArguments, StoreAction, StoreArguments, VerifyArguments,
 };
-pub(super) use work::{Allowance, Work};
+pub(super) use work::{ExecutionOptions, ResourceLimits};
 
 use crate::case::Tier;
 use clap::{ArgAction, Args, Parser, Subcommand};
@@ -223,10 +223,10 @@ pub struct RunArguments {
     pub profile: bool,
     /// How much it may ask for.
     #[command(flatten)]
-    pub allowance: Allowance,
+    pub allowance: ResourceLimits,
     /// How to compute.
     #[command(flatten)]
-    pub work: Work,
+    pub work: ExecutionOptions,
 }
 
 /// `bagnold completions`
@@ -288,10 +288,10 @@ pub struct ReportArguments {
     pub profile: bool,
     /// How much it may ask for.
     #[command(flatten)]
-    pub allowance: Allowance,
+    pub allowance: ResourceLimits,
     /// How to compute.
     #[command(flatten)]
-    pub work: Work,
+    pub work: ExecutionOptions,
 }
 
 /// What a report may be asked not to let pass.
@@ -316,10 +316,10 @@ pub struct CalibrateArguments {
     pub resume: bool,
     /// How much the runs of a case may ask for at one point.
     #[command(flatten)]
-    pub allowance: Allowance,
+    pub allowance: ResourceLimits,
     /// How to compute.
     #[command(flatten)]
-    pub work: Work,
+    pub work: ExecutionOptions,
 }
 
 #[cfg(test)]

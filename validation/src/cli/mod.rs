@@ -44,7 +44,7 @@ use crate::checkpoint::{self, InterruptedRuns};
 use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
 use crate::store::{Store, StorePolicy};
-use arguments::{Allowance, DevCommand, Work};
+use arguments::{DevCommand, ExecutionOptions, ResourceLimits};
 use clap::Parser;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
@@ -186,7 +186,10 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
 }
 
 /// Runs a command inside a pool of the threads asked for.
-fn in_pool(work: &Work, command: impl FnOnce() -> Result<Exit, ProgramError> + Send) -> Result<Exit, ProgramError> {
+fn in_pool(
+    work: &ExecutionOptions,
+    command: impl FnOnce() -> Result<Exit, ProgramError> + Send,
+) -> Result<Exit, ProgramError> {
     in_pool_of(work.threads, command)
 }
 
@@ -204,13 +207,13 @@ fn in_pool_of(
     pool.install(command)
 }
 
-impl Allowance {
+impl ResourceLimits {
     fn limits(&self) -> Limits {
         Limits::of(self.most_memory, self.most_hours)
     }
 }
 
-impl Work {
+impl ExecutionOptions {
     fn open_store(&self) -> Store {
         let policy = if self.fresh { StorePolicy::Refresh } else { StorePolicy::Use };
         let store = self.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));

@@ -7,7 +7,7 @@ use super::error::ProgramError;
 use super::{Exit, say, summary, tell};
 use crate::case::{Registry, share_out};
 use crate::mutation::{
-    CHOICE, DetectionTally, Mutation, MutationOutcome, Mutations, Scope, Sighting, build, judge, run_trial, table,
+    CHOICE, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, judge, run_trial, table,
     write,
 };
 use crate::output::{FileError, OutputFolder};
@@ -172,7 +172,7 @@ impl<'a> Program<'a> {
     }
 
     /// Runs an error through its cases, the likeliest first, until a gate or a stop has caught it.
-    fn try_error(&self, error: &Mutation, right: &BTreeMap<Scope, Sighting>) -> MutationOutcome {
+    fn try_error(&self, error: &Mutation, right: &BTreeMap<Scope, MutantRun>) -> MutationOutcome {
         let scopes = self.mutations.scopes(error);
         let mut comparisons = Vec::new();
         for scope in &scopes {
@@ -190,7 +190,7 @@ impl<'a> Program<'a> {
     ///
     /// # Errors
     /// Why it has left nothing: it stopped, or was stopped.
-    fn run(&self, error: Option<&Mutation>, scope: &Scope, limit: Duration) -> Result<Sighting, String> {
+    fn run(&self, error: Option<&Mutation>, scope: &Scope, limit: Duration) -> Result<MutantRun, String> {
         let file = self.folder.join(format!("{}-{}", error.map_or(NONE, |error| &error.name), scope.case));
         let number = error.map_or(0, |error| self.mutations.number(error));
         let threads = u16::try_from(rayon::current_num_threads()).ok();
@@ -217,7 +217,7 @@ impl<'a> Program<'a> {
         let said = child.wait_with_output().map(|output| String::from_utf8_lossy(&output.stderr).into_owned());
         let reason =
             || said.unwrap_or_default().lines().next().unwrap_or("the program ended without a word").to_owned();
-        Sighting::read(&file).ok_or_else(reason)
+        MutantRun::read(&file).ok_or_else(reason)
     }
 }
 

@@ -4,7 +4,7 @@ use super::arguments::{StoreAction, StoreArguments};
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::output::FileError;
-use crate::store::{Keep, Store, StorePolicy, prune, versions};
+use crate::store::{RetentionPolicy, Store, StorePolicy, prune, versions};
 use std::io::Write;
 use std::time::{Duration, SystemTime};
 
@@ -19,7 +19,7 @@ pub(super) fn store(command: &StoreArguments, output: &mut (dyn Write + Send)) -
     let now = SystemTime::now();
     let mut text = String::new();
     if let StoreAction::Prune { days, size } = command.action {
-        let keep = Keep {
+        let keep = RetentionPolicy {
             younger_than: days.map(|days| Duration::from_secs_f64(days.min(1e6) * SECONDS_PER_DAY)),
             bytes: size.map(|gibibytes| (gibibytes * BYTES_PER_GIBIBYTE) as u64),
         };

@@ -34,9 +34,9 @@ impl GrainUnits {
     }
 }
 
-/// One layer by its Shields number and its grains.
+/// Conditions of one layer: Shields number and grain size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Similar {
+pub struct LayerConditions {
     /// Shields number τ* `[-]`; 0 for no such layer.
     #[schemars(transform = between(0.0, 10.0, "0.03 to 0.7 for bed load, or 0 for no such layer"))]
     pub shields_number: f64,
@@ -76,7 +76,7 @@ impl GrainUnits {
     pub(super) const DEEP: Self = Self { relative_depth: 20.0, relative_bed_depth: 6.0, cells_per_diameter: 20.0 };
 }
 
-impl Similar {
+impl LayerConditions {
     pub(super) const NONE: Self = Self {
         shields_number: 0.0,
         diameter: 2e-3,

@@ -16,7 +16,7 @@ mod sensitivities;
 mod similar;
 mod tiers;
 
-pub use grain_units::{GrainUnits, Onset, Similar};
+pub use grain_units::{GrainUnits, LayerConditions, Onset};
 pub use parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 pub use replacements::Sensitivities;
 pub use run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose};

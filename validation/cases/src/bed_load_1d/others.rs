@@ -7,7 +7,7 @@ use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, quantities};
 use crate::reference::bed_load::{MEASURED_BAND, MeasuredBedLoad};
 use crate::reference::one_dimension::bed_load::Closures;
-use crate::statistics::{Beyond, interpolated, neighbour_scatter};
+use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 
 quantities! {
     shared pub(super)
@@ -70,7 +70,7 @@ fn all(records: &[BedLoad1dRecord]) -> impl Iterator<Item = (&BedLoad1dRecord, M
 /// Root mean square of the layer's values less theirs, at the heights of their points.
 fn difference(height: &[f64], values: &[f64], theirs: &[(f64, f64)]) -> f64 {
     let ours: Vec<(f64, f64)> = height.iter().copied().zip(values.iter().copied()).collect();
-    let at = |z: f64| interpolated(&ours, z, (Beyond::EndValue, Beyond::EndValue)).unwrap_or(f64::NAN);
+    let at = |z: f64| interpolated(&ours, z, (Extrapolation::EndValue, Extrapolation::EndValue)).unwrap_or(f64::NAN);
     let sum: f64 = theirs.iter().map(|&(z, value)| (at(z) - value).powi(2)).sum();
     (sum / theirs.len() as f64).sqrt()
 }

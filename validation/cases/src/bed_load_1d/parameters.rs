@@ -1,6 +1,6 @@
 //! Parameters.
 
-use super::grain_units::{Onset, Similar};
+use super::grain_units::{LayerConditions, Onset};
 use super::replacements::Sensitivities;
 use crate::case::ParameterError;
 use crate::reference::bed_load::MeasuredBedLoad;
@@ -71,7 +71,7 @@ pub struct BedLoad1dParameters {
     /// Other closures, one at a time.
     pub sensitivities: Sensitivities,
     /// A layer by its Shields number and its grains, for sweeps.
-    pub similar: Similar,
+    pub similar: LayerConditions,
     /// Layers about the onset of motion.
     pub onset: Onset,
     /// Layers of others to compare with.

@@ -1,6 +1,6 @@
 //! The tiers, the rules between parameters, and the runs that they ask for.
 
-use super::grain_units::{GrainUnits, Onset, Similar};
+use super::grain_units::{GrainUnits, LayerConditions, Onset};
 use super::parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 use super::replacements::Sensitivities;
 use super::run::{BedLoad1dRun, LayerPurpose, check_sliding};
@@ -25,7 +25,7 @@ impl Parameters for BedLoad1dParameters {
             grains: BedGrains { bed_depth: 0.04, held_depth: 0.0, density: 2600.0, diameter: 5e-3 },
             closures: Closures::default(),
             sensitivities: Sensitivities::chosen(),
-            similar: Similar::NONE,
+            similar: LayerConditions::NONE,
             onset: Onset::of(&[5e-4, 1e-3, 2e-3, 6e-3], GrainUnits::SHALLOW),
             measured: vec![MeasuredBedLoad::GrainSimulation, MeasuredBedLoad::SheetFlow],
         };

@@ -6,7 +6,7 @@ use crate::input::FieldError;
 use crate::statistics::{BlockProfile, ProfilePoint};
 
 /// What a run of water over a fixed bed may yield.
-pub(crate) const FORM: ExternalSchema = ExternalSchema {
+pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[
         ExternalColumn::new("time", "s", "time since the start"),

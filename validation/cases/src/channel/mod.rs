@@ -5,7 +5,7 @@
 //! - [`Channel`]: fluid, floor, body force, start, numerics and how long it runs. [`Channel::scene`] gives the scene,
 //!   [`Channel::run`] the record; [`Channel::run_observed`] also shows the simulation at every sample, for what a case
 //!   measures beside. A sediment is handed through as the solver takes it.
-//! - [`Until`]: a fixed time, or until the depth mean of the velocity is stationary. In both cases the run ends with an
+//! - [`AveragingWindowEnd`]: a fixed time, or until the depth mean of the velocity is stationary. In both cases the run ends with an
 //!   averaging window.
 //! - [`ChannelObservation`]: [`ChannelSeries`] over the whole run; over the window a [`BlockProfile`] in bins of one
 //!   spacing, whose blocks of time give every average its statistical error, and the [`MomentumBalance`].
@@ -38,7 +38,7 @@ pub use stationarity::StationaritySample;
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
 
-use crate::case::recording::{Ending, Followed, SimulationStage, Stop, follow};
+use crate::case::recording::{Ending, RestartableRun, SimulationStage, Stop, follow};
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Recorded};
 use crate::setup::Lattice;
@@ -51,9 +51,9 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// When the averaging window of a run ends.
+/// End of the averaging window of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Until {
+pub enum AveragingWindowEnd {
     /// At this time `[s]`.
     Time(f64),
     /// One window after the depth mean U of the velocity has become stationary: it changes by less than `tolerance`
@@ -98,7 +98,7 @@ pub struct Channel<'a> {
     /// Numerics.
     pub numerics: ProjectionNumerics,
     /// How long it runs.
-    pub until: Until,
+    pub until: AveragingWindowEnd,
     /// Length of the averaging window `[s]`.
     pub window: f64,
     /// Interval of the samples `[s]`.
@@ -127,7 +127,7 @@ impl<'a> Channel<'a> {
             sediment: None,
             solid_fraction: SolidFraction::Overlapping,
             numerics: ProjectionNumerics::default(),
-            until: Until::Time(0.0),
+            until: AveragingWindowEnd::Time(0.0),
             window: 0.0,
             interval: 5e-3,
             frames: 2,
@@ -139,8 +139,8 @@ impl<'a> Channel<'a> {
     #[must_use]
     pub fn longest(&self) -> f64 {
         match self.until {
-            Until::Time(time) => time,
-            Until::Stationary { at_most, .. } => at_most + self.window,
+            AveragingWindowEnd::Time(time) => time,
+            AveragingWindowEnd::Stationary { at_most, .. } => at_most + self.window,
         }
     }
 
@@ -198,11 +198,11 @@ impl<'a> Channel<'a> {
                 if probe.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
         )?;
-        let Followed { simulation, stop, kept: ChannelObserver { probe, last_good, frames, beside }, started } =
+        let RestartableRun { simulation, stop, kept: ChannelObserver { probe, last_good, frames, beside }, started } =
             followed;
         // a fixed time is reached by the probe first, and no criterion of its own
         let stop = match (stop, self.until) {
-            (Stop::Stopped, Until::Time(_)) => Stop::Finished,
+            (Stop::Stopped, AveragingWindowEnd::Time(_)) => Stop::Finished,
             (Stop::Stopped, _) if !probe.is_stationary() => Stop::Finished,
             (stop, _) => stop,
         };

@@ -1,7 +1,7 @@
 //! What a channel leaves behind: time series, and over the averaging window a profile and the balance of momentum.
 
 use super::stationarity::{Stationarity, StationaritySample};
-use super::{Channel, Until};
+use super::{AveragingWindowEnd, Channel};
 use crate::statistics::BlockProfile;
 use bagnold_solver::incompressible::IncompressibleSimulation;
 use bagnold_solver::vector::Vector;
@@ -91,7 +91,7 @@ pub(super) struct ChannelProbe {
     depth: f64,
     length: f64,
     weight: f64,
-    until: Until,
+    until: AveragingWindowEnd,
     window_length: f64,
     interval: f64,
     /// Samples that were due.
@@ -218,8 +218,8 @@ impl ChannelProbe {
     fn open_window(&mut self, simulation: &IncompressibleSimulation<2>) {
         let time = simulation.time();
         let is_time = match self.until {
-            Until::Time(end) => time >= end - self.window_length - 0.5 * self.interval,
-            Until::Stationary { at_most, .. } => self.stationarity.reached.is_some() || time >= at_most,
+            AveragingWindowEnd::Time(end) => time >= end - self.window_length - 0.5 * self.interval,
+            AveragingWindowEnd::Stationary { at_most, .. } => self.stationarity.reached.is_some() || time >= at_most,
         };
         if is_time && self.window_start.is_none() {
             self.window_start = Some(time);

@@ -3,7 +3,7 @@
 //! U/(2 g i) is the time in which a deviation of a turbulent flow decays by e: the bed's friction goes with U², so that
 //! dU/dt = g i (1 − U²/U_∞²).
 
-use super::Until;
+use super::AveragingWindowEnd;
 use serde::{Deserialize, Serialize};
 
 /// The flow at the end of an interval of the criterion.
@@ -20,7 +20,7 @@ pub struct StationaritySample {
 /// Watches the depth mean of the velocity.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Stationarity {
-    until: Until,
+    until: AveragingWindowEnd,
     /// g i `[m/s²]`.
     acceleration: f64,
     pub(super) marks: Vec<StationaritySample>,
@@ -29,13 +29,13 @@ pub(super) struct Stationarity {
 }
 
 impl Stationarity {
-    pub(super) fn new(until: Until, acceleration: f64) -> Self {
+    pub(super) fn new(until: AveragingWindowEnd, acceleration: f64) -> Self {
         Self { until, acceleration, marks: Vec::new(), reached: None }
     }
 
     /// A sample of the depth mean `[m/s]` at a time `[s]`.
     pub(super) fn observe(&mut self, time: f64, mean_velocity: f64) {
-        let Until::Stationary { tolerance, checks, .. } = self.until else { return };
+        let AveragingWindowEnd::Stationary { tolerance, checks, .. } = self.until else { return };
         if self.reached.is_some() {
             return;
         }
@@ -58,10 +58,10 @@ impl Stationarity {
 mod tests {
     use super::*;
 
-    const UNTIL: Until = Until::Stationary { tolerance: 0.005, checks: 3, at_most: 100.0 };
+    const UNTIL: AveragingWindowEnd = AveragingWindowEnd::Stationary { tolerance: 0.005, checks: 3, at_most: 100.0 };
 
     /// U = U_∞ tanh(g i t/U_∞ + c), the answer of dU/dt = g i (1 − U²/U_∞²), sampled every 10 ms.
-    fn watched(until: Until, share: f64) -> Stationarity {
+    fn watched(until: AveragingWindowEnd, share: f64) -> Stationarity {
         let (steady, acceleration) = (1.3, 0.2943);
         let mut watch = Stationarity::new(until, acceleration);
         for sample in 0..4000 {
@@ -90,7 +90,7 @@ mod tests {
     fn a_steady_flow_needs_three_intervals_and_a_fixed_time_no_criterion() {
         let watch = watched(UNTIL, 0.999_999_9);
         assert_eq!(watch.marks.len(), 4);
-        let watch = watched(Until::Time(1.0), 0.9);
+        let watch = watched(AveragingWindowEnd::Time(1.0), 0.9);
         assert!(watch.marks.is_empty() && watch.reached.is_none());
     }
 }

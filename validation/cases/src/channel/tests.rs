@@ -12,7 +12,7 @@ fn exact(z: f64) -> f64 {
     9.81 * SLOPE / VISCOSITY * (DEPTH * z - 0.5 * z * z)
 }
 
-fn film(until: Until, window: f64) -> Channel<'static> {
+fn film(until: AveragingWindowEnd, window: f64) -> Channel<'static> {
     Channel {
         slope: SLOPE,
         kinematic_viscosity: VISCOSITY,
@@ -28,7 +28,7 @@ fn film(until: Until, window: f64) -> Channel<'static> {
 
 #[test]
 fn momentum_closes_and_samples_are_evenly_spaced() {
-    let (record, seen) = film(Until::Time(0.1), 0.05)
+    let (record, seen) = film(AveragingWindowEnd::Time(0.1), 0.05)
         .run_observed(&Silent, (0, 0), |seen: &mut (usize, usize), simulation, in_window| {
             assert_eq!(simulation.fluid().0.len(), 36);
             seen.0 += 1;
@@ -52,7 +52,7 @@ fn momentum_closes_and_samples_are_evenly_spaced() {
 
 #[test]
 fn a_stationary_flow_ends_one_window_after_the_criterion() {
-    let until = Until::Stationary { tolerance: 0.1, checks: 2, at_most: 10.0 };
+    let until = AveragingWindowEnd::Stationary { tolerance: 0.1, checks: 2, at_most: 10.0 };
     let record = film(until, 0.02).run(&Silent).expect("a valid scene");
     let data = &record.data;
     assert!(matches!(record.outcome, Outcome::Stopped { .. }), "{:?}", record.outcome);
@@ -60,7 +60,7 @@ fn a_stationary_flow_ends_one_window_after_the_criterion() {
     assert_eq!(data.stationary_since, Some(data.window.0));
     assert!((data.window.1 - data.window.0 - 0.02).abs() < 1.1e-3);
 
-    let never = Until::Stationary { tolerance: 0.1, checks: 2, at_most: 0.01 };
+    let never = AveragingWindowEnd::Stationary { tolerance: 0.1, checks: 2, at_most: 0.01 };
     let record = film(never, 0.02).run(&Silent).expect("a valid scene");
     assert_eq!(record.outcome, Outcome::Finished);
     assert_eq!(record.data.stationary_since, None);

@@ -5,7 +5,7 @@
 use super::column::{ColumnRun, Geometry};
 use super::material::{ExperimentGrains, Material};
 use crate::metric::Limit;
-use crate::reference::collapse::{Author, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+use crate::reference::collapse::{CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 /// The band of a relative `tolerance` around a value.
 pub(super) fn band(expected: f64, tolerance: f64) -> Limit {
@@ -23,9 +23,11 @@ pub(super) const HEIGHT: f64 = 0.15;
 /// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
 pub(super) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
     let (laws, author) = match run.geometry {
-        Geometry::Planar if run.material.grains == ExperimentGrains::Lagree => (&*PLANAR_COLLAPSE, Author::Lagree),
-        Geometry::Planar => (&*PLANAR_COLLAPSE, Author::Lube),
-        Geometry::Round => (&*ROUND_COLLAPSE, Author::Lube),
+        Geometry::Planar if run.material.grains == ExperimentGrains::Lagree => {
+            (&*PLANAR_COLLAPSE, CollapseLawSource::Lagree)
+        }
+        Geometry::Planar => (&*PLANAR_COLLAPSE, CollapseLawSource::Lube),
+        Geometry::Round => (&*ROUND_COLLAPSE, CollapseLawSource::Lube),
     };
     (author.law(&laws.run_out), author.law(&laws.height))
 }
@@ -45,8 +47,8 @@ pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
             "the project's aim: within 20 % of Lube's law for round columns at 20 rows and more",
         )),
         (Geometry::Planar, Material::SAND) if run.resolution >= 20 => {
-            let experiments =
-                [Author::Lube, Author::Lajeunesse].map(|author| author.law(&PLANAR_COLLAPSE.run_out).value(a));
+            let experiments = [CollapseLawSource::Lube, CollapseLawSource::Lajeunesse]
+                .map(|author| author.law(&PLANAR_COLLAPSE.run_out).value(a));
             let [Some(one), Some(other)] = experiments else { return None };
             let (short, long) = (one.min(other), one.max(other));
             Some((
@@ -126,7 +128,7 @@ mod tests {
             let (run_out_law, height_law) = laws_of(&run);
             let of_sand = (run.geometry, run.material) == (Geometry::Planar, Material::SAND);
             // the band of the sand's run-out is made of two laws
-            let other = of_sand.then(|| Author::Lajeunesse.law(&PLANAR_COLLAPSE.run_out));
+            let other = of_sand.then(|| CollapseLawSource::Lajeunesse.law(&PLANAR_COLLAPSE.run_out));
             for law in [Some(run_out_law), other].into_iter().flatten() {
                 if let (Some((limit, _)), Some(value)) = (run_out(&run, run_out_law), law.value(a)) {
                     assert!(limit.holds(value), "{}, a = {a}: run-out {value} is outside of {limit:?}", law.source);
@@ -134,7 +136,8 @@ mod tests {
                 }
             }
             // and the width of its height is that up to which the two experiments differ up to a = 10
-            let other = (of_sand && a > 0.7 && a <= 10.0).then(|| Author::Lajeunesse.law(&PLANAR_COLLAPSE.height));
+            let other =
+                (of_sand && a > 0.7 && a <= 10.0).then(|| CollapseLawSource::Lajeunesse.law(&PLANAR_COLLAPSE.height));
             for law in [Some(height_law), other].into_iter().flatten() {
                 if let (Some((limit, _)), Some(value)) = (height(&run, height_law), law.value(a)) {
                     assert!(limit.holds(value), "{}, a = {a}: height {value} is outside of {limit:?}", law.source);

@@ -7,7 +7,7 @@ use super::deposit::{Collapse, Surveyor, radius};
 use super::material::Material;
 use super::release::Release;
 use super::watch::CollapseObserver;
-use crate::case::recording::{self, Ending, SimulationStage, Watched};
+use crate::case::recording::{self, Ending, ObservedRun, SimulationStage};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::Recorded;
@@ -337,7 +337,7 @@ impl ColumnRun {
                 if rests { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
         )?;
-        let Watched { simulation, ending, kept: mut watch } = watched;
+        let ObservedRun { simulation, ending, kept: mut watch } = watched;
         let criterion = format!("the deposit rests: kinetic energy below {AT_REST:.0e} of the energy released");
         let frames = std::mem::take(&mut watch.frames);
         let ending = Ending { criterion, frames, ..ending };

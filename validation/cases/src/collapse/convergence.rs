@@ -12,7 +12,7 @@ use super::quantities::{
 };
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Origin, Variant};
-use crate::reference::collapse::{Author, PLANAR_COLLAPSE};
+use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
 use crate::statistics::{GridConvergence, Mean, grid_convergence, mean};
 
 /// Name, measure and largest index `[-]` of what must converge.
@@ -144,7 +144,7 @@ pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
 /// An ensemble's mean run-out against the law of the same material: one run alone scatters too much to be judged by it.
 /// Its seeds share the error of the spacing.
 fn against_law(study: &ConvergenceStudy<'_>, variant: &Variant, mean: &Mean) -> Metric {
-    let law = Author::Lagree.law(&PLANAR_COLLAPSE.run_out);
+    let law = CollapseLawSource::Lagree.law(&PLANAR_COLLAPSE.run_out);
     let expected = law.value(study.aspect_ratio);
     let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
     let limit = expected.map(|expected| band(expected, SAME_LAW));

@@ -11,7 +11,9 @@ use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
-use crate::reference::collapse::{Author, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE, ROUND_COLUMN_RUN_OUTS};
+use crate::reference::collapse::{
+    CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE, ROUND_COLUMN_RUN_OUTS,
+};
 
 pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
     let laws: Vec<&CollapseRecord> = records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Law).collect();
@@ -66,8 +68,9 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
     let (own, other) =
         if round { (&*ROUND_COLLAPSE, &*PLANAR_COLLAPSE) } else { (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE) };
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
-    let run_out_laws: Vec<&CollapseLaw> = own.run_out.iter().chain([Author::Lube.law(&other.run_out)]).collect();
-    let lube_of_planar = round.then(|| Author::Lube.law(&other.height));
+    let run_out_laws: Vec<&CollapseLaw> =
+        own.run_out.iter().chain([CollapseLawSource::Lube.law(&other.run_out)]).collect();
+    let lube_of_planar = round.then(|| CollapseLawSource::Lube.law(&other.height));
     let height_laws: Vec<&CollapseLaw> = own.height.iter().chain(lube_of_planar).collect();
     let panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
         let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));

@@ -12,7 +12,7 @@ use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// What a column's run may yield.
-pub(crate) const FORM: ExternalSchema = ExternalSchema {
+pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[
         ExternalColumn::new(
             "x",

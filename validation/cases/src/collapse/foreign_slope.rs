@@ -8,7 +8,7 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::input::FieldError;
 
 /// What a run on a slope may yield.
-pub(crate) const FORM: ExternalSchema = ExternalSchema {
+pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[
         ExternalColumn::new("x", "m", "distance from the back of the reservoir, along the slope"),
         ExternalColumn::new("y", "m", "height above the bed, normal to it"),

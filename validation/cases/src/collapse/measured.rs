@@ -15,7 +15,7 @@ use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Limit, Metric, Origin, Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::collapse::{MeasuredPile, ROUND_COLUMN_RUN_OUTS};
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Extrapolation, interpolated};
 
 /// How far the pile's run-out may be off `[-]`: twice 16 %, of which most is that nobody measured how the friction of the bars rises with the
 /// rate (14 %); the rest are a row at the toe (5 %), the meaning of the friction angle (6 %) and the reading (4 %).
@@ -35,7 +35,7 @@ const AREA: &str = "the area under the points is that much larger than the pile'
 
 /// Thickness of a deposit at a distance from the wall, both over r_0; its innermost bin's at the wall.
 fn thickness(collapse: &Collapse, place: f64) -> f64 {
-    interpolated(&collapse.deposit, place, (Beyond::EndValue, Beyond::EndValue)).unwrap_or(f64::NAN)
+    interpolated(&collapse.deposit, place, (Extrapolation::EndValue, Extrapolation::EndValue)).unwrap_or(f64::NAN)
 }
 
 /// Root mean square of what a function gives at the places of the measured surface, over the initial height `[%]`.
@@ -101,7 +101,8 @@ pub(super) fn of_pile(
     if let Some(wedge) = flow_metrics::wedge(run, &record.frames) {
         let rows: Vec<(f64, f64)> = wedge.boundary.iter().map(|&(x, y)| (y, x)).collect();
         let off = |&(x, y): &(f64, f64)| {
-            interpolated(&rows, y, (Beyond::EndValue, Beyond::EndValue)).map_or(f64::NAN, |own| (own - x).powi(2))
+            interpolated(&rows, y, (Extrapolation::EndValue, Extrapolation::EndValue))
+                .map_or(f64::NAN, |own| (own - x).powi(2))
         };
         let mean = pile.failure.iter().map(off).sum::<f64>() / pile.failure.len() as f64;
         // how their line was defined is not stated, and ours is by a displacement of a spacing
@@ -109,7 +110,8 @@ pub(super) fn of_pile(
         metrics.push(with_friction(distance, records, run, |(other, seen)| {
             let theirs: Vec<(f64, f64)> =
                 flow_metrics::wedge(other, &seen.frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect();
-            let at = |rows: &[(f64, f64)], y: f64| interpolated(rows, y, (Beyond::EndValue, Beyond::EndValue));
+            let at =
+                |rows: &[(f64, f64)], y: f64| interpolated(rows, y, (Extrapolation::EndValue, Extrapolation::EndValue));
             let squares = pile.failure.iter().map(|&(_, y)| Some((at(&theirs, y)? - at(&rows, y)?).powi(2)));
             let sum: f64 = squares.sum::<Option<f64>>()?;
             Some(100.0 * (sum / pile.failure.len() as f64).sqrt() / r)
@@ -216,7 +218,9 @@ mod tests {
     fn the_measured_surface_is_no_distance_from_itself_and_a_lifted_one_is() {
         let pile = &*ALUMINIUM_BAR_PILE;
         let points: Vec<(f64, f64)> = pile.surface.iter().map(|(x, y)| (x / pile.length, y / pile.length)).collect();
-        let same = |x: f64| interpolated(&points, x, (Beyond::EndValue, Beyond::EndValue)).expect("ends are given");
+        let same = |x: f64| {
+            interpolated(&points, x, (Extrapolation::EndValue, Extrapolation::EndValue)).expect("ends are given")
+        };
         let distance = |own: &Collapse| over_surface(pile, |x, measured| thickness(own, x) - measured);
         assert!(distance(&collapse(same)) < 0.1);
         // 1 cm of 10 cm

@@ -16,7 +16,7 @@ use super::quantities::{
 use crate::case::Run;
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
-use crate::reference::collapse::{Author, COLLAPSE_DURATION, CollapseLaw, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+use crate::reference::collapse::{COLLAPSE_DURATION, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use crate::setup::energy_ledger;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -102,7 +102,8 @@ pub(crate) fn conservation(variant: &Variant, collapse: &Collapse, numerics: &Nu
 /// off by; of planar columns of the sand, whose grains that experiment's are like.
 fn flattest(run: &ColumnRun) -> Option<f64> {
     let of_sand = run.geometry == Geometry::Planar && run.material == Material::SAND && run.has_published_law();
-    let value = |laws: &[CollapseLaw]| Author::Lajeunesse.law(laws).value(run.initial_height()).filter(|_| of_sand);
+    let value =
+        |laws: &[CollapseLaw]| CollapseLawSource::Lajeunesse.law(laws).value(run.initial_height()).filter(|_| of_sand);
     let (height, run_out) = (value(&PLANAR_COLLAPSE.height)?, value(&PLANAR_COLLAPSE.run_out)?);
     Some((1.0 - bands::HEIGHT) * libm::atan(height / (1.0 + run_out)).to_degrees())
 }

@@ -8,7 +8,7 @@ use super::quantities::{
     BREAK_POINT, FINAL_HEIGHT, RUN_OUT, SCALING_COEFFICIENT, SCALING_CONFIDENCE, SCALING_EXPONENT,
 };
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
-use crate::reference::collapse::{Author, PLANAR_COLLAPSE};
+use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
 use crate::statistics::{Exponent, power_law, student_quantile};
 
 /// Fewest tall columns that a power law is fitted to.
@@ -89,7 +89,7 @@ fn break_point(shallow: f64, tall: &Exponent) -> f64 {
 
 /// A break point against the middle of the gap between Lube's branches.
 fn against_lube(metric: Metric) -> Metric {
-    let lube = Author::Lube.law(&PLANAR_COLLAPSE.run_out);
+    let lube = CollapseLawSource::Lube.law(&PLANAR_COLLAPSE.run_out);
     let [shallow, tall] = lube.branches.as_slice() else { return metric };
     let source =
         format!("between the branches of Lube et al. 2005, which end at {} and begin at {}", shallow.to, tall.from);

@@ -5,7 +5,7 @@ use super::deposit::AT_REST;
 use super::deposit::{Collapse, Surveyor};
 use super::reservoir::Reservoir;
 use super::watch::CollapseObserver;
-use crate::case::recording::{self, Ending, SimulationStage, Watched};
+use crate::case::recording::{self, Ending, ObservedRun, SimulationStage};
 use crate::case::{ParameterError, Progress, Run};
 use crate::metric::{FlowRegime, Value, Variant};
 use crate::observation::Recorded;
@@ -111,7 +111,7 @@ impl Run for SlopeRun {
                 if rests || arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
         )?;
-        let Watched { simulation, ending, kept: (mut watch, thickness) } = watched;
+        let ObservedRun { simulation, ending, kept: (mut watch, thickness) } = watched;
         let criterion = format!(
             "the deposit rests (kinetic energy below {AT_REST:.0e} of the energy released), or a grain nears the end of \
              the channel"

@@ -8,7 +8,7 @@ use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// What a layer's run may yield.
-pub(crate) const FORM: ExternalSchema = ExternalSchema {
+pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[
         ExternalColumn::new("x", "m", "place along the slope, anywhere within the period"),
         ExternalColumn::new("y", "m", "height above the bed"),

@@ -16,7 +16,7 @@ pub(crate) use preparation::{raised, settled};
 pub use probe::{DepthProfile, LayerObservation, LayerProbe, TimeSeries};
 pub use tables::tables_of_runs;
 
-use crate::case::recording::{self, Beginning, Ending, SimulationStage, Watched};
+use crate::case::recording::{self, Ending, ObservedRun, SimulationStage, StartState};
 use crate::case::{ParameterError, Progress, cost};
 use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::{Frame, Recorded};
@@ -201,10 +201,10 @@ impl Layer<'_> {
     ///
     /// # Errors
     /// A scene that breaks a rule of the solver.
-    pub fn scene_for(&self, beginning: Beginning) -> Result<Scene<2>, SceneError> {
+    pub fn scene_for(&self, beginning: StartState) -> Result<Scene<2>, SceneError> {
         match beginning {
-            Beginning::New => self.prepared_scene(),
-            Beginning::Continued => Ok(self.scene()),
+            StartState::New => self.prepared_scene(),
+            StartState::Continued => Ok(self.scene()),
         }
     }
 
@@ -252,7 +252,7 @@ impl Layer<'_> {
                 if stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
         )?;
-        let Watched { simulation, ending, kept: (probe, frames) } = watched;
+        let ObservedRun { simulation, ending, kept: (probe, frames) } = watched;
         let limit = self.stop_above;
         let criterion = format!("the depth mean of the velocity passed {limit:.3} m/s, half the sound speed");
         let ending = Ending { criterion, may_diverge: self.may_diverge, frames, ..ending };

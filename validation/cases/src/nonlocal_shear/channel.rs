@@ -1,6 +1,6 @@
 //! Grains between two rough walls, compressed until they carry a pressure, or on one of them under their weight.
 
-use crate::case::recording::Beginning;
+use crate::case::recording::StartState;
 use crate::layer::{raised, settled};
 use crate::setup::{Lattice, displaced_flow, wall_rows};
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -47,9 +47,9 @@ pub struct ChannelGrains {
     pub numerics: Numerics,
 }
 
-/// What is at the upper end of a channel.
+/// Boundary at the upper end of a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Above {
+pub enum UpperBoundary {
     /// A rough wall that moves at a velocity `[m/s]`.
     Wall(f64),
     /// A free surface between two side walls.
@@ -69,7 +69,7 @@ pub struct Channel<'a> {
     /// Pressure at a height `[Pa]`.
     pub pressure: &'a (dyn Fn(f64) -> f64 + Sync),
     /// What is there.
-    pub above: Above,
+    pub above: UpperBoundary,
     /// The motion at a height `[m]` at the start.
     pub start: &'a (dyn Fn(f64) -> Motion + Sync),
 }
@@ -110,16 +110,16 @@ impl Channel<'_> {
     ///
     /// # Errors
     /// A scene that breaks a rule of the solver.
-    pub fn scene(&self, beginning: Beginning) -> Result<Scene<2>, SceneError> {
+    pub fn scene(&self, beginning: StartState) -> Result<Scene<2>, SceneError> {
         match beginning {
-            Beginning::New => {
+            StartState::New => {
                 let settled = settled(self.at_rest())?;
                 Ok(self.started(match self.above {
-                    Above::Wall(_) => self.compressed(settled),
-                    Above::Surface(_) => raised(settled, self.width),
+                    UpperBoundary::Wall(_) => self.compressed(settled),
+                    UpperBoundary::Surface(_) => raised(settled, self.width),
                 }))
             }
-            Beginning::Continued => Ok(Scene { gravity: Vector::from(self.gravity), ..self.moving(self.at_rest()) }),
+            StartState::Continued => Ok(Scene { gravity: Vector::from(self.gravity), ..self.moving(self.at_rest()) }),
         }
     }
 
@@ -138,7 +138,7 @@ impl Channel<'_> {
         let along = AxisBoundary::Periodic { lower: 0.0, upper: self.length() };
         let domain = Domain { axes: [along, AxisBoundary::Open] };
         let mut walls = vec![Wall::still(1, 0.0, 1.0)];
-        if let Above::Wall(_) = self.above {
+        if let UpperBoundary::Wall(_) = self.above {
             walls.push(Wall::still(1, self.width, -1.0));
         }
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(self.length(), self.width));
@@ -170,8 +170,8 @@ impl Channel<'_> {
 
     fn moving(&self, mut scene: Scene<2>) -> Scene<2> {
         match self.above {
-            Above::Wall(velocity) => scene.walls[1].velocity[0] = velocity,
-            Above::Surface(side_walls) => scene.side_walls = Some(side_walls),
+            UpperBoundary::Wall(velocity) => scene.walls[1].velocity[0] = velocity,
+            UpperBoundary::Surface(side_walls) => scene.side_walls = Some(side_walls),
         }
         scene
     }

@@ -41,14 +41,14 @@ pub enum ShearFlow {
         /// The side walls.
         side_walls: SideWalls,
         /// Whether its grains cooperate.
-        cooperation: Cooperation,
+        cooperation: RheologyChoice,
     },
 }
 
-/// Whether grains flow together.
+/// Rheology of a heap: nonlocal, or local for comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Cooperation {
+pub enum RheologyChoice {
     /// By the nonlocal law.
     Nonlocal,
     /// Not at all: the local law of the same grains.
@@ -85,8 +85,8 @@ impl ShearFlow {
         match self {
             Self::Chute { .. } => "chute",
             Self::DraggedBed { .. } => "dragged-bed",
-            Self::Heap { cooperation: Cooperation::Nonlocal, .. } => "heap",
-            Self::Heap { cooperation: Cooperation::Local, .. } => "local-heap",
+            Self::Heap { cooperation: RheologyChoice::Nonlocal, .. } => "heap",
+            Self::Heap { cooperation: RheologyChoice::Local, .. } => "local-heap",
         }
     }
 
@@ -94,7 +94,7 @@ impl ShearFlow {
     #[must_use]
     pub fn law(&self, law: NonlocalMuI) -> Rheology {
         match self {
-            Self::Heap { cooperation: Cooperation::Local, .. } => Rheology::MuI(law.local()),
+            Self::Heap { cooperation: RheologyChoice::Local, .. } => Rheology::MuI(law.local()),
             _ => Rheology::NonlocalMuI(law),
         }
     }
@@ -164,7 +164,7 @@ impl ShearFlow {
     fn under(&self, grains: &ShearedGrains, friction: f64) -> Option<ExactShear> {
         let shear = self.stressed(grains, friction);
         let profile = match self {
-            Self::Heap { cooperation: Cooperation::Local, .. } => local_profile(&shear),
+            Self::Heap { cooperation: RheologyChoice::Local, .. } => local_profile(&shear),
             _ => shear.steady(CELLS).ok()?,
         };
         (profile.fastest > 0.0).then_some(ExactShear { flow: *self, shear, profile })

@@ -7,7 +7,7 @@ fn local_heap() -> (ExactShear, f64) {
     let run = NonlocalShearParameters::of_tier(Tier::Quick)
         .runs()
         .into_iter()
-        .find(|run| matches!(run.flow, ShearFlow::Heap { cooperation: Cooperation::Local, .. }))
+        .find(|run| matches!(run.flow, ShearFlow::Heap { cooperation: RheologyChoice::Local, .. }))
         .expect("a heap under the local law");
     (run.flow.steady(&run.nominal()).expect("it flows"), run.grains.law.grain_diameter)
 }

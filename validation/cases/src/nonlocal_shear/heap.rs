@@ -1,7 +1,7 @@
 //! How heaps between side walls are judged.
 
 use super::NonlocalShearRecord;
-use super::flow::{Cooperation, ExactShear, ShearFlow};
+use super::flow::{ExactShear, RheologyChoice, ShearFlow};
 use super::probe::ShearObservation;
 use super::profile::{length_metric, tail, velocity_l2, velocity_misfit};
 use super::quantities::{
@@ -22,15 +22,15 @@ pub(super) fn metrics(
     run: &ShearRun,
     seen: &ShearObservation,
     exact: &ExactShear,
-    cooperation: Cooperation,
+    cooperation: RheologyChoice,
 ) -> Vec<Metric> {
     let rows = seen.velocities();
     let expected: Vec<(f64, f64)> = rows.iter().map(|&(y, _)| (y, exact.velocity(y))).collect();
     let surface = |rows: &[(f64, f64)]| rows.last().map_or(f64::NAN, |row| row.1);
     let found = SURFACE_VELOCITY_ERROR.of(&run.variant(), 100.0 * (surface(&rows) / surface(&expected) - 1.0));
     let (mut metrics, reference) = match cooperation {
-        Cooperation::Nonlocal => (decay(run, seen, exact, &expected), EXACT),
-        Cooperation::Local => (depth(run, seen, exact, &expected), EXACT_LOCAL),
+        RheologyChoice::Nonlocal => (decay(run, seen, exact, &expected), EXACT),
+        RheologyChoice::Local => (depth(run, seen, exact, &expected), EXACT_LOCAL),
     };
     metrics.push(found.exactly(0.0, reference).with_snapshot_tolerance(0.1, 1e-1));
     metrics
@@ -94,7 +94,7 @@ fn depth(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, expected: 
 
 /// Orders of convergence under the local law, from each resolution to the next.
 pub(super) fn orders(records: &[NonlocalShearRecord]) -> Vec<Metric> {
-    let local = |flow: &ShearFlow| matches!(flow, ShearFlow::Heap { cooperation: Cooperation::Local, .. });
+    let local = |flow: &ShearFlow| matches!(flow, ShearFlow::Heap { cooperation: RheologyChoice::Local, .. });
     let mut errors: Vec<(usize, f64)> = records
         .iter()
         .filter(|(run, _)| local(&run.flow))

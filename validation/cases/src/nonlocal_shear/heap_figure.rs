@@ -1,7 +1,7 @@
 //! Heaps between side walls, drawn.
 
 use super::NonlocalShearRecord;
-use super::flow::{Cooperation, ExactShear, ShearFlow};
+use super::flow::{ExactShear, RheologyChoice, ShearFlow};
 use super::marks::{LEAST, LEAST_OF_ERRORS, NONLOCAL, label, shown, thinned};
 use super::run::ShearRun;
 use crate::figure::{Axis, Figure, Panel};
@@ -18,21 +18,21 @@ pub(super) fn drawn(records: &[&NonlocalShearRecord]) -> Figure {
     let depths = || Axis::linear("depth below the surface/D [-]");
     let mut velocity = Panel::new("", depths(), Axis::logarithmic("u/√(g D) [-]").between(least, 2.0 * largest));
     let mut error = Panel::new("", depths(), Axis::linear("u/u exact − 1 [%]"));
-    let mut curves: Vec<Cooperation> = Vec::new();
+    let mut curves: Vec<RheologyChoice> = Vec::new();
     for (slot, ((run, record), exact)) in records.iter().zip(&exact).enumerate() {
         let (Some(exact), ShearFlow::Heap { cooperation, .. }) = (exact, run.flow) else { continue };
         let (diameter, scale) = (run.grains.law.grain_diameter, speed(run));
         let (name, law) = match cooperation {
-            Cooperation::Nonlocal => (NONLOCAL, "nonlocal law"),
-            Cooperation::Local => ("local law, without particles", "local law"),
+            RheologyChoice::Nonlocal => (NONLOCAL, "nonlocal law"),
+            RheologyChoice::Local => ("local law, without particles", "local law"),
         };
         if !curves.contains(&cooperation) {
             curves.push(cooperation);
             let profile = &exact.profile;
             let points = profile.distances.iter().zip(&profile.velocities).map(|(y, u)| (y / diameter, u / scale));
             match cooperation {
-                Cooperation::Nonlocal => velocity.reference(name, shown(points, least)),
-                Cooperation::Local => velocity.line(name, records.len(), shown(points, least)),
+                RheologyChoice::Nonlocal => velocity.reference(name, shown(points, least)),
+                RheologyChoice::Local => velocity.line(name, records.len(), shown(points, least)),
             };
         }
         let depth = |y: f64| run.flow.distance(y) / diameter;

@@ -13,8 +13,8 @@ mod profile;
 mod quantities;
 mod run;
 
-pub use channel::{Above, Channel, ChannelGrains, Motion, STIFFNESS};
-pub use flow::{Cooperation, ExactShear, ShearFlow, ShearedGrains};
+pub use channel::{Channel, ChannelGrains, Motion, STIFFNESS, UpperBoundary};
+pub use flow::{ExactShear, RheologyChoice, ShearFlow, ShearedGrains};
 pub use parameters::{ChuteParameters, DraggedBedParameters, HeapParameters, NonlocalShearParameters};
 pub use probe::ShearObservation;
 pub use run::ShearRun;

@@ -1,7 +1,7 @@
 //! Parameters, tiers and runs.
 
 use super::channel::ChannelGrains;
-use super::flow::{Cooperation, ShearFlow};
+use super::flow::{RheologyChoice, ShearFlow};
 use super::run::ShearRun;
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::reference::grains::GLASS_BEADS;
@@ -238,9 +238,12 @@ impl Parameters for NonlocalShearParameters {
         };
         let duration = self.heap.duration;
         let cooperating =
-            self.heap.particles_per_diameter.iter().map(|&count| run(heap(Cooperation::Nonlocal), count, duration));
-        let alone =
-            self.heap.local_particles_per_diameter.iter().map(|&count| run(heap(Cooperation::Local), count, duration));
+            self.heap.particles_per_diameter.iter().map(|&count| run(heap(RheologyChoice::Nonlocal), count, duration));
+        let alone = self
+            .heap
+            .local_particles_per_diameter
+            .iter()
+            .map(|&count| run(heap(RheologyChoice::Local), count, duration));
         chutes.chain(beds).chain(cooperating).chain(alone).collect()
     }
 }

@@ -1,6 +1,6 @@
 //! One simulation: how it starts, and what it ought to come to.
 
-use super::channel::{Above, Channel, ChannelGrains, Motion};
+use super::channel::{Channel, ChannelGrains, Motion, UpperBoundary};
 use super::flow::{ExactShear, ShearFlow, ShearedGrains};
 use super::probe::{ShearObservation, ShearProbe};
 use crate::case::recording::{SimulationStage, watch};
@@ -127,9 +127,9 @@ impl ShearRun {
         };
         let pressure = |height: f64| self.flow.pressure(&grains, height);
         let above = match self.flow {
-            ShearFlow::Chute { .. } => Above::Wall(0.0),
-            ShearFlow::DraggedBed { plate_velocity, .. } => Above::Wall(plate_velocity),
-            ShearFlow::Heap { side_walls, .. } => Above::Surface(side_walls),
+            ShearFlow::Chute { .. } => UpperBoundary::Wall(0.0),
+            ShearFlow::DraggedBed { plate_velocity, .. } => UpperBoundary::Wall(plate_velocity),
+            ShearFlow::Heap { side_walls, .. } => UpperBoundary::Surface(side_walls),
         };
         call(&Channel {
             grains: self.grains,

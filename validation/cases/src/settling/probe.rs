@@ -1,6 +1,6 @@
 //! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
 
-use crate::case::recording::{Ending, Followed, SimulationStage, follow};
+use crate::case::recording::{Ending, RestartableRun, SimulationStage, follow};
 use crate::case::{ParameterError, Progress};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -146,7 +146,8 @@ impl Probe {
                 ControlFlow::Continue(())
             },
         )?;
-        let Followed { simulation, stop, kept: SettlingObserver { last_good, observation, .. }, started } = followed;
+        let RestartableRun { simulation, stop, kept: SettlingObserver { last_good, observation, .. }, started } =
+            followed;
         Ok(Ending::of(stop, last_good, started).record(&simulation, |_| observation))
     }
 

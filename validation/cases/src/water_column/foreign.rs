@@ -6,7 +6,7 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::input::FieldError;
 
 /// What a run may yield.
-pub(super) const FORM: ExternalSchema = ExternalSchema {
+pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[
         ExternalColumn::new("time", "s", "time since the column was released"),
@@ -117,7 +117,10 @@ mod tests {
     fn a_front_that_ends_before_the_measurement_is_refused_with_the_time_that_is_needed() {
         let short = |last: f64| vec![("relative_time", vec![0.0, last]), ("relative_front", vec![1.0, 4.0])];
         let needed = WATER_FRONT.points.last().expect("a table").0;
-        assert!(FORM.description.contains(&format!("t √(2g/a) = {needed};")), "the template names the same time");
+        assert!(
+            EXTERNAL_SCHEMA.description.contains(&format!("t √(2g/a) = {needed};")),
+            "the template names the same time"
+        );
         assert!(seen(&short(needed)).expect("long enough").is_some());
         assert_eq!(
             seen(&short(2.4)).expect_err("too short").to_string(),

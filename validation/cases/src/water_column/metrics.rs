@@ -6,7 +6,7 @@ use crate::case::Run;
 use crate::metric::{Limit, Metric, Origin, quantities};
 use crate::reference::water::{HEIGHT_READING, MeasuredFront, MeasuredHeights, WATER_HEIGHTS, spread_of_water_fronts};
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Extrapolation, interpolated};
 
 quantities! {
     [ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WORK]
@@ -91,7 +91,7 @@ fn heights(run: &WaterColumnRun, data: &ColumnObservation, delay: f64) -> Vec<Me
 /// Root mean square of the height less the measured one at the measured times less a delay, as long as the run lasts `[-]`; the
 /// column stood as it starts before.
 fn height_error(samples: &[(f64, f64)], measured: &MeasuredHeights, delay: f64) -> f64 {
-    let at = |time: f64| interpolated(samples, time, (Beyond::EndValue, Beyond::Nothing));
+    let at = |time: f64| interpolated(samples, time, (Extrapolation::EndValue, Extrapolation::Nothing));
     let squares: Vec<f64> =
         measured.points.iter().filter_map(|&(time, height)| Some((at(time - delay)? - height).powi(2))).collect();
     (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
@@ -101,7 +101,8 @@ fn height_error(samples: &[(f64, f64)], measured: &MeasuredHeights, delay: f64) 
 fn error_at(time: &[f64], front: &[f64], measured: &MeasuredFront, delay: f64) -> f64 {
     let points = &measured.points;
     let samples: Vec<(f64, f64)> = time.iter().copied().zip(front.iter().copied()).collect();
-    let at = |time: f64| interpolated(&samples, time, (Beyond::EndValue, Beyond::Nothing)).unwrap_or(f64::NAN);
+    let at =
+        |time: f64| interpolated(&samples, time, (Extrapolation::EndValue, Extrapolation::Nothing)).unwrap_or(f64::NAN);
     let square = |&(t, x): &(f64, f64)| (at(t - delay) / x - 1.0).powi(2);
     (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
 }

@@ -35,7 +35,7 @@ impl Case for WaterColumn {
         steps: with the kernel correction the same column gains 1.4 % of the work of gravity.";
     type Parameters = WaterColumnParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
-    const FORM: ExternalSchema = foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
 
     fn metrics(_: &WaterColumnParameters, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
@@ -45,7 +45,7 @@ impl Case for WaterColumn {
         figures::all(records)
     }
 
-    fn foreign(
+    fn from_external(
         run: &WaterColumnRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<ColumnObservation>>, FieldError> {

@@ -1,6 +1,6 @@
 //! Parameters, tiers and runs.
 
-use crate::case::recording::{self, SimulationStage, Watched};
+use crate::case::recording::{self, ObservedRun, SimulationStage};
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::{EnergyBook, Recorded};
@@ -250,7 +250,7 @@ impl Run for WaterColumnRun {
                 ControlFlow::Continue(())
             },
         )?;
-        let Watched { simulation, ending, kept } = watched;
+        let ObservedRun { simulation, ending, kept } = watched;
         Ok(ending.record(&simulation, |_| kept))
     }
 }

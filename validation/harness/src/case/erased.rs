@@ -87,7 +87,7 @@ pub trait PreparedCase: Send + Sync {
     ///
     /// # Errors
     /// Columns that are missing beside others, of the run of that number.
-    fn foreign(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
+    fn from_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
     /// Judges and draws the records. Runs that were not simulated are left out.
     ///
     /// # Errors
@@ -113,7 +113,7 @@ impl<C: Case> AnyCase for C {
     }
 
     fn form(&self) -> &'static ExternalSchema {
-        &C::FORM
+        &C::EXTERNAL_SCHEMA
     }
 
     fn show(&self, tier: Tier) -> String {
@@ -273,14 +273,14 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         Box::new(plan)
     }
 
-    fn foreign(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
+    fn from_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
         let mut records: Vec<RecordOf<C::Parameters>> = Vec::new();
         let mut measured = Vec::new();
         for (number, (given, (run, _))) in given.iter().zip(&self.slots).enumerate() {
             if given.is_empty() {
                 continue;
             }
-            if let Some(foreign) = C::foreign(run, given).map_err(|error| (number, error))? {
+            if let Some(foreign) = C::from_external(run, given).map_err(|error| (number, error))? {
                 measured.push((run.variant(), foreign.measured));
                 records.push((run.clone(), given.record(foreign.observation)));
             }

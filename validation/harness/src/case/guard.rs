@@ -40,8 +40,8 @@ impl<'a, P: Parameters> Guard<'a, P> {
         }
         let chosen = self.chosen(&runs);
         self.parameters.check_runs(&chosen).map_err(|error| source.placed(self.named(error)))?;
-        self.told_apart(&chosen).map_err(|error| source.placed(error))?;
-        self.affordable(&chosen).map_err(|error| source.placed(error))?;
+        self.check_unique(&chosen).map_err(|error| source.placed(error))?;
+        self.check_cost(&chosen).map_err(|error| source.placed(error))?;
         Ok(runs)
     }
 
@@ -113,8 +113,8 @@ impl<'a, P: Parameters> Guard<'a, P> {
         Value::Table(table).try_into().ok()
     }
 
-    /// Runs are known by their names: two of one name would be taken for each other.
-    fn told_apart(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
+    /// Checks that the names of runs are unique: two of one name would be taken for each other.
+    fn check_unique(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
         let Some(twin) = twin(runs) else { return Ok(()) };
         let remedy = format!("two runs would both be called `{twin}`: name it once");
         let lists = leaves(&self.asked).into_iter().filter_map(|path| {
@@ -137,8 +137,8 @@ impl<'a, P: Parameters> Guard<'a, P> {
         if self.holds(parameters) { twin(&self.chosen(&parameters.runs())) } else { None }
     }
 
-    /// What the runs need must be there; the field is the one that, as the tier has it, saves most.
-    fn affordable(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
+    /// Check of memory and time against the limits; the field is the one that, as the tier has it, saves most.
+    fn check_cost(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
         let limits = &self.changes.limits;
         let estimate = of_runs(runs);
         let Some((rule, remedy)) = estimate.problem(limits) else { return Ok(()) };

@@ -201,7 +201,7 @@ pub trait Case: Sync + 'static {
     /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
     const STATED: &'static [&'static str] = &[];
     /// What another code may give of a run, beside single numbers.
-    const FORM: ExternalSchema = ExternalSchema::NUMBERS;
+    const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema::NUMBERS;
     /// Typed parameters.
     type Parameters: Parameters;
 
@@ -223,7 +223,7 @@ pub trait Case: Sync + 'static {
     ///
     /// # Errors
     /// Columns that are missing beside others.
-    fn foreign(
+    fn from_external(
         _: &RunOf<Self::Parameters>,
         _: &ExternalData,
     ) -> Result<Option<ExternalObservation<ObservationOf<Self::Parameters>>>, FieldError> {

@@ -42,12 +42,12 @@ impl Progress for Silent {
     fn resumed(&self, _simulated: f64) {}
 }
 
-struct RunProgress<'a> {
+struct MonitoredRun<'a> {
     run: usize,
     monitor: &'a dyn Monitor,
 }
 
-impl Progress for RunProgress<'_> {
+impl Progress for MonitoredRun<'_> {
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64) {
         self.monitor.advanced(self.run, simulated, total, particle_steps);
     }
@@ -149,7 +149,7 @@ pub fn execute(
     jobs.sort_by(|a, b| cost(b).total_cmp(&cost(a)).then(a.number.cmp(&b.number)));
     share_out(jobs, |job| {
         monitor.started(job.number);
-        let progress = RunProgress { run: job.number, monitor };
+        let progress = MonitoredRun { run: job.number, monitor };
         let outcome = cases[job.case].simulate(job.run, store, &progress);
         monitor.finished(job.number);
         outcome

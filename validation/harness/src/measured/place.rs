@@ -4,7 +4,7 @@ use super::reading::same_kind;
 use super::{MeasuredColumn, Measurements};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::input::FieldError;
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Extrapolation, interpolated};
 use std::collections::BTreeSet;
 
 /// A panel with the axes of the measurements.
@@ -110,7 +110,7 @@ impl MatchingPanel {
         let squares: Vec<f64> = given
             .zip(&measurements.uncertainty)
             .filter_map(|((x, y), uncertainty)| {
-                let curve = interpolated(&curve, x * to_x, (Beyond::Nothing, Beyond::Nothing))?;
+                let curve = interpolated(&curve, x * to_x, (Extrapolation::Nothing, Extrapolation::Nothing))?;
                 let residual = (curve - y * to_y) / (uncertainty * to_y);
                 Some(residual * residual)
             })

@@ -1,10 +1,10 @@
 //! Units as people write them, `cm/s`, `g/cm^3`, `kPa`, and what they are in SI.
 
 /// Powers of length, mass and time.
-type Dimension = [i32; 3];
+type UnitExponents = [i32; 3];
 
 /// Symbols that stand for themselves, with their value in metres, kilograms and seconds.
-const SYMBOLS: [(&str, f64, Dimension); 9] = [
+const SYMBOLS: [(&str, f64, UnitExponents); 9] = [
     ("m", 1.0, [1, 0, 0]),
     ("g", 1e-3, [0, 1, 0]),
     ("s", 1.0, [0, 0, 1]),
@@ -24,7 +24,7 @@ const PREFIXES: [(&str, f64); 8] =
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Unit {
     factor: f64,
-    dimension: Dimension,
+    dimension: UnitExponents,
 }
 
 /// The factor from one unit to another `[-]`; none where one is unknown or they measure different things.

@@ -2,7 +2,7 @@
 
 use super::accepted::{Drift, MetricKey};
 use super::known_failures::{KnownFailure, KnownFailureStatus};
-use super::papers::Account;
+use super::papers::PaperSummary;
 use super::{CaseReport, Report};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use crate::observation::Outcome;
@@ -129,7 +129,7 @@ pub struct Judgement<'r> {
     /// Runs that diverged without having declared it.
     pub diverged: usize,
     /// What became of the elements of each paper.
-    pub papers: Vec<Account<'r>>,
+    pub papers: Vec<PaperSummary<'r>>,
 }
 
 impl Judgement<'_> {
@@ -189,7 +189,7 @@ pub fn judge(report: &Report) -> Judgement<'_> {
         contradictions: 0,
         diverged: 0,
         known_elsewhere: 0,
-        papers: report.papers.iter().map(|paper| Account::of(paper, &report.cases)).collect(),
+        papers: report.papers.iter().map(|paper| PaperSummary::of(paper, &report.cases)).collect(),
     };
     let listed_here = |failure: &&KnownFailure| {
         let is_it = |metric: &Metric| metric.name == failure.metric && metric.variant == failure.variant;

@@ -2,7 +2,7 @@
 
 use super::CaseReport;
 use crate::case::RunSummary;
-use crate::evidence::{Element, MetricName, PAPERS, Paper, RunName, Settled};
+use crate::evidence::{Element, ElementStatus, MetricName, PAPERS, Paper, RunName};
 use crate::metric::{Metric, Verdict};
 use crate::observation::Outcome;
 
@@ -121,9 +121,9 @@ impl<'r> ElementOutcome<'r> {
         };
         let ended: Vec<Ended<'r>> = element.runs.iter().flat_map(of_run).collect();
         let status = match &element.settled {
-            Some((Settled::Replaced, _)) => Status::Replaced,
-            Some((Settled::NotStatedClearly, _)) => Status::NotStatedClearly,
-            Some((Settled::NotCovered, _)) => Status::NotCovered,
+            Some((ElementStatus::Replaced, _)) => Status::Replaced,
+            Some((ElementStatus::NotStatedClearly, _)) => Status::NotStatedClearly,
+            Some((ElementStatus::NotCovered, _)) => Status::NotCovered,
             None if element.metrics.is_empty() && element.runs.is_empty() => Status::Reproduced,
             None => Self::computed(element, &shown, &ended),
         };
@@ -151,16 +151,16 @@ impl<'r> ElementOutcome<'r> {
     }
 }
 
-/// What became of a paper.
+/// Summary of a paper: the status of each of its elements.
 #[derive(Debug, Clone)]
-pub struct Account<'r> {
+pub struct PaperSummary<'r> {
     /// The paper.
     pub paper: &'r Paper,
     /// Its elements in order.
     pub elements: Vec<ElementOutcome<'r>>,
 }
 
-impl<'r> Account<'r> {
+impl<'r> PaperSummary<'r> {
     /// The account of a paper by the metrics of these cases.
     #[must_use]
     pub fn of(paper: &'r Paper, cases: &'r [CaseReport]) -> Self {
@@ -176,7 +176,7 @@ impl<'r> Account<'r> {
 
 /// How many elements have this status, over all papers.
 #[must_use]
-pub fn count(accounts: &[Account<'_>], status: Status) -> usize {
+pub fn count(accounts: &[PaperSummary<'_>], status: Status) -> usize {
     accounts.iter().map(|account| account.count(status)).sum()
 }
 

@@ -1,7 +1,7 @@
 //! The page of the papers: every element, what became of it, and where that is shown; and its card on the overview.
 
 use super::accepted::tier_name;
-use super::papers::{self, Account, ElementOutcome, Ended, Shown, Status};
+use super::papers::{self, ElementOutcome, Ended, PaperSummary, Shown, Status};
 use super::template::fill;
 use super::view::{VerdictCount, VerdictMark, anchor};
 use super::{CaseReport, Report};
@@ -84,7 +84,7 @@ fn mark(status: Status) -> VerdictMark {
 }
 
 /// The card of the papers among the counts of the overview; none without papers.
-pub(super) fn count(accounts: &[Account<'_>]) -> Option<VerdictCount> {
+pub(super) fn count(accounts: &[PaperSummary<'_>]) -> Option<VerdictCount> {
     let all: usize = accounts.iter().map(|account| account.elements.len()).sum();
     let of = |status| papers::count(accounts, status);
     let open = of(Status::NotReproduced) + of(Status::Contradicted);
@@ -101,7 +101,7 @@ pub(super) fn count(accounts: &[Account<'_>]) -> Option<VerdictCount> {
 }
 
 /// Fills the template of the page.
-pub(super) fn render(report: &Report, accounts: &[Account<'_>]) -> Result<String, minijinja::Error> {
+pub(super) fn render(report: &Report, accounts: &[PaperSummary<'_>]) -> Result<String, minijinja::Error> {
     let page = PapersPage {
         title: report.title.clone(),
         tier: tier_name(report.tier),
@@ -111,7 +111,7 @@ pub(super) fn render(report: &Report, accounts: &[Account<'_>]) -> Result<String
     fill("papers.html", &page)
 }
 
-fn paper(account: &Account<'_>, cases: &[CaseReport]) -> PaperView {
+fn paper(account: &PaperSummary<'_>, cases: &[CaseReport]) -> PaperView {
     let share = |status| Share { mark: mark(status), number: account.count(status) };
     PaperView {
         name: account.paper.name.clone(),
@@ -204,7 +204,7 @@ fn figures(fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Vec<CasePageLink>
 }
 
 /// Counts and statuses as JSON, for programs.
-pub(super) fn json(tier: Tier, accounts: &[Account<'_>]) -> String {
+pub(super) fn json(tier: Tier, accounts: &[PaperSummary<'_>]) -> String {
     let papers: Vec<serde_json::Value> = accounts
         .iter()
         .map(|account| {

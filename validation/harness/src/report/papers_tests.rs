@@ -189,7 +189,7 @@ fn the_papers_are_accounted_for_where_their_cases_run() {
     let own = CaseReport { name: "own".to_owned(), ..film[0].clone() };
     assert!(accounted(&[own]).is_empty());
     for paper in PAPERS.iter() {
-        let account = Account::of(paper, &film);
+        let account = PaperSummary::of(paper, &film);
         let counted: usize = Status::ALL.into_iter().map(|status| account.count(status)).sum();
         assert_eq!(counted, paper.elements.len(), "{}: a row without a status", paper.name);
     }

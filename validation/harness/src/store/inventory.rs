@@ -38,9 +38,9 @@ pub struct Version {
     pub newest: SystemTime,
 }
 
-/// What is to stay in a store; `None` sets no limit.
+/// Retention policy of a store; `None` sets no limit.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Keep {
+pub struct RetentionPolicy {
     /// Entries that are not older.
     pub younger_than: Option<Duration>,
     /// The newest, of this size in all `[bytes]`.
@@ -83,7 +83,7 @@ pub fn versions(root: &Path) -> Result<Vec<Version>> {
 ///
 /// # Errors
 /// A folder that cannot be read or an entry that cannot be deleted.
-pub fn prune(root: &Path, keep: Keep, now: SystemTime) -> Result<Pruned> {
+pub fn prune(root: &Path, keep: RetentionPolicy, now: SystemTime) -> Result<Pruned> {
     let folders = folders(root)?;
     let mut stored = Vec::new();
     for folder in &folders {
@@ -231,11 +231,11 @@ mod tests {
         }
         let listed = versions(root.path()).expect("readable");
         assert_eq!((listed[0].entries, listed[0].unfinished, listed[0].bytes), (5, 2, 5400));
-        let old = Keep { younger_than: Some(100 * DAY), bytes: None };
+        let old = RetentionPolicy { younger_than: Some(100 * DAY), bytes: None };
         assert_eq!(prune(root.path(), old, now).expect("writable"), Pruned { files: 2, bytes: 200 });
         assert_eq!(versions(root.path()).expect("readable")[0].unfinished, 1);
         assert!(!version.join(UNFINISHED).join("other").exists() && version.join(UNFINISHED).join("one").exists());
-        let nothing = Keep { younger_than: None, bytes: Some(0) };
+        let nothing = RetentionPolicy { younger_than: None, bytes: Some(0) };
         assert_eq!(prune(root.path(), nothing, now).expect("writable").files, 12);
         assert!(!version.exists());
     }
@@ -253,10 +253,10 @@ mod tests {
         }
         let listed = versions(root.path()).expect("readable");
         assert_eq!((listed[0].entries, listed[0].bytes), (5, 5200));
-        let old = Keep { younger_than: Some(100 * DAY), bytes: None };
+        let old = RetentionPolicy { younger_than: Some(100 * DAY), bytes: None };
         assert_eq!(prune(root.path(), old, now).expect("writable"), Pruned { files: 1, bytes: 100 });
         assert!(drawn.join("one.svg").exists() && !drawn.join("other.gif").exists());
-        let nothing = Keep { younger_than: None, bytes: Some(0) };
+        let nothing = RetentionPolicy { younger_than: None, bytes: Some(0) };
         assert_eq!(prune(root.path(), nothing, now).expect("writable").files, 11);
         assert!(drawn.join("notes.txt").exists(), "what is not the store's stays");
     }
@@ -268,11 +268,11 @@ mod tests {
         for (name, time) in [("0.postcard", now + 400 * DAY), ("1.postcard", now + DAY / 2)] {
             std::fs::File::open(file(name)).and_then(|file| file.set_modified(time)).expect("settable");
         }
-        let young = Keep { younger_than: Some(100 * DAY), bytes: None };
+        let young = RetentionPolicy { younger_than: Some(100 * DAY), bytes: None };
         assert_eq!(prune(root.path(), young, now).expect("writable"), Pruned { files: 1, bytes: 1000 });
         assert!(!file("0.postcard").exists() && file("1.postcard").exists());
         std::fs::File::open(file("4.postcard")).and_then(|file| file.set_modified(now + 2 * DAY)).expect("settable");
-        let small = Keep { younger_than: None, bytes: Some(8000) };
+        let small = RetentionPolicy { younger_than: None, bytes: Some(8000) };
         assert_eq!(prune(root.path(), small, now).expect("writable").files, 1);
         assert!(!file("4.postcard").exists(), "the one whose age nobody knows goes first");
     }
@@ -281,10 +281,10 @@ mod tests {
     fn what_is_too_old_or_too_much_goes_and_nothing_else() {
         let (root, now) = store();
         let of = |keep| prune(root.path(), keep, now).expect("writable");
-        assert_eq!(of(Keep::default()), Pruned::default());
-        let young = Keep { younger_than: Some(7 * DAY), bytes: None };
+        assert_eq!(of(RetentionPolicy::default()), Pruned::default());
+        let young = RetentionPolicy { younger_than: Some(7 * DAY), bytes: None };
         assert_eq!(of(young), Pruned { files: 2, bytes: 2000 });
-        let small = Keep { younger_than: None, bytes: Some(3500) };
+        let small = RetentionPolicy { younger_than: None, bytes: Some(3500) };
         assert_eq!(of(small), Pruned { files: 5, bytes: 5000 });
         assert_eq!(versions(root.path()).expect("readable").len(), 1);
         assert!(!root.path().join(format!("sources-{}", "b".repeat(16))).exists(), "an empty version is gone");

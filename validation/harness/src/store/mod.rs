@@ -9,7 +9,7 @@ mod speeds;
 
 pub use drawn::{DrawingKey, Drawings};
 pub use identity::{CodeOrigin, identity, identity_or_unique, is_of_this_program};
-pub use inventory::{Keep, Pruned, Version, prune, versions};
+pub use inventory::{Pruned, RetentionPolicy, Version, prune, versions};
 pub use provenance::{commit, instruction_set, profile, source_hash, target_features, version, workspace};
 pub use speeds::{AllSpeeds, Speeds};
 

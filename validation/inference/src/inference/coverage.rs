@@ -3,7 +3,7 @@
 use super::bootstrap::bootstrap;
 use super::explore::explore;
 use super::region::{Region, Uncertainties};
-use super::search::{Budget, Method, SearchResult, Stopped, search};
+use super::search::{Budget, Method, SearchResult, Termination, search};
 use super::stand_in::{RANGES, Slopes, TRUTH};
 use super::{Emulator, Evaluate};
 use crate::sampling::Random;
@@ -72,7 +72,7 @@ fn the_joint_region_has_its_nominal_coverage() {
             let [from, to] = region.profiles[k].interval;
             (from..=to).contains(&truth[k])
         });
-        (found.history.len(), found.stopped == Stopped::Converged, region.contains(&truth), single)
+        (found.history.len(), found.stopped == Termination::Converged, region.contains(&truth), single)
     };
     let experiments: Vec<_> = (100..600).into_par_iter().map(experiment).collect();
     let mut evaluations: Vec<usize> = experiments.iter().map(|one| one.0).collect();
@@ -159,7 +159,7 @@ fn a_rough_model_is_fitted_all_the_same() {
             }
             contained += usize::from(Region::new(&emulator, Uncertainties::AsStated).contains(&truth));
             evaluations += found.history.len();
-            converged += usize::from(found.stopped == Stopped::Converged);
+            converged += usize::from(found.stopped == Termination::Converged);
         }
         println!(
             "wobble {wobble}: {contained} of 100 contain the truth, {converged} converged, {evaluations} evaluations, \

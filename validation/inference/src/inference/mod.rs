@@ -36,7 +36,8 @@ pub use profile::{ProfileLikelihood, ProfileLikelihoodPoint};
 pub use region::{Region, Uncertainties, chi_squared_quantile, chi_squared_tail};
 pub use scatter::Repeatability;
 pub use search::{
-    Budget, Evaluated, LocalMinimum, Method, SearchError, SearchResult, Stopped, continue_search, search, search_design,
+    Budget, Evaluated, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search,
+    search_design,
 };
 
 pub use solve::{Answer, SolvePlan, UNLIKELY, solve};

@@ -6,7 +6,7 @@ use super::explore::{Explored, explore};
 use super::region::{Uncertainties, chi_squared_tail};
 use super::scatter::{Repeatability, averaged};
 use super::search::{
-    Budget, LocalMinimum, Method, SearchError, SearchResult, Stopped, continue_search, search, search_design,
+    Budget, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search, search_design,
 };
 use super::{Evaluate, Evaluated};
 
@@ -74,7 +74,7 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         }
         // what the region has left over is for a search that was cut short: the region's points may have brought it home
         let left = (found.history.len() + plan.region_evaluations).saturating_sub(explored.history.len());
-        if found.stopped == Stopped::BudgetSpent && left > 0 && !continued {
+        if found.stopped == Termination::BudgetSpent && left > 0 && !continued {
             continued = true;
             found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..usual })?;
             continue;
@@ -98,10 +98,12 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
 
 /// A search that stalled on the roughness of runs has come to rest all the same, where the region is settled and nothing in it
 /// promises what its ends would notice.
-fn judged(stopped: Stopped, explored: &Explored) -> Stopped {
+fn judged(stopped: Termination, explored: &Explored) -> Termination {
     let promised = explored.region.minimum.chi_squared - explored.emulator.minimum().chi_squared;
     match stopped {
-        Stopped::Stalled if explored.is_settled() && promised <= TOLERANCE * explored.region.limit => Stopped::AtRest,
+        Termination::Stalled if explored.is_settled() && promised <= TOLERANCE * explored.region.limit => {
+            Termination::AtRest
+        }
         other => other,
     }
 }

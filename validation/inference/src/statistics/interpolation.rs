@@ -1,8 +1,8 @@
 //! Straight lines between the points of a table; what stands beyond its ends is said by whoever asks.
 
-/// What a table gives beyond one of its ends.
+/// Extrapolation of a table beyond one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Beyond {
+pub enum Extrapolation {
     /// Nothing.
     Nothing,
     /// The value of the end.
@@ -11,9 +11,9 @@ pub enum Beyond {
     Line(f64),
 }
 
-/// The value at a place, straight between points of rising abscissa; [`Beyond`] before the first and after the last.
+/// The value at a place, straight between points of rising abscissa; [`Extrapolation`] before the first and after the last.
 #[must_use]
-pub fn interpolated(points: &[(f64, f64)], place: f64, (before, after): (Beyond, Beyond)) -> Option<f64> {
+pub fn interpolated(points: &[(f64, f64)], place: f64, (before, after): (Extrapolation, Extrapolation)) -> Option<f64> {
     let next = points.partition_point(|point| point.0 < place);
     if let Some(&(x, y)) = points.get(next)
         && x == place
@@ -22,12 +22,12 @@ pub fn interpolated(points: &[(f64, f64)], place: f64, (before, after): (Beyond,
     }
     let (end, beyond) = match next {
         0 => (points.first()?, before),
-        _ => points.get(next).map_or((points.last()?, after), |right| (right, Beyond::Line(0.0))),
+        _ => points.get(next).map_or((points.last()?, after), |right| (right, Extrapolation::Line(0.0))),
     };
     match beyond {
-        Beyond::Nothing => None,
-        Beyond::EndValue => (!place.is_nan()).then_some(end.1),
-        Beyond::Line(most) => {
+        Extrapolation::Nothing => None,
+        Extrapolation::EndValue => (!place.is_nan()).then_some(end.1),
+        Extrapolation::Line(most) => {
             let right = next.min(points.len() - 1).max(1);
             let ((x0, y0), (x1, y1)) = (points[right - 1], *points.get(right)?);
             let distance = (x0 - place).max(place - x1) / (x1 - x0);
@@ -44,7 +44,7 @@ mod tests {
 
     #[test]
     fn values_are_straight_between_points_whatever_the_ends_are() {
-        for ends in [Beyond::Nothing, Beyond::EndValue, Beyond::Line(1.0)].map(|end| (end, end)) {
+        for ends in [Extrapolation::Nothing, Extrapolation::EndValue, Extrapolation::Line(1.0)].map(|end| (end, end)) {
             let values = [0.0, 0.25, 1.0, 2.0, 3.0].map(|place| interpolated(&POINTS, place, ends));
             assert_eq!(values, [1.0, 1.5, 3.0, 3.5, 4.0].map(Some));
             assert_eq!(interpolated(&POINTS, f64::NAN, ends), None);
@@ -55,14 +55,14 @@ mod tests {
     #[test]
     fn each_end_gives_what_was_asked_for() {
         let at = |place, before, after| interpolated(&POINTS, place, (before, after));
-        assert_eq!(at(-0.5, Beyond::Nothing, Beyond::EndValue), None);
-        assert_eq!(at(3.5, Beyond::Nothing, Beyond::EndValue), Some(4.0));
-        assert_eq!(at(-0.5, Beyond::EndValue, Beyond::Nothing), Some(1.0));
-        assert_eq!(at(3.5, Beyond::EndValue, Beyond::Nothing), None);
-        assert_eq!(at(-0.5, Beyond::Line(0.5), Beyond::Nothing), Some(0.0));
-        assert_eq!(at(-0.6, Beyond::Line(0.5), Beyond::Nothing), None);
-        assert_eq!(at(4.0, Beyond::Nothing, Beyond::Line(0.5)), Some(4.5));
-        assert_eq!(at(4.1, Beyond::Nothing, Beyond::Line(0.5)), None);
-        assert_eq!(interpolated(&POINTS[..1], 0.5, (Beyond::Line(9.0), Beyond::Line(9.0))), None);
+        assert_eq!(at(-0.5, Extrapolation::Nothing, Extrapolation::EndValue), None);
+        assert_eq!(at(3.5, Extrapolation::Nothing, Extrapolation::EndValue), Some(4.0));
+        assert_eq!(at(-0.5, Extrapolation::EndValue, Extrapolation::Nothing), Some(1.0));
+        assert_eq!(at(3.5, Extrapolation::EndValue, Extrapolation::Nothing), None);
+        assert_eq!(at(-0.5, Extrapolation::Line(0.5), Extrapolation::Nothing), Some(0.0));
+        assert_eq!(at(-0.6, Extrapolation::Line(0.5), Extrapolation::Nothing), None);
+        assert_eq!(at(4.0, Extrapolation::Nothing, Extrapolation::Line(0.5)), Some(4.5));
+        assert_eq!(at(4.1, Extrapolation::Nothing, Extrapolation::Line(0.5)), None);
+        assert_eq!(interpolated(&POINTS[..1], 0.5, (Extrapolation::Line(9.0), Extrapolation::Line(9.0))), None);
     }
 }

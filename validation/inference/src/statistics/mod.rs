@@ -18,7 +18,7 @@ pub use fit::{
     Exponent, FittedValue, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
 };
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
-pub use interpolation::{Beyond, interpolated};
+pub use interpolation::{Extrapolation, interpolated};
 pub use mean::{mean, relative_l2};
 pub use model_bias::{Comparison, Deviation, ModelBias, model_bias};
 pub use neighbour_scatter::neighbour_scatter;

@@ -4,7 +4,7 @@
 use crate::evidence::read_shipped;
 use crate::evidence::{MeasuredData, ReferenceError};
 use crate::one_dimension::bed_load::Stream;
-use crate::statistics::{Beyond, interpolated, neighbour_scatter};
+use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -125,7 +125,7 @@ impl MeasuredBedLoad {
 /// ∫ φ u dz `[m²/s]` over the heights that both have, by trapezia of φ's heights cut into tenths.
 fn flux(fraction: &HeightProfile, velocity: &HeightProfile) -> f64 {
     let line = |points: &HeightProfile, height: f64| {
-        interpolated(points, height, (Beyond::EndValue, Beyond::EndValue)).unwrap_or(f64::NAN)
+        interpolated(points, height, (Extrapolation::EndValue, Extrapolation::EndValue)).unwrap_or(f64::NAN)
     };
     let carried = |height: f64| line(fraction, height) * line(velocity, height);
     let piece = |(from, to): (f64, f64)| -> f64 {

@@ -30,9 +30,9 @@ pub struct CollapseLaw {
     pub branches: Vec<Branch>,
 }
 
-/// Who made a law that columns are judged by.
+/// Source of a law by which columns are judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Author {
+pub enum CollapseLawSource {
     /// Lube et al.: planar and round columns.
     Lube,
     /// Lagrée et al.: planar columns.
@@ -41,7 +41,7 @@ pub enum Author {
     Lajeunesse,
 }
 
-impl Author {
+impl CollapseLawSource {
     /// The author's law among those of one quantity.
     ///
     /// # Panics
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn lube_has_a_gap_between_his_branches() {
-        let lube = Author::Lube.law(&PLANAR_COLLAPSE.run_out);
+        let lube = CollapseLawSource::Lube.law(&PLANAR_COLLAPSE.run_out);
         assert_eq!(lube.value(1.0), Some(1.2));
         assert_eq!(lube.value(2.0), None);
         assert!((lube.value(8.0).unwrap() - 7.6).abs() < 1e-12);
@@ -170,11 +170,11 @@ mod tests {
         assert_eq!((counts(&PLANAR_COLLAPSE), counts(&ROUND_COLLAPSE)), ((5, 3), (1, 1)));
         let all = [&PLANAR_COLLAPSE.run_out, &PLANAR_COLLAPSE.height, &ROUND_COLLAPSE.run_out, &ROUND_COLLAPSE.height];
         for laws in all {
-            assert!(Author::Lube.law(laws).source.starts_with("Lube"));
+            assert!(CollapseLawSource::Lube.law(laws).source.starts_with("Lube"));
         }
         for laws in &all[..2] {
-            assert_eq!(Author::Lagree.law(laws).source, "Lagrée et al. 2011, planar continuum μ(I)");
-            assert_eq!(Author::Lajeunesse.law(laws).source, "Lajeunesse et al. 2005, planar channel");
+            assert_eq!(CollapseLawSource::Lagree.law(laws).source, "Lagrée et al. 2011, planar continuum μ(I)");
+            assert_eq!(CollapseLawSource::Lajeunesse.law(laws).source, "Lajeunesse et al. 2005, planar channel");
         }
         assert_eq!(COLLAPSE_DURATION.0, 3.0);
         // thirds and sixths of the exponents, to the last bit

@@ -4,7 +4,7 @@
 use crate::evidence::{MeasuredData, ReferenceError};
 use crate::evidence::{read_shipped, shipped_table};
 use crate::metric::Confidence;
-use crate::statistics::{Beyond, interpolated, neighbour_scatter};
+use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 use std::sync::LazyLock;
 
 /// A planar pile against a wall at x = 0.
@@ -124,14 +124,15 @@ impl MeasuredRunOuts {
     #[must_use]
     pub fn at(&self, aspect_ratio: f64) -> Option<f64> {
         let logarithms: Vec<(f64, f64)> = self.points.iter().map(|(a, x)| (libm::log(*a), libm::log(*x))).collect();
-        interpolated(&logarithms, libm::log(aspect_ratio), (Beyond::Nothing, Beyond::Nothing)).map(libm::exp)
+        interpolated(&logarithms, libm::log(aspect_ratio), (Extrapolation::Nothing, Extrapolation::Nothing))
+            .map(libm::exp)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::collapse::{Author, ROUND_COLLAPSE};
+    use crate::collapse::{CollapseLawSource, ROUND_COLLAPSE};
     use crate::grains::ALUMINIUM_BARS;
 
     #[test]
@@ -160,7 +161,7 @@ mod tests {
         let measured = &*ROUND_COLUMN_RUN_OUTS;
         assert_eq!((measured.points.len(), measured.doubtful.len()), (11, 1));
         assert!(measured.points.is_sorted_by(|one, other| one.0 < other.0));
-        let lube = Author::Lube.law(&ROUND_COLLAPSE.run_out);
+        let lube = CollapseLawSource::Lube.law(&ROUND_COLLAPSE.run_out);
         for (a, run_out) in &measured.points {
             let ratio = run_out / lube.value(*a).expect("a branch");
             assert!((0.78..1.02).contains(&ratio), "a = {a}: {ratio}");

@@ -4,6 +4,8 @@ mod collapse_laws;
 mod collapsed_columns;
 mod slope_laws;
 
-pub use collapse_laws::{Author, COLLAPSE_DURATION, CollapseLaw, CollapseLaws, DRAWN, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+pub use collapse_laws::{
+    COLLAPSE_DURATION, CollapseLaw, CollapseLawSource, CollapseLaws, DRAWN, PLANAR_COLLAPSE, ROUND_COLLAPSE,
+};
 pub use collapsed_columns::{ALUMINIUM_BAR_PILE, MeasuredPile, MeasuredRunOuts, ROUND_COLUMN_RUN_OUTS};
 pub use slope_laws::{RoughIncline, SLOPE_EXPERIMENT, SlopeExperiment, slope_run_out};

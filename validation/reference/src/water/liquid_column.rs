@@ -2,7 +2,7 @@
 
 use crate::evidence::read_shipped;
 use crate::metric::Confidence;
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Extrapolation, interpolated};
 use std::sync::LazyLock;
 
 /// A measured front.
@@ -75,7 +75,7 @@ pub static OTHER_WATER_FRONTS: LazyLock<Vec<NamedFront>> = LazyLock::new(|| {
 /// them differ by, releases included.
 #[must_use]
 pub fn spread_of_water_fronts() -> f64 {
-    let inside = (Beyond::Nothing, Beyond::Nothing);
+    let inside = (Extrapolation::Nothing, Extrapolation::Nothing);
     let points = OTHER_WATER_FRONTS.iter().flat_map(|(_, points)| points);
     let squares: Vec<f64> = points
         .filter_map(|&(time, front)| Some((front / interpolated(&WATER_FRONT.points, time, inside)? - 1.0).powi(2)))

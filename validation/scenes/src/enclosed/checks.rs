@@ -1,6 +1,6 @@
 //! Rules between the fields of a scene.
 
-use super::parameters::Setting;
+use super::parameters::Dimension;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector};
 use super::{Measurand, SceneParameters, names, sides::SceneSides};
@@ -11,7 +11,7 @@ use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 use bagnold_solver::weakly_compressible::numerics::Contact;
 use bagnold_solver::weakly_compressible::walls::Surface;
 
-impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     /// Everything that is refused beyond the ranges of single fields.
     pub(super) fn checked(&self) -> Result<(), ParameterError> {
         let walls = self.walls.iter().map(SceneWall::name);

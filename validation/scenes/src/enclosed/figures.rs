@@ -1,13 +1,13 @@
 //! Figures of scenes: pictures of the material between its walls, and the series of the gauges.
 
 use super::filling::SiteFate;
-use super::parameters::Setting;
+use super::parameters::Dimension;
 use super::series;
 use super::surfaces::Surfaces;
 use super::{SceneObservation, SceneParameters, SceneRecord};
 use crate::figure::{Axis, Figure, Panel};
 
-pub(crate) fn all<S: Setting<D>, const D: usize>(
+pub(crate) fn all<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     records: &[SceneRecord<S, D>],
 ) -> Vec<Figure> {
@@ -20,7 +20,7 @@ pub(crate) fn all<S: Setting<D>, const D: usize>(
 }
 
 /// Where particles start, and what walls take of the bodies.
-pub(crate) fn setup<S: Setting<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Figure {
+pub(crate) fn setup<S: Dimension<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Figure {
     let sites = parameters.survey(&Surfaces::of(&parameters.enclosure(), parameters.depth_of_walls()));
     let count = |fate: SiteFate| sites.iter().filter(|(_, other)| *other == fate).count();
     let caption = format!(
@@ -40,7 +40,7 @@ pub(crate) fn setup<S: Setting<D>, const D: usize>(parameters: &SceneParameters<
 }
 
 /// One panel a gauge with a line a column that shares its axis.
-fn gauges<S: Setting<D>, const D: usize>(
+fn gauges<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     data: &SceneObservation<D>,
 ) -> Option<Figure> {

@@ -2,7 +2,7 @@
 
 use super::behind_walls::{Permissions, Site};
 use super::lattice::{LatticeGroup, SiteLattice, groups};
-use super::parameters::Setting;
+use super::parameters::Dimension;
 use super::setting::{SceneBody, SceneInlet, SceneWall, vector};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
@@ -16,7 +16,7 @@ use bagnold_solver::weakly_compressible::scene::Flow;
 /// Steps by which depths are felt, a spacing `[-]`.
 const STEPS: f64 = 8.0;
 
-impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     /// Particles on the sites of lattices that bodies hold and that are free of walls, under the pressure of the material above
     /// them; and the share of the sites of bodies that walls take `[-]`.
     ///
@@ -56,7 +56,7 @@ impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
     }
 }
 
-impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     /// The sites of a lattice that some bodies hold.
     fn held(&self, lattice: &SiteLattice<D>, members: &[usize], walls: &Surfaces<D>) -> Vec<Site<D>> {
         let bodies = &self.bodies;
@@ -186,7 +186,7 @@ mod tests {
     }
 
     /// Volume of the particles that fill bodies without walls: their masses over their densities.
-    fn filled<S: Setting<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64 {
+    fn filled<S: Dimension<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64 {
         let scene = SceneParameters { bodies, spacing, walls: Vec::new(), ..S::of_tier(Tier::Quick) };
         let law = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e6, tension: Tension::Cut };
         let (flow, _) = scene.fill(&Surfaces::of(&BoundarySet::default(), spacing), &law).expect("filled");

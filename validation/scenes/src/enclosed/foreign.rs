@@ -1,15 +1,15 @@
 //! A scene as another code, or a paper about one, gives it: the front over time, along the line of the scene's gauge.
 
 use super::metrics::{FRONT, GAUGE_ERROR};
-use super::parameters::Setting;
+use super::parameters::Dimension;
 use super::setting::SceneGauge;
 use super::{Measurand, SceneObservation, SceneRun, series};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Extrapolation, interpolated};
 
 /// What a run may yield.
-pub(crate) const FORM: ExternalSchema = ExternalSchema {
+pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[
         ExternalColumn::new("time", "s", "time since the start of the scene"),
@@ -27,7 +27,7 @@ pub(crate) const FORM: ExternalSchema = ExternalSchema {
 /// # Errors
 /// A scene without a gauge for it, or with several; a time or a front that is missing beside the other; a series that lasts
 /// neither as long as what was measured nor, where nothing was, as the scene.
-pub(crate) fn observe<S: Setting<D>, const D: usize>(
+pub(crate) fn observe<S: Dimension<D>, const D: usize>(
     run: &SceneRun<S, D>,
     given: &ExternalData,
 ) -> Result<Option<ExternalObservation<SceneObservation<D>>>, FieldError> {
@@ -41,7 +41,7 @@ pub(crate) fn observe<S: Setting<D>, const D: usize>(
     }
     let gauge = gauge_of(run)?;
     let samples: Vec<(f64, f64)> = time.iter().copied().zip(front.iter().copied()).collect();
-    let at = |time: f64| interpolated(&samples, time, (Beyond::Nothing, Beyond::Nothing));
+    let at = |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Nothing));
     let points = || run.scene.measured.iter().filter(|measured| measured.gauge == gauge).flat_map(|one| &one.points);
     let (first, last) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &(t, _)| (a.min(t), b.max(t)));
     // the scene's own series ends with its last row, which is less than an interval before its end
@@ -76,7 +76,7 @@ pub(crate) fn observe<S: Setting<D>, const D: usize>(
 }
 
 /// The name of the scene's only gauge of a front.
-fn gauge_of<S: Setting<D>, const D: usize>(run: &SceneRun<S, D>) -> Result<&str, FieldError> {
+fn gauge_of<S: Dimension<D>, const D: usize>(run: &SceneRun<S, D>) -> Result<&str, FieldError> {
     let gauges = run.scene.gauges.iter().zip(run.scene.measures());
     let fronts: Vec<&str> =
         gauges.filter(|(_, measure)| matches!(measure, Measurand::Front(_))).map(|(gauge, _)| gauge.name()).collect();
@@ -98,7 +98,7 @@ fn gauge_of<S: Setting<D>, const D: usize>(run: &SceneRun<S, D>) -> Result<&str,
 }
 
 /// The values of all gauges, column by column, of which only those of one gauge are known.
-fn columns<S: Setting<D>, const D: usize>(run: &SceneRun<S, D>, gauge: &str, front: &[f64]) -> Vec<Vec<f64>> {
+fn columns<S: Dimension<D>, const D: usize>(run: &SceneRun<S, D>, gauge: &str, front: &[f64]) -> Vec<Vec<f64>> {
     let counts = series::counts(&run.scene);
     counts
         .into_iter()

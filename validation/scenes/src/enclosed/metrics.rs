@@ -1,6 +1,6 @@
 //! How scenes are judged: by their balances, and their gauges by what was measured.
 
-use super::parameters::Setting;
+use super::parameters::Dimension;
 use super::prediction;
 use super::series;
 use super::setting::{SceneInlet, vector};
@@ -8,7 +8,7 @@ use super::sides::SceneSides;
 use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Extrapolation, interpolated};
 use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 
 /// Impulse that implicit viscous steps may leave out, over that of gravity `[%]`.
@@ -36,9 +36,9 @@ quantities! { shared pub(super)
     GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
 }
 
-/// All quantities of a case of scenes, of which three have units of its own: [`Setting::MEAN_FORCE`],
-/// [`Setting::MASS_CROSSED`] and [`Setting::MASS_FED`].
-pub(crate) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity; 19] {
+/// All quantities of a case of scenes, of which three have units of its own: [`Dimension::MEAN_FORCE`],
+/// [`Dimension::MASS_CROSSED`] and [`Dimension::MASS_FED`].
+pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 19] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -63,14 +63,14 @@ pub(crate) const fn quantities_of<S: Setting<D>, const D: usize>() -> [Quantity;
 }
 
 /// The metrics of all runs.
-pub(crate) fn all<S: Setting<D>, const D: usize>(
+pub(crate) fn all<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     records: &[SceneRecord<S, D>],
 ) -> Vec<Metric> {
     records.iter().flat_map(|record| of_run(parameters, record)).collect()
 }
 
-fn of_run<S: Setting<D>, const D: usize>(
+fn of_run<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     (run, record): &SceneRecord<S, D>,
 ) -> Vec<Metric> {
@@ -165,7 +165,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
 }
 
 /// What inlets have fed, and how far it is from what they were to feed.
-fn feeds<S: Setting<D>, const D: usize>(
+fn feeds<S: Dimension<D>, const D: usize>(
     variant: &Variant,
     data: &SceneObservation<D>,
     parameters: &SceneParameters<S, D>,
@@ -189,7 +189,7 @@ fn feeds<S: Setting<D>, const D: usize>(
 
 /// The energy's balance. What a wall of the scene gives may be meant, so that only what is not booked is judged.
 /// Gravity, height and stiffness of the scene give the scales of energy and time.
-fn energy<S: Setting<D>, const D: usize>(
+fn energy<S: Dimension<D>, const D: usize>(
     variant: &Variant,
     data: &SceneObservation<D>,
     parameters: &SceneParameters<S, D>,
@@ -257,7 +257,8 @@ fn largest(series: &[f64]) -> f64 {
 /// Root mean square of value/measured − 1 at the measured times; NaN where the series does not reach them.
 fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> f64 {
     let samples: Vec<(f64, f64)> = time.iter().copied().zip(series.iter().copied()).collect();
-    let at = |time: f64| interpolated(&samples, time, (Beyond::Nothing, Beyond::Nothing)).unwrap_or(f64::NAN);
+    let at =
+        |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Nothing)).unwrap_or(f64::NAN);
     let square = |&(time, measured): &(f64, f64)| (at(time) / measured - 1.0).powi(2);
     (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
 }

@@ -1,6 +1,6 @@
 //! Scenes of a user's own, whatever the number of axes: what the cases `scene` and `scene-space` share. What the plane and
 //! space give in a way of their own (bodies, walls, inlets, gauges, sides, pictures, the tiers' scene) stands in the folders of these
-//! cases, behind [`Setting`].
+//! cases, behind [`Dimension`].
 
 mod behind_walls;
 mod checks;
@@ -34,7 +34,7 @@ pub use given_rate::GivenRate;
 pub use measure::{DepthGauge, Measurand, Opening};
 pub use measured::MeasuredSeries;
 pub use observation::{FedMass, OutflowRecord, SceneObservation};
-pub use parameters::{SceneParameters, Setting};
+pub use parameters::{Dimension, SceneParameters};
 pub use run::SceneRun;
 pub use settling::BodyPreparation;
 pub use sides::DomainSide;

@@ -1,5 +1,5 @@
 //! Everything that a scene is, and what the plane and space each give of it in their own way: all else is written once, over
-//! [`Setting`].
+//! [`Dimension`].
 
 use super::given::PlainData;
 use super::measured::MeasuredSeries;
@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 
 /// The plane (D = 2) or space (D = 3).
-pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Sync + 'static {
+pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Sync + 'static {
     /// Coordinates or components along the axes, as a case file gives them.
     type Place: PlainData + Copy + Into<[f64; D]>;
     /// The sides of the domain by their names.
@@ -64,7 +64,7 @@ pub trait Setting<const D: usize>: Debug + Clone + Copy + PartialEq + Send + Syn
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(bound = "")]
 #[schemars(rename = "SceneParameters", bound = "")]
-pub struct SceneParameters<S: Setting<D>, const D: usize> {
+pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     /// Name of the scene, in figures and files.
     pub name: String,
     /// Gravity along each axis `[m/s²]`.
@@ -121,7 +121,7 @@ pub struct SceneParameters<S: Setting<D>, const D: usize> {
     pub numerics: Numerics,
 }
 
-impl<S: Setting<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     /// A scene without bodies, walls and gauges: glass beads under a gravity `[m/s²]` at a spacing `[m]`, of which the scenes of
     /// the tiers are made.
     pub(crate) fn of_beads(name: &str, gravity: S::Place, spacing: f64, sides: S::Sides) -> Self {

@@ -1,7 +1,7 @@
 //! Where run-out and height of a scene of grains truly lie, by how far those of measured flows were off.
 
 use super::measure::DepthGauge;
-use super::parameters::Setting;
+use super::parameters::Dimension;
 use super::setting::{SceneBody, vector};
 use super::{SceneObservation, SceneParameters};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
@@ -31,7 +31,7 @@ struct Column {
 
 /// The body that a front along a line comes from, which stood at a place `[m]` at the start. None for liquids, for scenes that are fed, and
 /// for several bodies, of which nothing of the kind was measured.
-fn column<S: Setting<D>, const D: usize>(
+fn column<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     data: &SceneObservation<D>,
     line: &FrontLine<D>,
@@ -60,7 +60,7 @@ fn column<S: Setting<D>, const D: usize>(
 }
 
 /// What makes an interval one of a flow that is not over.
-fn unfinished<S: Setting<D>, const D: usize>(
+fn unfinished<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     data: &SceneObservation<D>,
     column: &Column,
@@ -71,7 +71,7 @@ fn unfinished<S: Setting<D>, const D: usize>(
 }
 
 /// The interval of a front along a line, from its series `[m]`: that of the way from where it stood.
-pub(super) fn of_front<S: Setting<D>, const D: usize>(
+pub(super) fn of_front<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     data: &SceneObservation<D>,
     line: &FrontLine<D>,
@@ -93,7 +93,7 @@ pub(super) fn of_front<S: Setting<D>, const D: usize>(
 }
 
 /// The interval of a thickness `[m]` along gravity at the back of a body whose front another gauge follows: that of the final height.
-pub(super) fn of_depth<S: Setting<D>, const D: usize>(
+pub(super) fn of_depth<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     data: &SceneObservation<D>,
     depth: &DepthGauge<D>,

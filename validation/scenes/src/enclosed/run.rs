@@ -1,14 +1,14 @@
 //! From the parameters to a scene of the solver, and what is watched while it runs.
 
 use super::gauges::Memory;
-use super::parameters::Setting;
+use super::parameters::Dimension;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneInlet, SceneWall, vector};
 use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
 use super::{BodyPreparation, SceneObservation, SceneParameters, shapes};
-use crate::case::recording::{self, Beginning, Ending, Followed, SimulationStage};
+use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, StartState};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
@@ -26,7 +26,7 @@ use std::ops::ControlFlow;
 /// The scene as a run.
 #[derive(Debug, Clone, Serialize)]
 #[serde(bound = "")]
-pub struct SceneRun<S: Setting<D>, const D: usize> {
+pub struct SceneRun<S: Dimension<D>, const D: usize> {
     /// All of it.
     pub scene: SceneParameters<S, D>,
 }
@@ -48,7 +48,7 @@ struct SceneObserver<const D: usize> {
     frames: Vec<Frame>,
 }
 
-impl<S: Setting<D>, const D: usize> Run for SceneRun<S, D>
+impl<S: Dimension<D>, const D: usize> Run for SceneRun<S, D>
 where
     Simulation<D>: Compiled<D>,
 {
@@ -95,11 +95,11 @@ where
             memory: Memory::default(),
             frames: Vec::new(),
         };
-        let Followed { simulation, stop, kept: (last_good, watch), started } = recording::follow(
+        let RestartableRun { simulation, stop, kept: (last_good, watch), started } = recording::follow(
             stage,
             |beginning| match beginning {
-                Beginning::New => self.prepared(made.clone()),
-                Beginning::Continued => Ok(made.clone()),
+                StartState::New => self.prepared(made.clone()),
+                StartState::Continued => Ok(made.clone()),
             },
             |simulation: &Simulation<D>| (simulation.snapshot(), begin(simulation)),
             |(last_good, watch): &mut (Snapshot<D>, SceneObserver<D>), simulation| {
@@ -126,7 +126,7 @@ where
     }
 }
 
-impl<S: Setting<D>, const D: usize> SceneRun<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
     /// What it is called among the runs of its case.
     pub(super) fn named(&self) -> Variant {
         Variant::of("scene", self.scene.name.as_str())

@@ -1,7 +1,7 @@
 //! Series of gauges: their columns, what they are compared with, and how they are written.
 
 use super::measured::MeasuredSeries;
-use super::parameters::Setting;
+use super::parameters::Dimension;
 use super::setting::SceneGauge;
 use super::{Measurand, SceneObservation, SceneParameters, SceneRecord};
 use crate::output::Table;
@@ -29,7 +29,7 @@ pub(super) struct GaugeSeries<'a, const D: usize> {
 }
 
 /// The series of all gauges in a run, gauge by gauge.
-pub(super) fn of_run<'a, S: Setting<D>, const D: usize>(
+pub(super) fn of_run<'a, S: Dimension<D>, const D: usize>(
     parameters: &'a SceneParameters<S, D>,
     data: &'a SceneObservation<D>,
 ) -> Vec<GaugeSeries<'a, D>> {
@@ -45,7 +45,7 @@ pub(super) fn of_run<'a, S: Setting<D>, const D: usize>(
 }
 
 /// The gauges with the number of their columns, in order.
-pub(super) fn counts<S: Setting<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Vec<(&str, usize)> {
+pub(super) fn counts<S: Dimension<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Vec<(&str, usize)> {
     let count = |measure: &Measurand<'_, D>| columns::<S, D>(measure).len();
     parameters
         .gauges
@@ -56,7 +56,7 @@ pub(super) fn counts<S: Setting<D>, const D: usize>(parameters: &SceneParameters
 }
 
 /// The columns of a gauge's series.
-fn columns<S: Setting<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<GaugeColumn> {
+fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<GaugeColumn> {
     let (force, mass, flux) = (S::MEAN_FORCE.unit, S::MASS_CROSSED.unit, S::FLUX_UNIT);
     let column = |what: &str, axis: &str, unit: &str| GaugeColumn {
         heading: format!("{what} [{unit}]"),
@@ -76,7 +76,7 @@ fn columns<S: Setting<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<Gau
 }
 
 /// The series of each run as a table: time, mass, and a column a gauge's column.
-pub(crate) fn tables<S: Setting<D>, const D: usize>(
+pub(crate) fn tables<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     records: &[SceneRecord<S, D>],
 ) -> Vec<Table> {

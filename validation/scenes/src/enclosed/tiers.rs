@@ -1,11 +1,11 @@
 //! The tiers of a scene, its rules and its run.
 
 use super::SceneRun;
-use super::parameters::{SceneParameters, Setting};
+use super::parameters::{Dimension, SceneParameters};
 use crate::case::{ParameterError, Parameters, Tier};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
-impl<S: Setting<D>, const D: usize> Parameters for SceneParameters<S, D>
+impl<S: Dimension<D>, const D: usize> Parameters for SceneParameters<S, D>
 where
     Simulation<D>: Compiled<D>,
 {

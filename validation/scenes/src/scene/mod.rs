@@ -12,7 +12,7 @@ pub use gauge::PlaneGauge;
 pub use inlet::PlaneInlet;
 pub use wall::{FlowSide, PlaneSides, WallLine};
 
-use super::enclosed::Setting;
+use super::enclosed::Dimension;
 use super::enclosed::{self, SceneObservation, foreign, metrics, series};
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunOf, Tier};
 use crate::figure::{Figure, Panel};
@@ -35,7 +35,7 @@ type PlaneSceneRecord = RecordOf<PlaneParameters>;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane;
 
-impl Setting<2> for Plane {
+impl Dimension<2> for Plane {
     type Place = PlaneVector;
     type Sides = PlaneSides;
     type Body = PlaneBody;
@@ -82,7 +82,7 @@ impl Case for UserScene {
     type Parameters = PlaneParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Plane, 2>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
-    const FORM: ExternalSchema = foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
 
     fn metrics(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
@@ -96,7 +96,7 @@ impl Case for UserScene {
         Some(enclosed::figures::setup(parameters))
     }
 
-    fn foreign(
+    fn from_external(
         run: &RunOf<PlaneParameters>,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<SceneObservation<2>>>, FieldError> {

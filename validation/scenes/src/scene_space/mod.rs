@@ -12,7 +12,7 @@ pub use gauge::SpaceGauge;
 pub use inlet::SpaceInlet;
 pub use wall::{SpaceSides, SpaceWall};
 
-use super::enclosed::Setting;
+use super::enclosed::Dimension;
 use super::enclosed::{self, SceneObservation, foreign, metrics, series};
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunOf, Tier};
 use crate::figure::{Figure, Panel};
@@ -35,7 +35,7 @@ type SpaceSceneRecord = RecordOf<SpaceParameters>;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Space;
 
-impl Setting<3> for Space {
+impl Dimension<3> for Space {
     type Place = SpaceVector;
     type Sides = SpaceSides;
     type Body = SpaceBody;
@@ -83,7 +83,7 @@ impl Case for SpaceScene {
     type Parameters = SpaceParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Space, 3>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
-    const FORM: ExternalSchema = foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
 
     fn metrics(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Metric> {
         metrics::all(parameters, records)
@@ -97,7 +97,7 @@ impl Case for SpaceScene {
         Some(enclosed::figures::setup(parameters))
     }
 
-    fn foreign(
+    fn from_external(
         run: &RunOf<SpaceParameters>,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<SceneObservation<3>>>, FieldError> {

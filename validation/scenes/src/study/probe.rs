@@ -7,7 +7,7 @@ use crate::input::{FieldError, nearest};
 use crate::measured::Measurements;
 use crate::metric::{Metric, Variant};
 use crate::output::Table;
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Extrapolation, interpolated};
 
 /// A column of the tables that a case writes, and the part of it that counts.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,7 +108,7 @@ impl RunCurve {
 
     /// The value at a place, linear between points; none beyond the ends.
     fn at(&self, place: f64) -> Option<f64> {
-        interpolated(&self.points, place, (Beyond::Nothing, Beyond::Nothing))
+        interpolated(&self.points, place, (Extrapolation::Nothing, Extrapolation::Nothing))
     }
 
     /// The first place at which the value reaches a level, from below or from above; none if it does not.

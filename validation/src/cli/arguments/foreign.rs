@@ -1,6 +1,6 @@
 //! Commands that deal with other codes.
 
-use super::{Tier, Work};
+use super::{ExecutionOptions, Tier};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -44,7 +44,7 @@ pub struct JudgeArguments {
     pub junit: Option<PathBuf>,
     /// How to compute.
     #[command(flatten)]
-    pub work: Work,
+    pub work: ExecutionOptions,
 }
 
 /// `bagnold export`
@@ -61,7 +61,7 @@ pub struct ExportArguments {
     pub out: PathBuf,
     /// How to compute.
     #[command(flatten)]
-    pub work: Work,
+    pub work: ExecutionOptions,
 }
 
 const COMPARE_EXAMPLES: &str = "Examples:

@@ -1,6 +1,6 @@
 //! Arguments of `bagnold sweep`.
 
-use super::{Allowance, Work};
+use super::{ExecutionOptions, ResourceLimits};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -46,10 +46,10 @@ pub struct SweepArguments {
     pub cluster: Cluster,
     /// How much each run may ask for.
     #[command(flatten)]
-    pub allowance: Allowance,
+    pub allowance: ResourceLimits,
     /// How to compute.
     #[command(flatten)]
-    pub work: Work,
+    pub work: ExecutionOptions,
 }
 
 /// What runs a sweep.
@@ -86,7 +86,7 @@ pub enum SweepAction {
         entry: usize,
         /// How to compute.
         #[command(flatten)]
-        work: Work,
+        work: ExecutionOptions,
     },
     /// Print the Slurm script that ships with bagnold, to be edited for --template.
     Template,

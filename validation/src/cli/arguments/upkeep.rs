@@ -1,6 +1,6 @@
 //! Arguments of `store`, and of the commands below `dev`, for the development of Bagnold itself.
 
-use super::work::{Allowance, Work, positive};
+use super::work::{ExecutionOptions, ResourceLimits, positive};
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
 
@@ -54,10 +54,10 @@ pub struct SensitivitiesArguments {
     pub out: PathBuf,
     /// How much it may ask for.
     #[command(flatten)]
-    pub allowance: Allowance,
+    pub allowance: ResourceLimits,
     /// How to compute.
     #[command(flatten)]
-    pub work: Work,
+    pub work: ExecutionOptions,
 }
 
 /// `bagnold store`

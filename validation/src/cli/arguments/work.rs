@@ -4,9 +4,9 @@ use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// How much runs may ask for; more is refused before anything is allocated.
+/// Resource limits of runs; more is rejected before anything is allocated.
 #[derive(Debug, Clone, Copy, Default, Args)]
-pub struct Allowance {
+pub struct ResourceLimits {
     /// Memory that the runs may ask for [default: $BAGNOLD_MOST_MEMORY, else that of the machine].
     #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true)]
     pub most_memory: Option<f64>,
@@ -20,9 +20,9 @@ pub(super) fn positive(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "must be a positive number, such as 30 or 0.5".to_owned())
 }
 
-/// Options of everything that simulates.
+/// Execution options of every command that simulates.
 #[derive(Debug, Args)]
-pub struct Work {
+pub struct ExecutionOptions {
     /// Threads to use [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

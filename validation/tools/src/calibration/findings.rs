@@ -3,7 +3,7 @@
 use super::plan::CalibrationPlan;
 use super::result::DatumComparison;
 use crate::inference::diagnosis::{outliers, serial_correlation};
-use crate::inference::{Answer, Explored, ParameterLabel, Stopped, UNLIKELY, assess};
+use crate::inference::{Answer, Explored, ParameterLabel, Termination, UNLIKELY, assess};
 use crate::number::short_digits;
 
 /// Everything that a search and its region leave open, the gravest first.
@@ -24,7 +24,7 @@ pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison
 fn of_search(plan: &CalibrationPlan, answer: &Answer) -> Vec<String> {
     let search = &answer.search;
     let mut findings = Vec::new();
-    if matches!(search.stopped, Stopped::BudgetSpent | Stopped::Stalled) {
+    if matches!(search.stopped, Termination::BudgetSpent | Termination::Stalled) {
         findings.push(format!("the search did not converge: {}", search.stopped));
     }
     if !search.every_start {

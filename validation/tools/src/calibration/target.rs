@@ -2,11 +2,11 @@
 
 use crate::evaluation::EvaluationRecord;
 use crate::input::nearest;
-use crate::statistics::{Beyond, interpolated};
+use crate::statistics::{Extrapolation, interpolated};
 use serde::{Deserialize, Serialize};
 
 /// A table is read up to half a step beyond its ends, no farther.
-const HALF_A_STEP: (Beyond, Beyond) = (Beyond::Line(0.5), Beyond::Line(0.5));
+const HALF_A_STEP: (Extrapolation, Extrapolation) = (Extrapolation::Line(0.5), Extrapolation::Line(0.5));
 
 /// Where a datum lies in a profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

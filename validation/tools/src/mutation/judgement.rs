@@ -1,7 +1,7 @@
 //! What noticed an error: a gate, a divergence, the snapshot, or nothing.
 
 use super::rows::judged_rows;
-use super::{Mutation, Scope, Sighting};
+use super::{MutantRun, Mutation, Scope};
 use crate::metric::{Limit, Metric, Verdict};
 use crate::report::Baseline;
 use std::collections::BTreeMap;
@@ -28,9 +28,9 @@ impl Broken {
     }
 }
 
-/// The strongest witness of an error.
+/// Strongest detection of a mutation.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Catch {
+pub enum Detection {
     /// Gates that held without the error, the one furthest beyond its limit first.
     Gate(Vec<Broken>),
     /// A run that diverged, or a program that stopped: the case and what it said.
@@ -41,7 +41,7 @@ pub enum Catch {
     Nothing,
 }
 
-impl Catch {
+impl Detection {
     /// Whether `bagnold report` fails by it on its own.
     #[must_use]
     pub fn is_certain(&self) -> bool {
@@ -57,7 +57,7 @@ pub struct MutationOutcome {
     /// The cases that ran, in order.
     pub cases: Vec<String>,
     /// Who noticed.
-    pub catch: Catch,
+    pub catch: Detection,
     /// Values that moved beyond their snapshot tolerance, came or went.
     pub drifted: usize,
     /// The first of them, a sentence; empty where there is none.
@@ -69,7 +69,7 @@ pub struct MutationOutcome {
 }
 
 /// One case with and without the error. A case that did not end has no sighting but a reason.
-pub type MutationComparison<'a> = (&'a Scope, &'a Sighting, Result<Sighting, String>);
+pub type MutationComparison<'a> = (&'a Scope, &'a MutantRun, Result<MutantRun, String>);
 
 /// Judges what the cases of an error said, each with what it says without.
 #[must_use]
@@ -96,13 +96,13 @@ pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> Mutati
     }
     broken.sort_by(|a: &Broken, b: &Broken| b.excess().total_cmp(&a.excess()));
     let catch = if !broken.is_empty() {
-        Catch::Gate(broken)
+        Detection::Gate(broken)
     } else if let Some(first) = stops.into_iter().next() {
-        Catch::Stop(first)
+        Detection::Stop(first)
     } else if !drifts.is_empty() {
-        Catch::Snapshot
+        Detection::Snapshot
     } else {
-        Catch::Nothing
+        Detection::Nothing
     };
     MutationOutcome {
         error: error.clone(),
@@ -116,7 +116,7 @@ pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> Mutati
 }
 
 /// Gates of a case that hold without the error and fail with it. A value that is gone is the snapshot's business.
-fn broken_gates<'a>(case: &'a str, right: &'a Sighting, wrong: &'a Sighting) -> impl Iterator<Item = Broken> + 'a {
+fn broken_gates<'a>(case: &'a str, right: &'a MutantRun, wrong: &'a MutantRun) -> impl Iterator<Item = Broken> + 'a {
     let held = |metric: &Metric| {
         let is_it = |other: &&Metric| other.name == metric.name && other.variant == metric.variant;
         right.metrics.iter().find(is_it).is_some_and(|other| other.verdict() == Verdict::Pass)
@@ -145,10 +145,10 @@ impl DetectionTally {
         let mut tally = Self::default();
         for finding in findings {
             *match finding.catch {
-                Catch::Gate(_) => &mut tally.gate,
-                Catch::Stop(_) => &mut tally.stop,
-                Catch::Snapshot => &mut tally.snapshot,
-                Catch::Nothing => &mut tally.nothing,
+                Detection::Gate(_) => &mut tally.gate,
+                Detection::Stop(_) => &mut tally.stop,
+                Detection::Snapshot => &mut tally.snapshot,
+                Detection::Nothing => &mut tally.nothing,
             } += 1;
         }
         tally
@@ -184,13 +184,13 @@ mod tests {
     use super::*;
     use crate::metric::Variant;
 
-    fn sighting(value: f64, gated: bool) -> Sighting {
+    fn sighting(value: f64, gated: bool) -> MutantRun {
         let metric = Metric::observed("error", &Variant::default(), value, "%").with_snapshot_tolerance(0.1, 0.0);
         let metric = if gated { metric.gated(Limit::AtMost(2.0), "a reason") } else { metric };
-        Sighting { metrics: vec![metric], diverged: Vec::new(), wall_seconds: 1.0 }
+        MutantRun { metrics: vec![metric], diverged: Vec::new(), wall_seconds: 1.0 }
     }
 
-    fn found(right: &Sighting, wrong: Result<Sighting, String>) -> MutationOutcome {
+    fn found(right: &MutantRun, wrong: Result<MutantRun, String>) -> MutationOutcome {
         let scope = Scope { case: "film".to_owned(), settings: Vec::new() };
         let (name, description) = ("von-karman".to_owned(), "κ = 0.45 instead of 0.41".to_owned());
         let error = Mutation { name, description, cases: Vec::new(), places: Vec::new() };
@@ -200,19 +200,19 @@ mod tests {
     #[test]
     fn the_strongest_witness_counts() {
         let right = sighting(1.0, true);
-        assert!(matches!(found(&right, Ok(sighting(3.0, true))).catch, Catch::Gate(broken) if broken.len() == 1));
-        assert_eq!(found(&right, Ok(sighting(1.5, true))).catch, Catch::Snapshot);
-        assert_eq!(found(&right, Ok(sighting(1.05, true))).catch, Catch::Nothing);
-        assert!(matches!(found(&right, Err("stopped".to_owned())).catch, Catch::Stop(_)));
-        let diverged = Sighting { diverged: vec!["at once".to_owned()], ..right.clone() };
-        assert!(matches!(found(&right, Ok(diverged)).catch, Catch::Stop(_)));
+        assert!(matches!(found(&right, Ok(sighting(3.0, true))).catch, Detection::Gate(broken) if broken.len() == 1));
+        assert_eq!(found(&right, Ok(sighting(1.5, true))).catch, Detection::Snapshot);
+        assert_eq!(found(&right, Ok(sighting(1.05, true))).catch, Detection::Nothing);
+        assert!(matches!(found(&right, Err("stopped".to_owned())).catch, Detection::Stop(_)));
+        let diverged = MutantRun { diverged: vec!["at once".to_owned()], ..right.clone() };
+        assert!(matches!(found(&right, Ok(diverged)).catch, Detection::Stop(_)));
     }
 
     #[test]
     fn a_gate_that_fails_anyway_is_no_witness() {
-        assert_eq!(found(&sighting(2.5, true), Ok(sighting(4.0, true))).catch, Catch::Snapshot);
-        assert_eq!(found(&sighting(1.0, false), Ok(sighting(1.0, false))).catch, Catch::Nothing);
-        assert!(matches!(found(&sighting(1.0, true), Ok(sighting(f64::NAN, true))).catch, Catch::Gate(_)));
+        assert_eq!(found(&sighting(2.5, true), Ok(sighting(4.0, true))).catch, Detection::Snapshot);
+        assert_eq!(found(&sighting(1.0, false), Ok(sighting(1.0, false))).catch, Detection::Nothing);
+        assert!(matches!(found(&sighting(1.0, true), Ok(sighting(f64::NAN, true))).catch, Detection::Gate(_)));
     }
 
     #[test]

@@ -21,10 +21,10 @@ mod rows;
 mod trial;
 
 pub use copy::{CHOICE, CopyError, build};
-pub use judgement::{Broken, Catch, DetectionTally, MutationComparison, MutationOutcome, judge};
+pub use judgement::{Broken, Detection, DetectionTally, MutationComparison, MutationOutcome, judge};
 pub use page::{table, write};
 pub use record::{FILE, Mutation, Mutations, SourceReplacement};
-pub use trial::{Scope, Sighting, run_trial};
+pub use trial::{MutantRun, Scope, run_trial};
 
 /// Share of the errors that something must notice `[-]`.
 pub const LEAST_CAUGHT: f64 = 0.95;

@@ -1,6 +1,6 @@
 //! The findings as a table for the terminal, as CSV and as Markdown.
 
-use super::{Catch, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
+use super::{Detection, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
 use crate::metric::Limit;
 use crate::number::short_digits;
 use std::collections::BTreeMap;
@@ -11,19 +11,19 @@ const COLUMNS: [&str; 7] =
     ["error", "what is wrong", "cases", "caught by", "witness", "values drifted", "elements of the papers that fall"];
 
 /// Who noticed, in a word.
-fn word(catch: &Catch) -> &'static str {
+fn word(catch: &Detection) -> &'static str {
     match catch {
-        Catch::Gate(_) => "gate",
-        Catch::Stop(_) => "stop",
-        Catch::Snapshot => "snapshot only",
-        Catch::Nothing => "NOTHING",
+        Detection::Gate(_) => "gate",
+        Detection::Stop(_) => "stop",
+        Detection::Snapshot => "snapshot only",
+        Detection::Nothing => "NOTHING",
     }
 }
 
 /// Which gate with its value and limit, or what a run said.
 fn witness(finding: &MutationOutcome) -> String {
     match &finding.catch {
-        Catch::Gate(broken) => {
+        Detection::Gate(broken) => {
             let Some(first) = broken.first() else { return String::new() };
             let metric = &first.metric;
             let limit = metric.gate.as_ref().map_or_else(String::new, |gate| rule(gate.limit));
@@ -34,9 +34,9 @@ fn witness(finding: &MutationOutcome) -> String {
                 first.case, metric.name, metric.variant, metric.unit
             )
         }
-        Catch::Stop(message) => message.clone(),
-        Catch::Snapshot => finding.first_drift.clone(),
-        Catch::Nothing => String::new(),
+        Detection::Stop(message) => message.clone(),
+        Detection::Snapshot => finding.first_drift.clone(),
+        Detection::Nothing => String::new(),
     }
 }
 

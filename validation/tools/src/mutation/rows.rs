@@ -1,14 +1,14 @@
 //! Which statements of the papers fall with an error: the physics is broken in the program, and whoever still calls a
 //! statement reproduced shows nothing by it.
 
-use super::Sighting;
+use super::MutantRun;
 use crate::evidence::PAPERS;
 use crate::report::papers::Status;
 use std::collections::BTreeMap;
 
 /// Of each element of the papers that a case's metrics reproduce without the error, as `paper element`: whether it falls
 /// with it. A run that stops judges nothing.
-pub(super) fn judged_rows(case: &str, right: &Sighting, wrong: &Sighting) -> BTreeMap<String, bool> {
+pub(super) fn judged_rows(case: &str, right: &MutantRun, wrong: &MutantRun) -> BTreeMap<String, bool> {
     let mut rows = BTreeMap::new();
     for paper in PAPERS.iter() {
         for element in paper.elements.iter().filter(|element| element.settled.is_none()) {
@@ -53,14 +53,14 @@ mod tests {
         let sighting = |value| {
             let metric =
                 Metric::observed(&metric, &Variant::default(), value, "%").gated(Limit::AtMost(2.0), "a reason");
-            Sighting { metrics: vec![metric], diverged: Vec::new(), wall_seconds: 1.0 }
+            MutantRun { metrics: vec![metric], diverged: Vec::new(), wall_seconds: 1.0 }
         };
         assert_eq!(judged_rows(case, &sighting(1.0), &sighting(3.0)).get(&id), Some(&true));
         assert_eq!(judged_rows(case, &sighting(1.0), &sighting(f64::NAN)).get(&id), Some(&true));
         assert_eq!(judged_rows(case, &sighting(1.0), &sighting(1.5)).get(&id), Some(&false));
         // what is not reproduced without the error is not asked
         assert_eq!(judged_rows(case, &sighting(3.0), &sighting(3.0)).get(&id), None);
-        let gone = Sighting { metrics: Vec::new(), ..sighting(1.0) };
+        let gone = MutantRun { metrics: Vec::new(), ..sighting(1.0) };
         assert_eq!(judged_rows(case, &sighting(1.0), &gone).get(&id), Some(&false));
         assert!(judged_rows("no-such-case", &sighting(1.0), &sighting(3.0)).is_empty());
     }

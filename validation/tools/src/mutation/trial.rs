@@ -16,9 +16,9 @@ pub struct Scope {
     pub settings: Vec<String>,
 }
 
-/// What a case said.
+/// Results of a case with one mutation, or with none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Sighting {
+pub struct MutantRun {
     /// Judged and observed numbers.
     pub metrics: Vec<Metric>,
     /// Runs that diverged although their case does not expect it, with the message.
@@ -27,7 +27,7 @@ pub struct Sighting {
     pub wall_seconds: f64,
 }
 
-impl Sighting {
+impl MutantRun {
     fn of(result: &CaseResult) -> Self {
         let message = |run: &crate::case::RunSummary| match &run.outcome {
             Outcome::Diverged { message, .. } => format!("{} {message}", run.variant).trim_start().to_owned(),
@@ -40,7 +40,7 @@ impl Sighting {
         }
     }
 
-    /// Reads what [`Sighting::write`] wrote; none if there is nothing to be understood.
+    /// Reads what [`MutantRun::write`] wrote; none if there is nothing to be understood.
     #[must_use]
     pub fn read(file: &Path) -> Option<Self> {
         std::fs::read(file).ok().and_then(|bytes| postcard::from_bytes(&bytes).ok())
@@ -61,11 +61,11 @@ impl Sighting {
 ///
 /// # Errors
 /// A case or setting that is refused.
-pub fn run_trial(scope: &Scope, registry: Registry) -> Result<(Vec<CaseResult>, Sighting), ParameterError> {
+pub fn run_trial(scope: &Scope, registry: Registry) -> Result<(Vec<CaseResult>, MutantRun), ParameterError> {
     let changes = Changes { file: None, settings: &scope.settings, ..Changes::default() };
     let prepared = registry.find(&scope.case)?.prepare(Tier::Quick, &changes)?;
     let results = execute(vec![prepared], &Store::open(StorePolicy::Bypass), &Silent)?;
-    let sighting = results.first().map(Sighting::of);
-    let nothing = || Sighting { metrics: Vec::new(), diverged: Vec::new(), wall_seconds: 0.0 };
+    let sighting = results.first().map(MutantRun::of);
+    let nothing = || MutantRun { metrics: Vec::new(), diverged: Vec::new(), wall_seconds: 0.0 };
     Ok((results, sighting.unwrap_or_else(nothing)))
 }

@@ -9,7 +9,7 @@ use crate::input::FieldError;
 use crate::statistics::BLOCKS;
 
 /// What a run may yield.
-pub(super) const FORM: ExternalSchema = ExternalSchema {
+pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[
         ExternalColumn::new("time", "s", "time since the start"),

@@ -45,7 +45,7 @@ impl Case for BedLoad {
         against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
         that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
         quick tier is too short to be stationary and says so: it judges conservation.";
-    const FORM: ExternalSchema = foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Parameters = BedLoadParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
@@ -57,7 +57,7 @@ impl Case for BedLoad {
         figures::all(records)
     }
 
-    fn foreign(
+    fn from_external(
         run: &BedLoadRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<BedLoadObservation>>, FieldError> {

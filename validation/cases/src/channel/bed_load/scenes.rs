@@ -2,7 +2,7 @@
 
 use super::parameters::{GrainParticles, Materials};
 use super::run::{BedLoadFormulation, BedLoadRun};
-use crate::channel::{Channel, Until};
+use crate::channel::{AveragingWindowEnd, Channel};
 use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, Sediment};
@@ -69,7 +69,7 @@ impl BedLoadRun {
             kinematic_viscosity,
             jitter: self.jitter,
             seed: self.seed,
-            until: Until::Time(self.duration),
+            until: AveragingWindowEnd::Time(self.duration),
             window: self.averaging_time,
             ..Channel::of(fluid, fluid_density, gravity, velocity)
         }

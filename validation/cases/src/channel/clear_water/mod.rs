@@ -31,7 +31,7 @@ impl Case for ClearWater {
         starts 20 % too slow and is averaged once it is stationary: once its depth mean changes by less than 0.5 % over \
         U/(2 g i) three times in a row. The quick tier starts from the law itself, is too short to be stationary and \
         says so: it judges the balance of momentum only, and reports the rest with its drift.";
-    const FORM: ExternalSchema = channel::foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
     type Parameters = ClearWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -43,7 +43,7 @@ impl Case for ClearWater {
         vec![figures::profiles(records), figures::over_time(records)]
     }
 
-    fn foreign(
+    fn from_external(
         _: &ClearWaterRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {

@@ -1,7 +1,7 @@
 //! Parameters, tiers and runs.
 
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
-use crate::channel::{Channel, ChannelObservation, TurbulenceClosure, Until, Water};
+use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, TurbulenceClosure, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::water::{RoughChannel, roughness_ratio};
@@ -190,9 +190,9 @@ impl ClearWaterRun {
         let RoughBedFlow { kinematic_viscosity, sand_roughness, origin_offset, turbulence, jitter, period, .. } =
             self.flow;
         let (until, window) = match period {
-            Period::Fixed { duration, averaging_time } => (Until::Time(duration), averaging_time),
+            Period::Fixed { duration, averaging_time } => (AveragingWindowEnd::Time(duration), averaging_time),
             Period::Stationary { tolerance, checks, at_most, averaging_times } => {
-                (Until::Stationary { tolerance, checks, at_most: at_most * time }, averaging_times * time)
+                (AveragingWindowEnd::Stationary { tolerance, checks, at_most: at_most * time }, averaging_times * time)
             }
         };
         Channel {

@@ -1,7 +1,7 @@
 //! Parameters, tiers and runs.
 
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
-use crate::channel::{Channel, ChannelObservation, Until, Water};
+use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::setup::rules;
@@ -143,7 +143,7 @@ impl StillWaterRun {
         Channel {
             kinematic_viscosity: self.kinematic_viscosity,
             jitter: self.jitter,
-            until: Until::Time(self.duration),
+            until: AveragingWindowEnd::Time(self.duration),
             window: self.averaging_time,
             // a column that blows up does so within a few steps
             interval: if self.unstabilised { self.water.numerics.time_step } else { 5e-3 },

@@ -30,7 +30,7 @@ impl Case for WaterFilm {
         0.74, far from water and laminar, so that an exact profile exists. The film starts from it and must keep it for \
         several relaxation times 4h²/(π²ν): what remains is the error of the wall, of the viscous pairs and of the depth \
         that the particles take.";
-    const FORM: ExternalSchema = channel::foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
     type Parameters = WaterFilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -42,7 +42,7 @@ impl Case for WaterFilm {
         figures::all(records)
     }
 
-    fn foreign(
+    fn from_external(
         _: &WaterFilmRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {

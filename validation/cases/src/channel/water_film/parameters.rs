@@ -1,7 +1,7 @@
 //! Parameters, tiers and runs.
 
 use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
-use crate::channel::{Channel, ChannelObservation, Until, Water};
+use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::film::{Incline, NewtonianFilm};
@@ -180,7 +180,7 @@ impl WaterFilmRun {
             kinematic_viscosity: self.kinematic_viscosity(),
             bed: Bed::NoSlip(0.0),
             jitter: self.film.jitter,
-            until: Until::Time(self.film.relaxation_times * relaxation_time),
+            until: AveragingWindowEnd::Time(self.film.relaxation_times * relaxation_time),
             window: self.film.averaging_times * relaxation_time,
             interval: relaxation_time / 200.0,
             ..self.water.channel(velocity)

@@ -33,7 +33,7 @@ impl Case for InclineCollapse {
         thickness of 0.02 r_0 as in column-planar: thickness in rows of particles, from the thickest place down the slope, what lies in \
         fewer than four rows as a wedge of its volume. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
         gate.";
-    const FORM: ExternalSchema = collapse::foreign_slope::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign_slope::EXTERNAL_SCHEMA;
     type Parameters = InclineCollapseParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -49,7 +49,10 @@ impl Case for InclineCollapse {
         figures::animations(records)
     }
 
-    fn foreign(run: &SlopeRun, given: &ExternalData) -> Result<Option<ExternalObservation<SlopeCollapse>>, FieldError> {
+    fn from_external(
+        run: &SlopeRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<SlopeCollapse>>, FieldError> {
         collapse::foreign_slope::observe(run, given).map(Some)
     }
 

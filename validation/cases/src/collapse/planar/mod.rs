@@ -31,7 +31,7 @@ impl Case for ColumnPlanar {
         Table 2; the other grains are those of Lagrée, Staron & Popinet (2011), whose grain diameter the source does \
         not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
         law than μ(I) the published laws are shown and do not gate.";
-    const FORM: ExternalSchema = collapse::foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign::EXTERNAL_SCHEMA;
     type Parameters = ColumnPlanarParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
@@ -47,7 +47,10 @@ impl Case for ColumnPlanar {
         collapse::figures::animations(records)
     }
 
-    fn foreign(run: &ColumnRun, given: &ExternalData) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
+    fn from_external(
+        run: &ColumnRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
         collapse::foreign::observe(run, given).map(Some)
     }
 

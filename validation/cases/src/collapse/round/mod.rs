@@ -26,7 +26,7 @@ impl Case for ColumnRound {
         place of a length and two rows in place of four, and quarter rings of width 0.1 r_0 as bins. The run-out law of Lube et al. (2004) was measured on such columns; the collapse paper compared its \
         planar runs with it. The height law of the same source is unverified and does not gate. With another \
         law than μ(I) the published laws are shown and do not gate.";
-    const FORM: ExternalSchema = collapse::foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign::EXTERNAL_SCHEMA;
     type Parameters = ColumnRoundParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
 
@@ -42,7 +42,10 @@ impl Case for ColumnRound {
         collapse::figures::animations(records)
     }
 
-    fn foreign(run: &ColumnRun, given: &ExternalData) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
+    fn from_external(
+        run: &ColumnRun,
+        given: &ExternalData,
+    ) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
         collapse::foreign::observe(run, given).map(Some)
     }
 

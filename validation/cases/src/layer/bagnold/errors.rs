@@ -6,7 +6,7 @@ use super::runs::{BagnoldPurpose, BagnoldRun};
 use crate::layer::{DepthProfile, LayerObservation};
 use crate::reference::one_dimension::{BagnoldProfile, LayerTransient, TransientHistory};
 use crate::shared::Arrangement;
-use crate::statistics::{Beyond, interpolated, linear_fit, relative_l2};
+use crate::statistics::{Extrapolation, interpolated, linear_fit, relative_l2};
 
 /// A steady run's errors.
 #[derive(Debug, Clone, Copy)]
@@ -138,5 +138,5 @@ pub(super) fn particle_history(data: &LayerObservation) -> TransientHistory {
 /// history ended before.
 pub(super) fn mean_at(history: &TransientHistory, time: f64) -> f64 {
     let samples: Vec<(f64, f64)> = history.times.iter().copied().zip(history.depth_means.iter().copied()).collect();
-    interpolated(&samples, time, (Beyond::Nothing, Beyond::Line(1.0))).unwrap_or(f64::NAN)
+    interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Line(1.0))).unwrap_or(f64::NAN)
 }

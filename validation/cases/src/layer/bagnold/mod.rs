@@ -38,7 +38,7 @@ impl Case for Bagnold {
         Bagnold's flow makes an error of the friction coefficient eight (25°) to twenty (22°) times as large in the \
         velocity (dln I/dln μ), so the implied stress error \
         |μ(I)/tanθ − 1| stands beside the velocity error.";
-    const FORM: ExternalSchema = layer::foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
     type Parameters = BagnoldParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -50,11 +50,11 @@ impl Case for Bagnold {
         figures::all(parameters, records)
     }
 
-    fn foreign(
+    fn from_external(
         run: &BagnoldRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
-        run.foreign(given).map(Some)
+        run.from_external(given).map(Some)
     }
 
     fn tables(_: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Table> {

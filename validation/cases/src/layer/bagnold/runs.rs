@@ -230,7 +230,10 @@ impl BagnoldRun {
     }
 
     /// Its observation as another code gives it.
-    pub(super) fn foreign(&self, given: &ExternalData) -> Result<ExternalObservation<LayerObservation>, FieldError> {
+    pub(super) fn from_external(
+        &self,
+        given: &ExternalData,
+    ) -> Result<ExternalObservation<LayerObservation>, FieldError> {
         let nothing = |_: f64| 0.0;
         layer::foreign::observe(&self.layer(&nothing, &nothing), given)
     }

@@ -34,7 +34,7 @@ impl Case for Film {
         exact solutions of the unregularised laws: the regularisation's creep of the plug is part of the error. The \
         Newtonian film is also run with the collapse paper's operators and walls, which are observed and do not gate. Any other \
         law, under `material`, is compared with its steady film, integrated over the depth, and does not gate.";
-    const FORM: ExternalSchema = layer::foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
     type Parameters = FilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -46,11 +46,11 @@ impl Case for Film {
         figures::all(records)
     }
 
-    fn foreign(
+    fn from_external(
         run: &FilmRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<layer::LayerObservation>>, FieldError> {
-        run.foreign(given).map(Some)
+        run.from_external(given).map(Some)
     }
 
     fn tables(_: &FilmParameters, records: &[Record]) -> Vec<Table> {

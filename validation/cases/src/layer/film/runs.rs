@@ -118,7 +118,10 @@ impl FilmRun {
     }
 
     /// Its observation as another code gives it.
-    pub(super) fn foreign(&self, given: &ExternalData) -> Result<ExternalObservation<LayerObservation>, FieldError> {
+    pub(super) fn from_external(
+        &self,
+        given: &ExternalData,
+    ) -> Result<ExternalObservation<LayerObservation>, FieldError> {
         layer::foreign::observe(&self.layer(&|_| 0.0), given)
     }
 

@@ -6,7 +6,7 @@ mod nonlocal;
 mod parameters;
 mod start_stop;
 
-pub use nonlocal::{Cooperation, NonlocalChoice, NonlocalLayers};
+pub use nonlocal::{NonlocalChoice, NonlocalLayers, NonlocalParameters};
 pub use parameters::FlowThicknessParameters;
 pub use start_stop::{LayerAtSlope, LayerFate, SlopeTrial, StartStop, StartStopRun};
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct NonlocalLayers {
     /// How the grains cooperate.
-    pub cooperation: Cooperation,
+    pub cooperation: NonlocalParameters,
     /// What the fluidity is at the free surface, one search each for every thickness; empty for the local law alone.
     pub surfaces: Vec<FieldBoundary>,
     /// Rows of particles over a layer.
@@ -47,7 +47,7 @@ pub struct NonlocalLayers {
 
 /// What the nonlocal law has beside μ(I), but for the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Cooperation {
+pub struct NonlocalParameters {
     /// Amplitude A `[-]`.
     #[schemars(transform = between(1e-3, 2.0, "0.48 for glass beads; without it these are the layers of the local law"))]
     pub cooperativity: f64,
@@ -62,14 +62,14 @@ pub struct Cooperation {
 /// The nonlocal law of a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct NonlocalChoice {
-    pub(super) cooperation: Cooperation,
+    pub(super) cooperation: NonlocalParameters,
     pub(super) surface: FieldBoundary,
 }
 
 impl NonlocalChoice {
     /// The law of some grains.
     pub(super) fn law(&self, grains: MuI) -> Rheology {
-        let Cooperation { cooperativity, relaxation_time, seed } = self.cooperation;
+        let NonlocalParameters { cooperativity, relaxation_time, seed } = self.cooperation;
         let surface = self.surface;
         Rheology::NonlocalMuI(NonlocalMuI { cooperativity, relaxation_time, seed, surface, ..NonlocalMuI::of(grains) })
     }

@@ -1,6 +1,6 @@
 //! The case's parameters and their tiers.
 
-use super::nonlocal::{Cooperation, NonlocalChoice, NonlocalLayers};
+use super::nonlocal::{NonlocalChoice, NonlocalLayers, NonlocalParameters};
 use super::start_stop::{LayerAtSlope, StartStopRun};
 use super::{FlowThicknessRun, SteadyRun};
 use crate::case::{ParameterError, Parameters, Tier};
@@ -84,7 +84,7 @@ impl Parameters for FlowThicknessParameters {
             steady_flows: vec![(0.010, 23.0), (0.010, 25.0), (0.005, 24.0)],
             steady_duration: 0.5,
             nonlocal: NonlocalLayers {
-                cooperation: Cooperation { cooperativity: 0.48, relaxation_time: 1e-4, seed: 1e-6 },
+                cooperation: NonlocalParameters { cooperativity: 0.48, relaxation_time: 1e-4, seed: 1e-6 },
                 surfaces: vec![FieldBoundary::Vanishing, FieldBoundary::NoFlux],
                 rows: 12,
                 vanishing_searches: vec![(0.005, 21.8, 22.1), (0.010, 21.05, 21.35)],

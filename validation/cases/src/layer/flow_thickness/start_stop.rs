@@ -1,7 +1,7 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
 use super::nonlocal::NonlocalChoice;
-use crate::case::recording::{Ending, Followed, SimulationStage, follow, resumed};
+use crate::case::recording::{Ending, RestartableRun, SimulationStage, follow, resumed};
 use crate::case::{ParameterError, Progress};
 use crate::layer::{Layer, PeriodicLayer, bulk_modulus};
 use crate::metric::Variant;
@@ -267,7 +267,7 @@ impl StartStopRun {
                 if fate == LayerFate::Undecided { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
         )?;
-        let Followed { simulation, stop, kept: LayerObserver { trial, last_good, .. }, started } = followed;
+        let RestartableRun { simulation, stop, kept: LayerObserver { trial, last_good, .. }, started } = followed;
         let criterion = "the slope at which the layer stops is bracketed".to_owned();
         Ok((trial, simulation, Ending { criterion, ..Ending::of(stop, last_good, started) }))
     }

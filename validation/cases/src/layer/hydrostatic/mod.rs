@@ -33,7 +33,7 @@ impl Case for Hydrostatic {
         measure can fail. Under friction the pressure of a layer at rest is not unique (between the active and the \
         passive state), but the stress across the layer is: p − s_yy is gated and p observed, for whatever law carries its \
         stress along; every other law is judged by p.";
-    const FORM: ExternalSchema = foreign::FORM;
+    const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Parameters = HydrostaticParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -48,7 +48,7 @@ impl Case for Hydrostatic {
         figures::all(records)
     }
 
-    fn foreign(
+    fn from_external(
         run: &HydrostaticRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {

@@ -5,7 +5,7 @@ use crate::observation::Frame;
 use bagnold_solver::incompressible::{
     IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot, SavedIncompressible,
 };
-use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
+use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use bagnold_solver::vector::Vector;
 
 impl<const D: usize> RecordedState for IncompressibleSnapshot<D> {
@@ -62,7 +62,7 @@ impl Restartable<2> for IncompressibleSimulation<2> {
         self.save()
     }
 
-    fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<2> {
+    fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> StopReason<2> {
         self.follow(course, observer)
     }
 }

@@ -9,7 +9,7 @@ mod picture;
 mod restart;
 mod weakly_compressible;
 
-pub use restart::{Beginning, Followed, Restartable, SimulationStage, Stop, follow, resumed};
+pub use restart::{Restartable, RestartableRun, SimulationStage, StartState, Stop, follow, resumed};
 
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Outcome, Recorded, state_hash};
@@ -66,8 +66,8 @@ where
     Ok(watched.ending.record(&watched.simulation, measure))
 }
 
-/// A simulation that was watched, how it ended, and what its observer has kept.
-pub struct Watched<S: Recordable, O> {
+/// Simulation at its end, how it ended, and what its observer has kept.
+pub struct ObservedRun<S: Recordable, O> {
     /// The simulation at its end.
     pub simulation: S,
     /// How it ended, as of a run that has left no frames, that does not say why it was stopped, and whose divergence would
@@ -84,10 +84,10 @@ pub struct Watched<S: Recordable, O> {
 /// A scene that breaks a rule; an interruption.
 pub fn watch<const D: usize, O, C>(
     stage: SimulationStage<'_, C>,
-    scene: impl Fn(Beginning) -> Result<Scene<D>, SceneError>,
+    scene: impl Fn(StartState) -> Result<Scene<D>, SceneError>,
     keep: impl FnOnce(&Simulation<D>) -> O,
     mut observe: impl FnMut(&mut O, &Snapshot<D>) -> ControlFlow<()>,
-) -> Result<Watched<Simulation<D>, O>, ParameterError>
+) -> Result<ObservedRun<Simulation<D>, O>, ParameterError>
 where
     Simulation<D>: Compiled<D>,
     O: Serialize + DeserializeOwned,
@@ -104,8 +104,8 @@ where
             observe(kept, last_good)
         },
     )?;
-    let Followed { simulation, stop, kept: (last_good, kept), started } = followed;
-    Ok(Watched { simulation, ending: Ending::of(stop, last_good, started), kept })
+    let RestartableRun { simulation, stop, kept: (last_good, kept), started } = followed;
+    Ok(ObservedRun { simulation, ending: Ending::of(stop, last_good, started), kept })
 }
 
 /// How a run ended, and what it left on its way.

@@ -4,16 +4,16 @@
 use super::Recordable;
 use crate::case::{ParameterError, Progress, StateOutput};
 use crate::checkpoint::{Checkpoints, count_stopped, is_interrupted};
-use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
+use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fmt::Display;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// What a scene is made for.
+/// Start state of a scene: new, or continued from a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Beginning {
+pub enum StartState {
     /// A new run, with all that comes before its start.
     New,
     /// A run that is continued: of its flow only the number of particles counts.
@@ -39,7 +39,7 @@ pub trait Restartable<const D: usize>: Recordable + Sized {
     /// Itself, to be written and read as [`Restartable::Saved`].
     fn saved(&self) -> impl Serialize;
     /// Runs along a course.
-    fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<D>;
+    fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> StopReason<D>;
 }
 
 /// One simulation of a run.
@@ -66,8 +66,8 @@ pub enum Stop {
     Diverged(String),
 }
 
-/// A simulation that was followed, how it ended, and what its observer has kept.
-pub struct Followed<S, O> {
+/// Simulation that was run or resumed, why it stopped, and what its observer has kept.
+pub struct RestartableRun<S, O> {
     /// The simulation at its end.
     pub simulation: S,
     /// How it ended.
@@ -83,7 +83,7 @@ pub struct Followed<S, O> {
 struct RestoredCheckpoint<C, O, S> {
     _context: C,
     seconds: f64,
-    course: Course,
+    course: RunProgress,
     kept: O,
     simulation: S,
 }
@@ -93,7 +93,7 @@ struct RestoredCheckpoint<C, O, S> {
 struct CheckpointContents<'a, C, O, S> {
     context: &'a C,
     seconds: f64,
-    course: &'a Course,
+    course: &'a RunProgress,
     kept: &'a O,
     simulation: S,
 }
@@ -111,10 +111,10 @@ pub fn resumed<C: DeserializeOwned>(progress: &dyn Progress) -> Option<C> {
 /// A scene that breaks a rule or cannot be made; an interruption.
 pub fn follow<const D: usize, S, O, C, E>(
     stage: SimulationStage<'_, C>,
-    scene: impl Fn(Beginning) -> Result<S::Scene, E>,
+    scene: impl Fn(StartState) -> Result<S::Scene, E>,
     keep: impl FnOnce(&S) -> O,
     observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
-) -> Result<Followed<S, O>, ParameterError>
+) -> Result<RestartableRun<S, O>, ParameterError>
 where
     S: Restartable<D>,
     O: Serialize + DeserializeOwned,
@@ -128,7 +128,7 @@ where
         checkpoints.take(|bytes| {
             let read: RestoredCheckpoint<C, O, S::Saved> =
                 postcard::from_bytes(bytes).map_err(|error| error.to_string())?;
-            let scene = scene(Beginning::Continued).map_err(|error| error.to_string())?;
+            let scene = scene(StartState::Continued).map_err(|error| error.to_string())?;
             let simulation = S::continued(scene, read.simulation).map_err(|error| error.to_string())?;
             Ok((simulation, read.course, read.kept, read.seconds))
         })
@@ -141,13 +141,13 @@ where
             (simulation, course, kept, now.checked_sub(spent).unwrap_or(now))
         }
         None => {
-            let simulation = S::begin(scene(Beginning::New).map_err(Into::into)?)?;
+            let simulation = S::begin(scene(StartState::New).map_err(Into::into)?)?;
             // what comes before the start may have been cut short
             if is_interrupted() {
                 return Err(ParameterError::Interrupted);
             }
             let kept = keep(&simulation);
-            (simulation, Course::new(end, interval), kept, now)
+            (simulation, RunProgress::new(end, interval), kept, now)
         }
     };
     let output = progress.output();
@@ -162,7 +162,7 @@ where
     if let Some(output) = output {
         output.take(simulation.picture(), simulation.walls());
     }
-    Ok(Followed { simulation, stop, kept: watching.kept, started })
+    Ok(RestartableRun { simulation, stop, kept: watching.kept, started })
 }
 
 /// Shows a simulation to the observer of a case and to who wants states on its way, and keeps checkpoints.
@@ -187,7 +187,7 @@ where
         (self.observe)(&mut self.kept, simulation)
     }
 
-    fn pause(&mut self, simulation: &S, course: &Course) -> ControlFlow<()> {
+    fn pause(&mut self, simulation: &S, course: &RunProgress) -> ControlFlow<()> {
         if let Some(output) = self.output.filter(|output| output.is_due(simulation.time())) {
             output.take(simulation.picture(), simulation.walls());
         }

@@ -2,7 +2,7 @@
 
 use super::{Recordable, RecordedState, Restartable, picture};
 use crate::observation::Frame;
-use bagnold_solver::run::{ContinueError, Course, Observer, SceneError, StopReason};
+use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
 use bagnold_solver::weakly_compressible::SavedSimulation;
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -69,7 +69,7 @@ where
         self.save()
     }
 
-    fn follow(&mut self, course: &mut Course, observer: &mut impl Observer<Self>) -> StopReason<D> {
+    fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> StopReason<D> {
         self.follow(course, observer)
     }
 }

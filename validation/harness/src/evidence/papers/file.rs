@@ -1,6 +1,6 @@
 //! A file of `reference-data/papers` → a paper; every rule that a row can break.
 
-use super::{Element, FigureName, MetricName, Paper, PaperError, Printed, RunName, Settled, TestName};
+use super::{Element, ElementStatus, FigureName, MetricName, Paper, PaperError, Printed, RunName, TestName};
 use crate::metric::Variant;
 use serde::Deserialize;
 
@@ -62,10 +62,10 @@ struct RunRow {
 const KINDS: [&str; 5] = ["eq-", "table-", "fig-", "number-", "claim-"];
 
 /// Statuses that are written; the others are computed.
-const SETTLED: [(&str, Settled); 3] = [
-    ("replaced", Settled::Replaced),
-    ("not stated clearly", Settled::NotStatedClearly),
-    ("not covered", Settled::NotCovered),
+const SETTLED: [(&str, ElementStatus); 3] = [
+    ("replaced", ElementStatus::Replaced),
+    ("not stated clearly", ElementStatus::NotStatedClearly),
+    ("not covered", ElementStatus::NotCovered),
 ];
 
 /// Words for a number outside of what is printed; the first is meant where none is given.
@@ -139,7 +139,7 @@ fn element(row: ElementRow, place: &RowPlace<'_>) -> Result<Element, PaperError>
     Ok(Element { id, place, statement: says, implemented, tests, metrics, runs, figures, settled, note })
 }
 
-fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(Settled, String)>, PaperError> {
+fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(ElementStatus, String)>, PaperError> {
     match (&row.status, &row.because) {
         (None, None) => Ok(None),
         (None, Some(reason)) => Err(place.refuse("because", reason, "absent where no `status` is written")),

@@ -45,14 +45,14 @@ pub struct Element {
     /// Figures that draw it.
     pub figures: Vec<FigureName>,
     /// What became of it, where no metric and no test can say so.
-    pub settled: Option<(Settled, String)>,
+    pub settled: Option<(ElementStatus, String)>,
     /// What a reader has to know besides; may be empty.
     pub note: String,
 }
 
-/// What became of an element, where it is not computed.
+/// Status of an element that is not computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Settled {
+pub enum ElementStatus {
     /// Something else stands in its place.
     Replaced,
     /// The paper, or what is left of it, can be read in more than one way.

@@ -1,6 +1,6 @@
 //! A design: given points, and the minimum of the polynomial through them.
 
-use super::{Budget, Halt, Recorder, SearchError, SearchResult, Stopped, check};
+use super::{Budget, Halt, Recorder, SearchError, SearchResult, Termination, check};
 use crate::inference::{Emulator, Evaluate};
 
 /// Evaluates the points of a design in one batch, and the model at the minimum of their emulator.
@@ -26,12 +26,12 @@ pub(super) fn run<M: Evaluate>(
     recorder: &mut Recorder<'_, M>,
     points: &[Vec<f64>],
     budget: &Budget,
-) -> Result<Stopped, Halt<M::Error>> {
+) -> Result<Termination, Halt<M::Error>> {
     recorder.residuals(points)?;
     if let Some(emulator) = Emulator::fit(recorder.history(), budget.difference) {
         recorder.residuals_at(&emulator.minimum().point)?;
     }
-    Ok(Stopped::DesignDone)
+    Ok(Termination::DesignDone)
 }
 
 #[cfg(test)]
@@ -45,7 +45,7 @@ mod tests {
         let grid = full_grid(&[4, 4, 4]);
         let budget = Budget { evaluations: 65, ..Budget::default() };
         let found = search_design(&mut ExponentialDecay::new(), &grid, budget).unwrap();
-        assert_eq!((found.history.len(), found.stopped), (65, Stopped::DesignDone));
+        assert_eq!((found.history.len(), found.stopped), (65, Termination::DesignDone));
         assert_eq!(found.best, found.history[64].point);
         let of_grid = found.history[..64].iter().filter_map(|e| e.chi_squared).fold(f64::INFINITY, f64::min);
         println!("best of grid {of_grid}, of the emulator {}", found.chi_squared);

@@ -69,10 +69,10 @@ impl Budget {
     }
 }
 
-/// Why a search ended.
+/// Termination of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Stopped {
+pub enum Termination {
     /// No step would change χ² by more than the tolerance.
     Converged,
     /// The next evaluation would have exceeded the budget.
@@ -85,7 +85,7 @@ pub enum Stopped {
     DesignDone,
 }
 
-impl fmt::Display for Stopped {
+impl fmt::Display for Termination {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(match self {
             Self::Converged => "converged: no step would change χ² by more than the tolerance",
@@ -137,7 +137,7 @@ pub struct SearchResult {
     /// Every distinct point once, in the order of first evaluation.
     pub history: Vec<Evaluated>,
     /// Why it ended.
-    pub stopped: Stopped,
+    pub stopped: Termination,
     /// Minima in which descents have ended, the lowest first.
     pub minima: Vec<LocalMinimum>,
     /// Whether every one of the other starts was followed up.
@@ -208,7 +208,7 @@ pub fn continue_search<M: Evaluate>(
         Method::TrustRegion | Method::Posterior => {
             trust_region::run(&mut recorder, start, &budget, &[]).map(|descent| {
                 let minimum = LocalMinimum { point: descent.point, chi_squared: descent.chi_squared };
-                (descent.stopped.unwrap_or(Stopped::Converged), Some(minimum))
+                (descent.stopped.unwrap_or(Termination::Converged), Some(minimum))
             })
         }
         Method::Design => {
@@ -246,12 +246,12 @@ fn descend_on<M: Evaluate>(
     recorder: &mut Recorder<'_, M>,
     minima: &mut Vec<LocalMinimum>,
     budget: &Budget,
-) -> Result<Stopped, Halt<M::Error>> {
+) -> Result<Termination, Halt<M::Error>> {
     let Some(start) = recorder.best().map(|(best, _)| best.point.clone()) else { return Err(Halt::NothingWorked) };
     let descent = trust_region::run(recorder, &start, budget, &[])?;
     minima.retain(|minimum| !minimum.is_at(&descent.point) && !minimum.is_at(&start));
     minima.push(LocalMinimum { point: descent.point, chi_squared: descent.chi_squared });
-    Ok(descent.stopped.unwrap_or(Stopped::Converged))
+    Ok(descent.stopped.unwrap_or(Termination::Converged))
 }
 
 /// Refuses settings with which no search can work.

@@ -1,6 +1,6 @@
 //! What has been evaluated: each distinct point once, never more than the budget.
 
-use super::{Evaluated, LocalMinimum, SearchError, SearchResult, Stopped};
+use super::{Evaluated, LocalMinimum, SearchError, SearchResult, Termination};
 use crate::inference::Evaluate;
 use crate::sampling::design;
 use std::collections::BTreeMap;
@@ -131,13 +131,13 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
     /// The result of a method that has ended.
     pub(in crate::inference) fn finish(
         self,
-        outcome: Result<Stopped, Halt<M::Error>>,
+        outcome: Result<Termination, Halt<M::Error>>,
         mut minima: Vec<LocalMinimum>,
         every_start: bool,
     ) -> Result<SearchResult, SearchError<M::Error>> {
         let stopped = match outcome {
             Ok(stopped) => stopped,
-            Err(Halt::BudgetSpent | Halt::NothingWorked) => Stopped::BudgetSpent,
+            Err(Halt::BudgetSpent | Halt::NothingWorked) => Termination::BudgetSpent,
             Err(Halt::Model(error)) => return Err(SearchError::Model(error)),
             Err(Halt::Residuals(expected, found)) => return Err(SearchError::Residuals { expected, found }),
         };

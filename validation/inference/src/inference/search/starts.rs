@@ -5,7 +5,7 @@
 //! (Linkage of starts to minima: Rinnooy Kan & Timmer, Mathematical Programming 39 (1987) 27.)
 
 use super::barrier::is_parted;
-use super::{Budget, Evaluated, Halt, LocalMinimum, Recorder, Stopped, trust_region};
+use super::{Budget, Evaluated, Halt, LocalMinimum, Recorder, Termination, trust_region};
 use crate::inference::{Emulator, Evaluate, chi_squared};
 use crate::sampling::design::sobol;
 
@@ -43,7 +43,7 @@ pub(super) fn follow<M: Evaluate>(
         let descent = trust_region::run(recorder, &start.point, budget, minima);
         tried.push(start);
         match descent {
-            Ok(descent) if descent.stopped == Some(Stopped::Converged) => {
+            Ok(descent) if descent.stopped == Some(Termination::Converged) => {
                 let found = LocalMinimum { point: descent.point, chi_squared: descent.chi_squared };
                 let emulator = Emulator::fit(recorder.history(), budget.difference);
                 let one = |known: &LocalMinimum| {

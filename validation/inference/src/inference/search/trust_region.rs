@@ -14,7 +14,7 @@
 
 use super::barrier::is_parted;
 use super::differences::{Iterate, central_differences, differences};
-use super::{Budget, Halt, LocalMinimum, Recorder, Stopped};
+use super::{Budget, Halt, LocalMinimum, Recorder, Termination};
 use crate::inference::box_least_squares::box_least_squares;
 use crate::inference::{Emulator, Evaluate};
 use nalgebra::{DMatrix, DVector};
@@ -44,7 +44,7 @@ const MOST_POLISHES: usize = 3;
 const LEAST_SCALE: f64 = 0.02;
 
 impl Iterate {
-    fn descent(self, stopped: Option<Stopped>) -> DescentResult {
+    fn descent(self, stopped: Option<Termination>) -> DescentResult {
         DescentResult { point: self.point, chi_squared: self.chi_squared, stopped }
     }
 }
@@ -56,7 +56,7 @@ pub(super) struct DescentResult {
     /// χ² there `[-]`.
     pub(super) chi_squared: f64,
     /// Why it ended; none where it came to a minimum that is known.
-    pub(super) stopped: Option<Stopped>,
+    pub(super) stopped: Option<Termination>,
 }
 
 /// Descends from `start` until differences both ways say that no step is worth an evaluation, or into the
@@ -100,7 +100,13 @@ pub(super) fn run<M: Evaluate>(
                     radius = radius.max(budget.difference);
                     continue;
                 }
-                None => return Ok(here.descent(Some(if negligible { Stopped::Converged } else { Stopped::Stalled }))),
+                None => {
+                    return Ok(here.descent(Some(if negligible {
+                        Termination::Converged
+                    } else {
+                        Termination::Stalled
+                    })));
+                }
             }
         }
 
@@ -199,7 +205,7 @@ mod tests {
     fn a_minimum_on_a_face_is_reached() {
         let found = search(&mut Linear(vec![1.3, 0.4]), &[0.5, 0.5], Method::TrustRegion, Budget::default()).unwrap();
         assert_eq!(found.best[0], 1.0);
-        assert!((found.best[1] - 0.4).abs() < 1e-12 && found.stopped == Stopped::Converged);
+        assert!((found.best[1] - 0.4).abs() < 1e-12 && found.stopped == Termination::Converged);
         assert!(found.history.len() <= 12, "{}", found.history.len());
     }
 
