@@ -30,7 +30,7 @@ printf '%s\n\n| package | lines of code |\n|---|---|\n' "$(git log -1 --format='
         }
         BEGIN {
             while ((getline line <"packages") > 0) package[line]
-            split("validation/src/cases solver/src/weakly_compressible", places, " ")
+            split("validation/src/cases validation/scenes/src/study solver/src/weakly_compressible", places, " ")
             for (each in places) within[places[each]]
         }
         FNR == 1 {
