@@ -21,7 +21,7 @@ const CODE: [&str; 9] = [
     "validation/harness/src",
     "validation/reference/src",
     "validation/cases/src",
-    "validation/examples/scenes/src",
+    "validation/scenes/src",
     "validation/tools/src",
 ];
 
@@ -39,6 +39,9 @@ fn main() {
     for name in CODE {
         let folder = workspace.join(name);
         println!("cargo::rerun-if-changed={}", folder.display());
+        if workspace.join("Cargo.lock").is_file() && !folder.is_dir() {
+            println!("cargo::error=`{name}` is no folder, but results depend on it; correct `CODE` in validation/build.rs");
+        }
         for file in sorted_files(&folder) {
             add_file(&mut hash, &workspace, &file);
         }

@@ -79,6 +79,8 @@ pub(crate) fn document(finished: &Assert) -> MetricsDocument {
     let text = String::from_utf8_lossy(&finished.get_output().stdout);
     let document: MetricsDocument =
         serde_json::from_str(&text).unwrap_or_else(|error| panic!("not one JSON document ({error}):\n{text}"));
+    // its first use declares what these tests are built from
+    std::sync::LazyLock::force(&bagnold_validation::REGISTRY);
     assert_eq!(
         document.provenance.source_hash,
         bagnold_harness::store::source_hash(),

@@ -224,7 +224,7 @@ mod tests {
         assert_eq!(
             message,
             "`steps` is [900000, 10], but must be such that the runs take at most 0.00001 hours of one core; 9.0e5 \
-             particle-steps would take 0.00025 hours: ask for less, or allow more with --most-hours"
+             particle-steps would take 0.00018 hours: ask for less, or allow more with --most-hours"
         );
         assert_eq!(refused(&["steps=[900000, 10]"], LIMITS), "taken");
     }

@@ -182,9 +182,10 @@ impl Study {
             self.refuse_varied(setting)?;
         }
         let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
+        let base = self.of_tier(tier.unwrap_or(self.tier())).base;
         let prepare = |changed: &ChangedSettings| {
             let settings: Vec<String> = changed.settings.iter().chain(settings).cloned().collect();
-            let file = Some((self.base.path.as_path(), self.base.fields.clone()));
+            let file = Some((base.path.as_path(), base.fields.clone()));
             let changes = Changes { file, settings: &settings, limits, only: &[] };
             case.prepare(tier.unwrap_or(self.tier()), &changes)
         };
