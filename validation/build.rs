@@ -40,7 +40,9 @@ fn main() {
         let folder = workspace.join(name);
         println!("cargo::rerun-if-changed={}", folder.display());
         if workspace.join("Cargo.lock").is_file() && !folder.is_dir() {
-            println!("cargo::error=`{name}` is no folder, but results depend on it; correct `CODE` in validation/build.rs");
+            println!(
+                "cargo::error=`{name}` is no folder, but results depend on it; correct `CODE` in validation/build.rs"
+            );
         }
         for file in sorted_files(&folder) {
             add_file(&mut hash, &workspace, &file);

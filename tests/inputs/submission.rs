@@ -65,7 +65,7 @@ fn every_part_alone_gives_numbers_and_none_for_what_is_missing() {
         for part in 0..of_run(0).len() {
             let all: Vec<ExternalData> = (0..prepared.run_count()).map(|run| of_run(run).swap_remove(part)).collect();
             let result =
-                prepared.from_external(&all).map_err(|(run, error)| format!("{} run {run}: {error}", case.name()));
+                prepared.judge_external(&all).map_err(|(run, error)| format!("{} run {run}: {error}", case.name()));
             let result = result.expect("complete columns");
             assert!(result.measured.iter().any(|(_, names)| !names.is_empty()), "{}: nothing measured", case.name());
             for ledger in ["energy_residual", "energy_rise", "momentum_residual"] {

@@ -87,7 +87,7 @@ pub trait PreparedCase: Send + Sync {
     ///
     /// # Errors
     /// Columns that are missing beside others, of the run of that number.
-    fn from_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
+    fn judge_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
     /// Judges and draws the records. Runs that were not simulated are left out.
     ///
     /// # Errors
@@ -273,7 +273,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         Box::new(plan)
     }
 
-    fn from_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
+    fn judge_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
         let mut records: Vec<RecordOf<C::Parameters>> = Vec::new();
         let mut measured = Vec::new();
         for (number, (given, (run, _))) in given.iter().zip(&self.slots).enumerate() {

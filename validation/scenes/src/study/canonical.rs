@@ -194,7 +194,7 @@ impl PreparedCase for StudyPlan {
         Box::new(plan)
     }
 
-    fn from_external(&self, _: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
+    fn judge_external(&self, _: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
         Ok(ExternalResult { metrics: Vec::new(), figures: Vec::new(), tables: Vec::new(), measured: Vec::new() })
     }
 

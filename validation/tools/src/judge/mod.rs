@@ -136,7 +136,7 @@ fn entry(
         let field = format!("run {}", number + 1);
         given[place] = reading::read(run, form, &field, &folder).map_err(|error| error.in_file(&submission.path))?;
     }
-    let result = prepared.from_external(&given).map_err(|(place, error)| {
+    let result = prepared.judge_external(&given).map_err(|(place, error)| {
         let number = places.iter().position(|own| *own == place).map_or(0, |number| number + 1);
         error.within(&format!("run {number}")).in_file(&submission.path)
     })?;

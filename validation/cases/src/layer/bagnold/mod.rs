@@ -54,7 +54,7 @@ impl Case for Bagnold {
         run: &BagnoldRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
-        run.from_external(given).map(Some)
+        run.observe_external(given).map(Some)
     }
 
     fn tables(_: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Table> {

@@ -50,7 +50,7 @@ impl Case for Film {
         run: &FilmRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<layer::LayerObservation>>, FieldError> {
-        run.from_external(given).map(Some)
+        run.observe_external(given).map(Some)
     }
 
     fn tables(_: &FilmParameters, records: &[Record]) -> Vec<Table> {

@@ -118,7 +118,7 @@ impl FilmRun {
     }
 
     /// Its observation as another code gives it.
-    pub(super) fn from_external(
+    pub(super) fn observe_external(
         &self,
         given: &ExternalData,
     ) -> Result<ExternalObservation<LayerObservation>, FieldError> {
