@@ -3,12 +3,12 @@
 use crate::results::{Figures, particles, table};
 use crate::waiting::{Refused, wait_for};
 use bagnold_harness::case::{CaseResult, Limits, ParameterError, Request, Requested, Silent, Tier, execute};
-use bagnold_validation::REGISTRY;
-use bagnold_validation::cli::ProgramError;
 use bagnold_harness::measured::{Measurements, draw_measured};
 use bagnold_harness::metric::Variant;
 use bagnold_harness::result::MetricsDocument;
 use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_validation::REGISTRY;
+use bagnold_validation::cli::ProgramError;
 use clap::ValueEnum;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
