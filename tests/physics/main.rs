@@ -10,6 +10,7 @@ mod run_out;
 mod scene_preparation;
 mod scene_texts;
 mod scenes;
+mod study_controls;
 mod verdict;
 
 use bagnold_harness::case::Tier;

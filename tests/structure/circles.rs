@@ -46,7 +46,7 @@ struct Circle {
     lines: Vec<String>,
 }
 
-/// What a file takes for itself: all that it names of `crate` and `super`, and of its own children what its code names, not what it
+/// Imports of a file itself: all that it names of `crate` and `super`, and of its own children what its code names, not what it
 /// only passes on.
 fn taken(source: &Source, modules: &Modules) -> Vec<Import> {
     let mut found = imports(source);

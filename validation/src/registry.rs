@@ -16,7 +16,7 @@ mod studies {
     pub(super) static ALL: &[(&str, &str)] = &FILES;
 }
 
-/// What this program is built from, as the build script found it.
+/// Build of this program, as its build script found it.
 const BUILD: Build = Build {
     source_hash: env!("BAGNOLD_SOURCE_HASH"),
     commit: env!("BAGNOLD_COMMIT"),

@@ -1,4 +1,4 @@
-//! What results are compared with: exact profiles, layers in one dimension that check the particles independently, and
+//! References of results: exact profiles, layers in one dimension that check the particles independently, and
 //! published or measured data, by the flow that they are about.
 //!
 //! Nothing here uses the particle solver, so that agreement with it means something. Of the solver only laws are used: drag,

@@ -1,4 +1,4 @@
-//! What works on any case: calibrations, sweeps, judging of external codes, comparisons of folders, mutations.
+//! Tools for any case: calibrations, sweeps, judging of external codes, comparisons of folders, mutations.
 
 pub mod calibration;
 pub mod compare;

@@ -18,7 +18,7 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{continuity, density_coupling, field_diffusion, stress_diffusion};
 use std::marker::PhantomData;
 
-/// What diffuses among pairs, as a constant of the loops; the field does beside the stress ratio.
+/// Quantities that diffuse among pairs, as a constant of the loops. The field diffuses beside the stress ratio.
 const NONE: u8 = PairDiffusion::None as u8;
 const STRESS_RATIO: u8 = PairDiffusion::StressRatio as u8;
 const FIELD: u8 = PairDiffusion::Field as u8;
@@ -32,7 +32,7 @@ impl<P: Precision, const D: usize> Place<P, D> {
     const PRESSURE: usize = Self::VELOCITY + D;
     /// Corrected pressure gradient; of a wall particle the velocity that the continuity of a liquid takes.
     const GRADIENT: usize = Self::PRESSURE + 1;
-    /// What of the particle yields `[-]`, and behind it s: what the diffusion of the stress ratio takes.
+    /// Yielding share of the particle `[-]`, followed by s: inputs of the stress-ratio diffusion.
     const YIELDING: usize = Self::GRADIENT + D;
     /// The law's field, if it diffuses.
     const FIELD: usize = Self::YIELDING + 1 + records::deviator_values(D);
@@ -46,7 +46,7 @@ impl<P: Precision, const D: usize> Place<P, D> {
     }
 }
 
-/// What is read of a particle, whatever diffuses.
+/// Fields that are read of a particle, whichever quantity diffuses.
 struct Partner<V, const D: usize> {
     position: [V; D],
     velocity: [V; D],
@@ -227,7 +227,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     }
 }
 
-/// What the loops over neighbours read beside their records.
+/// Inputs of the loops over neighbours beside their records.
 #[derive(Clone, Copy)]
 struct Inputs<'a, const D: usize> {
     model: &'a Model<D>,

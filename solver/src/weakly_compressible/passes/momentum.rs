@@ -172,7 +172,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     }
 }
 
-/// What the loops over neighbours read beside their records.
+/// Inputs of the loops over neighbours beside their records.
 struct Inputs<'a, const D: usize> {
     model: &'a Model<D>,
     constants: &'a Constants,

@@ -11,7 +11,7 @@ use std::slice::Iter;
 /// Weights `[1/m²]` of eight pairs.
 pub(super) type Weights<P> = [P; LANES];
 
-/// What weights are made of. Records begin with position and volume.
+/// Ingredients of the pair weights. Records begin with position and volume.
 pub(super) struct Weighing<'a, P: Precision, V: Lanes, const D: usize> {
     pub(super) kernel: &'a Kernel<D>,
     pub(super) records: &'a Records<P>,

@@ -1,4 +1,4 @@
-//! How precisely the terms of a pair are computed: each pair sum is one text for both precisions.
+//! Precision of the terms of a pair: each pair sum is one text for both precisions.
 //!
 //! Single precision takes half of the memory and twice the lanes for what is needed to seven digits only. Positions are integers
 //! of 32 bits that wrap, in units of h/2²⁶. The distance of two neighbours is then an exact integer wherever they are, rounded once

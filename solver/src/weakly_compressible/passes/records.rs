@@ -16,7 +16,7 @@ pub(crate) const QUADS: usize = 7;
 #[derive(Debug)]
 pub(crate) struct Records<P: Precision = f64> {
     quads: usize,
-    /// What gives the unit of positions `[m]`.
+    /// Length that is the unit of positions `[m]`.
     smoothing_length: f64,
     data: Vec<[P; 4]>,
 }

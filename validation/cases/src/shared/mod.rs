@@ -1,4 +1,4 @@
-//! What cases of several families share.
+//! Code that cases of several families share.
 
 mod arrangement;
 pub(crate) mod printed_laws;

@@ -1,4 +1,4 @@
-//! What is known of references: tables of papers and measurements with their provenance, the papers' elements, stated
+//! Knowledge about references: tables of papers and measurements with their provenance, the papers' elements, stated
 //! uncertainties, and the validation set.
 //!
 //! Numbers of papers stand in `reference-data/*/*.csv`. The program carries these tables, reads each once, and no number of a

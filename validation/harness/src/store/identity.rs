@@ -1,4 +1,4 @@
-//! What computed a number: the sources of these packages and, where code of another crate takes part, the program itself.
+//! Identity of the program that computed a number: the sources of these packages and, where code of another crate takes part, its file.
 //!
 //! The hash of the sources covers the cases and laws of these packages. It knows nothing of a case that another crate adds or
 //! of a law that one registers: what a program with any of them computes is known by the program's own file as well, so

@@ -1,5 +1,5 @@
-//! What this program was built from: what the program's own package declares when it starts, because only that package is built
-//! after everything that a result depends on.
+//! Build of the program. Its own package declares it at the start, because only that package is built after everything that a
+//! result depends on.
 
 use bagnold_solver::lanes::InstructionSet;
 use std::path::Path;
@@ -31,7 +31,7 @@ pub fn declare(build: Build) {
     let _: &Build = BUILD.get_or_init(|| build);
 }
 
-/// What was declared.
+/// The declared build.
 fn build() -> Build {
     BUILD.get().copied().unwrap_or(UNDECLARED)
 }

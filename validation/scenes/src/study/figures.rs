@@ -27,12 +27,14 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
             label if label.is_empty() => "simulated".to_owned(),
             label => label,
         };
-        // another check has drawn it where both mean the same variant
-        if let Some(curve) = &reading.curve
-            && !panel.series.iter().any(|series| series.label == label)
-        {
-            let slot = next(panel);
-            panel.line(&label, slot, curve.points.iter().copied());
+        let Some(curve) = &reading.curve else { continue };
+        let same_run = panel.series.iter().find(|series| series.label == label).map(|series| series.colour);
+        let slot = same_run.unwrap_or_else(|| next(panel));
+        // an earlier check may have drawn the same window; another window is a line of its own in the run's colour
+        let is_drawn = |point| panel.series.iter().any(|series| series.colour == slot && series.points.contains(point));
+        if !curve.points.iter().all(is_drawn) {
+            let label = if same_run.is_some() { "" } else { &label };
+            panel.line(label, slot, curve.points.iter().copied());
         }
     }
     let colour = next(panel);

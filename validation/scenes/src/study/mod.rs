@@ -84,7 +84,8 @@ impl Study {
     pub fn read(file: &Path, registry: Registry) -> Result<Self, PlanError> {
         let text = read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?;
         let study = Self::parse(file, &text)?;
-        if registry.find(study.name()).is_ok() {
+        // a canonical study may be printed, changed and run from its file
+        if registry.find(study.name()).is_ok_and(|case| !case.is_study()) {
             let value = format!("\"{}\"", study.name());
             let remedy = "choose another name: pages and accepted values are kept by it";
             return Err(FieldError::new("study", value, "unlike the name of a case", remedy).in_file(file).into());
@@ -183,17 +184,19 @@ impl Study {
         }
         let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
         let base = self.of_tier(tier.unwrap_or(self.tier())).base;
-        let prepare = |changed: &ChangedSettings| {
+        let prepare = |changed: &ChangedSettings, settings: &[String]| {
             let settings: Vec<String> = changed.settings.iter().chain(settings).cloned().collect();
             let file = Some((base.path.as_path(), base.fields.clone()));
             let changes = Changes { file, settings: &settings, limits, only: &[] };
             case.prepare(tier.unwrap_or(self.tier()), &changes)
         };
-        let refused = |error: ParameterError| match settings {
-            [] => PlanError::of(error, &self.file),
-            _ => PlanError::Parameter(error.in_file(&self.file)),
+        // what the file says is refused by its place there, what the command line says by its field
+        let refused = |changed: &ChangedSettings, error: ParameterError| match prepare(changed, &[]) {
+            Ok(_) => PlanError::Parameter(error),
+            Err(error) => PlanError::of(error, &self.file),
         };
-        self.changes.iter().map(|changed| prepare(changed).map_err(refused)).collect()
+        let of_variant = |changed| prepare(changed, settings).map_err(|error| refused(changed, error));
+        self.changes.iter().map(of_variant).collect()
     }
 
     /// Refuses a setting of the command line for a parameter to which the study gives values itself.

@@ -107,7 +107,7 @@ pub struct MutateArguments {
     pub threads: Option<u16>,
 }
 
-/// What `bagnold dev mutate` does beside trying errors.
+/// Actions of `bagnold dev mutate` beside trying errors.
 #[derive(Debug, Subcommand)]
 pub enum MutateAction {
     /// List the errors and the cases that ought to see them.

@@ -1,10 +1,10 @@
-//! Why `bagnold new` makes no crate.
+//! Errors of `bagnold new`.
 
 use crate::input::FieldError;
 use crate::output::FileError;
 use std::path::PathBuf;
 
-/// Why no crate was made.
+/// Reason that no crate was made.
 #[derive(Debug, thiserror::Error)]
 pub enum NewError {
     /// A name that no crate, law or case can have.
