@@ -3,10 +3,11 @@
 use super::accepted::tier_name;
 use super::judgement::{JudgedCase, Severity};
 use super::origin::{provenance, seconds};
+use super::power::GatePower;
 use super::rows::{mark, rows, vanished};
 use super::template::fill;
 use super::view::{CasePage, CaseView, FigureView, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
-use super::{DrawnFigure, Report};
+use super::{DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
 use crate::metric::{MetricKind, Verdict};
@@ -58,6 +59,8 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
         opening: if judged.metrics.iter().any(|judged| judged.metric.leads) { opening(drawn) } else { Vec::new() },
         rows,
         vanished: judged.vanished.iter().map(vanished).collect(),
+        not_judged: case.not_judged.iter().map(|(key, reason)| format!("{}: {reason}", vanished(key))).collect(),
+        controls: power::table(case),
         figures: drawn.iter().map(picture).collect(),
         tables: tables(&case.name).map(|(name, _)| name).collect(),
         parameters: case.parameters_toml.clone(),
@@ -111,6 +114,8 @@ pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
         (judged.metrics.iter().filter(|metric| metric.verdict == Verdict::Pass).count(), "holding"),
         (judged.count(Severity::Observed), "observed"),
         (drifted, "drifted"),
+        (judged.case.not_judged.len(), "no longer judged"),
+        (judged.metrics.iter().filter(|metric| metric.power == GatePower::CannotTell).count(), "cannot tell"),
         (judged.vanished.len(), "vanished"),
         (judged.diverged.len(), "diverged"),
     ];
