@@ -75,6 +75,32 @@ fn a_study_is_judged_by_what_its_tables_hold() {
     assert_eq!(document(&again).state_hash, document(&finished).state_hash);
 }
 
+/// A front that anything has is no check; one that half of the gravity does not reach is.
+#[test]
+fn a_study_fails_where_a_check_accepts_its_control() {
+    let control =
+        "[[controls]]\nname = \"half-gravity\"\nset = { gravity = [0.0, -4.905] }\nrejects = [\"front_at_the_end\"]\n";
+    let place = place();
+    place.file("study.toml", &(STUDY.to_owned() + control));
+    let finished = place.run(&["study.toml", "--json", "--quiet"]).code(1);
+    let accepted = of(&finished, "rejects_control");
+    assert_eq!(accepted.len(), 2, "{accepted:?}");
+    assert!(accepted.iter().all(|metric| metric.verdict == Verdict::Fail && metric.value == Some(0.0)));
+    // with half of the gravity the front is nearer
+    let fronts: Vec<f64> = of(&finished, "front_at_the_end").iter().filter_map(|metric| metric.value).collect();
+    let nearest = fronts.iter().copied().fold(f64::INFINITY, f64::min) - 1e-3;
+    let narrow = STUDY.replace("within = [0.0, 1.0]", &format!("at_least = {nearest}"));
+    place.file("study.toml", &(narrow + control));
+    let finished = place.run(&["study.toml", "--json", "--quiet"]);
+    let rejected = of(&finished, "rejects_control");
+    assert!(rejected.iter().any(|metric| metric.value == Some(1.0)), "{fronts:?}: {rejected:?}");
+
+    let unknown = refused(&place, &(STUDY.to_owned() + &control.replace("front_at_the_end", "no_check")));
+    assert!(unknown.contains("controls[0].rejects") && unknown.contains("front_at_the_end"), "{unknown}");
+    let varied = refused(&place, &(STUDY.to_owned() + &control.replace("gravity = [0.0, -4.905]", "spacing = 0.01")));
+    assert!(varied.contains("controls[0].set.spacing") && varied.contains("vary[0].path"), "{varied}");
+}
+
 #[test]
 fn a_gate_of_a_study_fails_and_one_that_cannot_be_measured_too() {
     let place = place();

@@ -2,6 +2,7 @@
 //!
 //! The runs come from the store that the report uses too, so that none is simulated twice.
 
+mod controls;
 mod falling_rows;
 mod known_failures;
 mod long_runs;
@@ -10,7 +11,6 @@ mod run_out;
 mod scene_preparation;
 mod scene_texts;
 mod scenes;
-mod study_controls;
 mod verdict;
 
 use bagnold_harness::case::Tier;

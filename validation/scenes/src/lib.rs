@@ -7,6 +7,6 @@ pub mod study;
 
 use bagnold_figure as figure;
 use bagnold_harness::{
-    case, checkpoint, evaluation, evidence, input, measured, metric, observation, output, setup, store,
+    case, checkpoint, control, evaluation, evidence, input, measured, metric, observation, output, setup, store,
 };
 use bagnold_inference::statistics;

@@ -14,7 +14,8 @@ pub(super) use new::Named;
 pub(super) use new::{NewArguments, NewCrate};
 pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
 pub(super) use upkeep::{
-    DevCommand, MutateArguments, SensitivitiesArguments, StoreAction, StoreArguments, VerifyArguments,
+    ControlsArguments, DevCommand, MutateArguments, SensitivitiesArguments, StoreAction, StoreArguments,
+    VerifyArguments,
 };
 pub(super) use work::{ExecutionOptions, ResourceLimits};
 

@@ -22,7 +22,7 @@ pub(super) fn of_results(
         let Some(own) = registry.find(&result.name).ok().filter(|_| result.tier == Tier::Quick) else { continue };
         let tried = TriedControls::shipped(&result.name);
         for control in own.controls() {
-            if let ControlKind::Input { set, only, in_table: false } = &control.kind {
+            if let ControlKind::Input { set, only, in_table: false, .. } = &control.kind {
                 let request = Request { target: &result.name, tier: Some(Tier::Quick), settings: set, only, limits };
                 prepared.push(request.prepare(registry)?.prepared);
                 places.push((case, control));

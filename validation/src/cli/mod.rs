@@ -179,6 +179,9 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
         Command::Dev(DevCommand::Sensitivities(command)) => {
             in_pool(&command.work, || sensitivities::sensitivities(command, registry, arguments.quiet, output))
         }
+        Command::Dev(DevCommand::Controls(command)) => {
+            in_pool(&command.work, || mutate::controls::controls(command, registry, arguments.quiet, output))
+        }
         Command::Dev(DevCommand::Mutate(command)) => mutate::mutate(command, registry, arguments.quiet, output),
         Command::Report(command) => {
             in_pool(&command.work, || report::report(command, registry, arguments.quiet, output))

@@ -98,9 +98,6 @@ impl ResultPublication<'_> {
             for result in results {
                 say(output, &summary::of_case(result, |metric| is_known(&known, result, metric)));
             }
-            for case in &page.cases {
-                say(output, &summary::not_judged(&case.name, &case.not_judged));
-            }
             if results.iter().any(|result| result.unexpected_divergences().next().is_some()) {
                 let states = "of a run that diverged, NAME.pvd ends with the last good state, NAME-first-bad.pvd is the one after";
                 say(output, &format!("{}: {states}\n", folder.join("snapshots").display()));
@@ -109,6 +106,10 @@ impl ResultPublication<'_> {
         }
         if command.profile {
             tell(profile.in_words(results, threads).trim_end_matches('\n'));
+        }
+        for case in &page.cases {
+            let lines = summary::not_judged(&case.name, &case.not_judged);
+            if command.json { tell(lines.trim_end()) } else { say(output, &lines) }
         }
         let is_judged = page.cases.iter().all(|case| case.not_judged.is_empty());
         Ok(Exit::of(results, |result, metric| is_known(&known, result, metric)).unless_whole(is_judged))

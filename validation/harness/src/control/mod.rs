@@ -26,6 +26,8 @@ pub enum ControlKind {
         set: Vec<String>,
         /// Keys of the runs.
         only: Vec<Variant>,
+        /// What its runs are called where the change has a key in their names: that of the runs that they stand for.
+        stands_for: Variant,
         /// Whether it is too dear for a report and stands in the table instead.
         in_table: bool,
     },

@@ -23,6 +23,8 @@ struct Row {
     #[serde(default)]
     only: Vec<Variant>,
     #[serde(default)]
+    stands_for: Variant,
+    #[serde(default)]
     in_table: bool,
     solver: Option<String>,
     #[serde(default)]
@@ -71,11 +73,11 @@ fn parse(file: &str, text: &str) -> Result<Vec<Control>, ControlError> {
         if row.rejected_by.is_empty() && row.accepted_by.is_empty() {
             return Err(of("is meant for no metric; name some in `rejected_by` or `accepted_by`"));
         }
-        let kind = match row.solver {
+        let Row { name, error, set, only, stands_for, in_table, solver, rejected_by, accepted_by } = row;
+        let kind = match solver {
             Some(error) => ControlKind::Solver(error),
-            None => ControlKind::Input { set: row.set, only: row.only, in_table: row.in_table },
+            None => ControlKind::Input { set, only, stands_for, in_table },
         };
-        let Row { name, error, rejected_by, accepted_by, .. } = row;
         controls.push(Control { name, error, kind, rejected_by, accepted_by });
     }
     Ok(controls)

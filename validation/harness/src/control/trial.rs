@@ -1,8 +1,8 @@
 //! What became of a control: which gates reject it.
 
-use super::Control;
+use super::{Control, ControlKind};
 use crate::case::CaseResult;
-use crate::metric::{Metric, Variant, Verdict};
+use crate::metric::{Metric, Value, Variant, Verdict};
 
 /// What a gate that holds says of a control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,14 +48,16 @@ impl ControlTrial {
     /// and does not give it.
     #[must_use]
     pub fn of(control: Control, right: &[Metric], wrong: &CaseResult) -> Self {
-        let has_run = |variant: &Variant| wrong.runs.iter().any(|run| variant.includes(&run.variant));
+        let has_run =
+            |variant: &Variant| wrong.runs.iter().any(|run| variant.includes(&control.as_right(&run.variant)));
         let found = right.iter().filter_map(|metric| {
-            let is_it = |other: &&Metric| other.name == metric.name && other.variant == metric.variant;
+            let is_it =
+                |other: &&Metric| other.name == metric.name && control.as_right(&other.variant) == metric.variant;
             let tried = wrong.metrics.iter().find(is_it);
             (tried.is_some() || has_run(&metric.variant)).then(|| Found::of(metric, tried))
         });
-        let diverged = wrong.unexpected_divergences().next().is_some();
-        Self { control, found: found.collect(), diverged, tried_at: None }
+        let (found, diverged) = (found.collect(), wrong.unexpected_divergences().next().is_some());
+        Self { control, found, diverged, tried_at: None }
     }
 
     /// A metric of the right case as the control has it; none where the control's runs do not measure it.
@@ -76,6 +78,15 @@ impl ControlTrial {
             (_, Some(Verdict::Fail)) => Answer::Rejects,
             (_, Some(Verdict::Observed) | None) => Answer::NotJudged,
         })
+    }
+}
+
+impl Control {
+    /// The variant of the right case that one of the control stands for.
+    fn as_right(&self, variant: &Variant) -> Variant {
+        let ControlKind::Input { stands_for, .. } = &self.kind else { return variant.clone() };
+        let value = |key: &str, own: &Value| stands_for.get(key).unwrap_or(own).clone();
+        variant.parts().fold(Variant::default(), |all, (key, own)| all.and(key, value(key, own)))
     }
 }
 

@@ -8,6 +8,7 @@ use crate::case::{
     AnyCase, CaseResult, Changes, Estimate, ExternalData, ExternalResult, ExternalSchema, ParameterError, PreparedCase,
     Progress, Registry, Tier,
 };
+use crate::control::Control;
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
@@ -74,6 +75,10 @@ impl AnyCase for CanonicalStudy {
         true
     }
 
+    fn controls(&self) -> Vec<Control> {
+        self.study().controls()
+    }
+
     fn show(&self, _: Tier) -> String {
         self.text.to_owned()
     }
@@ -96,8 +101,10 @@ impl AnyCase for CanonicalStudy {
             study.base.lay_over(fields);
         }
         let base_tier = study.tier();
-        let parts = study.prepare(self.cases, Some(base_tier), changes.settings, changes.limits)?;
         let parameters_toml = study.complete(tier);
+        // a report runs them beside the study
+        let study = study.without_controls();
+        let parts = study.prepare(self.cases, Some(base_tier), changes.settings, changes.limits)?;
         Ok(Box::new(StudyPlan { name: self.name, tier, study, parameters_toml, parts }))
     }
 }

@@ -1,5 +1,6 @@
 //! A study as a TOML file.
 
+use super::control::{self, ControlText};
 use super::drawn::{FigureText, NamesOfStudy};
 use crate::case::Tier;
 use crate::figure::is_file_name;
@@ -50,6 +51,9 @@ pub(super) struct StudyText {
     /// What is measured and judged.
     #[serde(default)]
     pub(super) checks: Vec<CheckText>,
+    /// Wrong physics and wrong inputs that checks must reject.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) controls: Vec<ControlText>,
     /// Figures of checks over the variants.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) figures: Vec<FigureText>,
@@ -260,6 +264,7 @@ impl StudyText {
                 return Err(FieldError::new(&field, &figure.name, "unlike the others", "give each a name of its own"));
             }
         }
+        control::check(&self.controls, &self.checks)?;
         self.check_variants()
     }
 

@@ -26,6 +26,7 @@
 
 mod canonical;
 mod check;
+mod control;
 mod drawn;
 mod figures;
 mod file;
@@ -168,7 +169,8 @@ impl Study {
         self.checks.retain(of_study);
     }
 
-    /// The cases to be simulated, one per variant, with settings (`path=value`) of the command line over all of them.
+    /// The cases to be simulated, one per variant and then one per control and variant, with settings (`path=value`) of the command line over
+    /// all of them.
     ///
     /// # Errors
     /// A case that does not exist or refuses a variant's parameters.
@@ -182,6 +184,18 @@ impl Study {
         for setting in settings {
             self.refuse_varied(setting)?;
         }
+        let mut cases = self.prepare_variants(registry, tier, settings, limits)?;
+        cases.extend(self.prepare_controls(registry, tier, settings, limits)?);
+        Ok(cases)
+    }
+
+    fn prepare_variants(
+        &self,
+        registry: Registry,
+        tier: Option<Tier>,
+        settings: &[String],
+        limits: Limits,
+    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
         let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
         let base = self.of_tier(tier.unwrap_or(self.tier())).base;
         let prepare = |changed: &ChangedSettings, settings: &[String]| {
@@ -226,12 +240,31 @@ impl Study {
         })
     }
 
-    /// One result of all variants' results, in the order of [`Self::prepare`]: the checks first, then what the case says of
-    /// its runs itself.
+    /// Number of cases that [`Self::prepare`] gives.
+    fn case_count(&self) -> usize {
+        self.changes.len() * (1 + self.text.controls.len())
+    }
+
+    /// One result of all cases' results, in the order of [`Self::prepare`]: the checks first, then whether they reject the controls, then what
+    /// the case says of its runs itself.
     ///
     /// # Errors
     /// A check that names a table, column, metric or variant that there is not.
-    pub fn judge(&self, results: Vec<CaseResult>) -> Result<CaseResult, PlanError> {
+    pub fn judge(&self, mut results: Vec<CaseResult>) -> Result<CaseResult, PlanError> {
+        let mut wrong = results.split_off(self.changes.len().min(results.len())).into_iter();
+        let mut judged = self.judge_variants(results)?;
+        let mut rejections = Vec::new();
+        for place in 0..self.text.controls.len() {
+            let wrong = self.judge_variants(wrong.by_ref().take(self.changes.len()).collect())?;
+            rejections.extend(self.rejections(&judged.metrics, place, &wrong));
+        }
+        let is_check = |metric: &Metric| self.checks.iter().any(|check| check.name == metric.name);
+        let place = judged.metrics.iter().rposition(is_check).map_or(0, |last| last + 1);
+        judged.metrics.splice(place..place, rejections);
+        Ok(judged)
+    }
+
+    fn judge_variants(&self, results: Vec<CaseResult>) -> Result<CaseResult, PlanError> {
         let tier = results.first().map_or(Tier::Quick, |result| result.tier);
         let mut judged = self.without_runs(tier, &results);
         for (place, check) in self.checks.iter().enumerate() {

@@ -75,6 +75,6 @@ impl Suite {
     /// A check that names what there is not.
     pub fn judge(&self, results: Vec<CaseResult>) -> Result<Vec<CaseResult>, PlanError> {
         let mut results = results.into_iter();
-        self.studies.iter().map(|study| study.judge(results.by_ref().take(study.changes.len()).collect())).collect()
+        self.studies.iter().map(|study| study.judge(results.by_ref().take(study.case_count()).collect())).collect()
     }
 }

@@ -24,6 +24,8 @@ pub enum DevCommand {
     Verify(VerifyArguments),
     /// Run a case with each input at both ends of its stated range: the table that uncertainties by inputs come from.
     Sensitivities(SensitivitiesArguments),
+    /// Try the controls that a report does not run, and renew the tables of what became of them.
+    Controls(ControlsArguments),
     /// Put errors into a copy of the solver, one at a time, and say which gates notice.
     Mutate(MutateArguments),
 }
@@ -88,6 +90,26 @@ pub enum StoreAction {
         #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true, group = "limit")]
         size: Option<f64>,
     },
+}
+
+/// `bagnold dev controls`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Works in a checkout: errors of the solver are tried in the copy that `bagnold dev mutate` builds. The controls stand in
+validation/harness/controls/CASE.toml, what became of them in validation/harness/controls/tried/CASE.csv; a report shows both.
+
+Exit codes: 0 written, or the same; 1 other than the tables; 2 bad input, or no checkout."
+)]
+pub struct ControlsArguments {
+    /// Cases by name, separated by commas [default: all].
+    #[arg(long, value_name = "CASE,…", value_delimiter = ',')]
+    pub cases: Vec<String>,
+    /// Compare with the tables instead of writing them.
+    #[arg(long)]
+    pub check: bool,
+    /// How to compute.
+    #[command(flatten)]
+    pub work: ExecutionOptions,
 }
 
 /// `bagnold dev mutate`

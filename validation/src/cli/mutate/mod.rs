@@ -1,5 +1,6 @@
 //! `bagnold dev mutate`: builds a copy of the program with all mutations, runs it with one at a time, and says who noticed.
 
+pub(super) mod controls;
 mod drawn;
 mod program;
 
@@ -23,7 +24,7 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Seconds that a case with an error may take beyond ten times its own.
-const PATIENCE: f64 = 60.0;
+pub(super) const PATIENCE: f64 = 60.0;
 
 /// Lists, tries one error, or tries all.
 pub(super) fn mutate(

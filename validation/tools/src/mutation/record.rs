@@ -102,7 +102,12 @@ impl Mutations {
     /// The cases that ought to notice it, cut to what matters.
     #[must_use]
     pub fn scopes(&self, mutation: &Mutation) -> Vec<Scope> {
-        let settings = |case: &String| self.settings.get(case).cloned().unwrap_or_default();
-        mutation.cases.iter().map(|case| Scope { case: case.clone(), settings: settings(case) }).collect()
+        mutation.cases.iter().map(|case| self.scope(case)).collect()
+    }
+
+    /// A case, cut to what matters.
+    #[must_use]
+    pub fn scope(&self, case: &str) -> Scope {
+        Scope { case: case.to_owned(), settings: self.settings.get(case).cloned().unwrap_or_default() }
     }
 }

@@ -1,0 +1,126 @@
+//! Controls of a study: changes of its parameters that its checks must reject.
+
+use super::Study;
+use super::file::CheckText;
+use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
+use crate::control::{Answer, Control, ControlKind, ControlTrial};
+use crate::evaluation::PlanError;
+use crate::input::{FieldError, check_name, check_text};
+use crate::metric::{Limit, Metric, Variant};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use toml::Table;
+
+/// Wrong physics or a wrong input that checks must reject.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ControlText {
+    /// Its name.
+    pub(super) name: String,
+    /// Wrong values by the dotted paths of parameters.
+    #[schemars(with = "std::collections::BTreeMap<String, serde_json::Value>")]
+    pub(super) set: Table,
+    /// What is wrong in words.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(super) error: String,
+    /// Names of the checks that must reject it.
+    pub(super) rejects: Vec<String>,
+}
+
+impl ControlText {
+    /// As a case has it.
+    pub(super) fn control(&self) -> Control {
+        let set = self.set.iter().map(|(path, value)| format!("{path}={value}")).collect();
+        let kind = ControlKind::Input { set, only: Vec::new(), stands_for: Variant::default(), in_table: false };
+        let error = if self.error.is_empty() { self.name.replace(['-', '_'], " ") } else { self.error.clone() };
+        let rejected_by = self.rejects.clone();
+        Control { name: self.name.clone(), error, kind, rejected_by, accepted_by: Vec::new() }
+    }
+}
+
+/// Refuses controls that nothing would come of.
+pub(super) fn check(controls: &[ControlText], checks: &[CheckText]) -> Result<(), FieldError> {
+    for (place, control) in controls.iter().enumerate() {
+        let field = |name: &str| format!("controls[{place}].{name}");
+        let name = &control.name;
+        check_name(&field("name"), name)?;
+        check_text(&field("error"), &control.error)?;
+        if controls[..place].iter().any(|other| other.name == *name) {
+            return Err(FieldError::new(&field("name"), name, "unlike the others", "give each a name of its own"));
+        }
+        if control.set.is_empty() {
+            let remedy = "name a parameter and its wrong value, such as { \"material.viscosity\" = 2.0 }";
+            return Err(FieldError::new(&field("set"), "empty", "at least one change", remedy));
+        }
+        let is_judged = |check: &&CheckText| {
+            check.within.is_some()
+                || check.at_most.is_some()
+                || check.at_least.is_some()
+                || check.within_uncertainties.is_some()
+        };
+        let judged: Vec<&str> = checks.iter().filter(is_judged).map(|check| check.name.as_str()).collect();
+        let unknown = control.rejects.iter().find(|own| !judged.contains(&own.as_str()));
+        if control.rejects.is_empty() || unknown.is_some() {
+            let value = unknown.map_or("empty", String::as_str);
+            let remedy = format!("such as \"{}\"", judged.first().unwrap_or(&"front"));
+            return Err(FieldError::new(&field("rejects"), value, "names of checks with a limit", &remedy));
+        }
+    }
+    Ok(())
+}
+
+impl Study {
+    /// Without its controls, for those who run them themselves.
+    pub(super) fn without_controls(mut self) -> Self {
+        self.text.controls.clear();
+        self
+    }
+
+    /// The controls as a case has them.
+    pub(super) fn controls(&self) -> Vec<Control> {
+        self.text.controls.iter().map(ControlText::control).collect()
+    }
+
+    /// The cases of all controls, each with all variants.
+    pub(super) fn prepare_controls(
+        &self,
+        registry: Registry,
+        tier: Option<Tier>,
+        settings: &[String],
+        limits: Limits,
+    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
+        let mut all = Vec::new();
+        for (place, control) in self.controls().into_iter().enumerate() {
+            let ControlKind::Input { set, .. } = control.kind else { continue };
+            for (setting, (path, _)) in set.iter().zip(&self.text.controls[place].set) {
+                let within = |error: FieldError| FieldError { field: format!("controls[{place}].set.{path}"), ..error };
+                self.refuse_varied(setting).map_err(|error| within(error).in_file(&self.file))?;
+            }
+            all.extend(self.prepare_variants(registry, tier, &[settings, &set[..]].concat(), limits)?);
+        }
+        Ok(all)
+    }
+
+    /// Whether the checks that a control names reject it, a number each: 1 if so, 0 if it stands. A check that fails on the right run is
+    /// left out.
+    pub(super) fn rejections(&self, right: &[Metric], place: usize, wrong: &CaseResult) -> Vec<Metric> {
+        let control = self.text.controls[place].control();
+        let name = control.name.clone();
+        let trial = ControlTrial::of(control, right, wrong);
+        let own = right.iter().filter(|metric| trial.control.rejected_by.contains(&metric.name));
+        let number = |metric: &Metric| {
+            let rejected = match trial.answer(metric)? {
+                Answer::Rejects | Answer::NotJudged => 1.0,
+                Answer::Accepts => 0.0,
+                Answer::Nothing => return None,
+            };
+            let variant =
+                Variant::of("control", name.as_str()).and("check", metric.name.as_str()).followed_by(&metric.variant);
+            let reason = "a check that holds with what is known to be wrong says nothing of the right run";
+            let judged =
+                Metric::observed("rejects_control", &variant, rejected, "-").gated(Limit::AtLeast(1.0), reason);
+            Some(judged.exactly(1.0, "the control is wrong by choice").of_user())
+        };
+        own.filter_map(number).collect()
+    }
+}

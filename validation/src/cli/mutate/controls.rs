@@ -1,0 +1,156 @@
+//! `bagnold dev controls`: tries the controls that a report does not run, errors of the solver and dear inputs, and renews the
+//! committed tables of what became of them.
+
+use super::program::Program;
+use super::{PATIENCE, named, sources};
+use crate::case::{CaseResult, Registry, Request, Tier, share_out};
+use crate::cli::arguments::ControlsArguments;
+use crate::cli::count::CountBar;
+use crate::cli::error::ProgramError;
+use crate::cli::{Exit, say, simulation, tell};
+use crate::control::{Control, ControlKind, ControlTrial, Found, TriedControls};
+use crate::evidence::PAPERS;
+use crate::metric::{Metric, Verdict};
+use crate::mutation::{Mutations, Scope, build};
+use crate::output::{FileError, write_whole};
+use crate::store::Store;
+use std::io::Write;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+/// Tries the controls of the cases asked for and writes, or compares, their tables.
+pub(in crate::cli) fn controls(
+    command: &ControlsArguments,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
+    let workspace = sources()?;
+    let cases: Vec<&str> = if command.cases.is_empty() {
+        registry.iter().map(|case| case.name()).collect()
+    } else {
+        command.cases.iter().map(|name| registry.find(name.trim()).map(|case| case.name())).collect::<Result<_, _>>()?
+    };
+    let mutations = Mutations::read(&workspace)?;
+    let staging = workspace.join("target").join("mutations");
+    if !quiet {
+        tell("building a copy of the program that holds all mutations");
+    }
+    let program = Program::new(build(&workspace, &mutations)?, &staging)?;
+    let mut same = true;
+    for name in cases {
+        let mut own: Vec<Control> = registry.find(name)?.controls();
+        own.retain(|control| !matches!(control.kind, ControlKind::Input { in_table: false, .. }));
+        if own.is_empty() {
+            continue;
+        }
+        let mut trials = of_solver(name, &own, &program, &mutations, quiet)?;
+        trials.extend(of_inputs(name, &own, registry, &command.work.open_store(), quiet)?);
+        let table = TriedControls::by_this_program(&trials);
+        if command.check {
+            let agrees = TriedControls::shipped(name).agrees(&table);
+            same &= agrees;
+            say(output, &format!("{} {name}: {} controls\n", if agrees { "same   " } else { "DIFFERS" }, trials.len()));
+            continue;
+        }
+        let path = workspace.join("validation/harness/controls").join(TriedControls::file(name));
+        let unwritable = |error: std::io::Error| ProgramError::from(FileError::unwritable(&path, &error));
+        let text = table.text().map_err(|error| unwritable(std::io::Error::other(error)))?;
+        std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).map_err(unwritable)?;
+        write_whole(&path, text.as_bytes()).map_err(unwritable)?;
+        say(output, &format!("{name}: {} controls, written to {}\n", trials.len(), path.display()));
+    }
+    Ok(if same { Exit::Held } else { Exit::GateFailed })
+}
+
+/// Each error of the solver through a case, cut to the runs that matter.
+fn of_solver(
+    case: &str,
+    controls: &[Control],
+    program: &Program,
+    mutations: &Mutations,
+    quiet: bool,
+) -> Result<Vec<ControlTrial>, ProgramError> {
+    let errors = controls.iter().filter_map(|control| match &control.kind {
+        ControlKind::Solver(error) => Some((control, error)),
+        ControlKind::Input { .. } => None,
+    });
+    let errors: Vec<(&Control, usize)> = errors
+        .map(|(control, error)| Ok((control, mutations.number(named(mutations, error)?))))
+        .collect::<Result<_, ProgramError>>()?;
+    if errors.is_empty() {
+        return Ok(Vec::new());
+    }
+    let scope: Scope = mutations.scope(case);
+    let right = program.run("0", &scope, Duration::MAX);
+    let right = right.map_err(|reason| ProgramError::Trial { case: case.to_owned(), reason })?;
+    let limit = Duration::from_secs_f64(10.0 * right.wall_seconds + PATIENCE);
+    let bar = CountBar::new("controls", errors.len(), 0, quiet);
+    let trials = Mutex::new(Vec::new());
+    share_out(errors, |(control, number): (&Control, usize)| -> Result<(), ProgramError> {
+        bar.say(&control.name);
+        // a program that stops has noticed, but its gates have not
+        let wrong = program.run(&number.to_string(), &scope, limit).ok();
+        let diverged = wrong.as_ref().is_none_or(|wrong| !wrong.diverged.is_empty());
+        let wrong = wrong.map(|wrong| wrong.metrics).unwrap_or_default();
+        let trial = ControlTrial {
+            found: found(case, &right.metrics, &wrong),
+            control: control.clone(),
+            diverged,
+            tried_at: None,
+        };
+        trials.lock().unwrap_or_else(PoisonError::into_inner).push(trial);
+        bar.step();
+        Ok(())
+    })?;
+    bar.clear();
+    Ok(trials.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// Each dear change of parameters, against the case as it comes.
+fn of_inputs(
+    case: &str,
+    controls: &[Control],
+    registry: Registry,
+    store: &Store,
+    quiet: bool,
+) -> Result<Vec<ControlTrial>, ProgramError> {
+    let mut requests = vec![Request { target: case, tier: Some(Tier::Quick), ..Request::default() }];
+    let mut dear: Vec<&Control> = Vec::new();
+    for control in controls {
+        if let ControlKind::Input { set, only, .. } = &control.kind {
+            requests.push(Request { target: case, tier: Some(Tier::Quick), settings: set, only, ..Request::default() });
+            dear.push(control);
+        }
+    }
+    if dear.is_empty() {
+        return Ok(Vec::new());
+    }
+    let prepared = requests.iter().map(|request| Ok(request.prepare(registry)?.prepared));
+    let results = simulation::simulate(prepared.collect::<Result<_, ProgramError>>()?, store, quiet, None)?;
+    let [right, wrong @ ..] = &results[..] else { return Ok(Vec::new()) };
+    let trial = |(control, wrong): (&&Control, &CaseResult)| {
+        let mut trial = ControlTrial::of((*control).clone(), &right.metrics, wrong);
+        trial.found.retain(|found| is_asked(case, found));
+        trial
+    };
+    Ok(dear.iter().zip(wrong).map(trial).collect())
+}
+
+/// The right metrics that anything asks for, as they are with an error.
+fn found(case: &str, right: &[Metric], wrong: &[Metric]) -> Vec<Found> {
+    let with_error =
+        |metric: &&Metric| wrong.iter().find(|other| other.name == metric.name && other.variant == metric.variant);
+    let all = right.iter().map(|metric| (metric.verdict(), Found::of(metric, with_error(&metric))));
+    all.filter(|(verdict, found)| *verdict != Verdict::Observed || is_asked(case, found))
+        .map(|(_, found)| found)
+        .collect()
+}
+
+/// Whether a gate judges a number or an element of a paper names it.
+fn is_asked(case: &str, found: &Found) -> bool {
+    let names = PAPERS.iter().flat_map(|paper| &paper.elements).flat_map(|element| &element.metrics);
+    found.verdict.is_some_and(|verdict| verdict != Verdict::Observed)
+        || names.filter(|name| name.case == case).any(|name| name.names(&found.metric, &found.variant))
+}
