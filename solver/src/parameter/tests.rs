@@ -16,8 +16,11 @@ enum Start {
 #[serde(tag = "law", rename_all = "kebab-case")]
 #[expect(dead_code, reason = "read from text only")]
 enum Law {
+    /// A liquid.
     Newtonian(Viscous),
-    PowerLaw { exponent: f64 },
+    PowerLaw {
+        exponent: f64,
+    },
 }
 
 #[derive(Serialize, JsonSchema)]
@@ -124,6 +127,12 @@ fn fields_that_are_too_many_or_too_few_are_named() {
     );
     assert_eq!(said("material = { viscosity = 1 }"), "material.law is missing");
     assert_eq!(said("start = { given = {} }"), "start.given.speed is missing");
+}
+
+#[test]
+fn a_tag_has_the_description_of_its_table() {
+    let fields = &schema_of::<Layer>()["properties"];
+    assert_eq!(fields["material"]["oneOf"][0]["properties"]["law"]["description"], "A liquid.");
 }
 
 #[test]

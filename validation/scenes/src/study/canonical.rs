@@ -78,8 +78,18 @@ impl AnyCase for CanonicalStudy {
         self.text.to_owned()
     }
 
+    /// The schema of a study, with the parameters of its case.
     fn schema(&self, _: Tier) -> serde_json::Value {
-        schema()
+        let mut schema = schema();
+        let mut parameters = self.base().schema(self.study().tier())["properties"].take();
+        if let Some(fields) = parameters.as_object_mut() {
+            fields.retain(|name, _| self.parameter_schema()["properties"].get(name).is_some());
+        }
+        for table in ["parameters", "paper"] {
+            schema["properties"][table]["properties"] = parameters.clone();
+            schema["properties"][table]["additionalProperties"] = false.into();
+        }
+        schema
     }
 
     fn parameter_schema(&self) -> &'static serde_json::Value {
