@@ -130,8 +130,11 @@ fn fields_that_are_too_many_or_too_few_are_named() {
 }
 
 #[test]
-fn a_tag_has_the_description_of_its_table() {
+fn rules_are_told_without_a_value_and_a_tag_by_its_table() {
     let fields = &schema_of::<Layer>()["properties"];
+    let rules = ["rows", "depth", "slopes", "bracket"].map(|name| rule_in_words(&fields[name]));
+    let rules = rules.each_ref().map(|rule| rule.as_deref().unwrap_or_default());
+    assert_eq!(rules, ["between 4 and 1000", "positive and finite", "each above 0 and at most 0.2", ""]);
     assert_eq!(fields["material"]["oneOf"][0]["properties"]["law"]["description"], "A liquid.");
 }
 

@@ -3,15 +3,17 @@
 //! A study is a case whose runs are those of other cases and whose gates are its checks. It is found by its name, is part of the
 //! report, and has accepted values, a list of gates and known failures.
 
+use super::file::StudyText;
 use super::{Study, schema};
 use crate::case::{
     AnyCase, CaseResult, Changes, Estimate, ExternalData, ExternalResult, ExternalSchema, ParameterError, PreparedCase,
-    Progress, Registry, Tier,
+    Progress, Registry, Tier, tables_to_add,
 };
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::store::{CodeOrigin, Store};
+use bagnold_solver::parameter::schema_of;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -75,7 +77,8 @@ impl AnyCase for CanonicalStudy {
     }
 
     fn show(&self, _: Tier) -> String {
-        self.text.to_owned()
+        let schemas = [("", schema_of::<StudyText>()), ("parameters", self.parameter_schema())];
+        self.text.to_owned() + &tables_to_add(&schemas)
     }
 
     /// The schema of a study, with the parameters of its case.
