@@ -187,6 +187,20 @@ fn a_syrup_by_implicit_steps_collapses_as_by_explicit_ones_in_fewer() {
 }
 
 #[test]
+fn a_table_that_show_documents_can_be_added_to_a_scene() {
+    let place = Place::new();
+    let shown = place.bagnold(&["show", "scene"]).output().expect("started");
+    let shown = String::from_utf8_lossy(&shown.stdout).into_owned();
+    let measured = shown.split("\n\n").find(|table| table.starts_with("# [[measured]]")).expect("documented");
+    let added: String = measured.lines().map(|line| format!("{}\n", line.trim_start_matches("# "))).collect();
+    let added = added.replace("gauge = \"…\"", "gauge = \"front\"").replace("limit = 0.0", "limit = 200.0");
+    place.file("added.toml", &(shown.replace("measured = []", "") + "\n" + &added));
+    let refused = place.bagnold(&["run", "added.toml", "--quiet"]).assert().code(2);
+    let said = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(said.contains("`measured[0].limit` is 200, but must be between 0 and 100"), "{said}");
+}
+
+#[test]
 fn a_scene_is_drawn_as_it_starts_also_one_that_is_refused() {
     let place = Place::new();
     let slope = "case = \"scene\"\nname = \"slope\"\nspacing = 0.01\n\

@@ -158,6 +158,25 @@ fn every_shipped_study_can_be_prepared() {
 }
 
 #[test]
+fn a_printed_canonical_study_can_be_prepared_with_a_table_that_it_documents() {
+    let place = place();
+    let registry = *bagnold_validation::REGISTRY;
+    for case in registry.iter().filter(|case| case.is_study()) {
+        let text = case.show(bagnold_harness::case::Tier::Quick);
+        let vary = text.split("\n\n").find(|table| table.starts_with("# [[vary]]")).expect("documented");
+        let added: String = vary.lines().map(|line| format!("{}\n", line.trim_start_matches("# "))).collect();
+        for (added, times) in
+            [("", 1), (&added.replace("path = \"…\"", "path = \"seed\"").replace("[1.0]", "[1, 2]"), 2)]
+        {
+            place.file("printed.toml", &format!("{text}{added}"));
+            let study = bagnold_scenes::study::Study::read(&place.path("printed.toml"), registry).expect("a study");
+            let cases = study.prepare(registry, None, &[], bagnold_harness::case::Limits::default()).expect("cases");
+            assert!(!cases.is_empty() && cases.len() % times == 0, "{}: {}", case.name(), cases.len());
+        }
+    }
+}
+
+#[test]
 fn variants_and_settings_change_what_is_simulated() {
     let place = place();
     let variants =

@@ -69,6 +69,30 @@ fn bounded(schema: &Value, path: &[String], found: &mut Vec<Outside>) {
     }
 }
 
+/// Every list of tables with a form of its entries each.
+fn lists(schema: &Value, path: &str, found: &mut Vec<(String, Value)>) {
+    for (name, field) in schema["properties"].as_object().into_iter().flatten() {
+        let path = format!("{path}{name}");
+        let entry = &field["items"];
+        let forms = if entry["properties"].is_null() { entry["oneOf"].as_array() } else { None };
+        let forms = forms.cloned().unwrap_or_else(|| vec![entry.clone()]);
+        found.extend(forms.into_iter().filter(|form| form["properties"].is_object()).map(|form| (path.clone(), form)));
+        for inner in [field, entry].into_iter().chain(field["oneOf"].as_array().into_iter().flatten()) {
+            lists(inner, &format!("{path}."), found);
+        }
+    }
+}
+
+/// The fields of a table and of the tables in it, but not those of lists of tables.
+fn fields(table: &Value, path: &str) -> Vec<(String, Value)> {
+    let below = |(name, field): (&String, &Value)| match field["properties"].is_object() {
+        true => fields(field, &format!("{path}{name}.")),
+        false => vec![(format!("{path}{name}"), field.clone())],
+    };
+    let all = table["properties"].as_object().into_iter().flatten().flat_map(below);
+    all.filter(|(_, field)| !field["items"]["properties"].is_object()).collect()
+}
+
 fn with(mut file: Value, path: &[String], value: Value) -> Value {
     file[path[0].as_str()] = match path.len() {
         1 => value,
@@ -88,6 +112,34 @@ fn a_schema_accepts_what_show_prints() {
                 .map(|error| format!("{}: {error}", error.instance_path()))
                 .collect();
             assert!(errors.is_empty(), "{case} {tier}: {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn show_and_schema_document_every_field_of_list_entries() {
+    for case in all() {
+        let text = printed(&["show", &case]);
+        let mut found = Vec::new();
+        lists(&schema(&case, "quick"), "", &mut found);
+        let has_lists = ["scene", "scene-space", "footing"].contains(&case.as_str());
+        assert!(!has_lists || found.len() >= 10, "{case}: {found:?}");
+        // [paper] has the lists of [parameters]
+        for (path, form) in found.iter().filter(|(path, _)| !path.starts_with("paper.")) {
+            let head = format!("# [[{path}]]");
+            let tables: Vec<&str> = text.split("\n\n").filter(|table| table.starts_with(&head)).collect();
+            let is_documented = |table: &str, (name, field): &(String, Value)| {
+                let about = field["description"].as_str().unwrap_or_else(|| panic!("{case}: {path}.{name}: {field}"));
+                let about = about.split_whitespace().collect::<Vec<_>>().join(" ");
+                let sentence = about.split(". ").next().unwrap_or_default().trim_end_matches('.').replace("`[", "[");
+                let words = [&sentence.replace("]`", "]"), field["x-rule"].as_str().unwrap_or_default()];
+                let line = table.lines().find(|line| line.starts_with(&format!("# {name} = ")));
+                let line = line.unwrap_or_default().to_lowercase();
+                words.iter().all(|words| !line.is_empty() && line.contains(&words.to_lowercase()))
+            };
+            let fields = fields(form, "");
+            let is_whole = |table: &&str| fields.iter().all(|field| is_documented(table, field));
+            assert!(!fields.is_empty() && tables.iter().any(is_whole), "{case}: {path}: {tables:#?}");
         }
     }
 }

@@ -181,6 +181,16 @@ impl Place {
     }
 }
 
+/// A field's own rule, completing "must be …"; the bounds of its unit are left out.
+#[must_use]
+pub fn rule_in_words(schema: &Schema) -> Option<String> {
+    let words = schema.get("x-rule").and_then(Schema::as_str).map(str::to_owned);
+    let of_list = || schema.get("items").and_then(|_| broken_list(schema, &[])).map(|(_, words)| words);
+    let of_entries = || Some(format!("each {}", rule_in_words(schema.get("items")?)?));
+    // NaN breaks every bound, an empty list every least length
+    words.or_else(|| broken_bound(schema, f64::NAN)).or_else(of_list).or_else(of_entries)
+}
+
 /// The bounds that a number breaks, in words.
 fn broken_bound(rule: &Schema, value: f64) -> Option<String> {
     let bound = |key: &str| rule.get(key).and_then(Schema::as_f64);

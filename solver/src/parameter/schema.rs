@@ -74,11 +74,14 @@ fn collect_unbounded(schema: &Value, path: &str, found: &mut Vec<String>) {
     }
 }
 
-/// Says of every table of fields that it has no others.
+/// Says of every table of fields that it has no others, and gives its tag the description of the table.
 fn close(schema: &mut Value) {
     match schema {
         Value::Object(keywords) => {
-            if keywords.get("properties").is_some_and(Value::is_object) {
+            let about = keywords.get("description").cloned();
+            if let Some(fields) = keywords.get_mut("properties").and_then(Value::as_object_mut) {
+                let tags = fields.values_mut().filter(|field| field.get("const").is_some());
+                tags.zip(about).for_each(|(tag, about)| tag["description"] = about);
                 keywords.insert("additionalProperties".to_owned(), false.into());
             }
             keywords.values_mut().for_each(close);

@@ -16,8 +16,11 @@ enum Start {
 #[serde(tag = "law", rename_all = "kebab-case")]
 #[expect(dead_code, reason = "read from text only")]
 enum Law {
+    /// A liquid.
     Newtonian(Viscous),
-    PowerLaw { exponent: f64 },
+    PowerLaw {
+        exponent: f64,
+    },
 }
 
 #[derive(Serialize, JsonSchema)]
@@ -124,6 +127,15 @@ fn fields_that_are_too_many_or_too_few_are_named() {
     );
     assert_eq!(said("material = { viscosity = 1 }"), "material.law is missing");
     assert_eq!(said("start = { given = {} }"), "start.given.speed is missing");
+}
+
+#[test]
+fn rules_are_told_without_a_value_and_a_tag_by_its_table() {
+    let fields = &schema_of::<Layer>()["properties"];
+    let rules = ["rows", "depth", "slopes", "bracket"].map(|name| rule_in_words(&fields[name]));
+    let rules = rules.each_ref().map(|rule| rule.as_deref().unwrap_or_default());
+    assert_eq!(rules, ["between 4 and 1000", "positive and finite", "each above 0 and at most 0.2", ""]);
+    assert_eq!(fields["material"]["oneOf"][0]["properties"]["law"]["description"], "A liquid.");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{
     Case, CaseFile, Estimate, ExternalData, ExternalSchema, Parameters, Progress, RecordOf, Run, RunOf, StateOutput,
-    Tier, schema,
+    Tier, schema, tables_to_add,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::control::{self, Control};
@@ -122,7 +122,7 @@ impl<C: Case> AnyCase for C {
     }
 
     fn show(&self, tier: Tier) -> String {
-        file_text::<C>(tier, &C::Parameters::of_tier(tier))
+        file_text::<C>(tier, &C::Parameters::of_tier(tier)) + &tables_to_add(&[("", schema_of::<C::Parameters>())])
     }
 
     fn schema(&self, tier: Tier) -> serde_json::Value {

@@ -108,9 +108,10 @@ impl CaseFile {
             text.push('\n');
         }
         let mut section = String::new();
+        let mut entries = BTreeMap::new();
         for line in parameters.lines() {
             let path = if line.starts_with('[') {
-                section = line.trim_matches(['[', ']']).to_owned();
+                section = numbered(line, &mut entries);
                 if !text.ends_with("\n\n") {
                     text.push('\n');
                 }
@@ -129,6 +130,24 @@ impl CaseFile {
         // The serialiser already parts its tables by an empty line, and so does the loop above.
         text.replace("\n\n\n", "\n\n")
     }
+}
+
+/// The path of a table's head, in which entries of lists are numbered as far as they have been counted: `gauges[1].grains`.
+fn numbered(head: &str, entries: &mut BTreeMap<String, usize>) -> String {
+    let keys = head.trim_matches(['[', ']']);
+    if head.starts_with("[[") {
+        // each entry counts the lists below it anew
+        entries.retain(|list, _| !list.starts_with(&format!("{keys}.")));
+        entries.entry(keys.to_owned()).and_modify(|index| *index += 1).or_insert(0);
+    }
+    let (mut list, mut path) = (String::new(), String::new());
+    for key in keys.split('.') {
+        let dot = if list.is_empty() { "" } else { "." };
+        list += &format!("{dot}{key}");
+        path += &format!("{dot}{key}");
+        path.extend(entries.get(&list).map(|index| format!("[{index}]")));
+    }
+    path
 }
 
 /// Lays fields over others: tables field by field, everything else as a whole.
@@ -204,6 +223,14 @@ mod tests {
             text,
             "case = \"film\"\ntier = \"paper\"\n\ndepth = 0.01  # height of the layer [m]\n\n[fluid]  # water\ndensity = 1000.0  # [kg/m³]\n"
         );
+    }
+
+    #[test]
+    fn heads_of_list_entries_are_numbered() {
+        let heads = ["[a]", "[[b]]", "[b.c]", "[[b.d]]", "[[b.d]]", "[[b]]", "[b.c]", "[[b.d]]"];
+        let mut entries = BTreeMap::new();
+        let paths = heads.map(|head| numbered(head, &mut entries));
+        assert_eq!(paths, ["a", "b[0]", "b[0].c", "b[0].d[0]", "b[0].d[1]", "b[1]", "b[1].c", "b[1].d[0]"]);
     }
 
     #[test]

@@ -25,6 +25,7 @@ mod request;
 mod result;
 mod schedule;
 mod schema;
+mod tables;
 
 pub use changes::Changes;
 pub use changes::twice_given;
@@ -42,6 +43,7 @@ pub use registry::Registry;
 pub use request::{Request, Requested};
 pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out};
+pub use tables::tables_to_add;
 
 use crate::checkpoint::Checkpoints;
 use crate::figure::{Animation, Figure};

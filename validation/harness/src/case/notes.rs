@@ -5,14 +5,14 @@ use serde_json::Value as Schema;
 use std::collections::BTreeMap;
 use toml::{Table, Value};
 
-/// What stands at each dotted path of the parameters, with its unit.
+/// What stands at each dotted path of the parameters, with its unit; entries of lists are numbered, `gauges[0].width`.
 pub(super) fn notes(schema: &Schema, parameters: &Table) -> BTreeMap<String, String> {
     let mut notes = BTreeMap::new();
     collect(schema, &Value::Table(parameters.clone()), "", &mut notes);
     notes
 }
 
-/// Notes a value and what is below it; the entries of a list share their notes.
+/// Notes a value and what is below it.
 fn collect(schema: &Schema, value: &Value, path: &str, notes: &mut BTreeMap<String, String>) {
     let below = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
     let shape = Shape::of(schema);
@@ -45,22 +45,30 @@ fn collect(schema: &Schema, value: &Value, path: &str, notes: &mut BTreeMap<Stri
             }
         }
         (Shape::List(items), Value::Array(values)) => {
-            for value in values {
-                collect(items, value, path, notes);
+            for (index, value) in values.iter().enumerate().filter(|(_, value)| value.is_table()) {
+                let entry = format!("{path}[{index}]");
+                // the head of each entry has the list's note
+                notes.extend(notes.get(path).cloned().map(|note| (entry.clone(), note)));
+                collect(items, value, &entry, notes);
             }
         }
         _ => {}
     }
 }
 
-fn note(schema: &Schema, name: &str, path: String, notes: &mut BTreeMap<String, String>) {
+/// Meaning of a field, with its unit and the names that it is one of.
+pub(super) fn note_of(schema: &Schema) -> String {
     let about = description(schema).map(|text| remark(&text)).unwrap_or_default();
     let choices = choices(schema).unwrap_or_default();
-    let note = match (about.is_empty(), choices.is_empty()) {
+    match (about.is_empty(), choices.is_empty()) {
         (_, true) => about,
         (true, false) => choices,
         (false, false) => format!("{about}: {choices}"),
-    };
+    }
+}
+
+fn note(schema: &Schema, name: &str, path: String, notes: &mut BTreeMap<String, String>) {
+    let note = note_of(schema);
     if !note.is_empty() && note.replace(' ', "_") != name {
         notes.insert(path, note);
     }
@@ -69,7 +77,7 @@ fn note(schema: &Schema, name: &str, path: String, notes: &mut BTreeMap<String, 
 /// The names that an enum's value, or each of a list's, is one of.
 fn choices(schema: &Schema) -> Option<String> {
     match Shape::of(schema) {
-        Shape::Choice(variants) => Some(names(variants.iter().map(|variant| variant.name))),
+        Shape::Choice(variants) if variants.len() > 1 => Some(names(variants.iter().map(|variant| variant.name))),
         Shape::List(items) => choices(items),
         _ => None,
     }
@@ -99,6 +107,7 @@ fn remark(description: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
 
     #[test]
     fn a_remark_is_the_first_sentence_with_its_unit() {
@@ -106,6 +115,21 @@ mod tests {
         assert_eq!(remark("Rows of the study; empty for none. Each is run once."), "rows of the study; empty for none");
         assert_eq!(remark("C_s of the eddy viscosity (5) `[-]`."), "C_s of the eddy viscosity (5) [-]");
         assert_eq!(remark("σ of (27) `[-]`."), "σ of (27) [-]");
+    }
+
+    #[test]
+    fn entries_of_a_list_have_notes_of_their_own() {
+        let form = |kind: &str, about: &str| {
+            let width = json!({ "type": "number", "description": about });
+            json!({ "type": "object", "properties": { "kind": { "const": kind }, "width": width } })
+        };
+        let forms = [form("front", "Width of a strip `[m]`."), form("depth", "Diameter `[m]`.")];
+        let gauges = json!({ "type": "array", "items": { "oneOf": forms }, "description": "Probes." });
+        let schema = json!({ "type": "object", "properties": { "gauges": gauges } });
+        let given = "[[gauges]]\nkind = \"front\"\nwidth = 1.0\n[[gauges]]\nkind = \"depth\"\nwidth = 2.0";
+        let notes = notes(&schema, &toml::from_str(given).expect("TOML"));
+        let of = ["gauges[0]", "gauges[0].width", "gauges[1]", "gauges[1].width"].map(|path| notes[path].as_str());
+        assert_eq!(of, ["probes", "width of a strip [m]", "probes", "diameter [m]"]);
     }
 
     #[test]

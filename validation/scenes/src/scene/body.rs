@@ -26,19 +26,19 @@ pub enum PlaneBody {
     },
     /// A disc.
     Disc {
-        /// Its middle x, y `[m]`.
+        /// Middle x, y `[m]`.
         centre: PlaneVector,
-        /// Its radius `[m]`.
+        /// Radius `[m]`.
         #[schemars(transform = positive("give it in metres"))]
         radius: f64,
         /// Velocity at the start, x, y `[m/s]`.
         #[serde(default)]
         velocity: PlaneVector,
     },
-    /// What a closed polyline encloses.
+    /// Area that a closed polyline encloses.
     Polygon {
-        /// Its corners x, y `[m]`, the last of which is joined to the first.
-        #[schemars(transform = filled("at least one corner", "give three corners or more"))]
+        /// Corners x, y `[m]`, the last of which is joined to the first.
+        #[schemars(transform = filled("three corners or more", "add the missing ones"))]
         points: Vec<PlaneVector>,
         /// Velocity at the start, x, y `[m/s]`.
         #[serde(default)]

@@ -18,7 +18,7 @@ pub enum PlaneGauge {
     /// How far the material reaches along a line: the first place behind its start where less than a thickness stands
     /// across it.
     Front {
-        /// Its name.
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
         /// Start of the line x, y `[m]`.
         from: PlaneVector,
@@ -31,7 +31,7 @@ pub enum PlaneGauge {
     /// Thickness of the material around a place, along gravity, another direction or the normal of a wall: its volume within a
     /// width, over that width.
     Depth {
-        /// Its name.
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
         /// The place x, y `[m]`.
         at: PlaneVector,
@@ -47,14 +47,14 @@ pub enum PlaneGauge {
     },
     /// Force of the flow on a wall, along x and y.
     Force {
-        /// Its name.
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
         /// Name of the wall.
         wall: String,
     },
     /// Mass that crosses a line from its right to its left, seen along it: together, and per time.
     Flux {
-        /// Its name.
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
         /// Start of the line x, y `[m]`.
         from: PlaneVector,

@@ -14,13 +14,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneInlet {
-    /// Its name, by which gauges and messages call it.
+    /// Name by which gauges and messages call the inlet: letters, digits and hyphens, unlike those of other inlets and walls.
     pub name: String,
     /// Start of the line x, y `[m]`.
     pub from: PlaneVector,
     /// End of the line x, y `[m]`.
     pub to: PlaneVector,
-    /// Mass per time, where it is one for all times `[kg/(s m)]`.
+    /// Mass per time, where it is one for all times `[kg/(s m)]`; 0 beside `rates` or `table`.
     #[serde(default)]
     #[schemars(transform = not_negative("what flows out leaves by an open side"))]
     pub rate: f64,

@@ -24,9 +24,9 @@ pub enum FlowSide {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WallLine {
-    /// Its name, by which gauges and messages call it.
+    /// Name by which gauges and messages call the wall: letters, digits and hyphens, unlike those of other walls and inlets.
     pub name: String,
-    /// Its points x, y `[m]`.
+    /// Two or more points x, y `[m]`, farther apart than the spacing.
     pub points: Vec<PlaneVector>,
     /// Whether its last point is joined to the first.
     #[serde(default)]

@@ -30,7 +30,7 @@ pub enum SpaceBody {
         from: SpaceVector,
         /// Middle of the other end x, y, z `[m]`.
         to: SpaceVector,
-        /// Its radius `[m]`.
+        /// Radius `[m]`.
         #[schemars(transform = positive("give it in metres"))]
         radius: f64,
         /// Velocity at the start, x, y, z `[m/s]`.
@@ -39,9 +39,9 @@ pub enum SpaceBody {
     },
     /// A ball.
     Sphere {
-        /// Its middle x, y, z `[m]`.
+        /// Middle x, y, z `[m]`.
         centre: SpaceVector,
-        /// Its radius `[m]`.
+        /// Radius `[m]`.
         #[schemars(transform = positive("give it in metres"))]
         radius: f64,
         /// Velocity at the start, x, y, z `[m/s]`.

@@ -18,7 +18,7 @@ pub enum SpaceGauge {
     /// How far the material reaches along a line: the first place behind its start where, on the mean over a width, less
     /// than a thickness stands across it.
     Front {
-        /// Its name.
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
         /// Start of the line x, y, z `[m]`.
         from: SpaceVector,
@@ -34,7 +34,7 @@ pub enum SpaceGauge {
     /// Thickness of the material around a place, along gravity, another direction or the normal of a wall: its volume within
     /// a circle, over the circle's area.
     Depth {
-        /// Its name.
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
         /// The place x, y, z `[m]`, at least half a width from mirrors and walls.
         at: SpaceVector,
@@ -50,7 +50,7 @@ pub enum SpaceGauge {
     },
     /// Force of the flow on a wall, along x, y and z.
     Force {
-        /// Its name.
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
         /// Name of the wall.
         wall: String,
@@ -58,7 +58,7 @@ pub enum SpaceGauge {
     /// Mass that crosses a parallelogram towards the side from which its corners are seen against the clock: together,
     /// and per time.
     Flux {
-        /// Its name.
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
         /// A corner and the two next to it x, y, z `[m]`.
         corners: (SpaceVector, SpaceVector, SpaceVector),

@@ -17,11 +17,11 @@ const RIGHT: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpaceInlet {
-    /// Its name, by which gauges and messages call it.
+    /// Name by which gauges and messages call the inlet: letters, digits and hyphens, unlike those of other inlets and walls.
     pub name: String,
     /// A corner of the rectangle and the two next to it x, y, z `[m]`.
     pub corners: (SpaceVector, SpaceVector, SpaceVector),
-    /// Mass per time, where it is one for all times `[kg/s]`.
+    /// Mass per time, where it is one for all times `[kg/s]`; 0 beside `rates` or `table`.
     #[serde(default)]
     #[schemars(transform = not_negative("what flows out leaves by an open side"))]
     pub rate: f64,

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpaceWall {
-    /// Its name, by which gauges and messages call it.
+    /// Name by which gauges and messages call the wall: letters, digits and hyphens, unlike those of other walls and inlets.
     pub name: String,
     /// STL file of its triangles `[m]`, whose path begins at the case file; empty without one. The triangles are read with
     /// the case file; where `triangles` are given, this says where they come from.

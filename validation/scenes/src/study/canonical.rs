@@ -3,16 +3,18 @@
 //! A study is a case whose runs are those of other cases and whose gates are its checks. It is found by its name, is part of the
 //! report, and has accepted values, a list of gates and known failures.
 
+use super::file::StudyText;
 use super::{Study, schema};
 use crate::case::{
     AnyCase, CaseResult, Changes, Estimate, ExternalData, ExternalResult, ExternalSchema, ParameterError, PreparedCase,
-    Progress, Registry, Tier,
+    Progress, Registry, Tier, tables_to_add,
 };
 use crate::control::Control;
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::store::{CodeOrigin, Store};
+use bagnold_solver::parameter::schema_of;
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -80,11 +82,22 @@ impl AnyCase for CanonicalStudy {
     }
 
     fn show(&self, _: Tier) -> String {
-        self.text.to_owned()
+        let schemas = [("", schema_of::<StudyText>()), ("parameters", self.parameter_schema())];
+        self.text.to_owned() + &tables_to_add(&schemas)
     }
 
+    /// The schema of a study, with the parameters of its case.
     fn schema(&self, _: Tier) -> serde_json::Value {
-        schema()
+        let mut schema = schema();
+        let mut parameters = self.base().schema(self.study().tier())["properties"].take();
+        if let Some(fields) = parameters.as_object_mut() {
+            fields.retain(|name, _| self.parameter_schema()["properties"].get(name).is_some());
+        }
+        for table in ["parameters", "paper"] {
+            schema["properties"][table]["properties"] = parameters.clone();
+            schema["properties"][table]["additionalProperties"] = false.into();
+        }
+        schema
     }
 
     fn parameter_schema(&self) -> &'static serde_json::Value {

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 pub(super) struct FigureText {
     /// Name of the figure's file: letters, digits, `-` and `_`.
     pub(super) name: String,
-    /// What it shows.
+    /// Caption below the figure.
     pub(super) caption: String,
     /// Label of the abscissa with its unit, such as "θ [°]".
     pub(super) x: String,
@@ -28,7 +28,7 @@ pub(super) struct FigureText {
     /// Where each named variant stands on the abscissa, in place of `over`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) at: BTreeMap<String, f64>,
-    /// What is drawn.
+    /// Series that are drawn.
     pub(super) series: Vec<SeriesText>,
 }
 
@@ -38,13 +38,13 @@ pub(super) struct FigureText {
 pub(super) struct SeriesText {
     /// Name of the check.
     pub(super) check: String,
-    /// What its values are called in the legend; they are not drawn without.
+    /// Label of the check's values in the legend; without one they are not drawn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) simulated: Option<String>,
-    /// What its references are called in the legend; they are not drawn without.
+    /// Label of the check's references in the legend; without one they are not drawn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) reference: Option<String>,
-    /// Variants that are meant; all without one.
+    /// Variants that are drawn, as `key=value`; all, if it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<String>")]
     pub(super) only: Option<Variant>,

@@ -6,6 +6,7 @@ use crate::case::Tier;
 use crate::figure::is_file_name;
 use crate::input::{FieldError, check_name, check_text};
 use crate::metric::{Confidence, Value as VariantValue, Variant};
+use bagnold_solver::parameter::positive;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -72,13 +73,13 @@ enum Scalar {
     Switch(bool),
 }
 
-/// Changes that have a name.
+/// Named changes of the base values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct NamedVariant {
-    /// Its name, as variants have it.
+    /// Name of the variant.
     pub(super) name: String,
-    /// Values by the dotted paths of parameters.
+    /// Values by the dotted paths of parameters, in their units.
     #[serde(default)]
     #[schemars(with = "Fields")]
     pub(super) set: Table,
@@ -90,21 +91,21 @@ pub(super) struct NamedVariant {
 pub(super) struct VariedParameter {
     /// Dotted path of the parameter.
     pub(super) path: String,
-    /// What it is called in variants; the last key of the path without one.
+    /// Name of the parameter in variants; the last key of the path, if it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) name: Option<String>,
-    /// Its values: numbers or words.
+    /// Values of the parameter in its unit: numbers or words, each once.
     #[schemars(with = "Vec<Scalar>")]
     pub(super) values: Vec<Value>,
 }
 
-/// A check: what is measured, and what it is judged by.
+/// A check: what is measured, and what it is judged by. It has one of `metric`, `value`, `compare` and `order_of`, and at most one limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CheckText {
-    /// snake_case name of the metric.
+    /// Name of the metric: lower-case letters, digits and `_`.
     pub(super) name: String,
-    /// Variants that are meant; all without one.
+    /// Variants that are judged, as `key=value`; all, if it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<String>")]
     pub(super) only: Option<Variant>,
@@ -112,62 +113,64 @@ pub(super) struct CheckText {
     /// A metric of the case itself.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) metric: Option<String>,
-    /// A table that the case writes, by its name or the beginning of it.
+    /// A table that the case writes, by its name or the beginning of it; beside `value` or `compare`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) table: Option<String>,
-    /// Heading of the column that is measured.
+    /// Heading of the column that is measured; beside `value` or `compare`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) column: Option<String>,
-    /// Heading of the column that it is measured over; the first one without.
+    /// Heading of the column that it is measured over; the first one, if it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) over: Option<String>,
-    /// First value of that column that counts.
+    /// First value of the column `over` that counts, in its unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) from: Option<f64>,
-    /// Last value of that column that counts.
+    /// Last value of the column `over` that counts, in its unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) to: Option<f64>,
-    /// What is taken of the column.
+    /// Value of the column that is judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) value: Option<Reduction>,
-    /// File with a measured series: three columns.
+    /// CSV file with a measured series in three columns: what was varied, what was measured, its standard uncertainty.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) compare: Option<PathBuf>,
-    /// How the distance from the measured series is taken.
+    /// Distance from the measured series.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) distance: Option<Distance>,
-    /// Another check, an error that shrinks as a varied parameter does: its order.
+    /// Name of an earlier check, an error whose order of convergence is judged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) order_of: Option<String>,
-    /// The varied parameter that the order is taken in.
+    /// Name of the varied parameter that the order is taken in; beside `order_of`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) order_in: Option<String>,
 
-    /// The value that is expected, in the unit of what is measured.
+    /// Expected value, in the unit of what is measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) reference: Option<f64>,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of the reference, in its unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("give a standard deviation in the unit of the value"))]
     pub(super) standard_uncertainty: Option<f64>,
-    /// Where it comes from.
+    /// Source of the reference; required beside one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) source: Option<String>,
-    /// How sure one is of it.
+    /// Confidence in the reference; unverified ones allow no limit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) confidence: Option<Confidence>,
-    /// Largest value.
+    /// Limit: largest value, in the unit of what is measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) at_most: Option<f64>,
-    /// Smallest value.
+    /// Limit: smallest value, in the unit of what is measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) at_least: Option<f64>,
-    /// Smallest and largest value.
+    /// Limit: smallest and largest value, in the unit of what is measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) within: Option<(f64, f64)>,
-    /// Largest distance from the reference in its standard uncertainties.
+    /// Limit: largest distance from the reference in its standard uncertainties `[-]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("2 is a common choice"))]
     pub(super) within_uncertainties: Option<f64>,
-    /// Why the limit stands where it does.
+    /// Reason of the limit; required beside `at_most`, `at_least` and `within`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) reason: Option<String>,
 }
