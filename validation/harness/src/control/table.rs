@@ -68,9 +68,9 @@ impl TriedControls {
     /// # Errors
     /// A row that is none.
     pub fn parse(text: &str) -> Result<Self, csv::Error> {
-        let words: Vec<&str> = text.lines().next().unwrap_or_default().split_whitespace().collect();
-        let word = |place: usize| words.get(place).copied().unwrap_or_default().to_owned();
-        let mut table = Self { solver_hash: word(2), commit: word(4), tried: BTreeMap::new() };
+        let head = text.lines().next().and_then(|line| line.strip_prefix("# solver ")?.split_once(" commit "));
+        let (solver_hash, commit) = head.unwrap_or_default();
+        let mut table = Self { solver_hash: solver_hash.to_owned(), commit: commit.to_owned(), tried: BTreeMap::new() };
         for row in csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes()).deserialize() {
             let Row { control, metric, variant, value, verdict } = row?;
             let (found, diverged) = table.tried.entry(control).or_default();

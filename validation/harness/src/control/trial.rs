@@ -102,3 +102,43 @@ impl Found {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::metric::Limit;
+
+    fn front(value: f64, limit: Option<Limit>) -> Metric {
+        Metric::observed("front", &Variant::of("start", 1), value, "m").gated_by(limit, "a reason")
+    }
+
+    fn trial(wrong: Option<&Metric>, diverged: bool) -> ControlTrial {
+        let set = vec!["x=1".to_owned()];
+        let kind = ControlKind::Input { set, only: Vec::new(), stands_for: Variant::of("start", 1), in_table: false };
+        let (name, error) = ("still".to_owned(), "nothing moves".to_owned());
+        let control = Control { name, error, kind, rejected_by: Vec::new(), accepted_by: Vec::new() };
+        ControlTrial { control, found: vec![Found::of(&front(0.5, None), wrong)], diverged, tried_at: None }
+    }
+
+    #[test]
+    fn only_a_gate_that_holds_on_the_right_run_can_reject() {
+        let limit = Some(Limit::AtLeast(0.4));
+        let right = front(0.5, limit);
+        assert_eq!(trial(Some(&front(0.1, limit)), false).answer(&right), Some(Answer::Rejects));
+        assert_eq!(trial(Some(&front(0.6, limit)), false).answer(&right), Some(Answer::Accepts));
+        assert_eq!(trial(Some(&front(0.1, None)), false).answer(&right), Some(Answer::NotJudged));
+        assert_eq!(trial(None, false).answer(&right), Some(Answer::NotJudged));
+        assert_eq!(trial(Some(&front(0.1, limit)), true).answer(&right), Some(Answer::Nothing));
+        assert_eq!(trial(Some(&front(0.1, limit)), false).answer(&front(0.3, limit)), Some(Answer::Nothing));
+        assert_eq!(trial(Some(&front(0.1, limit)), false).answer(&front(0.5, None)), None);
+        let other = Metric { variant: Variant::of("start", 2), ..right };
+        assert_eq!(trial(Some(&front(0.1, limit)), false).answer(&other), None, "not run");
+    }
+
+    #[test]
+    fn a_run_of_another_name_stands_for_the_right_one() {
+        let control = trial(None, false).control;
+        let half = Variant::of("slope", 0.03).and("start", 0.5);
+        assert_eq!(control.as_right(&half), Variant::of("slope", 0.03).and("start", 1));
+    }
+}

@@ -113,3 +113,22 @@ fn a_damaged_or_foreign_file_is_refused_with_its_path() {
         assert!(error.to_string().contains("film.snap"), "{error}");
     }
 }
+
+/// A gate that vanishes is a failure, with what took it away.
+#[test]
+fn gates_that_are_not_judged_are_named_with_the_reason() {
+    let metric = |name: &str| Metric::observed(name, &Variant::of("a", 3), 1.0, "m");
+    let gated = |name: &str| metric(name).gated(crate::metric::Limit::AtMost(2.0), "a reason");
+    let accepted = Baseline::of("heap", &[gated("front"), gated("height"), gated("width"), metric("angle")]);
+    assert!(accepted.not_judged("heap", &[gated("front"), gated("height"), gated("width")]).is_empty());
+    let unsteady = gated("speed").unless(Some(&"it still rises".to_owned()));
+    let gone = accepted.not_judged("heap", &[gated("front"), metric("height"), unsteady]);
+    let lines: Vec<String> = gone.iter().map(|(key, reason)| format!("{}: {reason}", key.metric)).collect();
+    assert_eq!(
+        lines,
+        [
+            "height: with these runs and parameters it is observed only; it still rises",
+            "width: it is no longer measured; it still rises",
+        ]
+    );
+}

@@ -2,6 +2,7 @@
 
 use super::super::{Report, judge, papers_page, tests, write};
 use super::*;
+use crate::control::{Control, ControlKind, ControlTrial, Found};
 use crate::figure::Figure;
 use crate::metric::{Limit, Variant};
 use crate::store::Drawings;
@@ -193,4 +194,39 @@ fn the_papers_are_accounted_for_where_their_cases_run() {
         let counted: usize = Status::ALL.into_iter().map(|status| account.count(status)).sum();
         assert_eq!(counted, paper.elements.len(), "{}: a row without a status", paper.name);
     }
+}
+
+/// A control of which the element names a metric, as the control has it.
+fn trial(metric: &str, found: &Metric) -> ControlTrial {
+    let kind = ControlKind::Solver("an-error".to_owned());
+    let (name, error, rejected_by) = ("an-error".to_owned(), "wrong".to_owned(), vec![metric.to_owned()]);
+    let control = Control { name, error, kind, rejected_by, accepted_by: Vec::new() };
+    ControlTrial { control, found: vec![Found::of(found, Some(found))], diverged: false, tried_at: None }
+}
+
+#[test]
+fn an_element_that_stands_under_a_control_of_its_metric_is_not_shown() {
+    let status = |trial: ControlTrial| {
+        let mut report = report(vec![gated(0.5)]);
+        report.cases[0].controls = vec![trial];
+        PaperSummary::of(&report.papers[0], &report.cases).elements[0].status
+    };
+    assert_eq!(status(trial("velocity_l2", &gated(2.0))), Status::Reproduced, "it falls");
+    assert_eq!(status(trial("velocity_l2", &gated(0.6))), Status::NotShown);
+    assert_eq!(status(trial("flux", &gated(0.6))), Status::Reproduced, "no control of its metric");
+    let diverged = ControlTrial { diverged: true, ..trial("velocity_l2", &gated(0.6)) };
+    assert_eq!(status(diverged), Status::Reproduced, "a run that diverged shows nothing");
+}
+
+#[test]
+fn a_gate_that_rejects_no_control_does_not_count_as_holding() {
+    let tally = |controls: Vec<ControlTrial>| {
+        let mut report = report(vec![gated(0.5)]);
+        report.cases[0].controls = controls;
+        let tally = judge(&report).verification;
+        (tally.hold, tally.cannot_tell)
+    };
+    assert_eq!(tally(Vec::new()), (1, 0), "not asked");
+    assert_eq!(tally(vec![trial("velocity_l2", &gated(2.0))]), (1, 0));
+    assert_eq!(tally(vec![trial("velocity_l2", &gated(0.6))]), (0, 1));
 }
