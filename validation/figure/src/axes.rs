@@ -5,6 +5,7 @@ use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
 use super::error::FigureError;
 use super::font::{Weight, width};
+use super::format::LABEL;
 use super::palette::{AXIS, BLACK, GRID};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
@@ -27,10 +28,10 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    /// Sheets are 1600 px wide and shown at about half of that; nothing may become smaller than 11 px there.
+    /// Sheets for the screen are shown at about half of their size; nothing may become smaller than 11 px there.
     pub(super) fn for_columns(columns: usize) -> Self {
         if columns <= 2 {
-            Self { title: 29.0, label: 28.0, tick: 25.0, legend: 25.0 }
+            Self { title: 29.0, label: LABEL, tick: 25.0, legend: 25.0 }
         } else {
             Self { title: 26.0, label: 25.0, tick: 22.0, legend: 22.0 }
         }

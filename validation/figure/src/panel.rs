@@ -74,7 +74,7 @@ impl<'p> ScaledPanel<'p> {
             y: (y.0, y.1, ticks(y.0, y.1, y_wanted)),
             colours,
             opposite,
-            legend: Legend::of(panel, sizes.legend),
+            legend: Legend::of(panel, sizes.legend, wide),
             legend_place: LegendPosition::Inside,
             has_data,
         }

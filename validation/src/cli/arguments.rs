@@ -16,7 +16,7 @@ pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
 pub(super) use upkeep::{
     DevCommand, MutateArguments, SensitivitiesArguments, StoreAction, StoreArguments, VerifyArguments,
 };
-pub(super) use work::{ExecutionOptions, ResourceLimits};
+pub(super) use work::{ExecutionOptions, FigureOptions, ResourceLimits};
 
 use crate::case::Tier;
 use clap::{ArgAction, Args, Parser, Subcommand};
@@ -78,6 +78,7 @@ const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
   bagnold report --tier paper --cases film,bagnold --out paper-report
   bagnold report --against yesterday --deny drift
+  bagnold report --figure 85mm,9pt,300dpi      figures for a column of a journal
   bagnold report --suite my-flume
 
 The report is one self-contained folder: open its index.html, which leads to a page of every case. What fails comes first.
@@ -221,6 +222,9 @@ pub struct RunArguments {
     /// Say on standard error where the time went: stages, the longest runs, memory.
     #[arg(long)]
     pub profile: bool,
+    /// How figures are drawn.
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// How much it may ask for.
     #[command(flatten)]
     pub allowance: ResourceLimits,
@@ -286,6 +290,9 @@ pub struct ReportArguments {
     /// Say on standard error where the time went: stages, the longest runs, memory.
     #[arg(long)]
     pub profile: bool,
+    /// How figures are drawn.
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// How much it may ask for.
     #[command(flatten)]
     pub allowance: ResourceLimits,

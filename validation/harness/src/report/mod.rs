@@ -157,9 +157,9 @@ struct DrawnFigure {
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,gif}`, in
+/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,pdf,csv,gif}`, in
 /// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
-/// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left
+/// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png,pdf,csv}`. Files of the same names are replaced, others are left
 /// alone.
 ///
 /// What was drawn before is taken from `drawings`. A figure that cannot be drawn does not spoil the report: the page says so in its place.
@@ -222,7 +222,7 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
 }
 
 /// Writes the page of each case of `report`, which is one as a rule, straight into `folder`: what [`write()`] puts into
-/// `cases/CASE/`, and the figures in `figures/NAME.{svg,png,gif}`.
+/// `cases/CASE/`, and the figures in `figures/NAME.{svg,png,pdf,csv,gif}`.
 ///
 /// # Errors
 /// If a file cannot be written.

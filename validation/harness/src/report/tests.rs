@@ -126,7 +126,7 @@ fn a_known_failure_is_red_and_first_but_not_unexpected() {
     assert!(!judgement.has_unexpected_failure() && !judgement.is_green());
     assert_eq!((judgement.verification.known, judgement.verification.fail, judgement.verification.hold), (1, 0, 1));
     let page = html(&report);
-    assert!(page.contains("class=\"banner known\"") && page.contains("two attempts"));
+    assert!(page.contains("class=\"banner known\""));
 
     report.known_failures = known("bagnold", "velocity_l2", 0.8);
     assert!(judge(&report).has_unexpected_failure(), "worse than its best value");
@@ -242,10 +242,17 @@ fn the_folder_is_self_contained_and_reproducible() {
     assert!(!page.contains("http") && !overview.contains("http"), "nothing is loaded from elsewhere");
     assert!(links(folder.path()) > 10);
     let store = tempfile::tempdir().expect("folder");
-    let names = ["velocity-profile.svg", "velocity-profile.png", "collapse.gif"];
-    let bytes = || names.map(|name| std::fs::read(folder.path().join("figures/film").join(name)).expect(name));
+    let names = ["svg", "png", "pdf", "csv"]
+        .map(|ending| format!("velocity-profile.{ending}"))
+        .into_iter()
+        .chain(["collapse.gif".to_owned()]);
+    let names: Vec<String> = names.collect();
+    let read_bytes = |name: &String| std::fs::read(folder.path().join("figures/film").join(name)).expect(name);
+    let bytes = || names.iter().map(read_bytes).collect::<Vec<_>>();
     let drawn = bytes();
-    for (made, occasion) in [(4, "an SVG, a PNG and a GIF, and one that fails"), (1, "what fails is tried again")] {
+    for (made, occasion) in
+        [(5, "an SVG, a PNG, a PDF and a GIF, and one that fails"), (1, "what fails is tried again")]
+    {
         let drawings = Store::at(store.path(), StorePolicy::Use).drawings();
         write(&report, folder.path(), &drawings).expect("written again");
         assert_eq!(drawings.made(), made, "{occasion}");
