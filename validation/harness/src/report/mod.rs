@@ -10,6 +10,7 @@ mod drawing;
 pub mod drift;
 mod earlier;
 mod error;
+mod failures;
 mod gate_list;
 pub mod history;
 mod history_page;

@@ -2,7 +2,7 @@
 
 use super::tests::{case, drawing, gated, html, known, report};
 use super::*;
-use crate::metric::Variant;
+use crate::metric::{Metric, MetricKind, Variant};
 use crate::store::Drawings;
 
 /// Every link and picture of every page in a folder leads to a file, and to a place in it that is there; how many there are.
@@ -66,19 +66,42 @@ fn the_first_page_leads_with_the_thinnest_margins_and_the_farthest_moves() {
 }
 
 #[test]
-fn notes_that_repeat_are_said_once() {
-    let gate = |variant: i32, value| Metric { variant: Variant::of("resolution", variant), ..gated("front", value) };
-    let mut report = report(vec![case("film", vec![gate(20, 0.9), gate(40, 0.9)])]);
-    let entry = known("film", "front", 0.9).failures.remove(0);
-    let of = |variant: i32, best_value: f64| KnownFailure {
-        variant: Variant::of("resolution", variant),
-        best_value,
-        ..entry.clone()
-    };
-    report.known_failures = KnownFailures { failures: vec![of(20, 0.9), of(40, 0.89)] };
-    let page = html(&report);
+fn a_reason_stands_on_the_page_of_its_case_only() {
+    let folder = tempfile::tempdir().expect("folder");
+    let mut report = report(vec![case("film", vec![gated("front", 0.9)])]);
+    report.known_failures = known("film", "front", 0.9);
+    write(&report, folder.path(), &Drawings::default()).expect("written");
+    let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).expect(path);
+    let (overview, page) = (read("index.html"), read("cases/film/index.html"));
+    for text in [&overview, &page] {
+        assert!(text.contains("0.9\u{202f}%, limit ≤ 0.7\u{202f}%</span> <span class=\"note\">Known since 2025-01-31"));
+    }
+    assert!(!overview.contains("two attempts"));
+    assert!(page.find("What fails") < page.find("two attempts"), "in short first");
     assert_eq!(page.matches("two attempts").count(), 1);
-    assert!(page.contains("best 0.9\u{202f}%") && page.contains("best 0.89\u{202f}%): for the same reason"));
+}
+
+#[test]
+fn figures_stand_above_tables_and_bookkeeping_is_folded() {
+    let folder = tempfile::tempdir().expect("folder");
+    let mut metrics = vec![gated("mass", 0.1).of_kind(MetricKind::Bookkeeping), gated("velocity_l2", 0.9)];
+    metrics.extend((0..20).map(|n| Metric::observed(&format!("height_{n}"), &Variant::default(), 1.0, "m")));
+    let mut film = case("film", metrics);
+    film.figures = vec![drawing("velocity-profile")];
+    let report = report(vec![film]);
+    write(&report, folder.path(), &Drawings::default()).expect("written");
+    let page = std::fs::read_to_string(folder.path().join("cases/film/index.html")).expect("a page");
+    let at = |part: &str| page.find(part).unwrap_or_else(|| panic!("{part} is not on the page"));
+    let order = ["What fails", "<img", "<table", "id=\"metrics-judged\"", "id=\"metrics-bookkeeping\""].map(at);
+    assert!(order.is_sorted(), "{order:?}");
+    let folds: Vec<&str> = page.split("<details").skip(1).filter_map(|rest| rest.split("</summary>").next()).collect();
+    let expected = [
+        " open><summary>Judged: 1 row",
+        "><summary>Bookkeeping: 1 row",
+        "><summary>Observed only: 20 rows",
+        "><summary>as run, in <code>case.toml</code>",
+    ];
+    assert_eq!(folds, expected);
 }
 
 /// What people write into cases, laws and data ends up in pictures and messages as well as in the page's own text.

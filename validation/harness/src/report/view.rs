@@ -109,11 +109,8 @@ pub(super) struct BannerItem {
     pub(super) what: String,
     pub(super) variant: String,
     pub(super) statement: String,
+    /// What the list of known failures says, without its reason.
     pub(super) note: String,
-    /// Why it is known to fail, which follows the note.
-    pub(super) reason: String,
-    /// The item above has the same reason.
-    pub(super) reason_repeats: bool,
 }
 
 /// One of the separate verdicts.
@@ -135,16 +132,27 @@ pub(super) struct CaseView {
     pub(super) description: Vec<String>,
     pub(super) mark: VerdictMark,
     pub(super) statement: String,
-    pub(super) rows: Vec<MetricView>,
+    /// What fails, in short.
+    pub(super) failures: Vec<BannerItem>,
+    pub(super) groups: Vec<MetricGroup>,
     pub(super) vanished: Vec<String>,
     pub(super) figures: Vec<FigureView>,
-    /// Those of them that the page opens with, where a metric leads.
-    pub(super) opening: Vec<FigureView>,
     /// Tables of reference data that are written beside the page.
     pub(super) tables: Vec<&'static str>,
     pub(super) parameters: String,
     pub(super) command: String,
     pub(super) runs: Vec<RunView>,
+}
+
+/// Rows that stand in one table.
+#[derive(Debug, Serialize)]
+pub(super) struct MetricGroup {
+    /// What the table's id ends in.
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    /// Whether the page shows the table unfolded.
+    pub(super) is_open: bool,
+    pub(super) rows: Vec<MetricView>,
 }
 
 #[derive(Debug, Serialize)]
