@@ -35,11 +35,13 @@ pub(super) struct Legend {
     entries: Vec<(String, LegendEntry)>,
     em: f64,
     widest: f64,
+    /// Most width of a label `[px]`.
+    room: f64,
 }
 
 impl Legend {
-    /// Every label once: simulations in their order, then references, then bands. The letters of `em` pixels become smaller
-    /// where the longest label would be wider than `most`.
+    /// Every label once: simulations in their order, then references, then bands. A label that would be wider than `most` has
+    /// smaller letters.
     pub(super) fn of(panel: &Panel, em: f64, most: f64) -> Self {
         let mut entries: Vec<(String, LegendEntry)> = Vec::new();
         let of = |reference: bool| {
@@ -53,10 +55,16 @@ impl Legend {
                 entries.push((label.clone(), item));
             }
         }
-        let widest = entries.iter().map(|(label, _)| width(label, em, Weight::Regular)).fold(0.0, f64::max);
-        let fits = Self { entries, em, widest };
-        let shrunk = (most / fits.box_width()).min(1.0);
-        Self { em: shrunk * em, widest: shrunk * widest, ..fits }
+        let mut legend = Self { entries, em, widest: 0.0, room: most - 3.9 * em };
+        legend.widest = legend.entries.iter().map(|(label, _)| legend.label(label).1).fold(0.0, f64::max);
+        legend
+    }
+
+    /// Size of a label's letters, and its width `[px]`.
+    fn label(&self, label: &str) -> (f64, f64) {
+        let whole = width(label, self.em, Weight::Regular);
+        let shrunk = (self.room / whole).min(1.0);
+        (shrunk * self.em, shrunk * whole)
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -89,7 +97,7 @@ impl Legend {
     fn rows_below(&self, available: f64) -> Vec<(Vec<(usize, f64)>, f64)> {
         let mut rows: Vec<(Vec<(usize, f64)>, f64)> = Vec::new();
         for (index, (label, _)) in self.entries.iter().enumerate() {
-            let length = self.sample() + 0.5 * self.em + width(label, self.em, Weight::Regular);
+            let length = self.sample() + 0.5 * self.em + self.label(label).1;
             match rows.last_mut().filter(|(_, end)| end + self.em + length <= available) {
                 Some((row, end)) => {
                     row.push((index, *end + self.em));
@@ -158,7 +166,8 @@ impl Legend {
     ) -> Result<(), FigureError> {
         let rows = self.rows_below(right - left);
         let longest = rows.iter().map(|(_, length)| *length).fold(0.0, f64::max);
-        let start = left + 0.5 * (right - left - longest).max(0.0);
+        // rows that are longer than the plot reach under the numbers at its left
+        let start = (left + 0.5 * (right - left - longest)).min(right + 10.0 - longest);
         for (place, (row, _)) in rows.iter().enumerate() {
             let y = top + (place as f64 + 0.5) * self.row();
             for &(index, x) in row {
@@ -188,7 +197,7 @@ impl Legend {
             }
         }
         let spec = TextSpec {
-            em: self.em,
+            em: self.label(label).0,
             weight: Weight::Regular,
             horizontal: HPos::Left,
             vertical: VPos::Center,

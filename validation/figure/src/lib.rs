@@ -69,6 +69,8 @@ pub struct Axis {
     pub limits: Option<(f64, f64)>,
     /// What a dimensionless axis is a ratio of, where it has one scale for all curves.
     pub ratio: Option<AxisRatio>,
+    /// Names of the places 1, 2, … of a vertical axis in place of numbers; empty for numbers.
+    pub names: Vec<String>,
 }
 
 /// A quantity over a scale: x/r0 is x `[m]` over r0.

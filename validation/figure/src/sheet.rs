@@ -12,6 +12,8 @@ const BORDER: f64 = 14.0;
 const GUTTER: f64 = 30.0;
 /// Height over width of a plot, by panels a row.
 const ASPECTS: [f64; 3] = [0.58, 0.78, 0.95];
+/// Width of a column below which its plots are as high as those of two columns `[px]`.
+const NARROW: f64 = 900.0;
 /// No plot is taller than this `[px]`: a figure fits on a screen.
 const TALLEST: f64 = 1150.0;
 /// No plot is lower than this `[px]`, however flat its field.
@@ -22,7 +24,9 @@ pub(super) fn draw(figure: &Figure, format: FigureFormat) -> Result<String, Figu
     let columns = format.columns(figure.columns.clamp(1, 4)).min(figure.panels.len().max(1));
     let sizes = Sizes::for_columns(columns);
     let column_width = (format.sheet - 2.0 * BORDER - (columns - 1) as f64 * GUTTER) / columns as f64;
-    let aspect = ASPECTS[(columns - 1).min(ASPECTS.len() - 1)];
+    // a column that is narrow needs height for its numbers, whatever the number of columns
+    let shape = if columns == 1 && column_width < NARROW { 2 } else { columns };
+    let aspect = ASPECTS[(shape - 1).min(ASPECTS.len() - 1)];
     let usual = (column_width - 120.0, (column_width - 120.0) * aspect);
 
     let mut panels: Vec<ScaledPanel<'_>> = figure
@@ -98,7 +102,8 @@ fn layout(panels: &[ScaledPanel<'_>], columns: usize, column_width: f64, aspect:
 }
 
 fn plot_height(panel: &ScaledPanel<'_>, width: f64, aspect: f64) -> f64 {
-    panel.aspect().map_or(width * aspect, |own| (width * own).clamp(LOWEST, TALLEST))
+    let usual = || panel.named_height().unwrap_or(width * aspect);
+    panel.aspect().map_or_else(usual, |own| (width * own).clamp(LOWEST, TALLEST))
 }
 
 /// Panels of a sheet with several are called (a), (b), …, so that a caption can name them.

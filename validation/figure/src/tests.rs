@@ -4,7 +4,7 @@ use super::*;
 use tiny_skia::Pixmap;
 
 fn axis(label: &str, scale: Scale) -> Axis {
-    Axis { label: label.to_owned(), scale, limits: None, ratio: None }
+    Axis { label: label.to_owned(), scale, limits: None, ratio: None, names: Vec::new() }
 }
 
 fn series(label: &str, mark: Mark, colour: usize, points: &[(f64, f64)]) -> Series {

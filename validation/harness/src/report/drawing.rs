@@ -1,6 +1,6 @@
 //! Figures and animations of a report as files, drawn or taken from what was drawn before.
 
-use crate::figure::{self, Animation, Figure, FigureError, encode_gif, render};
+use crate::figure::{self, Animation, Figure, FigureError, FigureFormat, encode_gif, render};
 use crate::store::Drawings;
 use std::path::{Path, PathBuf};
 
@@ -18,6 +18,15 @@ pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) 
     put(path("pdf"), &page)?;
     put(path("csv"), figure::csv(figure).as_bytes())?;
     put(path("png"), &pixels)
+}
+
+/// Writes `NAME.png` for a small place on a page into a folder that is there; its path.
+pub(super) fn write_small(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
+    check_name(&figure.name)?;
+    let format = FigureFormat::SMALL;
+    let draw = || render::png(&render::svg(figure, format)?, format);
+    let pixels = drawings.bytes(&drawings.key(&(figure, format)), "png", draw)?;
+    put(folder.join(format!("{}.png", figure.name)), &pixels)
 }
 
 /// Writes `NAME.gif` into a folder that is there; its path.

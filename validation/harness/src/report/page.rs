@@ -2,13 +2,14 @@
 
 use super::accepted::tier_name;
 use super::failures;
+use super::flows::{self, FlowPanel};
 use super::judgement::{GateTally, Judgement};
 use super::origin::provenance;
 use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
 use super::template::fill;
-use super::view::{Banner, CaseLine, GateRow, Thumbnail, VerdictCount, VerdictMark, WorstMetric, typed};
+use super::view::{Banner, CaseLine, GateRow, VerdictCount, VerdictMark, WorstMetric, typed};
 use super::{CaseReport, DrawnFigure, Report, comparison, drift, scatter};
 use serde::Serialize;
 
@@ -18,10 +19,10 @@ struct Overview {
     title: String,
     tier: &'static str,
     banner: Banner,
+    flows: Vec<FlowPanel>,
     counts: Vec<VerdictCount>,
     /// Gates that fail, then those that hold by least.
     worst: Vec<WorstMetric>,
-    strip: Vec<Thumbnail>,
     cases: Vec<CaseLine>,
     gates: Vec<GateRow>,
     drift: drift::DriftTable,
@@ -35,11 +36,11 @@ struct Overview {
     script: &'static str,
 }
 
-/// Fills the template; `drawn` holds the figures of the report's cases in the report's order.
+/// Fills the template; `drawn` holds the figures of the report's cases in the report's order, `small` a picture a case.
 pub(super) fn render(
     report: &Report,
     judgement: &Judgement<'_>,
-    drawn: &[Vec<DrawnFigure>],
+    (drawn, small): (&[Vec<DrawnFigure>], &[DrawnFigure]),
     scatter: Vec<scatter::ScatterRow>,
 ) -> Result<String, minijinja::Error> {
     let page = Overview {
@@ -48,8 +49,8 @@ pub(super) fn render(
         banner: banner(judgement),
         counts: counts(judgement),
         worst: overview::worst(judgement),
-        strip: overview::strip(judgement, |case| pictures(report, drawn, case)),
-        cases: judgement.cases.iter().map(overview::case_line).collect(),
+        flows: flows::panels(report, drawn, small),
+        cases: judgement.cases.iter().map(|case| overview::case_line(case, small)).collect(),
         gates: overview::gates(judgement),
         drift: drift::table(report, judgement),
         scatter,

@@ -2,7 +2,7 @@
 
 use super::tests::{case, drawing, gated, html, known, report};
 use super::*;
-use crate::metric::{Metric, MetricKind, Variant};
+use crate::metric::{Confidence, Metric, MetricKind, Origin, Variant};
 use crate::store::Drawings;
 
 /// Every link and picture of every page in a folder leads to a file, and to a place in it that is there; how many there are.
@@ -102,6 +102,46 @@ fn figures_stand_above_tables_and_bookkeeping_is_folded() {
         "><summary>as run, in <code>case.toml</code>",
     ];
     assert_eq!(folds, expected);
+}
+
+/// A report of some cases with a figure each, as it is written.
+fn overview_of(names: &[&str]) -> String {
+    let folder = tempfile::tempdir().expect("folder");
+    let of = |name: &&str| {
+        let run_out = Metric::observed("run_out", &Variant::default(), 2.2, "-").of_kind(MetricKind::Validation);
+        let measured = run_out.against(Some(2.0), "an experiment", Confidence::Medium);
+        let known = measured.known_to(Origin::Repeat, Some(0.5), "seeds");
+        let mut own = case(name, vec![gated("velocity_l2", 0.25), known]);
+        own.figures = vec![drawing("first"), drawing("scaling")];
+        own
+    };
+    write(&report(names.iter().map(of).collect()), folder.path(), &Drawings::default()).expect("written");
+    assert!(links(folder.path()) > 5);
+    std::fs::read_to_string(folder.path().join("index.html")).expect("a page")
+}
+
+#[test]
+fn the_first_page_opens_with_a_panel_for_each_flow_that_the_report_has() {
+    let cases = ["footing", "bagnold", "flow-thickness", "column-round", "column-planar", "bed-load-1d", "bed-load"];
+    let page = overview_of(&cases);
+    assert_eq!(page.matches("<section class=\"flow\"").count(), 4);
+    assert!(page.find("<section class=\"flow\"") < page.find("<table"));
+    assert!(page.contains("Velocity profiles are within 0.25 % (L2) of"));
+    assert!(page.contains("Run-outs are 1.1 to 1.1 times") && page.contains("(comparisons: 2)"));
+    assert!(
+        page.contains(
+            "validated within u<sub>val</sub> in 2 of 2 comparisons: u<sub>val</sub> is 25 % of the reference"
+        )
+    );
+    assert!(page.contains("href=\"figures/column-planar/scaling.csv\""), "the figure that stands for the flow");
+    assert_eq!(page.matches("class=\"small\"><a").count(), cases.len(), "a picture a case");
+}
+
+#[test]
+fn flows_without_their_cases_are_left_out() {
+    assert_eq!(overview_of(&["incline-collapse", "my-flume"]).matches("<section class=\"flow\"").count(), 1);
+    let none = overview_of(&["footing"]);
+    assert!(!none.contains("class=\"flow") && none.contains("class=\"small\"><a"));
 }
 
 /// What people write into cases, laws and data ends up in pictures and messages as well as in the page's own text.

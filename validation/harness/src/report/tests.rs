@@ -59,7 +59,7 @@ pub(super) fn known(case: &str, metric: &str, best_value: f64) -> KnownFailures 
 }
 
 pub(super) fn html(report: &Report) -> String {
-    page::render(report, &judge(report), &[], Vec::new()).expect("page")
+    page::render(report, &judge(report), (&[], &[]), Vec::new()).expect("page")
 }
 
 fn place(text: &str, part: &str) -> usize {
@@ -67,7 +67,13 @@ fn place(text: &str, part: &str) -> usize {
 }
 
 pub(super) fn drawing(name: &str) -> Figure {
-    let axis = |label: &str| Axis { label: label.to_owned(), scale: Scale::Linear, limits: None, ratio: None };
+    let axis = |label: &str| Axis {
+        label: label.to_owned(),
+        scale: Scale::Linear,
+        limits: None,
+        ratio: None,
+        names: Vec::new(),
+    };
     let panel = Panel {
         title: String::new(),
         x: axis("u [m/s]"),
@@ -81,7 +87,13 @@ pub(super) fn drawing(name: &str) -> Figure {
 }
 
 fn moving(name: &str, frames: usize) -> Animation {
-    let axis = Axis { label: "x [m]".to_owned(), scale: Scale::Linear, limits: Some((0.0, 1.0)), ratio: None };
+    let axis = Axis {
+        label: "x [m]".to_owned(),
+        scale: Scale::Linear,
+        limits: Some((0.0, 1.0)),
+        ratio: None,
+        names: Vec::new(),
+    };
     let frame = AnimationFrame {
         title: "t = 0 s".to_owned(),
         points: vec![[0.5, 0.5]],
@@ -251,7 +263,7 @@ fn the_folder_is_self_contained_and_reproducible() {
     let bytes = || names.iter().map(read_bytes).collect::<Vec<_>>();
     let drawn = bytes();
     for (made, occasion) in
-        [(5, "an SVG, a PNG, a PDF and a GIF, and one that fails"), (1, "what fails is tried again")]
+        [(6, "an SVG, two PNGs, a PDF and a GIF, and one that fails"), (1, "what fails is tried again")]
     {
         let drawings = Store::at(store.path(), StorePolicy::Use).drawings();
         write(&report, folder.path(), &drawings).expect("written again");

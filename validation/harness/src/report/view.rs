@@ -46,16 +46,10 @@ pub(super) struct WorstMetric {
     pub(super) statement: String,
 }
 
-/// A picture that stands for a case.
-#[derive(Debug, Serialize)]
-pub(super) struct Thumbnail {
-    pub(super) case: String,
-    pub(super) picture: FigureView,
-}
-
 /// A case in the list of cases.
 #[derive(Debug, Serialize)]
 pub(super) struct CaseLine {
+    pub(super) picture: Option<FigureView>,
     pub(super) mark: VerdictMark,
     pub(super) name: String,
     pub(super) summary: String,
