@@ -3,6 +3,7 @@
 pub mod accepted;
 mod case_page;
 pub mod comparison;
+mod comparison_figure;
 mod comparison_page;
 mod controls;
 pub mod coverage;
@@ -201,13 +202,13 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
     if let Some(features) = &report.features {
         add("coverage", coverage_page::render(report, features)?)?;
         let maps = folder.join("figures").join(validated_page::FOLDER);
-        let maps = draw_figures(&validated_page::figures(report), &maps, drawings)?;
+        let maps = draw_figures(&validated_page::figures(), &maps, drawings)?;
         add("validated", validated_page::render(report, &maps)?)?;
         add("history", history_page::render(report, &judgement)?)?;
     }
     let beside = draw_figures(
-        &comparison_page::figures(report),
-        &folder.join("figures").join(comparison_page::FOLDER),
+        &comparison_figure::figures(report),
+        &folder.join("figures").join(comparison_figure::FOLDER),
         drawings,
     )?;
     if let Some(text) = comparison_page::render(report, &beside) {
