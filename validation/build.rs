@@ -34,7 +34,7 @@ const PLANS: [&str; 4] = ["calibrations", "examples/scenes", "examples/studies",
 fn main() {
     let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let workspace = package.parent().map(Path::to_path_buf).unwrap_or_default();
-    let mut hash = Sha256::new();
+    let (mut hash, mut of_solver) = (Sha256::new(), Sha256::new());
 
     for name in CODE {
         let folder = workspace.join(name);
@@ -46,6 +46,9 @@ fn main() {
         }
         for file in sorted_files(&folder) {
             add_file(&mut hash, &workspace, &file);
+            if name == CODE[0] {
+                add_file(&mut of_solver, &workspace, &file);
+            }
         }
     }
     for (name, file) in &texts(&package.join("harness"), &["reference-data"], &["csv"]) {
@@ -67,12 +70,8 @@ fn main() {
         add(&mut hash, variable, self::variable(variable).as_bytes());
     }
 
-    let text = hash.finalize().iter().fold(String::new(), |mut text, byte| {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{byte:02x}");
-        text
-    });
-    println!("cargo::rustc-env=BAGNOLD_SOURCE_HASH={text}");
+    println!("cargo::rustc-env=BAGNOLD_SOURCE_HASH={}", digits(hash));
+    println!("cargo::rustc-env=BAGNOLD_SOLVER_HASH={}", digits(of_solver));
     let commit = commit::commit(&workspace, &[&CODE[..], &REST[..]].concat());
     println!("cargo::rustc-env=BAGNOLD_COMMIT={}", commit.as_deref().unwrap_or("unknown"));
     println!("cargo::rustc-env=BAGNOLD_PROFILE={}", profile());
@@ -84,6 +83,14 @@ fn main() {
 
 /// What the solver's build script tells of its package.
 const SOLVER_OPT_LEVEL: &str = "DEP_BAGNOLD_SOLVER_OPT_LEVEL";
+
+fn digits(hash: Sha256) -> String {
+    hash.finalize().iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
 
 fn variable(name: &str) -> String {
     std::env::var(name).unwrap_or_default()

@@ -79,6 +79,8 @@ fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
         parameters_toml: String::new(),
         command: String::new(),
         metrics,
+        controls: Vec::new(),
+        not_judged: Vec::new(),
         figures: Vec::new(),
         animations: Vec::new(),
         runs: Vec::new(),

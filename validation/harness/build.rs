@@ -14,6 +14,7 @@ fn main() {
     embed("sensitivities", &texts(&package, &["sensitivities"], &["csv"]));
     embed("accepted_comparisons", &texts(&package, &["snapshots"], &["csv"]));
     embed("accepted_values", &texts(&package, &["snapshots"], &["snap", "toml"]));
+    embed("controls", &texts(&package, &["controls"], &["toml", "csv"]));
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=build");
 }

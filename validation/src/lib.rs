@@ -7,8 +7,8 @@ pub use registry::REGISTRY;
 
 use bagnold_figure as figure;
 use bagnold_harness::{
-    case, checkpoint, evaluation, evidence, input, interruption, measured, metric, observation, output, report, result,
-    store,
+    case, checkpoint, control, evaluation, evidence, input, interruption, measured, metric, observation, output,
+    report, result, store,
 };
 use bagnold_number as number;
 use bagnold_scenes::study;

@@ -19,6 +19,7 @@ mod studies {
 /// Build of this program, as its build script found it.
 const BUILD: Build = Build {
     source_hash: env!("BAGNOLD_SOURCE_HASH"),
+    solver_hash: env!("BAGNOLD_SOLVER_HASH"),
     commit: env!("BAGNOLD_COMMIT"),
     profile: env!("BAGNOLD_PROFILE"),
     solver_opt_level: env!("BAGNOLD_SOLVER_OPT_LEVEL"),

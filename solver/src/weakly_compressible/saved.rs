@@ -68,7 +68,8 @@ impl<const D: usize> Simulation<D> {
     where
         Self: Compiled<D>,
     {
-        let mut state = Self::laid(scene)?;
+        let backing = Self::backing(&scene)?;
+        let mut state = State::new(scene, &backing);
         let (particles, images) = (saved.particles.into_owned(), saved.images.into_owned());
         let (list, walls) = (saved.list.into_owned(), saved.walls.into_owned());
         let (flow, real) = (particles.flow_count(), particles.real_count());

@@ -32,11 +32,11 @@ pub struct Simulation<const D: usize> {
 /// The loops are generic in the number of axes, and Rust compiles a generic function where it is used. These two methods
 /// are not generic: they keep the hot code in this crate, under its own level of optimisation.
 pub trait Compiled<const D: usize>: Sized {
-    /// Sets up a simulation.
+    /// Searches the first neighbours and computes what the first step starts from.
     ///
     /// # Errors
-    /// A scene that breaks a rule, or whose particles lie on top of each other.
-    fn compiled_new(scene: Scene<D>) -> Result<Self, SceneError>;
+    /// A quantity out of its range, as where particles lie on top of each other.
+    fn compiled_start(&mut self) -> Result<(), Divergence<D>>;
 
     /// Dummy particles behind the facets of a checked scene in so many rows, wall by wall.
     fn compiled_backing(scene: &Scene<D>, rows: usize) -> Vec<Vec<BackingParticle<D>>>;
@@ -60,8 +60,9 @@ pub trait Compiled<const D: usize>: Sized {
 macro_rules! compiled {
     ($($dimensions:literal by $backing:ident),+) => {$(
         impl Compiled<$dimensions> for Simulation<$dimensions> {
-            fn compiled_new(scene: Scene<$dimensions>) -> Result<Self, SceneError> {
-                Self::set_up(scene)
+            fn compiled_start(&mut self) -> Result<(), Divergence<$dimensions>> {
+                self.state.search_neighbours()?;
+                self.state.prime()
             }
 
             fn compiled_backing(scene: &Scene<$dimensions>, rows: usize) -> Vec<Vec<BackingParticle<$dimensions>>> {
@@ -98,37 +99,32 @@ where
     /// # Errors
     /// A scene that breaks a rule, or whose particles lie on top of each other.
     pub fn new(scene: Scene<D>) -> Result<Self, SceneError> {
-        Self::compiled_new(scene)
-    }
-
-    fn set_up(scene: Scene<D>) -> Result<Self, SceneError> {
-        let mut state = Self::laid(scene)?;
-        let out_of_range = |divergence: Divergence<D>| SceneError::Value {
+        let backing = Self::backing(&scene)?;
+        let mut simulation = Self { state: State::new(scene, &backing) };
+        simulation.compiled_start().map_err(|divergence| SceneError::Value {
             quantity: divergence.quantity,
             particle: divergence.particle as usize,
             value: divergence.value,
             rule: "in the range that the model allows",
-        };
-        state.search_neighbours().map_err(out_of_range)?;
-        state.prime().map_err(out_of_range)?;
-        Ok(Self { state })
+        })?;
+        Ok(simulation)
     }
 
-    /// The state of a scene, with dummy particles behind its facets and in the rows of its inlets.
+    /// Dummy particles behind the facets of a scene and in the rows of its inlets, wall by wall.
     ///
     /// # Errors
     /// A scene that breaks a rule, or has more particles than the neighbour list can address.
-    pub(crate) fn laid(scene: Scene<D>) -> Result<State<D>, SceneError> {
+    pub(crate) fn backing(scene: &Scene<D>) -> Result<Vec<Vec<BackingParticle<D>>>, SceneError> {
         scene.check()?;
         let rows = wall::rows(scene.numerics.smoothing_ratio);
-        let mut backing = Self::compiled_backing(&scene, rows);
+        let mut backing = Self::compiled_backing(scene, rows);
         backing.extend(scene.enclosure.inlets.iter().map(|inlet| inlet.backing(rows)));
         let flow = scene.flow.position.len();
         let dummies = scene.wall_particles.len() + backing.iter().map(Vec::len).sum::<usize>();
         if flow + dummies > MOST_PARTICLES {
             return Err(SceneError::TooLarge(flow));
         }
-        Ok(State::new(scene, &backing))
+        Ok(backing)
     }
 
     /// Takes one step as long as the bounds allow.

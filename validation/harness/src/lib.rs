@@ -3,6 +3,7 @@
 
 pub mod case;
 pub mod checkpoint;
+pub mod control;
 pub mod evaluation;
 pub mod evidence;
 pub mod input;

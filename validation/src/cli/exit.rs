@@ -28,6 +28,11 @@ impl Exit {
             Self::Held
         }
     }
+
+    /// The same where every gate is judged that was accepted; a gate that vanishes has failed.
+    pub fn unless_whole(self, is_whole: bool) -> Self {
+        if self == Self::Held && !is_whole { Self::GateFailed } else { self }
+    }
 }
 
 impl From<Exit> for ExitCode {

@@ -4,6 +4,7 @@ mod arguments;
 mod calibrate;
 mod compare;
 mod completions;
+mod controls;
 mod count;
 mod display;
 mod error;

@@ -9,7 +9,8 @@ use crate::case::{CaseResult, Tier};
 use crate::measured::Measurements;
 use crate::output::{FileError, OutputFolder};
 use crate::report::{
-    self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, Report, ReportProvenance, SpeedHistory,
+    self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, MetricKey, Report, ReportProvenance,
+    SpeedHistory,
 };
 use crate::result::{MetricsDocument, write_case};
 use crate::store::Store;
@@ -23,6 +24,10 @@ pub(super) struct ResultPublication<'a> {
     pub(super) tier: Tier,
     pub(super) baseline: Baseline,
     pub(super) known: KnownFailures,
+    /// What is accepted of the case as it comes: gates that must be judged.
+    pub(super) accepted: Baseline,
+    /// Whether the case is run as it comes, with all of its runs.
+    pub(super) is_whole: bool,
     /// Measurements of which the folder receives copies.
     pub(super) measured: Vec<&'a Measurements>,
     /// Whether the times of these runs tell how long others will take.
@@ -46,7 +51,7 @@ impl ResultPublication<'_> {
         publication: Publication<'_>,
         output: &mut (dyn Write + Send),
     ) -> Result<Exit, ProgramError> {
-        let Self { command, known, .. } = self;
+        let Self { command, known, accepted, is_whole, .. } = self;
         let Publication { claimed, store, expectation, started, mut profile } = publication;
         let folder = claimed.folder().to_owned();
         let threads = rayon::current_num_threads();
@@ -59,11 +64,19 @@ impl ResultPublication<'_> {
                 print(output, &document.text());
             }
         }
+        let not_judged = |result: &CaseResult| {
+            let has_run = |key: &MetricKey| result.runs.iter().any(|run| key.variant.includes(&run.variant));
+            let gone = accepted.not_judged(&result.name, &result.metrics).into_iter();
+            gone.filter(|(key, _)| is_whole || has_run(key)).collect::<Vec<_>>()
+        };
         let page = Report {
             title: self.title,
             tier: self.tier,
             generated: ReportProvenance::of_this_program(started.elapsed(), String::new()),
-            cases: results.iter().map(case_report).collect(),
+            cases: results
+                .iter()
+                .map(|result| CaseReport { not_judged: not_judged(result), ..case_report(result) })
+                .collect(),
             baseline: self.baseline,
             against: None,
             history: History::default(),
@@ -85,6 +98,9 @@ impl ResultPublication<'_> {
             for result in results {
                 say(output, &summary::of_case(result, |metric| is_known(&known, result, metric)));
             }
+            for case in &page.cases {
+                say(output, &summary::not_judged(&case.name, &case.not_judged));
+            }
             if results.iter().any(|result| result.unexpected_divergences().next().is_some()) {
                 let states = "of a run that diverged, NAME.pvd ends with the last good state, NAME-first-bad.pvd is the one after";
                 say(output, &format!("{}: {states}\n", folder.join("snapshots").display()));
@@ -94,7 +110,8 @@ impl ResultPublication<'_> {
         if command.profile {
             tell(profile.in_words(results, threads).trim_end_matches('\n'));
         }
-        Ok(Exit::of(results, |result, metric| is_known(&known, result, metric)))
+        let is_judged = page.cases.iter().all(|case| case.not_judged.is_empty());
+        Ok(Exit::of(results, |result, metric| is_known(&known, result, metric)).unless_whole(is_judged))
     }
 }
 
@@ -107,6 +124,8 @@ pub(super) fn case_report(result: &CaseResult) -> CaseReport {
         parameters_toml: result.parameters_toml.clone(),
         command: result.command.clone(),
         metrics: result.metrics.clone(),
+        controls: Vec::new(),
+        not_judged: Vec::new(),
         figures: result.figures.clone(),
         animations: result.animations.clone(),
         runs: result.runs.clone(),

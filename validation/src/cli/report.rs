@@ -6,7 +6,7 @@ use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{case_report, is_known};
 use super::simulation::{announce, simulate};
-use super::{Exit, say, summary, tell};
+use super::{Exit, controls, say, summary, tell};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
 use crate::evidence::{ValidatedComparison, ValidationSet};
 use crate::output::{FileError, FolderError, OutputFolder, write_whole};
@@ -59,7 +59,17 @@ pub(super) fn report(
     if command.accept {
         baseline = accept(&places, &results)?;
     }
-    let cases: Vec<CaseReport> = results.iter().map(case_report).collect();
+    let limits = command.allowance.limits();
+    let mut controls =
+        if suite.is_none() { controls::of_results(&results, registry, limits, &store, quiet)? } else { Vec::new() };
+    controls.resize_with(results.len(), Vec::new);
+    profile.over("controls");
+    let of_case = |(result, controls): (&CaseResult, _)| CaseReport {
+        controls,
+        not_judged: baseline.not_judged(&result.name, &result.metrics),
+        ..case_report(result)
+    };
+    let cases: Vec<CaseReport> = results.iter().zip(controls).map(of_case).collect();
     let page = Report {
         title: command.suite.as_ref().map_or_else(|| "Bagnold validation report".to_owned(), |folder| name_of(folder)),
         tier,
@@ -95,7 +105,11 @@ pub(super) fn report(
         say(output, &summary::failures(result, is_known));
     }
     say(output, &format!("written to {}\n", out.join("index.html").display()));
-    let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric));
+    for case in &page.cases {
+        say(output, &summary::not_judged(&case.name, &case.not_judged));
+    }
+    let is_whole = page.cases.iter().all(|case| case.not_judged.is_empty());
+    let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric)).unless_whole(is_whole);
     let drifted = drifted(&page);
     say(output, &drifted);
     if exit == Exit::Held && command.deny.is_none() {

@@ -46,9 +46,11 @@ pub(super) fn run(
     let store = command.work.open_store();
     let expectation = announce("run", std::slice::from_ref(&prepared), &store, quiet || command.json);
     let known = CommittedValues::OfCases.known_failures()?;
-    // accepted values are those of the case as it comes
-    let baseline =
-        if changed { Baseline::default() } else { CommittedValues::OfCases.accepted(prepared.name(), tier)? };
+    // accepted values are those of the case as it comes; a study in a file has none
+    let of_case = registry.find(prepared.name()).is_ok_and(|case| !case.is_study() || case.name() == command.target);
+    let accepted =
+        if of_case { CommittedValues::OfCases.accepted(prepared.name(), tier)? } else { Baseline::default() };
+    let baseline = if changed { Baseline::default() } else { accepted.clone() };
     let started = Instant::now();
     let mut profile = StageTimer::begin();
     let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
@@ -68,6 +70,8 @@ pub(super) fn run(
         title: results.first().map(|result| result.name.clone()).unwrap_or_default(),
         tier,
         baseline,
+        accepted,
+        is_whole: !changed,
         known,
         measured: overlay.iter().collect(),
         // states on the way take a time of their own

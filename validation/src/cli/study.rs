@@ -54,6 +54,8 @@ pub(super) fn run(
         command,
         title: study.name().to_owned(),
         tier,
+        accepted: Baseline::default(),
+        is_whole: true,
         baseline,
         known,
         measured: study.measurements().collect(),

@@ -4,6 +4,7 @@ use crate::case::CaseResult;
 use crate::metric::{Limit, Metric, Variant, Verdict};
 use crate::number::aligned_digits;
 use crate::observation::Outcome;
+use crate::report::MetricKey;
 use std::fmt::Write as _;
 
 /// A case's metrics, one per line, and what went wrong in its runs.
@@ -14,6 +15,13 @@ pub(super) fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -
 /// The metrics of a case whose gates do not hold; empty if all hold.
 pub(super) fn failures(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
     table(result.failures().map(|metric| row(metric, is_known(metric))).collect())
+}
+
+/// Gates of a case that are no longer judged, a line each.
+pub(super) fn not_judged(case: &str, gates: &[(MetricKey, String)]) -> String {
+    let line =
+        |(key, reason): &(MetricKey, String)| format!("NOT JUDGED: {case} {} {}: {reason}\n", key.metric, key.variant);
+    gates.iter().map(line).collect()
 }
 
 fn table(mut rows: Vec<[String; 7]>) -> String {
@@ -75,7 +83,7 @@ fn row(metric: &Metric, is_known: bool) -> [String; 7] {
         verdict.to_owned(),
         metric.name.clone(),
         metric.variant.to_string(),
-        if metric.not_steady.is_some() { "not steady".to_owned() } else { aligned_digits(metric.value) },
+        metric.without_value().map_or_else(|| aligned_digits(metric.value), str::to_owned),
         metric.unit.clone(),
         limit.map_or_else(String::new, rule),
         limit.map_or_else(String::new, |limit| aligned_digits(limit.margin(metric.value))),

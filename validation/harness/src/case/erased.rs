@@ -3,7 +3,7 @@
 use super::causes::explained;
 use super::changes::{Changes, ParameterSource, resolve, table_of};
 use super::error::ParameterError;
-use super::finite::fail_broken_profiles;
+use super::finite::{fail_broken_profiles, fail_diverged};
 use super::foreign::ExternalResult;
 use super::guard::{Guard, with_changed};
 use super::notes::notes;
@@ -13,6 +13,7 @@ use super::{
     Tier, schema,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
+use crate::control::{self, Control};
 use crate::evidence::completed;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -36,6 +37,10 @@ pub trait AnyCase: Sync {
     /// Whether it is a canonical study: runs of other cases under checks of its own.
     fn is_study(&self) -> bool {
         false
+    }
+    /// Wrong physics and wrong inputs that its gates are to reject.
+    fn controls(&self) -> Vec<Control> {
+        control::of_case(self.name())
     }
     /// The tier's parameters as a complete, commented file for `bagnold run`.
     fn show(&self, tier: Tier) -> String;
@@ -301,7 +306,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
             .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
             .unzip();
-        let metrics = completed(C::NAME, C::metrics(&plan.parameters, &records));
+        let mut metrics = completed(C::NAME, C::metrics(&plan.parameters, &records));
         let figures = C::figures(&plan.parameters, &records);
         let animations = C::animations(&plan.parameters, &records);
         let tables = C::tables(&plan.parameters, &records);
@@ -309,6 +314,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
         let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
         fail_broken_profiles(&mut summaries, &tables);
+        fail_diverged(&mut metrics, &summaries);
         Ok(CaseResult {
             name: C::NAME.to_owned(),
             origin: C::ORIGIN,

@@ -1,6 +1,7 @@
-//! A profile that holds what is no number fails its run, whatever the metrics made of it.
+//! A profile that holds what is no number fails its run, whatever the metrics made of it, and a run that diverged its gates.
 
 use super::RunSummary;
+use crate::metric::{DIVERGED, Metric};
 use crate::observation::Outcome;
 use crate::output::Table;
 
@@ -18,6 +19,18 @@ pub(super) fn fail_broken_profiles(runs: &mut [RunSummary], tables: &[Table]) {
         for run in own.map_or(0..runs.len(), |run| run..run + 1) {
             if !matches!(runs[run].outcome, Outcome::Diverged { .. }) {
                 runs[run].outcome = Outcome::Diverged { message: message.clone(), expected: false };
+            }
+        }
+    }
+}
+
+/// Takes the values of gates away whose runs diverged although that is no result: nothing of such a run is green.
+pub(super) fn fail_diverged(metrics: &mut [Metric], runs: &[RunSummary]) {
+    let reason = DIVERGED.to_owned();
+    for run in runs.iter().filter(|run| run.diverged_unexpectedly()) {
+        for metric in metrics.iter_mut().filter(|metric| metric.gate.is_some()) {
+            if metric.variant.includes(&run.variant) {
+                *metric = metric.clone().unless(Some(&reason));
             }
         }
     }

@@ -138,6 +138,9 @@ pub struct Reference {
     pub confidence: Confidence,
 }
 
+/// Why a metric of a run that diverged has no value.
+pub const DIVERGED: &str = "its run diverged, so that no number of it means anything";
+
 /// Standard uncertainties that an expanded one has, for 95 % `[-]`.
 pub const COVERAGE: f64 = 2.0;
 
@@ -311,6 +314,13 @@ impl Metric {
             (self.value, self.not_steady) = (f64::NAN, Some(reason.clone()));
         }
         self
+    }
+
+    /// Why there is no value where there should be one, in a word or two.
+    #[must_use]
+    pub fn without_value(&self) -> Option<&'static str> {
+        let reason = self.not_steady.as_deref()?;
+        Some(if reason == DIVERGED { "diverged" } else { "not steady" })
     }
 
     /// Sets what the verdict rests on.

@@ -279,6 +279,30 @@ impl Baseline {
         metrics.iter().filter_map(difference).chain(vanished).collect()
     }
 
+    /// Gates of `case` that do not judge `metrics`, with what took each away: a gate that vanishes is a failure.
+    #[must_use]
+    pub fn not_judged(&self, case: &str, metrics: &[Metric]) -> Vec<(MetricKey, String)> {
+        let own = self.gates().filter(|key| key.case == case);
+        let gone = own.filter_map(|key| {
+            let found = metrics.iter().find(|metric| MetricKey::of(case, metric) == *key);
+            let reason = match found {
+                Some(metric) if metric.verdict() != Verdict::Observed => return None,
+                Some(metric) if metric.is_coarser_than_gate() => {
+                    "the spacing moves the value by more than the gate is wide"
+                }
+                Some(metric) if metric.gate.is_some() => "its reference is not verified",
+                Some(_) => "with these runs and parameters it is observed only",
+                None => "it is no longer measured",
+            };
+            let of_run =
+                |metric: &&Metric| key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant);
+            let unsteady = metrics.iter().filter(of_run).find_map(|metric| metric.not_steady.clone());
+            let reason = unsteady.map_or_else(|| reason.to_owned(), |cause| format!("{reason}; {cause}"));
+            Some((key.clone(), reason))
+        });
+        gone.collect()
+    }
+
     /// Baseline values of `case` that `metrics` no longer contain: a metric that vanishes is a regression too.
     #[must_use]
     pub fn vanished(&self, case: &str, metrics: &[Metric]) -> Vec<MetricKey> {

@@ -4,10 +4,11 @@ use super::accepted::tier_name;
 use super::failures;
 use super::judgement::{JudgedCase, JudgedMetric, Severity};
 use super::origin::{provenance, seconds};
+use super::power::GatePower;
 use super::rows::{mark, rows, vanished};
 use super::template::fill;
 use super::view::{CasePage, CaseView, MetricGroup, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
-use super::{DrawnFigure, Report};
+use super::{DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
 use crate::metric::{MetricKind, Verdict};
@@ -59,6 +60,8 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
         failures: failures::of(std::slice::from_ref(judged)),
         groups: groups(rows, &judged.metrics),
         vanished: judged.vanished.iter().map(vanished).collect(),
+        not_judged: case.not_judged.iter().map(|(key, reason)| format!("{}: {reason}", vanished(key))).collect(),
+        controls: power::table(case),
         figures: drawn.iter().map(picture).collect(),
         tables: tables(&case.name).map(|(name, _)| name).collect(),
         parameters: case.parameters_toml.clone(),
@@ -128,6 +131,8 @@ pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
         (judged.metrics.iter().filter(|metric| metric.verdict == Verdict::Pass).count(), "holding"),
         (judged.count(Severity::Observed), "observed"),
         (drifted, "drifted"),
+        (judged.case.not_judged.len(), "no longer judged"),
+        (judged.metrics.iter().filter(|metric| metric.power == GatePower::CannotTell).count(), "cannot tell"),
         (judged.vanished.len(), "vanished"),
         (judged.diverged.len(), "diverged"),
     ];

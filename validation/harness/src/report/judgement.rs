@@ -3,6 +3,7 @@
 use super::accepted::{Drift, MetricKey};
 use super::known_failures::{KnownFailure, KnownFailureStatus};
 use super::papers::PaperSummary;
+use super::power::GatePower;
 use super::{CaseReport, Report};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use crate::observation::Outcome;
@@ -33,6 +34,8 @@ pub struct JudgedMetric<'r> {
     pub standing: KnownFailureStatus,
     /// Against the baseline.
     pub drift: Drift,
+    /// What its gate can tell.
+    pub power: GatePower,
 }
 
 impl JudgedMetric<'_> {
@@ -69,7 +72,7 @@ impl JudgedCase<'_> {
     #[must_use]
     pub fn severity(&self) -> Severity {
         let worst = self.metrics.iter().map(JudgedMetric::severity).min().unwrap_or(Severity::Observed);
-        if !self.diverged.is_empty() {
+        if !self.diverged.is_empty() || !self.case.not_judged.is_empty() {
             Severity::Failure
         } else if !self.vanished.is_empty() {
             worst.min(Severity::Drifted)
@@ -88,8 +91,10 @@ impl JudgedCase<'_> {
 /// Gates of one kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct GateTally {
-    /// Gates that hold.
+    /// Gates that hold and reject a control, or that none was asked of.
     pub hold: usize,
+    /// Gates that hold and reject no control.
+    pub cannot_tell: usize,
     /// Gates that fail and are not listed.
     pub fail: usize,
     /// Gates that fail and are listed.
@@ -128,6 +133,8 @@ pub struct Judgement<'r> {
     pub known_elsewhere: usize,
     /// Runs that diverged without having declared it.
     pub diverged: usize,
+    /// Gates of the baseline that are not judged.
+    pub not_judged: usize,
     /// What became of the elements of each paper.
     pub papers: Vec<PaperSummary<'r>>,
 }
@@ -143,7 +150,8 @@ impl Judgement<'_> {
     /// it is the snapshot's verdict, not the gate's.
     #[must_use]
     pub fn has_unexpected_failure(&self) -> bool {
-        self.tallies().iter().any(|tally| tally.fail > 0) || self.contradictions > 0 || self.diverged > 0
+        let fails = self.tallies().iter().any(|tally| tally.fail > 0);
+        fails || self.contradictions > 0 || self.diverged > 0 || self.not_judged > 0
     }
 
     /// Whether a value has left its tolerance, its unit or its side of a gate, or is no longer measured. New values have
@@ -159,6 +167,12 @@ impl Judgement<'_> {
         self.tallies().iter().map(|tally| tally.fail + tally.known).sum()
     }
 
+    /// Gates of any kind that hold and reject no control.
+    #[must_use]
+    pub fn blind_gates(&self) -> usize {
+        self.tallies().iter().map(|tally| tally.cannot_tell).sum()
+    }
+
     /// Gates of any kind that hold.
     #[must_use]
     pub fn holding_gates(&self) -> usize {
@@ -168,7 +182,7 @@ impl Judgement<'_> {
     /// Whether every gate holds, nothing drifted, and there was a gate at all.
     #[must_use]
     pub fn is_green(&self) -> bool {
-        self.holding_gates() > 0
+        self.holding_gates() + self.blind_gates() > 0
             && self.failing_gates() == 0
             && self.drift.drifted == 0
             && !self.has_unexpected_failure()
@@ -188,6 +202,7 @@ pub fn judge(report: &Report) -> Judgement<'_> {
         drift: DriftTally::default(),
         contradictions: 0,
         diverged: 0,
+        not_judged: 0,
         known_elsewhere: 0,
         papers: report.papers.iter().map(|paper| PaperSummary::of(paper, &report.cases)).collect(),
     };
@@ -200,6 +215,7 @@ pub fn judge(report: &Report) -> Judgement<'_> {
     for case in &cases {
         judgement.diverged += case.diverged.len();
         judgement.drift.drifted += case.vanished.len();
+        judgement.not_judged += case.case.not_judged.len();
         for judged in &case.metrics {
             judgement.count(judged);
         }
@@ -220,6 +236,7 @@ impl Judgement<'_> {
         };
         match (judged.verdict, &judged.standing) {
             (Verdict::Observed, _) => {}
+            (Verdict::Pass, _) if judged.power == GatePower::CannotTell => tally.cannot_tell += 1,
             (Verdict::Pass, _) => tally.hold += 1,
             (Verdict::Fail, KnownFailureStatus::Known(_)) => tally.known += 1,
             (Verdict::Fail, _) => tally.fail += 1,
@@ -244,6 +261,7 @@ fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
             verdict: metric.verdict(),
             standing: report.known_failures.standing(&case.name, metric),
             drift: report.baseline.drift(&case.name, metric),
+            power: GatePower::of(case, metric),
         })
         .collect();
     let first_of_name = |name: &str| case.metrics.iter().position(|metric| metric.name == name);

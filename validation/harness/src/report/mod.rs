@@ -25,8 +25,8 @@ mod overview;
 mod page;
 pub mod papers;
 mod papers_page;
+mod power;
 mod print;
-
 mod rows;
 pub mod scatter;
 mod shipped;
@@ -50,10 +50,12 @@ pub use gate_list::GateList;
 pub use history::History;
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
+pub use power::GatePower;
 pub use snapshot_text::description;
 pub use speed_history::{SpeedHistory, SpeedRow};
 
 use crate::case::{Features, Tier};
+use crate::control::ControlTrial;
 use crate::evidence::Paper;
 use crate::figure::{self, Animation, Figure, FigureError};
 use crate::metric::Metric;
@@ -136,6 +138,10 @@ pub struct CaseReport {
     pub command: String,
     /// Judged and observed numbers.
     pub metrics: Vec<Metric>,
+    /// Accepted gates that do not judge it, with what took each away.
+    pub not_judged: Vec<(MetricKey, String)>,
+    /// What became of its controls; empty where none was tried.
+    pub controls: Vec<ControlTrial>,
     /// Figures in reading order.
     pub figures: Vec<Figure>,
     /// Moving pictures, shown after the figures.

@@ -79,7 +79,8 @@ fn banner(judgement: &Judgement<'_>) -> Banner {
 fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
     let failing = judgement.failing_gates();
     let holding = judgement.holding_gates();
-    let all = failing + holding;
+    let blind = judgement.blind_gates();
+    let all = failing + holding + blind;
     let not_reproduced = judgement.statements.known;
     let known = judgement.tallies().iter().map(|tally| tally.known).sum::<usize>() - not_reproduced;
     let mut details = Vec::new();
@@ -101,6 +102,12 @@ fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
     }
     if judgement.contradictions > 0 {
         details.push(format!("{} at odds with the list of known failures", plural(judgement.contradictions, "result")));
+    }
+    if blind > 0 {
+        details.push(format!("{} cannot tell right from wrong", plural(blind, "gate")));
+    }
+    if judgement.not_judged > 0 {
+        details.push(format!("{} no longer judged", plural(judgement.not_judged, "gate")));
     }
     if judgement.diverged > 0 {
         details.push(format!("{} diverged", plural(judgement.diverged, "run")));
@@ -127,7 +134,8 @@ fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
             details.insert(0, format!("{} as in the baseline", plural(unchanged, "value")));
         }
         let detail = details.join(" · ");
-        (VerdictMark::PASS, format!("All {} hold", plural(all, "gate")), detail)
+        let headline = format!("All {} hold", plural(all, "gate"));
+        (if blind > 0 { VerdictMark::KNOWN } else { VerdictMark::PASS }, headline, detail)
     } else {
         (VerdictMark::OBSERVED, "Nothing was judged".to_owned(), "no metric of this report has a gate".to_owned())
     }
@@ -135,7 +143,7 @@ fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
 
 fn counts(judgement: &Judgement<'_>) -> Vec<VerdictCount> {
     let gates = |name, meaning, tally: GateTally, known: &str| {
-        let all = tally.hold + tally.fail + tally.known;
+        let all = tally.hold + tally.cannot_tell + tally.fail + tally.known;
         let mut details = Vec::new();
         if tally.fail > 0 {
             details.push(format!("{} {}", tally.fail, if tally.fail == 1 { "fails" } else { "fail" }));
@@ -143,9 +151,12 @@ fn counts(judgement: &Judgement<'_>) -> Vec<VerdictCount> {
         if tally.known > 0 {
             details.push(format!("{} {known}", tally.known));
         }
+        if tally.cannot_tell > 0 {
+            details.push(format!("{} cannot tell: they reject no control", tally.cannot_tell));
+        }
         let mark = match tally {
-            GateTally { hold: 0, fail: 0, known: 0 } => VerdictMark::OBSERVED,
-            GateTally { fail: 0, known: 0, .. } => VerdictMark::PASS,
+            GateTally { hold: 0, cannot_tell: 0, fail: 0, known: 0 } => VerdictMark::OBSERVED,
+            GateTally { cannot_tell: 0, fail: 0, known: 0, .. } => VerdictMark::PASS,
             GateTally { fail: 0, .. } => VerdictMark::KNOWN,
             GateTally { .. } => VerdictMark::FAIL,
         };

@@ -13,7 +13,9 @@ pub enum Status {
     Contradicted,
     /// A gate on it fails, or our number falls short of what the paper shows.
     NotReproduced,
-    /// Gates hold, numbers agree, or tests hold it.
+    /// It would count as reproduced with wrong physics or a wrong input as well, by a control that it is meant to feel.
+    NotShown,
+    /// Gates hold, numbers agree, or tests hold it, and every control that it is meant to feel makes it fall.
     Reproduced,
     /// Something else stands in its place.
     Replaced,
@@ -27,8 +29,9 @@ pub enum Status {
 
 impl Status {
     /// All, in the order of the page.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Reproduced,
+        Self::NotShown,
         Self::NotReproduced,
         Self::Contradicted,
         Self::Replaced,
@@ -43,6 +46,7 @@ impl Status {
         match self {
             Self::Contradicted => "contradicted",
             Self::NotReproduced => "not reproduced",
+            Self::NotShown => "not shown",
             Self::Reproduced => "reproduced",
             Self::Replaced => "replaced",
             Self::NotStatedClearly => "not stated clearly",
@@ -55,9 +59,14 @@ impl Status {
     /// of an observed metric.
     #[must_use]
     pub fn of(name: &MetricName, metric: &Metric) -> Option<Self> {
-        match (name.printed, metric.verdict()) {
-            (Some(printed), _) if printed.agrees(metric.value) => Some(Self::Reproduced),
-            (Some(printed), _) if printed.contradicts && metric.value.is_finite() => Some(Self::Contradicted),
+        Self::of_value(name, metric.value, metric.verdict())
+    }
+
+    /// What a value and the verdict of its gate say of an element that names the metric.
+    fn of_value(name: &MetricName, value: f64, verdict: Verdict) -> Option<Self> {
+        match (name.printed, verdict) {
+            (Some(printed), _) if printed.agrees(value) => Some(Self::Reproduced),
+            (Some(printed), _) if printed.contradicts && value.is_finite() => Some(Self::Contradicted),
             (Some(_), _) | (None, Verdict::Fail) => Some(Self::NotReproduced),
             (None, Verdict::Pass) => Some(Self::Reproduced),
             (None, Verdict::Observed) => None,
@@ -105,6 +114,8 @@ pub struct ElementOutcome<'r> {
     pub shown: Vec<Shown<'r>>,
     /// The runs of this report that it names.
     pub ended: Vec<Ended<'r>>,
+    /// Controls that it is meant to feel and stands under, by case and name.
+    pub accepts: Vec<(&'r str, &'r str)>,
 }
 
 impl<'r> ElementOutcome<'r> {
@@ -127,7 +138,32 @@ impl<'r> ElementOutcome<'r> {
             None if element.metrics.is_empty() && element.runs.is_empty() => Status::Reproduced,
             None => Self::computed(element, &shown, &ended),
         };
-        Self { element, status, shown, ended }
+        let accepts = Self::accepted(&shown, cases);
+        let status = if status == Status::Reproduced && !accepts.is_empty() { Status::NotShown } else { status };
+        Self { element, status, shown, ended, accepts }
+    }
+
+    /// Controls of which the element names a metric that is meant to feel them, and under which all that it names says what it says of the
+    /// right runs.
+    fn accepted(shown: &[Shown<'r>], cases: &'r [CaseReport]) -> Vec<(&'r str, &'r str)> {
+        let mut accepted = Vec::new();
+        for case in cases {
+            let own: Vec<&Shown<'r>> = shown.iter().filter(|shown| shown.name.case == case.name).collect();
+            for trial in case.controls.iter().filter(|trial| !trial.diverged) {
+                let found = |shown: &&Shown<'r>| trial.found(&shown.metric.name, &shown.metric.variant);
+                let tried: Vec<&&Shown<'r>> = own.iter().filter(|shown| found(shown).is_some()).collect();
+                let is_meant = tried.iter().any(|shown| trial.control.is_named_by(&shown.metric.name));
+                let stands = |shown: &&&Shown<'r>| {
+                    let status =
+                        found(shown).and_then(|found| Status::of_value(shown.name, found.value, found.verdict?));
+                    status == Some(Status::Reproduced)
+                };
+                if is_meant && tried.iter().all(stands) {
+                    accepted.push((case.name.as_str(), trial.control.name.as_str()));
+                }
+            }
+        }
+        accepted
     }
 
     /// The worst of all that the element names; where none of it is bad and some of it is not run, or not judged, at this tier, that

@@ -74,6 +74,7 @@ fn mark(status: Status) -> VerdictMark {
     let of = |look: VerdictMark, symbol| VerdictMark { symbol, word: status.word(), ..look };
     match status {
         Status::Reproduced => of(VerdictMark::PASS, "✓"),
+        Status::NotShown => of(VerdictMark::KNOWN, "○"),
         Status::NotReproduced => of(VerdictMark::KNOWN, "✗"),
         Status::Contradicted => of(VerdictMark::FAIL, "✗"),
         Status::Replaced => of(VerdictMark::DRIFT, "⇄"),
@@ -137,13 +138,19 @@ fn element(paper: &str, fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Elem
         statement: element.statement.clone(),
         implemented: element.implemented.clone().unwrap_or_default(),
         mark: mark(fate.status),
-        reason: element.settled.as_ref().map(|(_, reason)| reason.clone()).unwrap_or_default(),
+        reason: element.settled.as_ref().map(|(_, reason)| reason.clone()).unwrap_or_else(|| stands_under(fate)),
         note: element.note.clone(),
         values: fate.shown.iter().map(value).chain(fate.ended.iter().map(run)).collect(),
         missing: missing.chain(gone).collect(),
         tests: element.tests.iter().map(|test| format!("{}::{}", test.file, test.function)).collect(),
         figures: figures(fate, cases),
     }
+}
+
+/// The controls under which it would count as reproduced too.
+fn stands_under(fate: &ElementOutcome<'_>) -> String {
+    let names: Vec<String> = fate.accepts.iter().map(|(case, control)| format!("{control} of {case}")).collect();
+    if names.is_empty() { String::new() } else { format!("it stands with wrong physics as well: {}", names.join(", ")) }
 }
 
 fn value(shown: &Shown<'_>) -> ValueView {

@@ -46,11 +46,7 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
         width: width(metric),
         metric: metric.name.clone(),
         variant: metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect(),
-        value: if metric.not_steady.is_some() {
-            "not steady".to_owned()
-        } else {
-            with_unit(metric.value, &metric.unit)
-        },
+        value: metric.without_value().map_or_else(|| with_unit(metric.value, &metric.unit), str::to_owned),
         prediction: metric.prediction.as_ref().map(|found| prediction(found, &metric.unit)),
         reference: reference
             .and_then(|reference| reference.value)
@@ -76,6 +72,7 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
         change,
         relative_change,
         note: note(judged),
+        power: judged.power.words(),
     }
 }
 

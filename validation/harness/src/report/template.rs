@@ -3,7 +3,7 @@
 use crate::page;
 use serde::Serialize;
 
-const TEMPLATES: [(&str, &str); 15] = [
+const TEMPLATES: [(&str, &str); 16] = [
     ("head.html", include_str!("template/head.html")),
     ("index.html", include_str!("template/index.html")),
     ("drift.html", include_str!("template/drift.html")),
@@ -11,6 +11,7 @@ const TEMPLATES: [(&str, &str); 15] = [
     ("failures.html", include_str!("template/failures.html")),
     ("gates.html", include_str!("template/gates.html")),
     ("case.html", include_str!("template/case.html")),
+    ("controls.html", include_str!("template/controls.html")),
     ("metrics.html", include_str!("template/metrics.html")),
     ("width.html", include_str!("template/width.html")),
     ("coverage.html", include_str!("template/coverage.html")),

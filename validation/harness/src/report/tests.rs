@@ -21,6 +21,8 @@ pub(super) fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
         parameters_toml: "depth = 0.01\n".to_owned(),
         command: format!("bagnold run {name}"),
         metrics,
+        controls: Vec::new(),
+        not_judged: Vec::new(),
         figures: Vec::new(),
         animations: Vec::new(),
         runs: Vec::new(),

@@ -130,6 +130,10 @@ pub(super) struct CaseView {
     pub(super) failures: Vec<BannerItem>,
     pub(super) groups: Vec<MetricGroup>,
     pub(super) vanished: Vec<String>,
+    /// Gates that are no longer judged, and why.
+    pub(super) not_judged: Vec<String>,
+    /// What its gates can tell.
+    pub(super) controls: Option<ControlsView>,
     pub(super) figures: Vec<FigureView>,
     /// Tables of reference data that are written beside the page.
     pub(super) tables: Vec<&'static str>,
@@ -185,6 +189,46 @@ pub(super) struct MetricView {
     pub(super) change: String,
     pub(super) relative_change: String,
     pub(super) note: String,
+    /// Which controls it rejects, in a few words.
+    pub(super) power: String,
+}
+
+/// The controls of a case and what its gates say of them.
+#[derive(Debug, Serialize)]
+pub(super) struct ControlsView {
+    pub(super) controls: Vec<ControlView>,
+    pub(super) rows: Vec<ControlRow>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct ControlView {
+    pub(super) name: String,
+    pub(super) error: String,
+    pub(super) command: String,
+    /// Whether it is an error of the solver.
+    pub(super) is_solver: bool,
+    /// When it was tried, or why it shows nothing.
+    pub(super) note: String,
+    /// Metrics that are meant to feel it and accept it, and why.
+    pub(super) cannot_tell: Vec<(String, String)>,
+}
+
+/// A gate before each control.
+#[derive(Debug, Serialize)]
+pub(super) struct ControlRow {
+    pub(super) metric: String,
+    pub(super) variant: String,
+    pub(super) cells: Vec<ControlCell>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct ControlCell {
+    pub(super) class: &'static str,
+    pub(super) symbol: &'static str,
+    /// Empty where the control's runs do not measure the gate.
+    pub(super) word: &'static str,
+    /// Whether the gate is meant to feel the error.
+    pub(super) is_named: bool,
 }
 
 #[derive(Debug, Serialize)]

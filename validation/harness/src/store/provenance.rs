@@ -10,6 +10,8 @@ use std::sync::OnceLock;
 pub struct Build {
     /// SHA-256 of everything that a result depends on: sources, locked dependencies, compiler, profile, instruction set.
     pub source_hash: &'static str,
+    /// SHA-256 of the solver's sources alone.
+    pub solver_hash: &'static str,
     /// Commit, with `+changes` after it if the sources differ from it; `unknown` without a repository.
     pub commit: &'static str,
     /// Cargo's profile.
@@ -23,8 +25,14 @@ pub struct Build {
 static BUILD: OnceLock<Build> = OnceLock::new();
 
 /// Build of a program that declares nothing: its results are known by its own file.
-const UNDECLARED: Build =
-    Build { source_hash: "", commit: "unknown", profile: "unknown", solver_opt_level: "", target_features: "" };
+const UNDECLARED: Build = Build {
+    source_hash: "",
+    solver_hash: "",
+    commit: "unknown",
+    profile: "unknown",
+    solver_opt_level: "",
+    target_features: "",
+};
 
 /// Declares what the program is built from. The first declaration counts.
 pub fn declare(build: Build) {
@@ -52,6 +60,12 @@ pub fn version() -> &'static str {
 #[must_use]
 pub fn source_hash() -> &'static str {
     build().source_hash
+}
+
+/// SHA-256 of the solver's sources; empty where nothing was declared.
+#[must_use]
+pub fn solver_hash() -> &'static str {
+    build().solver_hash
 }
 
 /// Cargo's profile, and how the solver is optimised in it: what drives and judges it is built faster.

@@ -9,6 +9,7 @@ const MUTATE_EXAMPLES: &str = "Examples:
   bagnold dev mutate list                                the errors, and the cases that ought to see them
   bagnold dev mutate --errors von-karman,gravity-value   some of them
   bagnold dev mutate trial von-karman clear-water        one case with one error, as `bagnold run` shows it
+  bagnold dev mutate drawn --count 100 --seed 1          100 errors by rule, drawn from all expressions of the solver
 
 Works in a checkout: a copy of the program, in target/mutations, is built with the errors of
 validation/tools/mutations.toml; this program has none of them. Each error is caught by a gate that
@@ -99,6 +100,9 @@ pub struct MutateArguments {
     /// Errors by name, separated by commas [default: all].
     #[arg(long, value_name = "ERROR,…", value_delimiter = ',')]
     pub errors: Vec<String>,
+    /// Only errors found by rule, each of which a gate must kill.
+    #[arg(long, conflicts_with = "errors")]
+    pub generated: bool,
     /// Folder to write.
     #[arg(long, value_name = "DIR", default_value = "reports/mutation")]
     pub out: PathBuf,
@@ -107,11 +111,54 @@ pub struct MutateArguments {
     pub threads: Option<u16>,
 }
 
+const DRAWN_HELP: &str =
+    "Rules: + for -, * for /, < for <=, && for ||, a sign or a ! dropped or added, 1 for 0, twice or half of a number,
+one term or factor dropped, min for max, [j] for [i], a condition negated. Tests, constants, types and
+macros stay as they are. An error that does not compile, or that no case reaches, is replaced by the next.
+
+Cases run the cheapest first, until a gate or a stop has killed the error. The same command continues
+after an interruption: findings are kept in target/mutations, by seed and sources.
+
+Exit codes: 0 every error was tried; 2 bad input, or no checkout.";
+
+/// `bagnold dev mutate drawn`
+#[derive(Debug, Args)]
+#[command(after_help = DRAWN_HELP)]
+pub struct DrawnArguments {
+    /// Number of errors that compile and are reached.
+    #[arg(long, value_name = "N", default_value = "100", value_parser = count)]
+    pub count: usize,
+    /// Seed of the draw, decimal or hexadecimal.
+    #[arg(long, value_name = "SEED", default_value = "0x22b011ce", value_parser = seed)]
+    pub seed: u64,
+    /// Run tests with errors that no gate has killed: the solver's unit tests, invariants, convergence, determinism, physics.
+    #[arg(long)]
+    pub tests: bool,
+    /// Folder to write.
+    #[arg(long, value_name = "DIR", default_value = "reports/mutation/drawn")]
+    pub out: PathBuf,
+    /// Threads to use [default: all cores].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+fn count(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| (1..=10_000).contains(number));
+    number.ok_or_else(|| "must be an integer from 1 to 10000, such as 100".to_owned())
+}
+
+fn seed(text: &str) -> Result<u64, String> {
+    let number = text.strip_prefix("0x").map_or_else(|| text.parse(), |digits| u64::from_str_radix(digits, 16));
+    number.map_err(|_| "must be an integer from 0 to 2^64 - 1, such as 1 or 0x22b011ce".to_owned())
+}
+
 /// Actions of `bagnold dev mutate` beside trying errors.
 #[derive(Debug, Subcommand)]
 pub enum MutateAction {
     /// List the errors and the cases that ought to see them.
     List,
+    /// Draw errors by rule, and run each through the cases of the quick tier that reach it.
+    Drawn(DrawnArguments),
     /// Run one case at the quick tier with one error; the store is neither read nor written.
     Trial {
         /// Name of the error, or `none`.

@@ -3,41 +3,64 @@
 use super::record::{FILE, Mutations};
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
+use crate::observation::state_hash;
 use crate::output::FileError;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// By which the copy is told the number of the mutation; none or 0 for the program as it is.
+/// By which the copy is told the number of the mutation; none or 0 for the program as it is; a file, to write there the numbers of the
+/// mutations whose expressions it reaches.
 pub const CHOICE: &str = "BAGNOLD_MUTATION";
 
 /// What of a checkout the program is built from.
 const SOURCES: [&str; 7] = ["Cargo.toml", "Cargo.lock", "README.md", "solver", "validation", "tests", "reference-data"];
 
-/// What the copy has beside: how it knows which mutation is chosen.
+/// What the copy has beside: how it knows which mutation is chosen, or where it is to say which expressions are reached.
 const CHOOSER: &str = "//! Which mutation is chosen.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::io::Write;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 const UNREAD: usize = usize::MAX;
+const TRACED: usize = usize::MAX - 1;
 
 static CHOSEN: AtomicUsize = AtomicUsize::new(UNREAD);
+static TRACE: OnceLock<String> = OnceLock::new();
+static REACHED: [AtomicBool; COUNT] = [const { AtomicBool::new(false) }; COUNT];
 
 #[inline(always)]
 pub(crate) fn is(number: usize) -> bool {
     let chosen = CHOSEN.load(Ordering::Relaxed);
-    (if chosen == UNREAD { read() } else { chosen }) == number
+    if chosen < TRACED { chosen == number } else { reach(number) }
 }
 
 #[cold]
 #[inline(never)]
-fn read() -> usize {
-    let chosen = std::env::var(\"BAGNOLD_MUTATION\").ok().and_then(|text| text.parse().ok()).unwrap_or(0);
-    CHOSEN.store(chosen, Ordering::Relaxed);
-    chosen
+fn reach(number: usize) -> bool {
+    if CHOSEN.load(Ordering::Relaxed) == UNREAD {
+        let text = std::env::var(\"BAGNOLD_MUTATION\").unwrap_or_default();
+        let chosen = match text.parse() {
+            Err(_) if !text.is_empty() => TRACED,
+            chosen => chosen.unwrap_or(0),
+        };
+        let _ = TRACE.set(text);
+        CHOSEN.store(chosen, Ordering::Relaxed);
+    }
+    let chosen = CHOSEN.load(Ordering::Relaxed);
+    if chosen == TRACED && !REACHED[number].load(Ordering::Relaxed) && !REACHED[number].swap(true, Ordering::Relaxed) {
+        let file = std::fs::OpenOptions::new().create(true).append(true).open(TRACE.wait());
+        file.and_then(|mut file| file.write_all(format!(\"{number}\\n\").as_bytes())).expect(\"a trace can be written\");
+    }
+    chosen == number
 }
 ";
+
+/// The copy says nothing of what a mutation makes odd, such as a comparison that always holds.
+const NO_LINTS: &str = "#![allow(warnings, arithmetic_overflow, unconditional_panic, overflowing_literals)]\n";
 
 /// Why there is no copy.
 #[derive(Debug, thiserror::Error)]
@@ -48,6 +71,16 @@ pub enum CopyError {
     /// A file of the copy.
     #[error(transparent)]
     File(#[from] FileError),
+    /// A source in which no expression can be found.
+    #[error("{}:{line}: {message}; mutations by rule need sources that compile", .file.display())]
+    Syntax {
+        /// The source.
+        file: PathBuf,
+        /// Its line.
+        line: usize,
+        /// What is wrong.
+        message: String,
+    },
     /// The compiler refuses it.
     #[error("failed to build a copy of the program with all mutations in {folder}: {said}")]
     Build {
@@ -63,29 +96,117 @@ pub enum CopyError {
 /// # Errors
 /// A text that does not stand once in its file, files that cannot be written, a copy that does not compile.
 pub fn build(workspace: &Path, mutations: &Mutations) -> Result<PathBuf, CopyError> {
-    let below = workspace.join("target").join("mutations");
-    let (tree, target) = (below.join("tree"), below.join("build"));
-    let changed = changed_sources(workspace, mutations)?;
-    let unwritable = |error: io::Error| CopyError::File(FileError::unwritable(&tree, &error));
-    std::fs::create_dir_all(&tree).map_err(unwritable)?;
-    for name in SOURCES {
-        mirror(&workspace.join(name), &tree.join(name), &changed, workspace).map_err(unwritable)?;
+    let copy = SourceCopy::renew(workspace, mutations)?;
+    copy.compile(&["build", "--bin", "bagnold"])?.whole(&copy)?;
+    Ok(copy.program())
+}
+
+/// A test program of the copy.
+#[derive(Debug, Clone)]
+pub struct TestProgram {
+    /// Name of its target.
+    pub name: String,
+    /// The program.
+    pub path: PathBuf,
+    /// Folder that it runs in.
+    pub folder: PathBuf,
+}
+
+/// Builds the tests of the copy that ask for physics: the solver's unit tests and those of balances, orders, bits and gates.
+///
+/// # Errors
+/// Tests that do not compile.
+pub fn build_tests(workspace: &Path) -> Result<Vec<TestProgram>, CopyError> {
+    let copy = SourceCopy::at(workspace);
+    let targets = ["solver", "invariants", "convergence", "determinism", "physics"];
+    let mut arguments = vec!["test", "--no-run", "-p", "bagnold-solver-tests", "-p", "bagnold-tests"];
+    arguments.extend(targets.iter().flat_map(|target| ["--test", target]));
+    let compiled = copy.compile(&arguments)?.whole(&copy)?;
+    let test = |message: &Value| {
+        let text = |value: &Value| value.as_str().map(str::to_owned);
+        Some(TestProgram {
+            name: text(&message["target"]["name"]).filter(|name| targets.contains(&name.as_str()))?,
+            path: text(&message["executable"])?.into(),
+            folder: Path::new(message["manifest_path"].as_str()?).parent()?.to_owned(),
+        })
+    };
+    Ok(compiled.messages.iter().filter_map(test).collect())
+}
+
+/// Folders of the copy.
+pub(super) struct SourceCopy {
+    pub(super) tree: PathBuf,
+    target: PathBuf,
+}
+
+/// What a command of cargo said.
+pub(super) struct Compilation {
+    succeeded: bool,
+    /// Objects of cargo's `--message-format=json`.
+    messages: Vec<Value>,
+    said: String,
+}
+
+impl Compilation {
+    /// Errors of the compiler.
+    pub(super) fn errors(&self) -> impl Iterator<Item = &Value> {
+        self.messages.iter().map(|message| &message["message"]).filter(|message| message["level"] == "error")
     }
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let done = Command::new(program)
-        .args(["build", "--quiet", "--locked", "--bin", "bagnold", "--manifest-path"])
-        .arg(tree.join("Cargo.toml"))
-        .arg("--target-dir")
-        .arg(&target)
-        .stdin(Stdio::null())
-        .output();
-    let failed = |said: String| CopyError::Build { folder: tree.clone(), said };
-    let done = done.map_err(|error| failed(format!("cargo cannot be started ({error})")))?;
-    if !done.status.success() {
-        let said = String::from_utf8_lossy(&done.stderr).lines().take(12).collect::<Vec<_>>().join("\n");
-        return Err(failed(said));
+
+    /// # Errors
+    /// What did not compile.
+    pub(super) fn whole(self, copy: &SourceCopy) -> Result<Self, CopyError> {
+        if self.succeeded {
+            return Ok(self);
+        }
+        let first = self.errors().find_map(|error| error["rendered"].as_str()).unwrap_or(&self.said);
+        let said = first.lines().take(12).collect::<Vec<_>>().join("\n");
+        Err(CopyError::Build { folder: copy.tree.clone(), said })
     }
-    Ok(target.join("debug").join(format!("bagnold{}", std::env::consts::EXE_SUFFIX)))
+}
+
+impl SourceCopy {
+    fn at(workspace: &Path) -> Self {
+        let below = workspace.join("target").join("mutations");
+        Self { tree: below.join("tree"), target: below.join("build") }
+    }
+
+    pub(super) fn renew(workspace: &Path, mutations: &Mutations) -> Result<Self, CopyError> {
+        let copy = Self::at(workspace);
+        let changed = changed_sources(workspace, mutations)?;
+        let unwritable = |error: io::Error| CopyError::File(FileError::unwritable(&copy.tree, &error));
+        std::fs::create_dir_all(&copy.tree).map_err(unwritable)?;
+        for name in SOURCES {
+            mirror(&workspace.join(name), &copy.tree.join(name), &changed, workspace).map_err(unwritable)?;
+        }
+        Ok(copy)
+    }
+
+    pub(super) fn program(&self) -> PathBuf {
+        self.target.join("debug").join(format!("bagnold{}", std::env::consts::EXE_SUFFIX))
+    }
+
+    pub(super) fn compile(&self, arguments: &[&str]) -> Result<Compilation, CopyError> {
+        let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let mut command = Command::new(program);
+        command.args(arguments).args(["--quiet", "--locked", "--message-format=json", "--manifest-path"]);
+        command.arg(self.tree.join("Cargo.toml")).arg("--target-dir").arg(&self.target).stdin(Stdio::null());
+        let done = command.output().map_err(|error| CopyError::Build {
+            folder: self.tree.clone(),
+            said: format!("cargo cannot be started ({error})"),
+        })?;
+        let messages = String::from_utf8_lossy(&done.stdout);
+        Ok(Compilation {
+            succeeded: done.status.success(),
+            messages: messages.lines().filter_map(|line| serde_json::from_str(line).ok()).collect(),
+            said: String::from_utf8_lossy(&done.stderr).into_owned(),
+        })
+    }
+}
+
+/// How a choice of the copy begins.
+pub(super) fn beginning(number: usize) -> String {
+    format!("if crate::chosen_mutation::is({number}) {{")
 }
 
 /// An expression of a source, and what stands instead of it by the number of a mutation.
@@ -98,8 +219,7 @@ struct MutatedExpression {
 impl MutatedExpression {
     /// The expression with its alternatives.
     fn expression(&self, source: &str) -> String {
-        let wrong =
-            |(number, text): &(usize, String)| format!("if crate::chosen_mutation::is({number}) {{ {text} }} else ");
+        let wrong = |(number, text): &(usize, String)| format!("{} {text} }} else ", beginning(*number));
         let wrong: String = self.wrong.iter().map(wrong).collect();
         format!("({wrong}{{ {} }})", &source[self.start..self.end])
     }
@@ -155,10 +275,37 @@ fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<P
     });
     let mut changed: BTreeMap<PathBuf, String> = changed.collect();
     let library = root.join("lib.rs");
-    let text = read(&library)?;
-    changed.insert(library, text + "\nmod chosen_mutation;\n");
-    changed.insert(root.join("chosen_mutation.rs"), CHOOSER.to_owned());
+    let count = format!("\nconst COUNT: usize = {};\n", mutations.iter().count() + 1);
+    changed.insert(root.join("chosen_mutation.rs"), CHOOSER.to_owned() + &count);
+    let text = changed.remove(&library).map_or_else(|| read(&library), Ok)?;
+    changed.insert(library, NO_LINTS.to_owned() + &text + "\nmod chosen_mutation;\n");
     Ok(changed)
+}
+
+/// Digest of everything that the copy is made from.
+pub(super) fn digest(workspace: &Path) -> Result<String, FileError> {
+    fn add(path: &Path, bytes: &mut Vec<u8>) -> io::Result<()> {
+        if std::fs::symlink_metadata(path)?.file_type().is_symlink() {
+            return Ok(());
+        }
+        if !path.is_dir() {
+            bytes.extend(std::fs::read(path).map(|file| state_hash(&file))?.into_bytes());
+            return Ok(());
+        }
+        let mut entries = std::fs::read_dir(path)?.collect::<io::Result<Vec<_>>>()?;
+        entries.retain(|entry| entry.file_name() != "target");
+        entries.sort_by_key(std::fs::DirEntry::file_name);
+        entries.iter().try_for_each(|entry| {
+            bytes.extend(entry.file_name().as_encoded_bytes());
+            add(&entry.path(), bytes)
+        })
+    }
+    let mut bytes = Vec::new();
+    for name in SOURCES {
+        let path = workspace.join(name);
+        add(&path, &mut bytes).map_err(|error| FileError::unreadable(&path, &error))?;
+    }
+    Ok(state_hash(&bytes))
 }
 
 /// Makes `to` what `from` is, but for changed files; what is the same already is not touched, so that little is built anew.

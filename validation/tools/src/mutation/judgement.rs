@@ -4,10 +4,11 @@ use super::rows::judged_rows;
 use super::{MutantRun, Mutation, Scope};
 use crate::metric::{Limit, Metric, Verdict};
 use crate::report::Baseline;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A gate that held and fails now.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Broken {
     /// Name of the case.
     pub case: String,
@@ -29,12 +30,14 @@ impl Broken {
 }
 
 /// Strongest detection of a mutation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Detection {
     /// Gates that held without the error, the one furthest beyond its limit first.
     Gate(Vec<Broken>),
     /// A run that diverged, or a program that stopped: the case and what it said.
     Stop(String),
+    /// A test that passes without the error.
+    Test(String),
     /// Values that moved by more than they may, and no gate among them.
     Snapshot,
     /// Nobody.
@@ -50,7 +53,7 @@ impl Detection {
 }
 
 /// What became of one error.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MutationOutcome {
     /// The error.
     pub error: Mutation,
@@ -115,14 +118,16 @@ pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> Mutati
     }
 }
 
-/// Gates of a case that hold without the error and fail with it. A value that is gone is the snapshot's business.
+/// Gates of a case that hold without the error and with it fail or judge nothing any longer.
 fn broken_gates<'a>(case: &'a str, right: &'a MutantRun, wrong: &'a MutantRun) -> impl Iterator<Item = Broken> + 'a {
-    let held = |metric: &Metric| {
+    right.metrics.iter().filter(|metric| metric.verdict() == Verdict::Pass).filter_map(move |metric| {
         let is_it = |other: &&Metric| other.name == metric.name && other.variant == metric.variant;
-        right.metrics.iter().find(is_it).is_some_and(|other| other.verdict() == Verdict::Pass)
-    };
-    let fails = move |metric: &&Metric| metric.verdict() == Verdict::Fail && held(metric);
-    wrong.metrics.iter().filter(fails).map(|metric| Broken { case: case.to_owned(), metric: metric.clone() })
+        // a run that stops is a witness of its own
+        let gone = || wrong.diverged.is_empty().then(|| Metric { value: f64::NAN, ..metric.clone() });
+        let judged = wrong.metrics.iter().find(is_it).filter(|other| other.verdict() != Verdict::Observed);
+        let metric = judged.cloned().or_else(gone)?;
+        (metric.verdict() != Verdict::Pass).then(|| Broken { case: case.to_owned(), metric })
+    })
 }
 
 /// Errors by their strongest witness.
@@ -132,6 +137,8 @@ pub struct DetectionTally {
     pub gate: usize,
     /// By a run that diverged or a program that stopped.
     pub stop: usize,
+    /// By a test alone.
+    pub test: usize,
     /// By the snapshot alone.
     pub snapshot: usize,
     /// By nothing.
@@ -147,6 +154,7 @@ impl DetectionTally {
             *match finding.catch {
                 Detection::Gate(_) => &mut tally.gate,
                 Detection::Stop(_) => &mut tally.stop,
+                Detection::Test(_) => &mut tally.test,
                 Detection::Snapshot => &mut tally.snapshot,
                 Detection::Nothing => &mut tally.nothing,
             } += 1;
@@ -157,7 +165,7 @@ impl DetectionTally {
     /// All errors.
     #[must_use]
     pub fn all(&self) -> usize {
-        self.gate + self.stop + self.snapshot + self.nothing
+        self.gate + self.stop + self.test + self.snapshot + self.nothing
     }
 
     /// Share of the errors that were noticed `[-]`.
@@ -193,7 +201,7 @@ mod tests {
     fn found(right: &MutantRun, wrong: Result<MutantRun, String>) -> MutationOutcome {
         let scope = Scope { case: "film".to_owned(), settings: Vec::new() };
         let (name, description) = ("von-karman".to_owned(), "κ = 0.45 instead of 0.41".to_owned());
-        let error = Mutation { name, description, cases: Vec::new(), places: Vec::new() };
+        let error = Mutation { name, description, cases: Vec::new(), generated: false, places: Vec::new() };
         judge(&error, &[(&scope, right, wrong)])
     }
 
@@ -216,8 +224,17 @@ mod tests {
     }
 
     #[test]
+    fn a_gate_that_judges_nothing_any_longer_is_a_witness() {
+        let gone = MutantRun { metrics: Vec::new(), ..sighting(1.0, true) };
+        assert!(matches!(found(&sighting(1.0, true), Ok(gone.clone())).catch, Detection::Gate(_)));
+        assert!(matches!(found(&sighting(1.0, true), Ok(sighting(1.0, false))).catch, Detection::Gate(_)));
+        let diverged = MutantRun { diverged: vec!["at once".to_owned()], ..gone };
+        assert!(matches!(found(&sighting(1.0, true), Ok(diverged)).catch, Detection::Stop(_)));
+    }
+
+    #[test]
     fn shares_count_divergence_with_the_gates() {
-        let tally = DetectionTally { gate: 15, stop: 2, snapshot: 2, nothing: 1 };
+        let tally = DetectionTally { gate: 15, stop: 2, test: 0, snapshot: 2, nothing: 1 };
         assert_eq!((tally.all(), tally.caught(), tally.gated()), (20, 0.95, 0.85));
         assert!(tally.holds());
         assert!(!DetectionTally { nothing: 2, snapshot: 1, ..tally }.holds());

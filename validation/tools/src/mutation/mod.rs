@@ -10,19 +10,25 @@
 //! A snapshot tells that something changed, not that it is wrong; who accepts it, accepts the error. So the gates are what
 //! counts: [`LEAST_CAUGHT`] and [`LEAST_GATED`] are what a set of gates must reach.
 //!
+//! Errors written by hand are those that somebody thought of. A second kind is drawn by chance from all that rules give (`generator`,
+//! `draw`): its shares estimate those of any error of that kind in the lines that the quick tier executes.
+//!
 //! The same errors try what the project says of the two papers (`rows`): an element that counts as reproduced has to fall
 //! when the physics behind it is wrong.
 
 mod copy;
+mod draw;
+mod generator;
 mod judgement;
 mod page;
 mod record;
 mod rows;
 mod trial;
 
-pub use copy::{CHOICE, CopyError, build};
+pub use copy::{CHOICE, CopyError, TestProgram, build, build_tests};
+pub use draw::{Draw, DrawProgress, TracedCase};
 pub use judgement::{Broken, Detection, DetectionTally, MutationComparison, MutationOutcome, judge};
-pub use page::{table, write};
+pub use page::{drawn_line, drawn_page, table, write};
 pub use record::{FILE, Mutation, Mutations, SourceReplacement};
 pub use trial::{MutantRun, Scope, run_trial};
 

@@ -15,6 +15,7 @@ fn word(catch: &Detection) -> &'static str {
     match catch {
         Detection::Gate(_) => "gate",
         Detection::Stop(_) => "stop",
+        Detection::Test(_) => "test",
         Detection::Snapshot => "snapshot only",
         Detection::Nothing => "NOTHING",
     }
@@ -34,7 +35,7 @@ fn witness(finding: &MutationOutcome) -> String {
                 first.case, metric.name, metric.variant, metric.unit
             )
         }
-        Detection::Stop(message) => message.clone(),
+        Detection::Stop(message) | Detection::Test(message) => message.clone(),
         Detection::Snapshot => finding.first_drift.clone(),
         Detection::Nothing => String::new(),
     }
@@ -135,6 +136,58 @@ fn markdown(findings: &[MutationOutcome]) -> String {
     text
 }
 
+/// A drawn mutation in a line: place, rule, right → wrong, who noticed, seconds.
+#[must_use]
+pub fn drawn_line(finding: &MutationOutcome) -> String {
+    let (word, witness) = (word(&finding.catch), witness(finding));
+    format!("{}; {word}: {witness} ({:.1} s)", finding.error.description, finding.wall_seconds)
+}
+
+/// 95 % interval of Wilson for a share, of `part` among `all` `[-]`.
+fn share_interval(part: usize, all: usize) -> (f64, f64) {
+    /// Of the normal distribution, for 19 cases of 20.
+    const QUANTILE: f64 = 1.959_963_985;
+    let (part, all, square) = (part as f64, all as f64, QUANTILE * QUANTILE);
+    let centre = (part + square / 2.0) / (all + square);
+    let half = QUANTILE * (part * (all - part) / all + square / 4.0).sqrt() / (all + square);
+    (centre - half, centre + half)
+}
+
+/// The findings of a draw as Markdown: its title and a sentence on how it was drawn, shares with their intervals, a row per mutation.
+#[must_use]
+pub fn drawn_page(sentence: &str, findings: &[MutationOutcome]) -> String {
+    let tally = DetectionTally::of(findings);
+    let mut text =
+        format!("# Drawn mutations\n\n{sentence}\n\n| killed by | mutations | share % | 95 % interval % |\n");
+    text += "| --- | --- | --- | --- |\n";
+    for (by, part) in [
+        ("a gate", tally.gate),
+        ("a run that stopped", tally.stop),
+        ("a gate or a run that stopped", tally.gate + tally.stop),
+        ("a test alone", tally.test),
+        ("the snapshot alone", tally.snapshot),
+        ("nothing: survived", tally.nothing),
+    ] {
+        let (lower, upper) = share_interval(part, tally.all().max(1));
+        let share = part as f64 / tally.all().max(1) as f64;
+        text += &format!("| {by} | {part} | {:.0} | {:.0} … {:.0} |\n", 100.0 * share, 100.0 * lower, 100.0 * upper);
+    }
+    text += "\n| mutation | file:line: rule: right → wrong | killed by | witness | cases | s |\n";
+    text += "| --- | --- | --- | --- | --- | --- |\n";
+    for finding in findings {
+        let cells = [
+            finding.error.name.clone(),
+            finding.error.description.clone(),
+            word(&finding.catch).to_owned(),
+            witness(finding),
+            finding.cases.join(", "),
+            format!("{:.1}", finding.wall_seconds),
+        ];
+        text += &format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|").replace('\n', " ")).join(" | "));
+    }
+    text
+}
+
 /// Writes `mutation.md` and `mutation.csv` into a folder.
 ///
 /// # Errors
@@ -147,4 +200,18 @@ pub fn write(findings: &[MutationOutcome], folder: &Path) -> std::io::Result<()>
         csv.write_record(row(finding))?;
     }
     csv.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn intervals_are_those_of_wilson() {
+        // Brown, Cai and DasGupta (2001), and by hand
+        for (part, all, lower, upper) in [(0, 10, 0.0, 0.278), (5, 10, 0.237, 0.763), (10, 10, 0.722, 1.0)] {
+            let interval = share_interval(part, all);
+            assert!((interval.0 - lower).abs() < 5e-4 && (interval.1 - upper).abs() < 5e-4, "{interval:?}");
+        }
+    }
 }

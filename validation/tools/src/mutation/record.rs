@@ -3,7 +3,7 @@
 use super::Scope;
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::FieldError;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use std::path::Path;
 pub const FILE: &str = "validation/tools/mutations.toml";
 
 /// An error that a programmer could make.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mutation {
     /// Its name on the command line and in results.
@@ -20,12 +20,15 @@ pub struct Mutation {
     pub description: String,
     /// The cases that ought to notice, the likeliest first.
     pub cases: Vec<String>,
+    /// Whether it was found by rule, and stands here because a gate kills it.
+    #[serde(default)]
+    pub generated: bool,
     /// Where the sources change.
     pub places: Vec<SourceReplacement>,
 }
 
 /// A text of the sources and the text instead of it.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SourceReplacement {
     /// File below `solver/src`.
@@ -71,6 +74,12 @@ impl Mutations {
             return Err(error.in_file(&file).into());
         }
         Ok(all)
+    }
+
+    /// Mutations that stand in no file.
+    #[must_use]
+    pub fn of(list: Vec<Mutation>) -> Self {
+        Self { settings: BTreeMap::new(), list }
     }
 
     /// All of them, in the file's order.

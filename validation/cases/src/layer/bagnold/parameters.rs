@@ -123,12 +123,3 @@ impl BagnoldParameters {
         self.duration_factor * libm::pow(self.layer.layer_height / 0.01, 1.5)
     }
 }
-
-/// The material's law: regularised with the rate `[1/s]`, or by return mapping where that is 0.
-pub(super) fn law(material: &MuI, regularisation_rate: f64) -> Rheology {
-    if regularisation_rate > 0.0 {
-        Rheology::RegularisedMuI(material.regularised(regularisation_rate))
-    } else {
-        Rheology::MuI(*material)
-    }
-}

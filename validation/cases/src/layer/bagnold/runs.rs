@@ -1,6 +1,6 @@
 //! The simulations that the case asks for.
 
-use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart, law};
+use super::parameters::{ARREST_DURATION, BagnoldParameters, LayerStart};
 use crate::case::{ExternalData, ExternalObservation, ParameterError, Progress, Run};
 use crate::input::FieldError;
 use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
@@ -163,7 +163,7 @@ impl Run for BagnoldRun {
     type Observation = LayerObservation;
 
     fn laws(&self) -> Vec<Rheology> {
-        vec![law(&self.grains, self.regularisation_rate)]
+        vec![self.law()]
     }
 
     fn variant(&self) -> Variant {
@@ -256,6 +256,15 @@ impl BagnoldRun {
         2.0 * (libm::expm1(x) - x) / (x * libm::expm1(x))
     }
 
+    /// The grains' law: regularised with the rate, or by return mapping where that is 0.
+    fn law(&self) -> Rheology {
+        if self.regularisation_rate > 0.0 {
+            Rheology::RegularisedMuI(self.grains.regularised(self.regularisation_rate))
+        } else {
+            Rheology::MuI(self.grains)
+        }
+    }
+
     fn density(&self) -> f64 {
         self.solid_fraction * self.grains.grain_density
     }
@@ -293,7 +302,7 @@ impl BagnoldRun {
             interval: 2e-3,
             may_diverge: self.purpose == BagnoldPurpose::Printed,
             stop_above: if self.purpose == BagnoldPurpose::Runaway { 0.5 * self.sound_speed() } else { f64::INFINITY },
-            ..self.layer.of(law(&self.grains, self.regularisation_rate), self.density(), self.slope_angle)
+            ..self.layer.of(self.law(), self.density(), self.slope_angle)
         }
     }
 }

@@ -1,0 +1,86 @@
+//! Controls: wrong physics or wrong input that gates must reject. A gate that accepts all of them would be green whatever the
+//! physics is.
+//!
+//! The controls of a case stand in `controls/CASE.toml`, those of a canonical study in its own file. Each is a change of
+//! parameters, which a report runs beside the case, or an error of the solver (`bagnold dev mutate list`); what became of the
+//! latter, and of changes that are too dear for a report, stands in the committed tables `controls/tried/CASE.csv` that
+//! `bagnold dev controls` renews.
+
+mod reading;
+mod table;
+mod trial;
+
+pub use reading::{ControlError, of_case};
+pub use table::TriedControls;
+pub use trial::{Answer, ControlTrial, Found};
+
+use crate::metric::Variant;
+use serde::Deserialize;
+
+/// What is wrong in a control.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ControlKind {
+    /// `path=value` changes of the case's parameters, and the runs that they need: all where none is named.
+    Input {
+        /// The changes.
+        set: Vec<String>,
+        /// Keys of the runs.
+        only: Vec<Variant>,
+        /// Whether it is too dear for a report and stands in the table instead.
+        in_table: bool,
+    },
+    /// An error of the solver by its name.
+    Solver(String),
+}
+
+/// Named wrong physics or a named wrong input of one case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Control {
+    /// Name, unique in its case, such as `coulomb-friction`.
+    pub name: String,
+    /// What is wrong, in words.
+    pub error: String,
+    /// How it is brought about.
+    pub kind: ControlKind,
+    /// Metrics that are meant to feel it and reject it.
+    pub rejected_by: Vec<String>,
+    /// Metrics that are meant to feel it and accept it nevertheless.
+    pub accepted_by: Vec<CannotTell>,
+}
+
+/// A metric that is meant to feel an error and accepts it.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CannotTell {
+    /// Its name.
+    pub metric: String,
+    /// Why it cannot tell.
+    pub because: String,
+}
+
+impl Control {
+    /// Whether a metric is meant to feel the error.
+    #[must_use]
+    pub fn is_named_by(&self, metric: &str) -> bool {
+        self.rejected_by.iter().any(|name| name == metric) || self.cannot_tell(metric).is_some()
+    }
+
+    /// Why a metric that is meant to feel the error accepts it.
+    #[must_use]
+    pub fn cannot_tell(&self, metric: &str) -> Option<&str> {
+        self.accepted_by.iter().find(|entry| entry.metric == metric).map(|entry| entry.because.as_str())
+    }
+
+    /// The command that runs it.
+    #[must_use]
+    pub fn command(&self, case: &str) -> String {
+        match &self.kind {
+            ControlKind::Input { set, only, .. } => {
+                let only: String = only.iter().map(|keys| format!(" --only {keys}")).collect();
+                let set: String = set.iter().map(|change| format!(" --set '{change}'")).collect();
+                format!("bagnold run {case}{only}{set}")
+            }
+            ControlKind::Solver(error) => format!("bagnold dev mutate trial {error} {case}"),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! A file of controls → controls; every rule that one can break.
+
+use super::{CannotTell, Control, ControlKind};
+use crate::metric::Variant;
+use serde::Deserialize;
+
+include!(concat!(env!("OUT_DIR"), "/controls.rs"));
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default, rename = "control")]
+    controls: Vec<Row>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Row {
+    name: String,
+    error: String,
+    #[serde(default)]
+    set: Vec<String>,
+    #[serde(default)]
+    only: Vec<Variant>,
+    #[serde(default)]
+    in_table: bool,
+    solver: Option<String>,
+    #[serde(default)]
+    rejected_by: Vec<String>,
+    #[serde(default)]
+    accepted_by: Vec<CannotTell>,
+}
+
+/// Controls that cannot be read; the message completes "failed to …".
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("read {file}: {message}")]
+pub struct ControlError {
+    /// The file.
+    pub file: String,
+    /// What is wrong, and what to do.
+    pub message: String,
+}
+
+/// The text of a file beside the controls; none where there is none.
+pub(super) fn text(file: &str) -> Option<&'static str> {
+    FILES.iter().find(|(name, _)| *name == file).map(|(_, text)| *text)
+}
+
+/// The controls of a case by its name; none where it has none.
+///
+/// # Panics
+/// If its file is malformed. No user can bring that about: the files are part of the program, and tests read every one of them.
+#[must_use]
+pub fn of_case(case: &str) -> Vec<Control> {
+    let file = format!("{case}.toml");
+    text(&file).map_or_else(Vec::new, |text| parse(&file, text).unwrap_or_else(|error| panic!("failed to {error}")))
+}
+
+fn parse(file: &str, text: &str) -> Result<Vec<Control>, ControlError> {
+    let refuse = |message: String| ControlError { file: format!("controls/{file}"), message };
+    let rows: File = toml::from_str(text).map_err(|error| refuse(error.to_string().trim_end().to_owned()))?;
+    let mut controls: Vec<Control> = Vec::new();
+    for row in rows.controls {
+        let of = |rule: &str| refuse(format!("control \"{}\" {rule}", row.name));
+        if controls.iter().any(|other| other.name == row.name) {
+            return Err(of("stands there twice; give each a name of its own"));
+        }
+        if row.set.is_empty() == row.solver.is_none() {
+            return Err(of("needs either `set`, changes of parameters, or `solver`, an error of the solver"));
+        }
+        if row.rejected_by.is_empty() && row.accepted_by.is_empty() {
+            return Err(of("is meant for no metric; name some in `rejected_by` or `accepted_by`"));
+        }
+        let kind = match row.solver {
+            Some(error) => ControlKind::Solver(error),
+            None => ControlKind::Input { set: row.set, only: row.only, in_table: row.in_table },
+        };
+        let Row { name, error, rejected_by, accepted_by, .. } = row;
+        controls.push(Control { name, error, kind, rejected_by, accepted_by });
+    }
+    Ok(controls)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROW: &str = "[[control]]\nname = \"a\"\nerror = \"b\"\nset = [\"x=1\"]\nrejected_by = [\"front\"]\n";
+
+    #[test]
+    fn every_file_is_read() {
+        assert!(!FILES.is_empty());
+        for (name, _) in FILES.iter().filter(|(name, _)| name.ends_with(".toml")) {
+            assert!(!of_case(name.trim_end_matches(".toml")).is_empty(), "{name}");
+        }
+        assert!(of_case("no such case").is_empty());
+    }
+
+    #[test]
+    fn what_breaks_a_rule_is_named() {
+        assert_eq!(parse("x.toml", ROW).expect("a control").len(), 1);
+        for (text, expected) in [
+            (ROW.repeat(2), "twice"),
+            (ROW.replace("set = [\"x=1\"]\n", ""), "either `set`"),
+            (ROW.replace("rejected_by = [\"front\"]\n", ""), "meant for no metric"),
+            (ROW.replace("error", "mistake"), "mistake"),
+        ] {
+            let error = parse("x.toml", &text).expect_err("refused").to_string();
+            assert!(error.contains(expected) && error.contains("controls/x.toml"), "{error}");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The committed tables of controls that were tried before, one a case: errors of the solver, and changes that are too dear for a
+//! report.
+
+use super::reading::text;
+use super::{Control, ControlTrial, Found};
+use crate::metric::{Variant, Verdict};
+use crate::store::provenance;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// A number of a control, or, without a metric, that one of its runs diverged.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Row {
+    control: String,
+    metric: String,
+    variant: Variant,
+    value: f64,
+    verdict: String,
+}
+
+const DIVERGED: &str = "diverged";
+
+/// Words for what became of a metric; none of one that the control does not have.
+const WORDS: [(&str, Option<Verdict>); 4] = [
+    ("pass", Some(Verdict::Pass)),
+    ("fail", Some(Verdict::Fail)),
+    ("observed", Some(Verdict::Observed)),
+    ("missing", None),
+];
+
+/// What the numbers of a case's controls were.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TriedControls {
+    /// SHA-256 of the solver's sources that they were tried with.
+    solver_hash: String,
+    /// The commit of those.
+    commit: String,
+    tried: BTreeMap<String, (Vec<Found>, bool)>,
+}
+
+impl TriedControls {
+    /// These trials, by this program's solver.
+    #[must_use]
+    pub fn by_this_program(trials: &[ControlTrial]) -> Self {
+        let (solver_hash, commit) = (provenance::solver_hash().to_owned(), provenance::commit().to_owned());
+        let entry = |trial: &ControlTrial| (trial.control.name.clone(), (trial.found.clone(), trial.diverged));
+        Self { solver_hash, commit, tried: trials.iter().map(entry).collect() }
+    }
+
+    /// The file of a case, in the folder of the controls.
+    #[must_use]
+    pub fn file(case: &str) -> String {
+        format!("tried/{case}.csv")
+    }
+
+    /// The table of a case that the program carries; empty where it carries none.
+    ///
+    /// # Panics
+    /// If it is malformed, which a test excludes.
+    #[must_use]
+    pub fn shipped(case: &str) -> Self {
+        let read = |text| Self::parse(text).unwrap_or_else(|error| panic!("{}: {error}", Self::file(case)));
+        text(&Self::file(case)).map_or_else(Self::default, read)
+    }
+
+    /// Reads a table.
+    ///
+    /// # Errors
+    /// A row that is none.
+    pub fn parse(text: &str) -> Result<Self, csv::Error> {
+        let words: Vec<&str> = text.lines().next().unwrap_or_default().split_whitespace().collect();
+        let word = |place: usize| words.get(place).copied().unwrap_or_default().to_owned();
+        let mut table = Self { solver_hash: word(2), commit: word(4), tried: BTreeMap::new() };
+        for row in csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes()).deserialize() {
+            let Row { control, metric, variant, value, verdict } = row?;
+            let (found, diverged) = table.tried.entry(control).or_default();
+            if verdict == DIVERGED {
+                *diverged = true;
+                continue;
+            }
+            let verdict = WORDS.iter().find(|(word, _)| *word == verdict).and_then(|(_, verdict)| *verdict);
+            found.push(Found { metric, variant, value, verdict });
+        }
+        Ok(table)
+    }
+
+    /// The table as a file has it.
+    ///
+    /// # Errors
+    /// None that a row of numbers and names can bring about.
+    pub fn text(&self) -> Result<String, csv::Error> {
+        let mut rows = csv::Writer::from_writer(Vec::new());
+        for (control, (found, diverged)) in &self.tried {
+            let row = |metric: &str, variant: &Variant, value: f64, verdict: &str| Row {
+                control: control.clone(),
+                metric: metric.to_owned(),
+                variant: variant.clone(),
+                value,
+                verdict: verdict.to_owned(),
+            };
+            if *diverged {
+                rows.serialize(row("", &Variant::default(), f64::NAN, DIVERGED))?;
+            }
+            for Found { metric, variant, value, verdict } in found {
+                let word = WORDS.iter().find(|(_, own)| own == verdict).map_or("", |(word, _)| *word);
+                rows.serialize(row(metric, variant, *value, word))?;
+            }
+        }
+        let rows = rows.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
+        Ok(format!("# solver {} commit {}\n{}", self.solver_hash, self.commit, String::from_utf8_lossy(&rows)))
+    }
+
+    /// Whether another table has the same numbers, whichever solver gave them.
+    #[must_use]
+    pub fn agrees(&self, other: &Self) -> bool {
+        // by their text, for what is not measured is no number
+        let rows = |table: &Self| table.text().map(|text| text.split_once('\n').map(|(_, rows)| rows.to_owned())).ok();
+        rows(self) == rows(other)
+    }
+
+    /// What became of a control; none where it was never tried.
+    #[must_use]
+    pub fn trial(&self, control: &Control) -> Option<ControlTrial> {
+        let (found, diverged) = self.tried.get(&control.name)?.clone();
+        let tried_at = (self.solver_hash != provenance::solver_hash()).then(|| self.commit.clone());
+        Some(ControlTrial { control: control.clone(), found, diverged, tried_at })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::control::ControlKind;
+
+    #[test]
+    fn a_table_is_read_as_it_was_written() {
+        let control = Control {
+            name: "still".to_owned(),
+            error: "nothing moves".to_owned(),
+            kind: ControlKind::Solver("none".to_owned()),
+            rejected_by: vec!["front".to_owned()],
+            accepted_by: Vec::new(),
+        };
+        let variant: Variant = "a=3,start=rest".parse().expect("a variant");
+        let found = |metric: &str, value, verdict| Found {
+            metric: metric.to_owned(),
+            variant: variant.clone(),
+            value,
+            verdict,
+        };
+        let all = vec![
+            found("front", 0.25, Some(Verdict::Fail)),
+            found("height", f64::INFINITY, Some(Verdict::Pass)),
+            found("width", 1.0, None),
+        ];
+        let trial = ControlTrial { control: control.clone(), found: all, diverged: true, tried_at: None };
+        let table = TriedControls::by_this_program(std::slice::from_ref(&trial));
+        let read = TriedControls::parse(&table.text().expect("a text")).expect("a table");
+        assert_eq!(read, table);
+        assert_eq!(read.trial(&control), Some(trial));
+        assert_eq!(read.trial(&Control { name: "moving".to_owned(), ..control }), None);
+        assert!(read.agrees(&table) && !read.agrees(&TriedControls::default()));
+    }
+}

@@ -1,0 +1,133 @@
+//! The copy of the program, run again for each trial: an error may stop the program that has it.
+
+use crate::cli::error::ProgramError;
+use crate::interruption;
+use crate::mutation::{CHOICE, MutantRun, Mutation, MutationOutcome, Scope, TestProgram, judge};
+use crate::output::FileError;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+use std::time::{Duration, Instant};
+
+/// The name of no error: a case as it is.
+pub(super) const NONE: &str = "none";
+
+/// The copy, asked to run a case with the mutation of a number, or to trace one into a file.
+pub(super) fn trial(program: &Path, choice: &str, scope: &Scope, threads: Option<u16>) -> Command {
+    let mut command = Command::new(program);
+    command.env(CHOICE, choice).args(["--quiet", "dev", "mutate", "trial", NONE, &scope.case]);
+    for setting in &scope.settings {
+        command.args(["--set", setting]);
+    }
+    if let Some(threads) = threads {
+        command.arg("--threads").arg(threads.to_string());
+    }
+    command
+}
+
+/// Runs a command to its end, or until a time limit or a signal.
+fn ended(command: &mut Command, limit: Duration) -> Result<(ExitStatus, String), String> {
+    let started = Instant::now();
+    let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().map_err(|error| error.to_string())?;
+    let status = loop {
+        match child.try_wait().map_err(|error| error.to_string())? {
+            Some(status) => break status,
+            None if started.elapsed() > limit || interruption::asked().is_some() => {
+                // It may have ended just now.
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(format!(
+                    "stopped after {:.0} s, ten times as long as without the error",
+                    limit.as_secs_f64()
+                ));
+            }
+            None => std::thread::sleep(Duration::from_millis(50)),
+        }
+    };
+    let said = child.wait_with_output().map(|output| String::from_utf8_lossy(&output.stderr).into_owned());
+    Ok((status, said.unwrap_or_default()))
+}
+
+/// A copy, and where its trials leave what they found.
+pub(super) struct Program {
+    path: PathBuf,
+    folder: PathBuf,
+}
+
+impl Program {
+    pub(super) fn new(path: PathBuf, staging: &Path) -> Result<Self, ProgramError> {
+        let folder = staging.join("trials");
+        std::fs::create_dir_all(&folder).map_err(|error| FileError::unwritable(&folder, &error))?;
+        Ok(Self { path, folder })
+    }
+
+    /// A file of the trials.
+    pub(super) fn file(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// Runs an error through cases, each with what it says without, until a gate or a stop has caught it. A case may take ten times as long as
+    /// without and so many seconds more.
+    pub(super) fn try_error(
+        &self,
+        error: &Mutation,
+        number: usize,
+        cases: &[(&Scope, &MutantRun)],
+        seconds: f64,
+    ) -> MutationOutcome {
+        let mut comparisons = Vec::new();
+        for (scope, right) in cases {
+            let limit = Duration::from_secs_f64(10.0 * right.wall_seconds + seconds);
+            comparisons.push((*scope, *right, self.run(&number.to_string(), scope, limit)));
+            if judge(error, &comparisons).catch.is_certain() {
+                break;
+            }
+        }
+        judge(error, &comparisons)
+    }
+
+    /// Runs a trial on the current pool's number of threads.
+    ///
+    /// # Errors
+    /// Why it has left nothing: it stopped, or was stopped.
+    pub(super) fn run(&self, choice: &str, scope: &Scope, limit: Duration) -> Result<MutantRun, String> {
+        let name = Path::new(choice).file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let file = self.file(&format!("{name}-{}-result", scope.case));
+        let threads = u16::try_from(rayon::current_num_threads()).ok();
+        let mut command = trial(&self.path, choice, scope, threads);
+        let (_, said) = ended(command.arg("--result").arg(&file).stdout(Stdio::null()), limit)?;
+        let reason = || said.lines().next().unwrap_or("the program ended without a word").to_owned();
+        MutantRun::read(&file).ok_or_else(reason)
+    }
+
+    /// Runs the tests of a program with the mutation of a number on the current pool's number of threads.
+    ///
+    /// # Errors
+    /// Which test failed first, or why the program stopped.
+    pub(super) fn test(&self, test: &TestProgram, number: usize, limit: Duration) -> Result<(), String> {
+        let name = format!("{number}-{}", test.name);
+        let (printed, threads) = (self.file(&name), rayon::current_num_threads().to_string());
+        let file = File::create(&printed).map_err(|error| error.to_string())?;
+        let mut command = Command::new(&test.path);
+        command.current_dir(&test.folder).env(CHOICE, number.to_string()).stdout(file);
+        command.env("RUST_TEST_THREADS", &threads).env("RAYON_NUM_THREADS", &threads);
+        // results of this mutation are no other's
+        command.env("BAGNOLD_STORE", self.file(&format!("{name}-store")));
+        let outcome = ended(&mut command, limit).map_err(|reason| format!("{}: {reason}", test.name))?;
+        let text = std::fs::read(&printed).unwrap_or_default();
+        let text = String::from_utf8_lossy(&text);
+        let failed = text.lines().find_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
+        let stopped = || outcome.1.lines().next().unwrap_or("the program ended without a word").to_owned();
+        if outcome.0.success() {
+            return Ok(());
+        }
+        Err(format!("{}: {}", test.name, failed.map_or_else(stopped, str::to_owned)))
+    }
+}
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        // What stays behind stands in the staging folder, which goes as well.
+        let _ = std::fs::remove_dir_all(&self.folder);
+    }
+}
