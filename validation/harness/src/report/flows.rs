@@ -1,7 +1,7 @@
 //! The four flows that the first page opens with: a figure, its number, and how far each is validated.
 
 use super::comparison::{Comparison, ModelError, comparisons};
-use super::controls::rejected_inputs;
+use super::power::rejected_inputs;
 use super::view::{FigureView, VerdictMark, picture};
 use super::{CaseReport, DrawnFigure, Report};
 use crate::figure::Figure;
@@ -133,7 +133,7 @@ fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[Draw
         small,
         sentence: flow.claims.iter().find_map(|claim| sentence(claim, &compared, &cases)).unwrap_or_default(),
         verdict: verdict(&compared, &cases),
-        controls: cases.iter().filter_map(|case| rejected_inputs(&case.name)).collect(),
+        controls: cases.iter().filter_map(|case| rejected_inputs(case)).collect(),
         cases: cases.iter().map(|case| case.name.clone()).collect(),
     })
 }

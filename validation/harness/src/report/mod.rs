@@ -5,7 +5,6 @@ mod case_page;
 pub mod comparison;
 mod comparison_figure;
 mod comparison_page;
-mod controls;
 pub mod coverage;
 mod coverage_page;
 mod drawing;
