@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// How often a document is asked for again that the driver did not get in its time.
 const PRINTING_RETRIES: u32 = 5;
 /// Pages that an overview of two dozen cases may take on paper.
-const MOST_PRINTED: usize = 20;
+const MOST_PRINTED: usize = 24;
 
 /// The texts of a list.
 fn list(value: &Value) -> Vec<String> {
@@ -157,14 +157,102 @@ async fn nothing_overflows_on_a_phone_or_a_laptop() {
 }
 
 #[tokio::test]
-async fn what_matters_fits_a_laptops_first_screen() {
+async fn the_overview_opens_with_the_four_flows() {
     let browser = Browser::open(1280, 720).await;
     browser.client.goto(&address(&folder().join("index.html"))).await.expect("the overview");
-    for part in [".banner", ".counts", ".pair", ".strip"] {
-        let script = format!("return document.querySelector('{part}').getBoundingClientRect().bottom");
-        let bottom = browser.ask(&script).await.as_f64().expect("a number");
-        assert!(bottom > 0.0 && bottom <= 720.0, "{part} ends at {bottom} px");
+    let script = "return [...document.querySelectorAll('.banner, .flow img')].map((part) => part.getBoundingClientRect().bottom)";
+    let bottoms = browser.ask(script).await;
+    let bottoms: Vec<f64> = bottoms.as_array().into_iter().flatten().filter_map(Value::as_f64).collect();
+    assert_eq!(bottoms.len(), 5, "the verdict and four figures");
+    assert!(bottoms.iter().all(|bottom| *bottom > 0.0 && *bottom <= 720.0), "{bottoms:?} px");
+    let order = "const at = (part) => document.querySelector(part).getBoundingClientRect().top;\
+                 return at('.flows') < at('.attention') && at('.attention') < at('table.cases')";
+    assert_eq!(browser.ask(order).await, json!(true), "flows, then failures, then cases");
+}
+
+#[tokio::test]
+async fn figures_of_a_case_lie_above_its_tables() {
+    let browser = Browser::open(1280, 720).await;
+    let script = "const top = (part) => document.querySelector(part)?.getBoundingClientRect().top;\
+                  return [top('figure') ?? null, top('table') ?? null]";
+    let mut compared = 0;
+    for page in addresses().into_iter().filter(|page| page.contains("/cases/")) {
+        browser.client.goto(&page).await.expect(&page);
+        let tops = browser.ask(script).await;
+        if let (Some(figure), Some(table)) = (tops[0].as_f64(), tops[1].as_f64()) {
+            assert!(figure < table, "{page}: a figure at {figure} px, a table at {table} px");
+            compared += 1;
+        }
     }
+    assert!(compared > 10, "{compared} pages");
+}
+
+#[tokio::test]
+async fn every_figure_leads_to_its_files() {
+    let browser = Browser::open(1280, 720).await;
+    let script = "return [...document.querySelectorAll('.files, .flow')].map((own) => [...own.querySelectorAll('a')].map((link) => link.href))";
+    let mut figures = 0;
+    for page in addresses() {
+        browser.client.goto(&page).await.expect(&page);
+        let all = browser.ask(script).await;
+        for links in all.as_array().into_iter().flatten().map(list) {
+            if links.iter().any(|link| link.ends_with(".gif")) {
+                continue;
+            }
+            for ending in [".svg", ".png", ".pdf", ".csv"] {
+                let link = links.iter().find(|link| link.ends_with(ending));
+                let link = link.unwrap_or_else(|| panic!("{page}: a figure without {ending}: {links:?}"));
+                let path = url::Url::parse(link).ok().and_then(|link| link.to_file_path().ok()).expect("a file");
+                assert!(std::fs::metadata(&path).is_ok_and(|file| file.len() > 100), "{link}");
+            }
+            figures += 1;
+        }
+    }
+    assert!(figures > 50, "{figures} figures");
+}
+
+#[test]
+fn no_axis_counts_rows_of_a_table() {
+    let mut folders = vec![folder().join("figures")];
+    let mut read = 0;
+    while let Some(here) = folders.pop() {
+        for path in std::fs::read_dir(here).expect("a folder").flatten().map(|entry| entry.path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "svg") {
+                let text = std::fs::read_to_string(&path).expect("an SVG");
+                assert!(!text.contains("row of the table"), "{}", path.display());
+                read += 1;
+            }
+        }
+    }
+    assert!(read > 50, "{read} figures");
+}
+
+/// `$BAGNOLD_PROGRAM`, else what the checkout's `cargo build` makes.
+#[test]
+fn figures_are_drawn_in_the_size_of_a_paper() {
+    let target = std::env::var("CARGO_TARGET_DIR")
+        .unwrap_or_else(|_| concat!(env!("CARGO_MANIFEST_DIR"), "/../../target").to_owned());
+    let program = std::env::var("BAGNOLD_PROGRAM").unwrap_or_else(|_| format!("{target}/debug/bagnold"));
+    let place = std::env::temp_dir().join(format!("bagnold-paper-{}", std::process::id()));
+    let command = ["run", "film", "--figure", "85mm,9pt,300dpi", "--out"];
+    let made = std::process::Command::new(&program).args(command).arg(&place).output();
+    let made = made.unwrap_or_else(|error| panic!("{program}: {error}; `cargo build` makes it"));
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    let mut pictures = 0;
+    for path in std::fs::read_dir(place.join("figures")).expect("figures").flatten().map(|entry| entry.path()) {
+        if path.extension().is_some_and(|ending| ending == "png") {
+            let bytes = std::fs::read(&path).expect("a PNG");
+            // 85 mm/25.4 mm · 300
+            assert_eq!(bytes[16..20], 1004_u32.to_be_bytes(), "{}", path.display());
+            let vectors = std::fs::read_to_string(path.with_extension("svg")).expect("an SVG");
+            assert!(vectors.contains("width=\"85.00mm\""), "{}", path.display());
+            pictures += 1;
+        }
+    }
+    std::fs::remove_dir_all(&place).expect("removed");
+    assert!(pictures > 0);
 }
 
 #[tokio::test]

@@ -10,11 +10,12 @@ pub(crate) fn folder() -> PathBuf {
     folder.canonicalize().expect("a report; `cargo run -- report` writes one")
 }
 
-/// Addresses of all its pages: the overview, the papers where there are any, then the cases.
+/// Addresses of its pages: the overview, those of the whole report that are there, then the cases.
 pub(crate) fn addresses() -> Vec<String> {
     let folder = folder();
     let mut pages: Vec<PathBuf> = vec![folder.join("index.html")];
-    pages.extend(Some(folder.join("papers.html")).filter(|page| page.exists()));
+    let whole = ["papers.html", "comparisons.html", "validated.html"].map(|name| folder.join(name));
+    pages.extend(whole.into_iter().filter(|page| page.exists()));
     let cases = std::fs::read_dir(folder.join("cases")).expect("the cases of the report");
     let cases: BTreeSet<PathBuf> = cases.flatten().map(|case| case.path().join("index.html")).collect();
     pages.extend(cases);

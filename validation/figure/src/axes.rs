@@ -5,6 +5,7 @@ use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
 use super::error::FigureError;
 use super::font::{Weight, width};
+use super::format::LABEL;
 use super::palette::{AXIS, BLACK, GRID};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
@@ -16,6 +17,8 @@ pub(super) const TICK: f64 = 9.0;
 /// Space between a tick and its number `[px]`.
 pub(super) const TICK_GAP: f64 = 7.0;
 const FRAME: f64 = 2.0;
+/// Most length of an axis label over that of its axis `[-]`; a longer one has smaller letters.
+const MOST_LABEL: f64 = 1.15;
 
 /// Font sizes of a sheet `[px]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,10 +30,10 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    /// Sheets are 1600 px wide and shown at about half of that; nothing may become smaller than 11 px there.
+    /// Sheets for the screen are shown at about half of their size; nothing may become smaller than 11 px there.
     pub(super) fn for_columns(columns: usize) -> Self {
         if columns <= 2 {
-            Self { title: 29.0, label: 28.0, tick: 25.0, legend: 25.0 }
+            Self { title: 29.0, label: LABEL, tick: 25.0, legend: 25.0 }
         } else {
             Self { title: 26.0, label: 25.0, tick: 22.0, legend: 22.0 }
         }
@@ -124,11 +127,17 @@ fn draw_labels(
 ) -> Result<(), FigureError> {
     let x_label_top = window.bottom + TICK + TICK_GAP + 1.25 * sizes.tick;
     let centre = 0.5 * (window.left + window.right);
-    canvas.text(x_label, (centre, x_label_top), text(sizes.label, HPos::Center, VPos::Top, BLACK))?;
+    let along = |label: &str, length: f64| {
+        let whole = width(label, sizes.label, Weight::Regular);
+        sizes.label * (MOST_LABEL * length / whole).min(1.0)
+    };
+    let x_size = along(x_label, window.width());
+    canvas.text(x_label, (centre, x_label_top), text(x_size, HPos::Center, VPos::Top, BLACK))?;
     canvas.text(&x_ticks.factor, (window.right, x_label_top), text(sizes.tick, HPos::Right, VPos::Top, AXIS))?;
 
     let y_label_right = window.left - TICK - TICK_GAP - widest_label(y_ticks, sizes.tick) - 0.8 * sizes.label;
-    let upwards = TextSpec { direction: Direction::Upwards, ..text(sizes.label, HPos::Center, VPos::Center, BLACK) };
+    let y_size = along(y_label, window.height());
+    let upwards = TextSpec { direction: Direction::Upwards, ..text(y_size, HPos::Center, VPos::Center, BLACK) };
     canvas.text(y_label, (y_label_right, 0.5 * (window.top + window.bottom)), upwards)?;
     // Left of the frame: the line above the plot belongs to the title.
     let factor = text(sizes.tick, HPos::Right, VPos::Center, AXIS);

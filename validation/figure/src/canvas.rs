@@ -1,7 +1,9 @@
 //! A drawing surface in fractional pixels over plotters' SVG backend.
 
 use super::error::FigureError;
-use super::font::{FAMILY, FAMILY_WITH_FALLBACK, LINE_HEIGHT, Weight};
+use super::font::{FAMILY, FAMILY_WITH_FALLBACK, LINE_HEIGHT, Weight, plain_width, width};
+use super::format::FigureFormat;
+use super::script::{Run, SMALLER, runs};
 use plotters::backend::DrawingBackend;
 use plotters::prelude::SVGBackend;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -9,7 +11,7 @@ use plotters::style::{Color, FontDesc, FontFamily, FontTransform, RGBColor, Shap
 
 /// plotters rounds to whole units. The drawing has this many units a pixel and is shown scaled down,
 /// which keeps curves smooth and lattices of particles regular.
-const UNITS_PER_PIXEL: f64 = 4.0;
+pub(super) const UNITS_PER_PIXEL: f64 = 4.0;
 
 /// No coordinate is larger `[px]`: far outside any sheet and far inside plotters' integers.
 const FARTHEST: f64 = 1e6;
@@ -147,10 +149,43 @@ impl<'a> Canvas<'a> {
         self.backend.draw_circle(units(centre), radius, &ink.style(), true).map_err(draw_error)
     }
 
+    /// A text with its indices and exponents, each of which is an element of its own.
     pub(super) fn text(&mut self, text: &str, at: Point, spec: TextSpec) -> Result<(), FigureError> {
-        if text.is_empty() {
-            return Ok(());
+        let runs = runs(text);
+        if let [whole] = runs[..]
+            && whole.rise == 0.0
+        {
+            return self.run(whole.text, at, spec);
         }
+        let before = match spec.horizontal {
+            HPos::Left => 0.0,
+            HPos::Center => 0.5,
+            HPos::Right => 1.0,
+        };
+        let mut along = -before * width(text, spec.em, spec.weight);
+        for Run { text, rise } in runs {
+            let own =
+                TextSpec { em: if rise == 0.0 { spec.em } else { SMALLER * spec.em }, horizontal: HPos::Left, ..spec };
+            // from where a smaller letter's anchor lies to that of the base
+            let anchor = match spec.vertical {
+                VPos::Top => 0.76,
+                VPos::Center => 0.36,
+                VPos::Bottom => 0.0,
+            };
+            let down = anchor * (spec.em - own.em) - rise * spec.em;
+            let place = match spec.direction {
+                Direction::Rightwards => (at.0 + along, at.1 + down),
+                Direction::Upwards => (at.0 + down, at.1 - along),
+            };
+            // a blank at the beginning of an element would not be drawn
+            self.run(&text.replace(' ', "\u{a0}"), place, own)?;
+            along += plain_width(text, own.em, spec.weight);
+        }
+        Ok(())
+    }
+
+    /// Letters of one size on one line.
+    fn run(&mut self, text: &str, at: Point, spec: TextSpec) -> Result<(), FigureError> {
         let size = spec.em * LINE_HEIGHT * UNITS_PER_PIXEL;
         let font = FontDesc::new(FontFamily::Name(FAMILY), size, spec.weight.style());
         let font = match spec.direction {
@@ -163,10 +198,14 @@ impl<'a> Canvas<'a> {
 }
 
 /// Gives the finished SVG its size in pixels, round joins and a font fall-back, and drops default attributes.
-pub(super) fn polish(drawn: &str, width: f64, height: f64) -> String {
+pub(super) fn polish(drawn: &str, width: f64, height: f64, format: FigureFormat) -> String {
     let units_tag =
         format!("width=\"{}\" height=\"{}\"", (width * UNITS_PER_PIXEL) as u32, (height * UNITS_PER_PIXEL) as u32);
-    let pixel_tag = format!("width=\"{width:.0}\" height=\"{height:.0}\" stroke-linejoin=\"round\"");
+    let length = |pixels: f64| match format.paper {
+        None => format!("{pixels:.0}"),
+        Some(paper) => format!("{:.2}mm", pixels * paper / format.sheet),
+    };
+    let pixel_tag = format!("width=\"{}\" height=\"{}\" stroke-linejoin=\"round\"", length(width), length(height));
     drawn
         .replacen(&units_tag, &pixel_tag, 1)
         .replace(&format!("font-family=\"{FAMILY}\""), &format!("font-family=\"{FAMILY_WITH_FALLBACK}\""))

@@ -1,6 +1,7 @@
 //! The one font of all figures. It is embedded, so that a figure looks the same on every machine.
 
 use super::error::FigureError;
+use super::script::{Run, SMALLER, runs};
 use plotters::style::{FontDesc, FontFamily, FontStyle, register_font};
 use std::sync::LazyLock;
 
@@ -39,8 +40,14 @@ pub(super) fn register() -> Result<(), FigureError> {
     (*REGISTERED).map_err(|style| FigureError::Font { style })
 }
 
-/// Width of `text` set at `em` pixels `[px]`; a rough estimate if the font is missing.
+/// Width of `text` set at `em` pixels, with its indices and exponents `[px]`; a rough estimate if the font is missing.
 pub(super) fn width(text: &str, em: f64, weight: Weight) -> f64 {
+    let of = |run: &Run<'_>| plain_width(run.text, if run.rise == 0.0 { em } else { SMALLER * em }, weight);
+    runs(text).iter().map(of).sum()
+}
+
+/// Width of letters on one line `[px]`.
+pub(super) fn plain_width(text: &str, em: f64, weight: Weight) -> f64 {
     // Measured large and scaled down: the library rounds to whole pixels.
     const MEASURED_EM: f64 = 400.0;
     let font = FontDesc::new(FontFamily::Name(FAMILY), MEASURED_EM, weight.style());

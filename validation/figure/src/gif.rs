@@ -3,6 +3,7 @@
 
 use super::animation::Animation;
 use super::error::FigureError;
+use super::format::FigureFormat;
 use super::palette::FIRST;
 use super::{is_file_name, raster, render};
 use plotters::style::RGBColor;
@@ -47,7 +48,7 @@ pub fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
         .frames
         .par_iter()
         .map(|frame| {
-            let pixels = raster::pixels(&render::svg(&animation.figure(frame))?, SCALE)?;
+            let pixels = raster::pixels(&render::svg(&animation.figure(frame), FigureFormat::SCREEN)?, SCALE)?;
             Ok(IndexedImage::of(&pixels))
         })
         .collect::<Result<_, FigureError>>()?;
@@ -236,7 +237,7 @@ mod tests {
                 }
             }
         }
-        let last = render::svg(&animation.figure(&animation.frames[2])).expect("SVG");
+        let last = render::svg(&animation.figure(&animation.frames[2]), FigureFormat::SCREEN).expect("SVG");
         let expected = IndexedImage::of(&raster::pixels(&last, SCALE).expect("raster"));
         assert!(canvas == expected.indices);
     }

@@ -9,6 +9,9 @@ use super::{Mark, Panel};
 use plotters::style::WHITE;
 use plotters::style::text_anchor::{HPos, VPos};
 
+/// Places for a legend along each side of a plot, less one.
+const STEPS: usize = 8;
+
 /// Where a legend stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LegendPosition {
@@ -32,11 +35,14 @@ pub(super) struct Legend {
     entries: Vec<(String, LegendEntry)>,
     em: f64,
     widest: f64,
+    /// Most width of a label `[px]`.
+    room: f64,
 }
 
 impl Legend {
-    /// Every label once: simulations in their order, then references, then bands.
-    pub(super) fn of(panel: &Panel, em: f64) -> Self {
+    /// Every label once: simulations in their order, then references, then bands. A label that would be wider than `most` has
+    /// smaller letters.
+    pub(super) fn of(panel: &Panel, em: f64, most: f64) -> Self {
         let mut entries: Vec<(String, LegendEntry)> = Vec::new();
         let of = |reference: bool| {
             let enumerated = panel.series.iter().enumerate();
@@ -49,8 +55,16 @@ impl Legend {
                 entries.push((label.clone(), item));
             }
         }
-        let widest = entries.iter().map(|(label, _)| width(label, em, Weight::Regular)).fold(0.0, f64::max);
-        Self { entries, em, widest }
+        let mut legend = Self { entries, em, widest: 0.0, room: most - 3.9 * em };
+        legend.widest = legend.entries.iter().map(|(label, _)| legend.label(label).1).fold(0.0, f64::max);
+        legend
+    }
+
+    /// Size of a label's letters, and its width `[px]`.
+    fn label(&self, label: &str) -> (f64, f64) {
+        let whole = width(label, self.em, Weight::Regular);
+        let shrunk = (self.room / whole).min(1.0);
+        (shrunk * self.em, shrunk * whole)
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -78,16 +92,29 @@ impl Legend {
         self.row() * self.entries.len() as f64 + 0.6 * self.em
     }
 
-    fn columns_below(&self, available: f64) -> usize {
-        ((available / (self.entry_width() + self.em)).floor() as usize).clamp(1, self.entries.len().max(1))
+    /// The entries in rows that are no longer than `available`, each with its distance from the beginning of its row, and the
+    /// length of every row.
+    fn rows_below(&self, available: f64) -> Vec<(Vec<(usize, f64)>, f64)> {
+        let mut rows: Vec<(Vec<(usize, f64)>, f64)> = Vec::new();
+        for (index, (label, _)) in self.entries.iter().enumerate() {
+            let length = self.sample() + 0.5 * self.em + self.label(label).1;
+            match rows.last_mut().filter(|(_, end)| end + self.em + length <= available) {
+                Some((row, end)) => {
+                    row.push((index, *end + self.em));
+                    *end += self.em + length;
+                }
+                None => rows.push((vec![(index, 0.0)], length)),
+            }
+        }
+        rows
     }
 
     /// Height of the rows under the plot.
     pub(super) fn height_below(&self, available: f64) -> f64 {
-        self.entries.len().div_ceil(self.columns_below(available)) as f64 * self.row() + 0.4 * self.em
+        self.rows_below(available).len() as f64 * self.row() + 0.4 * self.em
     }
 
-    /// The free place inside the plot, corners first; `None` if every one would hide data.
+    /// The free place inside the plot that is nearest to a corner; `None` if every one would hide data.
     pub(super) fn free_place(&self, panel: &Panel, plot: &Plot) -> Option<Rectangle> {
         let window = &plot.window;
         let gap = 0.5 * self.em;
@@ -96,21 +123,16 @@ impl Legend {
             return None;
         }
         let drawn = inked_points(panel, plot);
-        let (left, right) = (window.left + gap, window.right - gap - width);
-        let (top, bottom) = (window.top + gap, window.bottom - gap - height);
-        let (centre, middle) = (0.5 * (left + right), 0.5 * (top + bottom));
-        let candidates = [
-            (right, top),
-            (left, top),
-            (right, bottom),
-            (left, bottom),
-            (right, middle),
-            (left, middle),
-            (centre, top),
-            (centre, bottom),
-        ];
+        let (right, bottom) = (window.right - gap - width, window.bottom - gap - height);
+        let step = ((right - window.left - gap) / STEPS as f64, (bottom - window.top - gap) / STEPS as f64);
+        let from_corner = |&(across, down): &(usize, usize)| across.min(STEPS - across) + down.min(STEPS - down);
+        let mut candidates: Vec<(usize, usize)> =
+            (0..=STEPS).flat_map(|down| (0..=STEPS).map(move |across| (across, down))).collect();
+        // Stable: of equals the upper right ones first.
+        candidates.sort_by_key(from_corner);
         candidates
             .into_iter()
+            .map(|(across, down)| (right - step.0 * across as f64, window.top + gap + step.1 * down as f64))
             .map(|(left, top)| Rectangle { left, top, right: left + width, bottom: top + height })
             .find(|place| {
                 let guarded = place.grown(0.4 * self.em);
@@ -142,13 +164,15 @@ impl Legend {
         panel: &Panel,
         (left, right, top): (f64, f64, f64),
     ) -> Result<(), FigureError> {
-        let columns = self.columns_below(right - left);
-        let step = self.entry_width() + self.em;
-        let start = left + 0.5 * (right - left - step * columns.min(self.entries.len()) as f64 + self.em).max(0.0);
-        for (index, entry) in self.entries.iter().enumerate() {
-            let x = start + (index % columns) as f64 * step;
-            let y = top + ((index / columns) as f64 + 0.5) * self.row();
-            self.draw_entry(canvas, panel, entry, (x, y))?;
+        let rows = self.rows_below(right - left);
+        let longest = rows.iter().map(|(_, length)| *length).fold(0.0, f64::max);
+        // rows that are longer than the plot reach under the numbers at its left
+        let start = (left + 0.5 * (right - left - longest)).min(right + 10.0 - longest);
+        for (place, (row, _)) in rows.iter().enumerate() {
+            let y = top + (place as f64 + 0.5) * self.row();
+            for &(index, x) in row {
+                self.draw_entry(canvas, panel, &self.entries[index], (start + x, y))?;
+            }
         }
         Ok(())
     }
@@ -173,7 +197,7 @@ impl Legend {
             }
         }
         let spec = TextSpec {
-            em: self.em,
+            em: self.label(label).0,
             weight: Weight::Regular,
             horizontal: HPos::Left,
             vertical: VPos::Center,

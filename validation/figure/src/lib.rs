@@ -1,4 +1,4 @@
-//! Figures as plain data: who has something to show describes what to draw, this package draws it, as SVG, PNG and GIF. The
+//! Figures as plain data: who has something to show describes what to draw, this package draws it, as SVG, PNG, PDF and GIF. The
 //! files are the same to the byte on every machine: fonts and rasteriser are part of the package.
 //!
 //! A [`Figure`] is a sheet of [`Panel`]s; a panel has two [`Axis`], and in it curves and clouds ([`Series`]), [`Band`]s of
@@ -25,19 +25,24 @@ mod clip;
 mod construct;
 mod curves;
 mod discs;
+mod elements;
 mod error;
 mod field;
 mod font;
+mod format;
 mod gif;
 mod glyphs;
 mod legend;
 mod palette;
 mod panel;
+mod pdf;
 mod range;
 mod raster;
 pub mod render;
+mod script;
 mod sheet;
 mod size;
+mod table;
 mod ticks;
 
 #[cfg(test)]
@@ -45,8 +50,10 @@ mod tests;
 
 pub use animation::{Animation, AnimationFrame};
 pub use error::FigureError;
+pub use format::FigureFormat;
 pub use gif::{encode as encode_gif, write_animation};
 pub use size::size_of;
+pub use table::csv;
 
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -62,6 +69,8 @@ pub struct Axis {
     pub limits: Option<(f64, f64)>,
     /// What a dimensionless axis is a ratio of, where it has one scale for all curves.
     pub ratio: Option<AxisRatio>,
+    /// Names of the places 1, 2, … of a vertical axis in place of numbers; empty for numbers.
+    pub names: Vec<String>,
 }
 
 /// A quantity over a scale: x/r0 is x `[m]` over r0.
@@ -178,7 +187,8 @@ pub struct FigureFiles {
     pub png: PathBuf,
 }
 
-/// Draws `figure` into `folder` as `NAME.svg` and `NAME.png`; the folder is made if it is missing.
+/// Draws `figure` for the screen into `folder` as `NAME.svg`, `NAME.png` and `NAME.pdf`, with its data in `NAME.csv`; the
+/// folder is made if it is missing.
 ///
 /// # Errors
 /// If the name is no file name, drawing fails, or a file cannot be written.
@@ -186,17 +196,20 @@ pub fn write(figure: &Figure, folder: &Path) -> Result<FigureFiles, FigureError>
     if !is_file_name(&figure.name) {
         return Err(FigureError::Name { name: figure.name.clone() });
     }
-    let drawn = render::svg(figure)?;
-    let raster = render::png(&drawn)?;
-    let write_error = |path: &Path, source| FigureError::Write { path: path.to_owned(), source };
-    std::fs::create_dir_all(folder).map_err(|source| write_error(folder, source))?;
-    let written = FigureFiles {
-        svg: folder.join(format!("{}.svg", figure.name)),
-        png: folder.join(format!("{}.png", figure.name)),
+    let drawn = render::svg(figure, FigureFormat::SCREEN)?;
+    let raster = render::png(&drawn, FigureFormat::SCREEN)?;
+    let page = render::pdf(&drawn, FigureFormat::SCREEN)?;
+    std::fs::create_dir_all(folder).map_err(|source| FigureError::Write { path: folder.to_owned(), source })?;
+    let put = |ending: &str, bytes: &[u8]| {
+        let path = folder.join(format!("{}.{ending}", figure.name));
+        match std::fs::write(&path, bytes) {
+            Ok(()) => Ok(path),
+            Err(source) => Err(FigureError::Write { path, source }),
+        }
     };
-    std::fs::write(&written.svg, drawn).map_err(|source| write_error(&written.svg, source))?;
-    std::fs::write(&written.png, raster).map_err(|source| write_error(&written.png, source))?;
-    Ok(written)
+    put("pdf", &page)?;
+    put("csv", csv(figure).as_bytes())?;
+    Ok(FigureFiles { svg: put("svg", drawn.as_bytes())?, png: put("png", &raster)? })
 }
 
 /// Whether `name` is safe as a file or folder name: it can neither leave its folder nor need quoting in a link.

@@ -66,15 +66,16 @@ impl<'p> ScaledPanel<'p> {
         };
         let x_ticks = uncrowded(x, plot_wide, sizes.tick, MOST_TICKS);
         let y_wanted = (plot_high / (3.0 * sizes.tick)).clamp(2.0, 8.0) as usize;
+        let y_ticks = if panel.y.names.is_empty() { ticks(y.0, y.1, y_wanted) } else { Ticks::named(&panel.y.names) };
         Self {
             panel,
             title,
             sizes,
             x: (x.0, x.1, x_ticks),
-            y: (y.0, y.1, ticks(y.0, y.1, y_wanted)),
+            y: (y.0, y.1, y_ticks),
             colours,
             opposite,
-            legend: Legend::of(panel, sizes.legend),
+            legend: Legend::of(panel, sizes.legend, wide + 100.0),
             legend_place: LegendPosition::Inside,
             has_data,
         }
@@ -84,6 +85,12 @@ impl<'p> ScaledPanel<'p> {
     pub(super) fn aspect(&self) -> Option<f64> {
         let (x, y) = (self.x.0, self.y.0);
         self.colours.as_ref().map(|_| (y.upper - y.lower) / (x.upper - x.lower))
+    }
+
+    /// Height of a plot whose places have names: a line of text each.
+    pub(super) fn named_height(&self) -> Option<f64> {
+        let rows = self.panel.y.names.len() as f64;
+        (rows > 0.0).then_some((rows + 0.2) * 1.7 * self.sizes.tick)
     }
 
     /// Decides on which side the legend stands, given the plot that the panel would have with none outside.

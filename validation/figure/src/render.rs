@@ -1,8 +1,11 @@
-//! Figure → SVG → PNG.
+//! Figure → SVG → PNG and PDF.
 
 use super::Figure;
+use super::canvas::UNITS_PER_PIXEL;
 use super::error::FigureError;
 use super::font;
+use super::format::FigureFormat;
+use super::pdf::page;
 use super::raster::pixels;
 use super::sheet;
 
@@ -10,15 +13,23 @@ use super::sheet;
 ///
 /// # Errors
 /// Only if the drawing library refuses; odd data (empty, constant, NaN, infinite) draw an odd figure.
-pub fn svg(figure: &Figure) -> Result<String, FigureError> {
+pub fn svg(figure: &Figure, format: FigureFormat) -> Result<String, FigureError> {
     font::register()?;
-    sheet::draw(figure)
+    sheet::draw(figure, format)
 }
 
-/// Rasterises an SVG of [`svg`] at its own size.
+/// Rasterises an SVG of [`svg`] in the same format.
 ///
 /// # Errors
 /// If the text is no SVG of [`svg`], or too large to rasterise.
-pub fn png(svg: &str) -> Result<Vec<u8>, FigureError> {
-    pixels(svg, 1.0)?.encode_png().map_err(|error| FigureError::Raster(error.to_string()))
+pub fn png(svg: &str, format: FigureFormat) -> Result<Vec<u8>, FigureError> {
+    pixels(svg, format.scale as f32)?.encode_png().map_err(|error| FigureError::Raster(error.to_string()))
+}
+
+/// Turns an SVG of [`svg`] in the same format into a page of PDF.
+///
+/// # Errors
+/// If the text is no SVG of [`svg`].
+pub fn pdf(svg: &str, format: FigureFormat) -> Result<Vec<u8>, FigureError> {
+    page(svg, format.point_size() / UNITS_PER_PIXEL)
 }

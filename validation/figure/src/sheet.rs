@@ -5,25 +5,28 @@ use super::axes::Sizes;
 use super::canvas::{Canvas, Rectangle, polish};
 use super::discs::gathered;
 use super::error::FigureError;
+use super::format::FigureFormat;
 use super::panel::{Margins, ScaledPanel};
 
-/// Width of every sheet `[px]`: twice what a page shows, so that it is sharp on any screen.
-pub(super) const WIDTH: f64 = 1600.0;
 const BORDER: f64 = 14.0;
 const GUTTER: f64 = 30.0;
 /// Height over width of a plot, by panels a row.
 const ASPECTS: [f64; 3] = [0.58, 0.78, 0.95];
+/// Width of a column below which its plots are as high as those of two columns `[px]`.
+const NARROW: f64 = 900.0;
 /// No plot is taller than this `[px]`: a figure fits on a screen.
 const TALLEST: f64 = 1150.0;
 /// No plot is lower than this `[px]`, however flat its field.
 const LOWEST: f64 = 60.0;
 
 /// Draws `figure` as SVG text.
-pub(super) fn draw(figure: &Figure) -> Result<String, FigureError> {
-    let columns = figure.columns.clamp(1, 4).min(figure.panels.len().max(1));
+pub(super) fn draw(figure: &Figure, format: FigureFormat) -> Result<String, FigureError> {
+    let columns = format.columns(figure.columns.clamp(1, 4)).min(figure.panels.len().max(1));
     let sizes = Sizes::for_columns(columns);
-    let column_width = (WIDTH - 2.0 * BORDER - (columns - 1) as f64 * GUTTER) / columns as f64;
-    let aspect = ASPECTS[(columns - 1).min(ASPECTS.len() - 1)];
+    let column_width = (format.sheet - 2.0 * BORDER - (columns - 1) as f64 * GUTTER) / columns as f64;
+    // a column that is narrow needs height for its numbers, whatever the number of columns
+    let shape = if columns == 1 && column_width < NARROW { 2 } else { columns };
+    let aspect = ASPECTS[(shape - 1).min(ASPECTS.len() - 1)];
     let usual = (column_width - 120.0, (column_width - 120.0) * aspect);
 
     let mut panels: Vec<ScaledPanel<'_>> = figure
@@ -46,7 +49,7 @@ pub(super) fn draw(figure: &Figure) -> Result<String, FigureError> {
     let rows = layout(&panels, columns, column_width, aspect);
     let height = rows.last().map_or(200.0, |row| row.bottom) + BORDER;
     let mut text = String::new();
-    let mut canvas = Canvas::new(&mut text, WIDTH, height.ceil())?;
+    let mut canvas = Canvas::new(&mut text, format.sheet, height.ceil())?;
     for (index, panel) in panels.iter().enumerate() {
         let row = &rows[index / columns];
         let column = index % columns;
@@ -61,7 +64,7 @@ pub(super) fn draw(figure: &Figure) -> Result<String, FigureError> {
         panel.draw(&mut canvas, &room)?;
     }
     canvas.finish()?;
-    Ok(gathered(&polish(&text, WIDTH, height.ceil())))
+    Ok(gathered(&polish(&text, format.sheet, height.ceil(), format)))
 }
 
 /// One row of panels: plots of one height on one base line.
@@ -99,7 +102,8 @@ fn layout(panels: &[ScaledPanel<'_>], columns: usize, column_width: f64, aspect:
 }
 
 fn plot_height(panel: &ScaledPanel<'_>, width: f64, aspect: f64) -> f64 {
-    panel.aspect().map_or(width * aspect, |own| (width * own).clamp(LOWEST, TALLEST))
+    let usual = || panel.named_height().unwrap_or(width * aspect);
+    panel.aspect().map_or_else(usual, |own| (width * own).clamp(LOWEST, TALLEST))
 }
 
 /// Panels of a sheet with several are called (a), (b), …, so that a caption can name them.

@@ -4,7 +4,7 @@ use super::*;
 use tiny_skia::Pixmap;
 
 fn axis(label: &str, scale: Scale) -> Axis {
-    Axis { label: label.to_owned(), scale, limits: None, ratio: None }
+    Axis { label: label.to_owned(), scale, limits: None, ratio: None, names: Vec::new() }
 }
 
 fn series(label: &str, mark: Mark, colour: usize, points: &[(f64, f64)]) -> Series {
@@ -28,8 +28,8 @@ fn figure(panels: Vec<Panel>) -> Figure {
 }
 
 fn raster(figure: &Figure) -> Pixmap {
-    let drawn = render::svg(figure).expect("SVG");
-    Pixmap::decode_png(&render::png(&drawn).expect("PNG")).expect("a PNG")
+    let drawn = render::svg(figure, FigureFormat::SCREEN).expect("SVG");
+    Pixmap::decode_png(&render::png(&drawn, FigureFormat::SCREEN).expect("PNG")).expect("a PNG")
 }
 
 /// Share of pixels of exactly this colour.
@@ -41,7 +41,7 @@ fn share(pixels: &Pixmap, red: u8, green: u8, blue: u8) -> f64 {
 #[test]
 fn the_svg_holds_labels_legend_and_escaped_text() {
     let line = series("slope <24°> & \"rough\"", Mark::Line, 0, &[(0.0, 0.0), (1.0, 1.0)]);
-    let drawn = render::svg(&figure(vec![panel(vec![line])])).expect("SVG");
+    let drawn = render::svg(&figure(vec![panel(vec![line])]), FigureFormat::SCREEN).expect("SVG");
     assert!(drawn.contains("u [m/s]") && drawn.contains("y [m]"));
     assert!(drawn.contains("slope &lt;24°&gt; &amp; &quot;rough&quot;"));
     assert!(!drawn.contains("<24°>"));
@@ -74,9 +74,12 @@ fn text_is_rasterised_with_the_embedded_font() {
 
 #[test]
 fn the_same_data_give_the_same_bytes() {
-    let make = || render::svg(&figure(vec![field_panel(30), panel(vec![])])).expect("SVG");
+    let make = || render::svg(&figure(vec![field_panel(30), panel(vec![])]), FigureFormat::SCREEN).expect("SVG");
     assert_eq!(make(), make());
-    assert_eq!(render::png(&make()).expect("PNG"), render::png(&make()).expect("PNG"));
+    assert_eq!(
+        render::png(&make(), FigureFormat::SCREEN).expect("PNG"),
+        render::png(&make(), FigureFormat::SCREEN).expect("PNG")
+    );
 }
 
 fn field_panel(count: usize) -> Panel {
@@ -104,7 +107,7 @@ fn dots(line: &str) -> Option<Vec<(f64, f64, f64)>> {
 
 #[test]
 fn particles_are_circles_of_their_true_diameter_that_touch() {
-    let drawn = render::svg(&figure(vec![field_panel(20)])).expect("SVG");
+    let drawn = render::svg(&figure(vec![field_panel(20)]), FigureFormat::SCREEN).expect("SVG");
     let circles: Vec<(f64, f64, f64)> = drawn.lines().filter_map(dots).flatten().collect();
     assert_eq!(circles.len(), 200);
     let horizontal = circles[1].0 - circles[0].0;
@@ -119,12 +122,12 @@ fn two_fields_have_a_bar_each_and_a_field_without_a_label_none() {
     let mut pressure = both.field.clone().expect("a field");
     pressure.label = "|v| [m/s]".to_owned();
     both.opposite = Some(pressure);
-    let drawn = render::svg(&figure(vec![both.clone()])).expect("SVG");
+    let drawn = render::svg(&figure(vec![both.clone()]), FigureFormat::SCREEN).expect("SVG");
     assert!(drawn.contains("p [Pa]") && drawn.contains("|v| [m/s]"));
     for field in both.field.iter_mut().chain(&mut both.opposite) {
         field.label.clear();
     }
-    let plain = render::svg(&figure(vec![both])).expect("SVG");
+    let plain = render::svg(&figure(vec![both]), FigureFormat::SCREEN).expect("SVG");
     assert!(!plain.contains("p [Pa]") && plain.matches("<rect").count() < drawn.matches("<rect").count());
 }
 
@@ -149,7 +152,7 @@ fn degenerate_data_draw_something() {
                 odd.x.scale = scale;
                 odd.y.scale = scale;
                 odd.x.limits = Some((f64::NAN, 0.0));
-                let drawn = render::svg(&figure(vec![odd])).expect("SVG");
+                let drawn = render::svg(&figure(vec![odd]), FigureFormat::SCREEN).expect("SVG");
                 assert!(!drawn.contains("NaN"));
             }
         }
@@ -162,12 +165,14 @@ fn degenerate_data_draw_something() {
         (vec![(0.0, 0.0), (1e9, 1e-9)], vec![f64::NAN, f64::NAN], 0.0),
     ] {
         let field = Field { points, values, label: "p [Pa]".to_owned(), diameter, limits: Some((1.0, 1.0)) };
-        let drawn = render::svg(&figure(vec![Panel { field: Some(field), ..panel(Vec::new()) }])).expect("SVG");
-        render::png(&drawn).expect("PNG");
+        let drawn = render::svg(&figure(vec![Panel { field: Some(field), ..panel(Vec::new()) }]), FigureFormat::SCREEN)
+            .expect("SVG");
+        render::png(&drawn, FigureFormat::SCREEN).expect("PNG");
     }
-    render::png(&render::svg(&figure(Vec::new())).expect("SVG")).expect("PNG");
+    render::png(&render::svg(&figure(Vec::new()), FigureFormat::SCREEN).expect("SVG"), FigureFormat::SCREEN)
+        .expect("PNG");
     let none = Figure { columns: 0, ..figure(vec![panel(Vec::new()); 9]) };
-    render::png(&render::svg(&none).expect("SVG")).expect("PNG");
+    render::png(&render::svg(&none, FigureFormat::SCREEN).expect("SVG"), FigureFormat::SCREEN).expect("PNG");
 }
 
 #[test]

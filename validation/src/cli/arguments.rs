@@ -17,7 +17,7 @@ pub(super) use upkeep::{
     ControlsArguments, DevCommand, MutateArguments, SensitivitiesArguments, StoreAction, StoreArguments,
     VerifyArguments,
 };
-pub(super) use work::{ExecutionOptions, ResourceLimits};
+pub(super) use work::{ExecutionOptions, FigureOptions, ResourceLimits};
 
 use crate::case::Tier;
 use clap::{ArgAction, Args, Parser, Subcommand};
@@ -79,6 +79,7 @@ const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
   bagnold report --tier paper --cases film,bagnold --out paper-report
   bagnold report --against yesterday --deny drift
+  bagnold report --figure 85mm,9pt,300dpi      figures for a column of a journal
   bagnold report --suite my-flume
 
 The report is one self-contained folder: open its index.html, which leads to a page of every case. What fails comes first.
@@ -222,6 +223,9 @@ pub struct RunArguments {
     /// Say on standard error where the time went: stages, the longest runs, memory.
     #[arg(long)]
     pub profile: bool,
+    /// How figures are drawn.
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// How much it may ask for.
     #[command(flatten)]
     pub allowance: ResourceLimits,
@@ -287,6 +291,9 @@ pub struct ReportArguments {
     /// Say on standard error where the time went: stages, the longest runs, memory.
     #[arg(long)]
     pub profile: bool,
+    /// How figures are drawn.
+    #[command(flatten)]
+    pub figures: FigureOptions,
     /// How much it may ask for.
     #[command(flatten)]
     pub allowance: ResourceLimits,

@@ -85,7 +85,7 @@ impl ResultPublication<'_> {
             papers: &[],
             features: None,
         };
-        report::write_alone(&page, claimed.staging(), &store.drawings())?;
+        report::write_alone(&page, claimed.staging(), &store.drawings().in_format(command.figures.format()))?;
         claimed.publish()?;
         if self.learns {
             expectation.learn(results, store.root(), threads);

@@ -83,7 +83,7 @@ pub(super) fn report(
         speeds: SpeedHistory::read(&SpeedHistory::path(&places.history_file()), tier)?,
         known_failures: known.clone(),
     };
-    report::write(&page, claimed.staging(), &store.drawings())?;
+    report::write(&page, claimed.staging(), &store.drawings().in_format(command.figures.format()))?;
     for (study, result) in suite.iter().flat_map(Suite::studies).zip(&results) {
         // what its case.toml compares with
         let folder = claimed.staging().join("cases").join(&result.name);

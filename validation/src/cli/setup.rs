@@ -4,7 +4,7 @@ use super::arguments::ShowArguments;
 use super::error::ProgramError;
 use super::terminal::say;
 use crate::case::{Limits, ParameterError, Registry, Request};
-use crate::figure::{FigureError, render};
+use crate::figure::{FigureError, FigureFormat, render};
 use crate::output::{FileError, write_whole};
 use std::io::Write;
 use std::path::Path;
@@ -33,8 +33,9 @@ pub(super) fn draw(
         let rule = "a scene, or the file of one";
         return Err(refused("--picture", show.case.clone(), rule, "other cases make their starts themselves"));
     };
-    let drawn =
-        render::svg(&figure).and_then(|svg| if ending == "png" { render::png(&svg) } else { Ok(svg.into_bytes()) });
+    let format = FigureFormat::SCREEN;
+    let drawn = render::svg(&figure, format)
+        .and_then(|svg| if ending == "png" { render::png(&svg, format) } else { Ok(svg.into_bytes()) });
     let unwritable = |error: &std::io::Error| FileError::unwritable(picture, error);
     let bytes = drawn.map_err(|error: FigureError| unwritable(&std::io::Error::other(error.to_string())))?;
     // a bare name lies where the program is started

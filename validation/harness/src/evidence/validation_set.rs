@@ -162,6 +162,12 @@ impl ValidationSet {
         self.of(quantities).filter(|row| !row.is_altered()).count()
     }
 
+    /// Prediction over reference of the comparisons that bias and scatter rest on.
+    pub fn ratios<'s>(&'s self, quantities: &'s [&str]) -> impl Iterator<Item = (&'s ValidatedComparison, f64)> {
+        let own = self.of(quantities).filter(|row| !row.is_altered());
+        own.filter_map(|row| Some((row, row.comparison()?.predicted / row.reference)))
+    }
+
     /// Bias and scatter of some quantities; none with fewer than three comparisons. What is there to show what an input does is no
     /// comparison of its own: it would count an experiment several times, and its inputs as the model's scatter.
     #[must_use]

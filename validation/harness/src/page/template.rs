@@ -1,6 +1,6 @@
 //! Templates: the values of a page → its text.
 
-/// Fills one of some templates, which may include each other. A name that ends in `.html` escapes everything that is inserted,
+/// Fills one of some templates, which may include each other and import `figure.html`, a figure with links to its files. A name that ends in `.html` escapes everything that is inserted,
 /// except for `style`, the text of all pages' style sheet.
 pub fn fill(
     templates: &[(&'static str, &'static str)],
@@ -9,6 +9,7 @@ pub fn fill(
 ) -> Result<String, minijinja::Error> {
     let mut environment = minijinja::Environment::new();
     environment.add_global("style", include_str!("style.css"));
+    environment.add_template("figure.html", include_str!("figure.html"))?;
     for (own, text) in templates {
         environment.add_template(own, text)?;
     }

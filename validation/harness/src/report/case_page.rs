@@ -1,12 +1,13 @@
-//! The page of one case: its verdicts, figures, parameters and runs. `run` writes it alone, `report` among others.
+//! The page of one case: what fails, its figures, then verdicts, parameters and runs. `run` writes it alone, `report` among others.
 
 use super::accepted::tier_name;
-use super::judgement::{JudgedCase, Severity};
+use super::failures;
+use super::judgement::{JudgedCase, JudgedMetric, Severity};
 use super::origin::{provenance, seconds};
 use super::power::GatePower;
 use super::rows::{mark, rows, vanished};
 use super::template::fill;
-use super::view::{CasePage, CaseView, FigureView, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
+use super::view::{CasePage, CaseView, MetricGroup, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
 use super::{DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
@@ -56,8 +57,8 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
         description: case.description.split("\n\n").map(str::to_owned).collect(),
         mark: if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
         statement: case_statement(judged),
-        opening: if judged.metrics.iter().any(|judged| judged.metric.leads) { opening(drawn) } else { Vec::new() },
-        rows,
+        failures: failures::of(std::slice::from_ref(judged)),
+        groups: groups(rows, &judged.metrics),
         vanished: judged.vanished.iter().map(vanished).collect(),
         not_judged: case.not_judged.iter().map(|(key, reason)| format!("{}: {reason}", vanished(key))).collect(),
         controls: power::table(case),
@@ -69,11 +70,27 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
     }
 }
 
-/// The figures beside the metrics that a page opens with: the case's first, and its first that moves.
-fn opening(drawn: &[DrawnFigure]) -> Vec<FigureView> {
-    let shown: Vec<FigureView> = drawn.iter().filter(|drawn| drawn.failure.is_none()).map(picture).collect();
-    let moves = shown.iter().skip(1).find(|figure| figure.moves).cloned();
-    shown.into_iter().take(1).chain(moves).collect()
+/// Rows of a table that is shown unfolded, at most.
+const SHORT: usize = 12;
+
+/// The rows by what they say: judged ones, the run's own account, and what is only observed. The latter two are folded, and a
+/// long table too: the page's failures and figures stand above.
+fn groups(rows: Vec<MetricView>, metrics: &[JudgedMetric<'_>]) -> Vec<MetricGroup> {
+    let mut groups: Vec<MetricGroup> =
+        [("judged", "Judged"), ("bookkeeping", "Bookkeeping"), ("observed", "Observed only")]
+            .map(|(name, title)| MetricGroup { name, title, is_open: false, rows: Vec::new() })
+            .into();
+    for (row, judged) in rows.into_iter().zip(metrics) {
+        let place = match (judged.metric.kind, judged.severity()) {
+            (MetricKind::Bookkeeping, _) => 1,
+            (_, Severity::Observed) => 2,
+            _ => 0,
+        };
+        groups[place].rows.push(row);
+    }
+    groups[0].is_open = groups[0].rows.len() <= SHORT;
+    groups.retain(|group| !group.rows.is_empty());
+    groups
 }
 
 /// The figure that is named like a value of a metric's variant, else the one that shares most words with its name; nothing where none does.

@@ -54,6 +54,12 @@ impl<'r> Comparison<'r> {
         })
     }
 
+    /// The reference, in the metric's unit.
+    #[must_use]
+    pub fn measured(&self) -> f64 {
+        self.metric.value - self.error
+    }
+
     /// u_val: the root of the sum of squares of what is known.
     #[must_use]
     pub fn uncertainty(&self) -> Option<f64> {
@@ -64,8 +70,7 @@ impl<'r> Comparison<'r> {
     /// known.
     #[must_use]
     pub fn level(&self) -> Option<f64> {
-        let reference = (self.metric.value - self.error).abs();
-        self.uncertainty().map(|uncertainty| uncertainty / reference).filter(|level| level.is_finite())
+        self.uncertainty().map(|uncertainty| uncertainty / self.measured().abs()).filter(|level| level.is_finite())
     }
 
     /// What is not known.

@@ -1,16 +1,31 @@
 //! Figures and animations of a report as files, drawn or taken from what was drawn before.
 
-use crate::figure::{self, Animation, Figure, FigureError, encode_gif, render};
+use crate::figure::{self, Animation, Figure, FigureError, FigureFormat, encode_gif, render};
 use crate::store::Drawings;
 use std::path::{Path, PathBuf};
 
-/// Writes `NAME.svg` and `NAME.png` into a folder that is there; the path of the latter.
+/// Writes `NAME.svg`, `NAME.png`, `NAME.pdf` and the data as `NAME.csv` into a folder that is there; the path of the PNG.
 pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
     check_name(&figure.name)?;
-    let key = drawings.key(figure);
-    let vectors = drawings.bytes(&key, "svg", || render::svg(figure).map(String::into_bytes))?;
-    let pixels = drawings.bytes(&key, "png", || render::png(&String::from_utf8_lossy(&vectors)))?;
-    put(folder.join(format!("{}.svg", figure.name)), &vectors)?;
+    let format = drawings.format();
+    let key = drawings.key(&(figure, format));
+    let vectors = drawings.bytes(&key, "svg", || render::svg(figure, format).map(String::into_bytes))?;
+    let svg = String::from_utf8_lossy(&vectors);
+    let pixels = drawings.bytes(&key, "png", || render::png(&svg, format))?;
+    let page = drawings.bytes(&key, "pdf", || render::pdf(&svg, format))?;
+    let path = |ending: &str| folder.join(format!("{}.{ending}", figure.name));
+    put(path("svg"), &vectors)?;
+    put(path("pdf"), &page)?;
+    put(path("csv"), figure::csv(figure).as_bytes())?;
+    put(path("png"), &pixels)
+}
+
+/// Writes `NAME.png` for a small place on a page into a folder that is there; its path.
+pub(super) fn write_small(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
+    check_name(&figure.name)?;
+    let format = FigureFormat::SMALL;
+    let draw = || render::png(&render::svg(figure, format)?, format);
+    let pixels = drawings.bytes(&drawings.key(&(figure, format)), "png", draw)?;
     put(folder.join(format!("{}.png", figure.name)), &pixels)
 }
 

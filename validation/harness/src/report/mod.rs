@@ -3,6 +3,7 @@
 pub mod accepted;
 mod case_page;
 pub mod comparison;
+mod comparison_figure;
 mod comparison_page;
 pub mod coverage;
 mod coverage_page;
@@ -10,6 +11,8 @@ mod drawing;
 pub mod drift;
 mod earlier;
 mod error;
+mod failures;
+mod flows;
 mod gate_list;
 pub mod history;
 mod history_page;
@@ -163,9 +166,9 @@ struct DrawnFigure {
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,gif}`, in
+/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,pdf,csv,gif}`, in
 /// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
-/// together as `metrics.json` and `figures/scatter/QUANTITY.{svg,png}`. Files of the same names are replaced, others are left
+/// together as `metrics.json`, small pictures in `figures/overview/CASE.png` and `figures/scatter/QUANTITY.{svg,png,pdf,csv}`. Files of the same names are replaced, others are left
 /// alone.
 ///
 /// What was drawn before is taken from `drawings`. A figure that cannot be drawn does not spoil the report: the page says so in its place.
@@ -204,13 +207,13 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
     if let Some(features) = &report.features {
         add("coverage", coverage_page::render(report, features)?)?;
         let maps = folder.join("figures").join(validated_page::FOLDER);
-        let maps = draw_figures(&validated_page::figures(report), &maps, drawings)?;
+        let maps = draw_figures(&validated_page::figures(), &maps, drawings)?;
         add("validated", validated_page::render(report, &maps)?)?;
         add("history", history_page::render(report, &judgement)?)?;
     }
     let beside = draw_figures(
-        &comparison_page::figures(report),
-        &folder.join("figures").join(comparison_page::FOLDER),
+        &comparison_figure::figures(report),
+        &folder.join("figures").join(comparison_figure::FOLDER),
         drawings,
     )?;
     if let Some(text) = comparison_page::render(report, &beside) {
@@ -221,14 +224,15 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
         draw_figures(&scatter::figures(&quantities), &folder.join("figures").join(scatter::FOLDER), drawings)?;
     put(folder.join("metrics.json"), &scatter::json(&quantities))?;
     let comparisons = scatter::rows(&quantities, &compared);
-    let overview = page::render(report, &judgement, &drawn, comparisons)?;
+    let small = draw_small(report, &folder.join("figures").join(overview::FOLDER), drawings)?;
+    let overview = page::render(report, &judgement, (&drawn, &small), comparisons)?;
     chapters.insert(0, Chapter::of("index", &overview));
     put(folder.join("print.html"), &print::render(&report.title, &chapters)?)?;
     put(folder.join("index.html"), &overview)
 }
 
 /// Writes the page of each case of `report`, which is one as a rule, straight into `folder`: what [`write()`] puts into
-/// `cases/CASE/`, and the figures in `figures/NAME.{svg,png,gif}`.
+/// `cases/CASE/`, and the figures in `figures/NAME.{svg,png,pdf,csv,gif}`.
 ///
 /// # Errors
 /// If a file cannot be written.
@@ -298,6 +302,18 @@ fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Resul
         as_drawn(&figure.name, &figure.caption, false, written)
     };
     figures.par_iter().map(draw).collect()
+}
+
+/// The first panel of the figure that stands for each case, named like the case.
+fn draw_small(report: &Report, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
+    make(folder)?;
+    let draw = |case: &CaseReport| {
+        let figure = flows::figure_of(case)?;
+        let panels = figure.panels.iter().take(1).cloned().collect();
+        let small = Figure { name: case.name.clone(), panels, ..figure.clone() };
+        Some(as_drawn(&case.name, &figure.caption, false, drawing::write_small(&small, folder, drawings)))
+    };
+    report.cases.par_iter().filter_map(draw).collect()
 }
 
 /// What the page shows of a figure. One that was not drawn is named there and in the log; a file that cannot be written is

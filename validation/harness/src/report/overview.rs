@@ -1,12 +1,15 @@
-//! What the first page shows of the cases: the worst margins, a picture each, and every gate in one table.
+//! What the first page shows of the cases: the worst margins, a line with a picture each, and every gate in one table.
 
+use super::DrawnFigure;
 use super::case_page::case_statement;
 use super::judgement::{JudgedCase, JudgedMetric, Judgement, Severity};
 use super::rows::{margin_share, mark, row, statement, whole, worst_mark};
 use super::view::picture;
-use super::view::{CaseLine, GateRow, Thumbnail, VerdictMark, WorstMetric, anchor};
-use super::{CaseReport, DrawnFigure};
+use super::view::{CaseLine, GateRow, VerdictMark, WorstMetric, anchor};
 use crate::metric::{GateOwner, MetricKind};
+
+/// Folder of the small pictures.
+pub(super) const FOLDER: &str = "overview";
 
 /// Lines of a short list: so many fit beside the counts on a laptop's first screen.
 const LINES: usize = 6;
@@ -46,26 +49,14 @@ fn line(case: &JudgedCase<'_>, judged: &JudgedMetric<'_>, mark: VerdictMark, num
     }
 }
 
-/// A picture a case, a moving one where there is one, in the order of the page.
-pub(super) fn strip<'d>(
-    judgement: &Judgement<'_>,
-    pictures: impl Fn(&CaseReport) -> &'d [DrawnFigure],
-) -> Vec<Thumbnail> {
-    let of_case = |judged: &JudgedCase<'_>| {
-        let drawn: Vec<&DrawnFigure> = pictures(judged.case).iter().filter(|drawn| drawn.failure.is_none()).collect();
-        let shown = drawn.iter().find(|drawn| drawn.moves).or(drawn.first())?;
-        Some(Thumbnail { case: judged.case.name.clone(), picture: picture(shown) })
-    };
-    judgement.cases.iter().filter_map(of_case).collect()
-}
-
 /// A case's line in the list of cases.
-pub(super) fn case_line(judged: &JudgedCase<'_>) -> CaseLine {
+pub(super) fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> CaseLine {
     let case = judged.case;
     let gates = judged.metrics.iter().filter(|judged| judged.metric.kind != MetricKind::Bookkeeping);
     let least = gates.filter_map(|judged| margin_share(judged.metric)).min_by(f64::total_cmp);
     CaseLine {
         mark: if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
+        picture: small.iter().find(|drawn| drawn.name == case.name && drawn.failure.is_none()).map(picture),
         name: case.name.clone(),
         summary: case.summary.clone(),
         statement: case_statement(judged),

@@ -1,19 +1,16 @@
 //! The first page: judged report → text → template.
 
 use super::accepted::tier_name;
-use super::judgement::{GateTally, Judgement, Severity};
-use super::known_failures::KnownFailureStatus;
+use super::failures;
+use super::flows::{self, FlowPanel};
+use super::judgement::{GateTally, Judgement};
 use super::origin::provenance;
 use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
-use super::rows::{note, statement, worst_mark};
 use super::template::fill;
-use super::view::{
-    Banner, BannerItem, CaseLine, GateRow, Thumbnail, VerdictCount, VerdictMark, WorstMetric, anchor, typed,
-};
+use super::view::{Banner, CaseLine, GateRow, VerdictCount, VerdictMark, WorstMetric, typed};
 use super::{CaseReport, DrawnFigure, Report, comparison, drift, scatter};
-use crate::metric::GateOwner;
 use serde::Serialize;
 
 /// The first page: what a reader must know, and the way to everything else.
@@ -22,10 +19,10 @@ struct Overview {
     title: String,
     tier: &'static str,
     banner: Banner,
+    flows: Vec<FlowPanel>,
     counts: Vec<VerdictCount>,
     /// Gates that fail, then those that hold by least.
     worst: Vec<WorstMetric>,
-    strip: Vec<Thumbnail>,
     cases: Vec<CaseLine>,
     gates: Vec<GateRow>,
     drift: drift::DriftTable,
@@ -39,11 +36,11 @@ struct Overview {
     script: &'static str,
 }
 
-/// Fills the template; `drawn` holds the figures of the report's cases in the report's order.
+/// Fills the template; `drawn` holds the figures of the report's cases in the report's order, `small` a picture a case.
 pub(super) fn render(
     report: &Report,
     judgement: &Judgement<'_>,
-    drawn: &[Vec<DrawnFigure>],
+    (drawn, small): (&[Vec<DrawnFigure>], &[DrawnFigure]),
     scatter: Vec<scatter::ScatterRow>,
 ) -> Result<String, minijinja::Error> {
     let page = Overview {
@@ -52,8 +49,8 @@ pub(super) fn render(
         banner: banner(judgement),
         counts: counts(judgement),
         worst: overview::worst(judgement),
-        strip: overview::strip(judgement, |case| pictures(report, drawn, case)),
-        cases: judgement.cases.iter().map(overview::case_line).collect(),
+        flows: flows::panels(report, drawn, small),
+        cases: judgement.cases.iter().map(|case| overview::case_line(case, small)).collect(),
         gates: overview::gates(judgement),
         drift: drift::table(report, judgement),
         scatter,
@@ -75,49 +72,8 @@ pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<DrawnFigure>], case:
 }
 
 fn banner(judgement: &Judgement<'_>) -> Banner {
-    let mut items: Vec<((Severity, GateOwner), BannerItem)> = Vec::new();
-    for case in &judgement.cases {
-        for &(variant, message) in &case.diverged {
-            let item = BannerItem {
-                mark: VerdictMark { word: "diverged", ..VerdictMark::FAIL },
-                case: case.case.name.clone(),
-                anchor: "runs".to_owned(),
-                what: "a run diverged".to_owned(),
-                variant: variant.to_string(),
-                statement: message.to_owned(),
-                note: String::new(),
-                reason: String::new(),
-                reason_repeats: false,
-            };
-            // a run that diverged comes first of all
-            items.push(((Severity::Failure, GateOwner::User), item));
-        }
-        for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::KnownFailure) {
-            let reason = match &judged.standing {
-                KnownFailureStatus::Known(entry) => entry.reason.clone(),
-                _ => String::new(),
-            };
-            let item = BannerItem {
-                mark: worst_mark(judged),
-                case: case.case.name.clone(),
-                anchor: anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
-                what: judged.metric.name.clone(),
-                variant: judged.metric.variant.to_string(),
-                statement: statement(judged),
-                note: note(judged).strip_suffix(reason.as_str()).map_or_else(|| note(judged), str::to_owned),
-                reason,
-                reason_repeats: false,
-            };
-            items.push(((judged.severity(), judged.metric.gate_owner()), item));
-        }
-    }
-    items.sort_by_key(|(order, _)| *order);
-    let mut items: Vec<BannerItem> = items.into_iter().map(|(_, item)| item).collect();
-    for place in 1..items.len() {
-        items[place].reason_repeats = !items[place].reason.is_empty() && items[place].reason == items[place - 1].reason;
-    }
     let (mark, headline, detail) = headline(judgement);
-    Banner { mark, headline, detail, items }
+    Banner { mark, headline, detail, items: failures::of(&judgement.cases) }
 }
 
 fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {

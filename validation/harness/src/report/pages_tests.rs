@@ -2,7 +2,7 @@
 
 use super::tests::{case, drawing, gated, html, known, report};
 use super::*;
-use crate::metric::Variant;
+use crate::metric::{Confidence, Metric, MetricKind, Origin, Variant};
 use crate::store::Drawings;
 
 /// Every link and picture of every page in a folder leads to a file, and to a place in it that is there; how many there are.
@@ -66,19 +66,82 @@ fn the_first_page_leads_with_the_thinnest_margins_and_the_farthest_moves() {
 }
 
 #[test]
-fn notes_that_repeat_are_said_once() {
-    let gate = |variant: i32, value| Metric { variant: Variant::of("resolution", variant), ..gated("front", value) };
-    let mut report = report(vec![case("film", vec![gate(20, 0.9), gate(40, 0.9)])]);
-    let entry = known("film", "front", 0.9).failures.remove(0);
-    let of = |variant: i32, best_value: f64| KnownFailure {
-        variant: Variant::of("resolution", variant),
-        best_value,
-        ..entry.clone()
-    };
-    report.known_failures = KnownFailures { failures: vec![of(20, 0.9), of(40, 0.89)] };
-    let page = html(&report);
+fn a_reason_stands_on_the_page_of_its_case_only() {
+    let folder = tempfile::tempdir().expect("folder");
+    let mut report = report(vec![case("film", vec![gated("front", 0.9)])]);
+    report.known_failures = known("film", "front", 0.9);
+    write(&report, folder.path(), &Drawings::default()).expect("written");
+    let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).expect(path);
+    let (overview, page) = (read("index.html"), read("cases/film/index.html"));
+    for text in [&overview, &page] {
+        assert!(text.contains("0.9\u{202f}%, limit ≤ 0.7\u{202f}%</span> <span class=\"note\">Known since 2025-01-31"));
+    }
+    assert!(!overview.contains("two attempts"));
+    assert!(page.find("What fails") < page.find("two attempts"), "in short first");
     assert_eq!(page.matches("two attempts").count(), 1);
-    assert!(page.contains("best 0.9\u{202f}%") && page.contains("best 0.89\u{202f}%): for the same reason"));
+}
+
+#[test]
+fn figures_stand_above_tables_and_bookkeeping_is_folded() {
+    let folder = tempfile::tempdir().expect("folder");
+    let mut metrics = vec![gated("mass", 0.1).of_kind(MetricKind::Bookkeeping), gated("velocity_l2", 0.9)];
+    metrics.extend((0..20).map(|n| Metric::observed(&format!("height_{n}"), &Variant::default(), 1.0, "m")));
+    let mut film = case("film", metrics);
+    film.figures = vec![drawing("velocity-profile")];
+    let report = report(vec![film]);
+    write(&report, folder.path(), &Drawings::default()).expect("written");
+    let page = std::fs::read_to_string(folder.path().join("cases/film/index.html")).expect("a page");
+    let at = |part: &str| page.find(part).unwrap_or_else(|| panic!("{part} is not on the page"));
+    let order = ["What fails", "<img", "<table", "id=\"metrics-judged\"", "id=\"metrics-bookkeeping\""].map(at);
+    assert!(order.is_sorted(), "{order:?}");
+    let folds: Vec<&str> = page.split("<details").skip(1).filter_map(|rest| rest.split("</summary>").next()).collect();
+    let expected = [
+        " open><summary>Judged: 1 row",
+        "><summary>Bookkeeping: 1 row",
+        "><summary>Observed only: 20 rows",
+        "><summary>as run, in <code>case.toml</code>",
+    ];
+    assert_eq!(folds, expected);
+}
+
+/// A report of some cases with a figure each, as it is written.
+fn overview_of(names: &[&str]) -> String {
+    let folder = tempfile::tempdir().expect("folder");
+    let of = |name: &&str| {
+        let run_out = Metric::observed("run_out", &Variant::default(), 2.2, "-").of_kind(MetricKind::Validation);
+        let measured = run_out.against(Some(2.0), "an experiment", Confidence::Medium);
+        let known = measured.known_to(Origin::Repeat, Some(0.5), "seeds");
+        let mut own = case(name, vec![gated("velocity_l2", 0.25), known]);
+        own.figures = vec![drawing("first"), drawing("scaling")];
+        own
+    };
+    write(&report(names.iter().map(of).collect()), folder.path(), &Drawings::default()).expect("written");
+    assert!(links(folder.path()) > 5);
+    std::fs::read_to_string(folder.path().join("index.html")).expect("a page")
+}
+
+#[test]
+fn the_first_page_opens_with_a_panel_for_each_flow_that_the_report_has() {
+    let cases = ["footing", "bagnold", "flow-thickness", "column-round", "column-planar", "bed-load-1d", "bed-load"];
+    let page = overview_of(&cases);
+    assert_eq!(page.matches("<section class=\"flow\"").count(), 4);
+    assert!(page.find("<section class=\"flow\"") < page.find("<table"));
+    assert!(page.contains("Velocity profiles are within 0.25 % (L2) of"));
+    assert!(page.contains("Run-outs are 1.1 to 1.1 times") && page.contains("(comparisons: 2)"));
+    assert!(
+        page.contains(
+            "validated within u<sub>val</sub> in 2 of 2 comparisons: u<sub>val</sub> is 25 % of the reference"
+        )
+    );
+    assert!(page.contains("href=\"figures/column-planar/scaling.csv\""), "the figure that stands for the flow");
+    assert_eq!(page.matches("class=\"small\"><a").count(), cases.len(), "a picture a case");
+}
+
+#[test]
+fn flows_without_their_cases_are_left_out() {
+    assert_eq!(overview_of(&["incline-collapse", "my-flume"]).matches("<section class=\"flow\"").count(), 1);
+    let none = overview_of(&["footing"]);
+    assert!(!none.contains("class=\"flow") && none.contains("class=\"small\"><a"));
 }
 
 /// What people write into cases, laws and data ends up in pictures and messages as well as in the page's own text.

@@ -83,6 +83,16 @@ pub(super) fn table(case: &CaseReport) -> Option<ControlsView> {
     (!controls.is_empty()).then(|| ControlsView { controls: controls.iter().map(view).collect(), rows })
 }
 
+/// How many wrong inputs the gates of a case reject, for its panel on the first page; none where no control was tried.
+pub(super) fn rejected_inputs(case: &CaseReport) -> Option<String> {
+    let is_rejected = |trial: &&ControlTrial| {
+        let answers = case.metrics.iter().filter_map(|metric| trial.answer(metric));
+        answers.into_iter().any(|answer| matches!(answer, Answer::Rejects | Answer::NotJudged))
+    };
+    let (all, rejected) = (case.controls.len(), case.controls.iter().filter(is_rejected).count());
+    (all > 0).then(|| format!("{}: gates reject {rejected} of {all} controls (wrong physics or input)", case.name))
+}
+
 /// What a gate says of a control.
 fn cell(trial: &ControlTrial, metric: &Metric) -> ControlCell {
     let is_named = trial.control.is_named_by(&metric.name);

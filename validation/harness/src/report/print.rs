@@ -43,9 +43,9 @@ fn between<'t>(text: &'t str, start: &str, end: &str) -> &'t str {
     &text[from..to]
 }
 
-/// Without what only a screen has.
+/// Without what only a screen has, and with nothing folded.
 fn for_paper(body: &str) -> String {
-    let mut text = body.to_owned();
+    let mut text = body.replace("<details>", "<details open>");
     for (start, end) in FOR_THE_SCREEN {
         while let Some(from) = text.find(start) {
             let length = text[from..].find(end).map_or(text.len() - from, |place| place + end.len());
@@ -109,10 +109,10 @@ mod tests {
     #[test]
     fn a_chapter_has_what_paper_can_show() {
         let page = "<html><head><title>x</title></head><body>\n<a class=\"skip\" href=\"#x\">skip</a><nav>a</nav><p>kept</p>\
-                    <img src=\"../../figures/a.png\"><p class=\"jumps\">b</p><script>c</script></body></html>";
+                    <img src=\"../../figures/a.png\"><p class=\"jumps\">b</p><details>d</details><script>c</script></body></html>";
         let text = render("A <report>", &[Chapter::of("index", page), Chapter::of("case-film", page)]).expect("filled");
         assert_eq!((text.matches("<p>kept</p>").count(), text.matches("src=\"figures/a.png\"").count()), (2, 2));
-        for gone in ["skip", "<nav", "jumps", "<script", "<title>x"] {
+        for gone in ["skip", "<details>", "<nav", "jumps", "<script", "<title>x"] {
             assert!(!between(&text, "<body>", "</body>").contains(gone), "{gone}");
         }
         assert!(text.contains("<title>A &lt;report&gt;: all pages</title>") && text.contains("id=\"case-film\""));

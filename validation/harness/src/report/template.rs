@@ -3,11 +3,12 @@
 use crate::page;
 use serde::Serialize;
 
-const TEMPLATES: [(&str, &str); 15] = [
+const TEMPLATES: [(&str, &str); 16] = [
     ("head.html", include_str!("template/head.html")),
     ("index.html", include_str!("template/index.html")),
     ("drift.html", include_str!("template/drift.html")),
     ("scatter.html", include_str!("template/scatter.html")),
+    ("failures.html", include_str!("template/failures.html")),
     ("gates.html", include_str!("template/gates.html")),
     ("case.html", include_str!("template/case.html")),
     ("controls.html", include_str!("template/controls.html")),

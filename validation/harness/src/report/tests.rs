@@ -61,7 +61,7 @@ pub(super) fn known(case: &str, metric: &str, best_value: f64) -> KnownFailures 
 }
 
 pub(super) fn html(report: &Report) -> String {
-    page::render(report, &judge(report), &[], Vec::new()).expect("page")
+    page::render(report, &judge(report), (&[], &[]), Vec::new()).expect("page")
 }
 
 fn place(text: &str, part: &str) -> usize {
@@ -69,7 +69,13 @@ fn place(text: &str, part: &str) -> usize {
 }
 
 pub(super) fn drawing(name: &str) -> Figure {
-    let axis = |label: &str| Axis { label: label.to_owned(), scale: Scale::Linear, limits: None, ratio: None };
+    let axis = |label: &str| Axis {
+        label: label.to_owned(),
+        scale: Scale::Linear,
+        limits: None,
+        ratio: None,
+        names: Vec::new(),
+    };
     let panel = Panel {
         title: String::new(),
         x: axis("u [m/s]"),
@@ -83,7 +89,13 @@ pub(super) fn drawing(name: &str) -> Figure {
 }
 
 fn moving(name: &str, frames: usize) -> Animation {
-    let axis = Axis { label: "x [m]".to_owned(), scale: Scale::Linear, limits: Some((0.0, 1.0)), ratio: None };
+    let axis = Axis {
+        label: "x [m]".to_owned(),
+        scale: Scale::Linear,
+        limits: Some((0.0, 1.0)),
+        ratio: None,
+        names: Vec::new(),
+    };
     let frame = AnimationFrame {
         title: "t = 0 s".to_owned(),
         points: vec![[0.5, 0.5]],
@@ -128,7 +140,7 @@ fn a_known_failure_is_red_and_first_but_not_unexpected() {
     assert!(!judgement.has_unexpected_failure() && !judgement.is_green());
     assert_eq!((judgement.verification.known, judgement.verification.fail, judgement.verification.hold), (1, 0, 1));
     let page = html(&report);
-    assert!(page.contains("class=\"banner known\"") && page.contains("two attempts"));
+    assert!(page.contains("class=\"banner known\""));
 
     report.known_failures = known("bagnold", "velocity_l2", 0.8);
     assert!(judge(&report).has_unexpected_failure(), "worse than its best value");
@@ -244,10 +256,17 @@ fn the_folder_is_self_contained_and_reproducible() {
     assert!(!page.contains("http") && !overview.contains("http"), "nothing is loaded from elsewhere");
     assert!(links(folder.path()) > 10);
     let store = tempfile::tempdir().expect("folder");
-    let names = ["velocity-profile.svg", "velocity-profile.png", "collapse.gif"];
-    let bytes = || names.map(|name| std::fs::read(folder.path().join("figures/film").join(name)).expect(name));
+    let names = ["svg", "png", "pdf", "csv"]
+        .map(|ending| format!("velocity-profile.{ending}"))
+        .into_iter()
+        .chain(["collapse.gif".to_owned()]);
+    let names: Vec<String> = names.collect();
+    let read_bytes = |name: &String| std::fs::read(folder.path().join("figures/film").join(name)).expect(name);
+    let bytes = || names.iter().map(read_bytes).collect::<Vec<_>>();
     let drawn = bytes();
-    for (made, occasion) in [(4, "an SVG, a PNG and a GIF, and one that fails"), (1, "what fails is tried again")] {
+    for (made, occasion) in
+        [(6, "an SVG, two PNGs, a PDF and a GIF, and one that fails"), (1, "what fails is tried again")]
+    {
         let drawings = Store::at(store.path(), StorePolicy::Use).drawings();
         write(&report, folder.path(), &drawings).expect("written again");
         assert_eq!(drawings.made(), made, "{occasion}");

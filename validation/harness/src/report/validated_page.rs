@@ -6,13 +6,16 @@ use super::view::{FigureView, picture};
 use super::{CaseReport, DrawnFigure, Report};
 use crate::evidence::{ValidatedComparison, ValidationSet, WAY_OF_FRONT};
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::{FlowRegime, Metric, PredictionInterval, REGIME_NUMBERS};
+use crate::metric::{Metric, PredictionInterval, REGIME_NUMBERS};
 use crate::number::{four_digits, two_digits};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
 /// Folder of the figures.
 pub(super) const FOLDER: &str = "validated";
+
+/// Ratio of the ends of an interval from which its axis is logarithmic `[-]`.
+const WIDE: f64 = 10.0;
 
 #[derive(Serialize)]
 struct ValidatedPage {
@@ -80,59 +83,52 @@ fn predictions_of(case: &CaseReport) -> impl Iterator<Item = Predicted<'_>> {
     case.metrics.iter().filter_map(of)
 }
 
-/// A figure of each quantity whose comparisons have known regimes, with its place among the quantities.
-pub(super) fn figures(report: &Report) -> Vec<Figure> {
+/// A figure of each quantity whose comparisons differ in a number of their regimes.
+pub(super) fn figures() -> Vec<Figure> {
     let set = ValidationSet::shipped();
-    groups(set).iter().filter_map(|group| figure(set, group, report)).collect()
+    groups(set).iter().filter_map(|group| figure(set, group)).collect()
 }
 
-fn figure(set: &ValidationSet, group: &Group, report: &Report) -> Option<Figure> {
+fn figure(set: &ValidationSet, group: &Group) -> Option<Figure> {
     let names = group.names();
-    let rows: Vec<&ValidatedComparison> = set.of(&names).collect();
-    // what predicts nothing needs no map
+    // what predicts nothing needs no figure
     set.bias(&names)?;
-    let predicted = predictions(report);
-    let is_own = |predicted: &&Predicted<'_>| predicted.found.quantity == names.join(", ");
-    let own: Vec<FlowRegime> = predicted.iter().filter(is_own).map(|predicted| predicted.found.regime).collect();
-    let axis = |place: usize| match place {
-        1 => Axis::linear(REGIME_NUMBERS[place]),
-        _ => Axis::logarithmic(&format!("{} [-]", REGIME_NUMBERS[place])),
-    };
-    let panel = |(x, y)| panel(&rows, &own, (x, y), (axis(x), axis(y)));
-    let mut panels: Vec<Panel> = [(0, 1), (3, 2)].into_iter().filter_map(panel).collect();
-    if panels.is_empty() {
-        // streams have neither an aspect ratio nor a speed of their own
-        panels.extend(panel((3, 1)));
+    let mut panels: Vec<Panel> = (0..REGIME_NUMBERS.len()).filter_map(|number| panel(set, &names, number)).collect();
+    // one legend for all
+    for panel in panels.iter_mut().skip(1) {
+        panel.series.iter_mut().for_each(|series| series.label.clear());
+        panel.bands.iter_mut().for_each(|band| band.label.clear());
     }
-    let caption = format!("{}: regimes of the flows that were compared with measurements.", group.name);
+    let caption = format!(
+        "{}: prediction over measurement with ± u_val, over the numbers of the regime. The band holds 95 % of further ratios.",
+        group.name
+    );
     (!panels.is_empty()).then(|| Figure::new(&group.name.replace(' ', "-"), &caption, panels))
 }
 
-/// Comparisons by two numbers of their regimes, case by case, and the report's own flows that were predicted by them.
-fn panel(
-    rows: &[&ValidatedComparison],
-    own: &[FlowRegime],
-    (x, y): (usize, usize),
-    (across, upwards): (Axis, Axis),
-) -> Option<Panel> {
-    let place = |regime: FlowRegime| Some((regime.numbers()[x]?, regime.numbers()[y]?));
-    let mut panel = Panel::new("", across, upwards);
-    let cases: BTreeSet<&str> = rows.iter().map(|row| row.case.as_str()).collect();
-    for (slot, case) in cases.iter().enumerate() {
-        let points: Vec<(f64, f64)> =
-            rows.iter().filter(|row| row.case == *case).filter_map(|row| place(row.regime())).collect();
-        if !points.is_empty() {
-            panel.points(case, slot, points);
-        }
+/// Ratios over a number of the regime, case by case; none where all known comparisons have one value of it.
+fn panel(set: &ValidationSet, names: &[&str], number: usize) -> Option<Panel> {
+    let place = |row: &ValidatedComparison| row.regime().numbers()[number];
+    let ends = set.ranges(names)[number].filter(|(least, most)| least < most)?;
+    let unit = REGIME_NUMBERS[number];
+    let x = if unit.contains('[') { Axis::linear(unit) } else { Axis::logarithmic(&format!("{unit} [-]")) };
+    let interval = set.next_ratio(names);
+    let is_wide = interval.is_some_and(|(least, most)| most > WIDE * least);
+    let label = "prediction/measurement [-]";
+    let mut panel = Panel::new("", x, if is_wide { Axis::logarithmic(label) } else { Axis::linear(label) });
+    let ends = [ends.0, ends.1];
+    if let Some((least, most)) = interval {
+        panel.band("95 % of further ratios", ends.map(|x| (x, least, most)));
     }
-    let first = panel.series.first()?.points.first().copied();
-    if panel.series.iter().flat_map(|series| &series.points).all(|point| Some(*point) == first) {
-        return None;
+    panel.reference("prediction = measurement", ends.map(|x| (x, 1.0)));
+    let cases: BTreeSet<&str> = set.ratios(names).map(|(row, _)| row.case.as_str()).collect();
+    for (slot, case) in cases.into_iter().enumerate() {
+        let own = || set.ratios(names).filter(|(row, _)| row.case == case && place(row).is_some());
+        let points = own().filter_map(|(row, ratio)| Some((place(row)?, ratio)));
+        let series = panel.points(case, slot, points);
+        series.error = own().map(|(row, _)| row.uncertainty.unwrap_or(0.0) / row.reference).collect();
     }
-    let points: Vec<(f64, f64)> = own.iter().filter_map(|regime| place(*regime)).collect();
-    if !points.is_empty() {
-        panel.points("predicted in this report", cases.len(), points);
-    }
+    panel.series.retain(|series| !series.points.is_empty());
     Some(panel)
 }
 
@@ -143,7 +139,7 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, m
         let names = group.names();
         let bias = set.bias(&names);
         let range = |range: &Option<(f64, f64)>| match range {
-            None => "not known".to_owned(),
+            None => String::new(),
             Some((low, high)) if low == high => two_digits(*low).to_string(),
             Some((low, high)) => format!("{} … {}", two_digits(*low), two_digits(*high)),
         };
@@ -152,14 +148,13 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, m
             name: group.name.clone(),
             comparisons: set.number(&names),
             ranges: set.ranges(&names).iter().map(range).collect(),
-            bias: bias.map_or_else(|| "none".to_owned(), |bias| four_digits(bias.bias).to_string()),
+            bias: bias.map_or_else(String::new, |bias| four_digits(bias.bias).to_string()),
             inputs: set
                 .input_uncertainty(&names)
-                .map_or_else(|| "not known".to_owned(), |inputs| format!("{}\u{202f}%", two_digits(100.0 * inputs))),
-            interval: set.next_ratio(&names).map_or_else(
-                || "none".to_owned(),
-                |(least, most)| format!("{} … {}", two_digits(least), two_digits(most)),
-            ),
+                .map_or_else(String::new, |inputs| format!("{}\u{202f}%", two_digits(100.0 * inputs))),
+            interval: set
+                .next_ratio(&names)
+                .map_or_else(String::new, |(least, most)| format!("{} … {}", two_digits(least), two_digits(most))),
             figure: drawn.iter().find(|drawn| drawn.name == figure).map(picture),
         }
     };

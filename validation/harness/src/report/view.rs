@@ -46,16 +46,10 @@ pub(super) struct WorstMetric {
     pub(super) statement: String,
 }
 
-/// A picture that stands for a case.
-#[derive(Debug, Serialize)]
-pub(super) struct Thumbnail {
-    pub(super) case: String,
-    pub(super) picture: FigureView,
-}
-
 /// A case in the list of cases.
 #[derive(Debug, Serialize)]
 pub(super) struct CaseLine {
+    pub(super) picture: Option<FigureView>,
     pub(super) mark: VerdictMark,
     pub(super) name: String,
     pub(super) summary: String,
@@ -109,11 +103,8 @@ pub(super) struct BannerItem {
     pub(super) what: String,
     pub(super) variant: String,
     pub(super) statement: String,
+    /// What the list of known failures says, without its reason.
     pub(super) note: String,
-    /// Why it is known to fail, which follows the note.
-    pub(super) reason: String,
-    /// The item above has the same reason.
-    pub(super) reason_repeats: bool,
 }
 
 /// One of the separate verdicts.
@@ -135,20 +126,31 @@ pub(super) struct CaseView {
     pub(super) description: Vec<String>,
     pub(super) mark: VerdictMark,
     pub(super) statement: String,
-    pub(super) rows: Vec<MetricView>,
+    /// What fails, in short.
+    pub(super) failures: Vec<BannerItem>,
+    pub(super) groups: Vec<MetricGroup>,
     pub(super) vanished: Vec<String>,
     /// Gates that are no longer judged, and why.
     pub(super) not_judged: Vec<String>,
     /// What its gates can tell.
     pub(super) controls: Option<ControlsView>,
     pub(super) figures: Vec<FigureView>,
-    /// Those of them that the page opens with, where a metric leads.
-    pub(super) opening: Vec<FigureView>,
     /// Tables of reference data that are written beside the page.
     pub(super) tables: Vec<&'static str>,
     pub(super) parameters: String,
     pub(super) command: String,
     pub(super) runs: Vec<RunView>,
+}
+
+/// Rows that stand in one table.
+#[derive(Debug, Serialize)]
+pub(super) struct MetricGroup {
+    /// What the table's id ends in.
+    pub(super) name: &'static str,
+    pub(super) title: &'static str,
+    /// Whether the page shows the table unfolded.
+    pub(super) is_open: bool,
+    pub(super) rows: Vec<MetricView>,
 }
 
 #[derive(Debug, Serialize)]

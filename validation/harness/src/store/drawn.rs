@@ -1,12 +1,13 @@
 //! Drawn figures on disk: what this program has drawn once from the same data is not drawn again.
 
 use super::{DRAWN, Store, StorePolicy, entry, hexadecimal, source_hash};
+use crate::figure::FigureFormat;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Where drawings are kept, if anywhere, and how many had to be made.
+/// Where drawings are kept, if anywhere, how large figures are drawn, and how many drawings had to be made.
 #[derive(Debug, Default)]
 pub struct Drawings {
     /// Folder of this version of the sources; none where nothing is kept.
@@ -14,6 +15,7 @@ pub struct Drawings {
     /// What is kept is replaced.
     anew: bool,
     made: AtomicUsize,
+    format: FigureFormat,
 }
 
 /// Identifies what is drawn, by all of its data and the program's sources.
@@ -25,11 +27,23 @@ impl Store {
     #[must_use]
     pub fn drawings(&self) -> Drawings {
         let folder = (self.policy != StorePolicy::Bypass).then(|| self.folder.join(DRAWN));
-        Drawings { folder, anew: self.policy == StorePolicy::Refresh, made: AtomicUsize::new(0) }
+        Drawings { folder, anew: self.policy == StorePolicy::Refresh, ..Drawings::default() }
     }
 }
 
 impl Drawings {
+    /// The same place for figures of another format.
+    #[must_use]
+    pub fn in_format(self, format: FigureFormat) -> Self {
+        Self { format, ..self }
+    }
+
+    /// How large figures are drawn.
+    #[must_use]
+    pub fn format(&self) -> FigureFormat {
+        self.format
+    }
+
     /// The key of what is drawn.
     #[must_use]
     pub fn key(&self, data: &impl Serialize) -> DrawingKey {

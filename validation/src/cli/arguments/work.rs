@@ -1,5 +1,6 @@
 //! Options of everything that simulates: how much it may ask for, and how to compute.
 
+use crate::figure::FigureFormat;
 use clap::Args;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -43,4 +44,20 @@ fn seconds(text: &str) -> Result<Duration, String> {
     let rule = "must be a number of seconds from 0 to 1e6, such as 60";
     let seconds: f64 = text.parse().map_err(|_| rule.to_owned())?;
     if (0.0..=1e6).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(rule.to_owned()) }
+}
+
+/// How figures are drawn.
+#[derive(Debug, Clone, Copy, Default, Args)]
+pub struct FigureOptions {
+    /// Size of figures for a paper: width, height of the axis labels' letters, resolution of the PNG, such as
+    /// 85mm,9pt,300dpi [default: for the screen, 1600 px wide].
+    #[arg(long, value_name = "MM,PT,DPI")]
+    pub figure: Option<FigureFormat>,
+}
+
+impl FigureOptions {
+    /// The format that was asked for, or that of the screen.
+    pub fn format(self) -> FigureFormat {
+        self.figure.unwrap_or_default()
+    }
 }

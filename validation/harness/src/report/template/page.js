@@ -108,6 +108,8 @@
     const typing = event.target.closest?.("input, select, textarea");
     if (event.key !== "/" || typing || event.ctrlKey || event.metaKey || event.altKey || filters.length === 0) return;
     event.preventDefault();
+    const folded = filters[0].search.closest("details");
+    if (folded) folded.open = true;
     filters[0].search.focus();
     filters[0].search.scrollIntoView({ block: "nearest" });
   });

@@ -1,0 +1,77 @@
+//! A figure's data as CSV: a row per point, with the labels of its panel, so that a plot can be made anew elsewhere.
+
+use super::{Figure, Mark, Panel};
+use std::fmt::Write;
+
+const HEAD: &str = "panel,x_axis,y_axis,drawn_as,label,x,y,error,lower,upper,value\n";
+
+/// The table of a figure: series with the half height of their error bars, bands with their edges, particles with their scalar.
+#[must_use]
+pub fn csv(figure: &Figure) -> String {
+    let mut text = HEAD.to_owned();
+    for (place, panel) in figure.panels.iter().enumerate() {
+        let title = format!("{} {}", place + 1, panel.title);
+        add_panel(&mut text, &[title.trim_end(), &panel.x.label, &panel.y.label].map(quoted).join(","), panel);
+    }
+    text
+}
+
+fn add_panel(text: &mut String, start: &str, panel: &Panel) {
+    let mut row = |kind: &str, label: &str, numbers: [Option<f64>; 6]| {
+        let numbers = numbers.map(|number| number.map(short).unwrap_or_default());
+        writeln!(text, "{start},{kind},{},{}", quoted(label), numbers.join(",")).expect("a string takes any text");
+    };
+    for series in &panel.series {
+        let kind = match series.mark {
+            Mark::Line => "line",
+            Mark::Reference => "reference",
+            Mark::Points => "points",
+            Mark::LinePoints => "line with points",
+        };
+        for (place, &(x, y)) in series.points.iter().enumerate() {
+            row(kind, &series.label, [Some(x), Some(y), series.error.get(place).copied(), None, None, None]);
+        }
+    }
+    for band in &panel.bands {
+        for &(x, lower, upper) in &band.points {
+            row("band", &band.label, [Some(x), None, None, Some(lower), Some(upper), None]);
+        }
+    }
+    for field in panel.field.iter().chain(&panel.opposite) {
+        for (place, &(x, y)) in field.points.iter().enumerate() {
+            row("particles", &field.label, [Some(x), Some(y), None, None, None, field.values.get(place).copied()]);
+        }
+    }
+}
+
+/// A number to seven digits.
+fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.6e}").parse().unwrap_or(number);
+    if rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+}
+
+/// A field, in quotes where CSV needs them.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Axis, Field};
+
+    #[test]
+    fn every_point_has_a_row_with_its_labels() {
+        let mut panel = Panel::new("rest, \"slow\"", Axis::linear("u [m/s]"), Axis::linear("y [m]"));
+        panel.points("a", 0, [(0.1, 2.0)]).error = vec![0.25];
+        panel.band("b", [(1.0, 1e-9, 3.0)]);
+        panel.field = Some(Field::new("p [Pa]", 0.1, (0.0, 1.0), [(1.0, 2.0)], [1.0 / 3.0]));
+        let text = csv(&Figure::new("profile", "", vec![panel]));
+        let rows: Vec<&str> = text.lines().collect();
+        let start = "\"1 rest, \"\"slow\"\"\",u [m/s],y [m]";
+        assert_eq!(rows[0], HEAD.trim_end());
+        assert_eq!(rows[1], format!("{start},points,a,0.1,2,0.25,,,"));
+        assert_eq!(rows[2], format!("{start},band,b,1,,,1e-9,3,"));
+        assert_eq!(rows[3], format!("{start},particles,p [Pa],1,2,,,,0.3333333"));
+    }
+}
