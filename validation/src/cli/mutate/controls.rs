@@ -130,27 +130,22 @@ fn of_inputs(
     let prepared = requests.iter().map(|request| Ok(request.prepare(registry)?.prepared));
     let results = simulation::simulate(prepared.collect::<Result<_, ProgramError>>()?, store, quiet, None)?;
     let [right, wrong @ ..] = &results[..] else { return Ok(Vec::new()) };
-    let trial = |(control, wrong): (&&Control, &CaseResult)| {
-        let mut trial = ControlTrial::of((*control).clone(), &right.metrics, wrong);
-        trial.found.retain(|found| is_asked(case, found));
-        trial
-    };
+    let asked: Vec<Metric> = right.metrics.iter().filter(|metric| is_asked(case, metric)).cloned().collect();
+    let trial = |(control, wrong): (&&Control, &CaseResult)| ControlTrial::of((*control).clone(), &asked, wrong);
     Ok(dear.iter().zip(wrong).map(trial).collect())
 }
 
 /// The right metrics that anything asks for, as they are with an error.
 fn found(case: &str, right: &[Metric], wrong: &[Metric]) -> Vec<Found> {
     let with_error =
-        |metric: &&Metric| wrong.iter().find(|other| other.name == metric.name && other.variant == metric.variant);
-    let all = right.iter().map(|metric| (metric.verdict(), Found::of(metric, with_error(&metric))));
-    all.filter(|(verdict, found)| *verdict != Verdict::Observed || is_asked(case, found))
-        .map(|(_, found)| found)
-        .collect()
+        |metric: &Metric| wrong.iter().find(|other| other.name == metric.name && other.variant == metric.variant);
+    let asked = right.iter().filter(|metric| is_asked(case, metric));
+    asked.map(|metric| Found::of(metric, with_error(metric))).collect()
 }
 
-/// Whether a gate judges a number or an element of a paper names it.
-fn is_asked(case: &str, found: &Found) -> bool {
+/// Whether a gate judges a number of the right case or an element of a paper names it.
+fn is_asked(case: &str, metric: &Metric) -> bool {
     let names = PAPERS.iter().flat_map(|paper| &paper.elements).flat_map(|element| &element.metrics);
-    found.verdict.is_some_and(|verdict| verdict != Verdict::Observed)
-        || names.filter(|name| name.case == case).any(|name| name.names(&found.metric, &found.variant))
+    metric.verdict() != Verdict::Observed
+        || names.filter(|name| name.case == case).any(|name| name.names(&metric.name, &metric.variant))
 }
