@@ -28,11 +28,8 @@ fn trials(case: &dyn AnyCase, right: &CaseResult) -> Vec<ControlTrial> {
         requests.push(Request { target: case.name(), settings: set, only, ..Request::default() });
     }
     let wrong = results(&requests);
-    let mut trials: Vec<ControlTrial> = own
-        .into_iter()
-        .zip(&wrong)
-        .map(|(control, wrong)| ControlTrial::of(control.clone(), &right.metrics, wrong))
-        .collect();
+    let mut trials: Vec<ControlTrial> =
+        own.into_iter().zip(&wrong).map(|(control, wrong)| wrong.trial(control.clone(), &right.metrics)).collect();
     for control in controls.iter().filter(|control| !in_report(control)) {
         let trial = tried.trial(control);
         trials.push(trial.unwrap_or_else(|| panic!("{} {}: run `bagnold dev controls`", case.name(), control.name)));

@@ -37,6 +37,7 @@ const HARNESS: &[Floor] = &[
     floor(&["metric"]),
     floor(&["observation", "evidence"]),
     floor(&["store", "checkpoint"]),
+    floor(&["control"]),
     floor(&["case"]),
     floor(&["setup"]),
     floor(&["evaluation", "result", "report"]),

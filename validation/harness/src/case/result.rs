@@ -1,6 +1,7 @@
 //! What a finished case hands to reports, files and tests: plain data, whatever the case's types were.
 
 use super::Tier;
+use crate::control::{Control, ControlTrial};
 use crate::figure::{Animation, Figure};
 use crate::metric::{FlowRegime, Metric, Variant, Verdict};
 use crate::observation::{Frame, Outcome};
@@ -103,6 +104,13 @@ impl CaseResult {
     #[must_use]
     pub fn microseconds_per_particle_step(&self) -> Option<f64> {
         microseconds_each(self.wall_seconds(), self.particle_steps())
+    }
+
+    /// What became of a control of which it is the result, beside the metrics of the right case.
+    #[must_use]
+    pub fn trial(&self, control: Control, right: &[Metric]) -> ControlTrial {
+        let runs: Vec<Variant> = self.runs.iter().map(|run| run.variant.clone()).collect();
+        ControlTrial::of(control, right, &self.metrics, &runs, self.unexpected_divergences().next().is_some())
     }
 
     /// Metrics whose gate does not hold.

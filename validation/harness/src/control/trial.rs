@@ -1,7 +1,6 @@
 //! What became of a control: which gates reject it.
 
 use super::{Control, ControlKind};
-use crate::case::CaseResult;
 use crate::metric::{Metric, Value, Variant, Verdict};
 
 /// What a gate that holds says of a control.
@@ -44,19 +43,18 @@ pub struct ControlTrial {
 }
 
 impl ControlTrial {
-    /// What the metrics of the right case have become in the control's result. A metric is missing where one of the control's runs has its variant
-    /// and does not give it.
+    /// What the metrics of the right case have become in the control's, which come from these runs. A metric is missing where one of the runs has
+    /// its variant and does not give it.
     #[must_use]
-    pub fn of(control: Control, right: &[Metric], wrong: &CaseResult) -> Self {
-        let has_run =
-            |variant: &Variant| wrong.runs.iter().any(|run| variant.includes(&control.as_right(&run.variant)));
+    pub fn of(control: Control, right: &[Metric], wrong: &[Metric], runs: &[Variant], diverged: bool) -> Self {
+        let has_run = |variant: &Variant| runs.iter().any(|run| variant.includes(&control.as_right(run)));
         let found = right.iter().filter_map(|metric| {
             let is_it =
                 |other: &&Metric| other.name == metric.name && control.as_right(&other.variant) == metric.variant;
-            let tried = wrong.metrics.iter().find(is_it);
+            let tried = wrong.iter().find(is_it);
             (tried.is_some() || has_run(&metric.variant)).then(|| Found::of(metric, tried))
         });
-        let (found, diverged) = (found.collect(), wrong.unexpected_divergences().next().is_some());
+        let found = found.collect();
         Self { control, found, diverged, tried_at: None }
     }
 

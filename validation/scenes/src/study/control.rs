@@ -3,7 +3,7 @@
 use super::Study;
 use super::file::CheckText;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
-use crate::control::{Answer, Control, ControlKind, ControlTrial};
+use crate::control::{Answer, Control, ControlKind};
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, check_name, check_text};
 use crate::metric::{Limit, Metric, Variant};
@@ -106,7 +106,7 @@ impl Study {
     pub(super) fn rejections(&self, right: &[Metric], place: usize, wrong: &CaseResult) -> Vec<Metric> {
         let control = self.text.controls[place].control();
         let name = control.name.clone();
-        let trial = ControlTrial::of(control, right, wrong);
+        let trial = wrong.trial(control, right);
         let own = right.iter().filter(|metric| trial.control.rejected_by.contains(&metric.name));
         let number = |metric: &Metric| {
             let rejected = match trial.answer(metric)? {

@@ -131,7 +131,7 @@ fn of_inputs(
     let results = simulation::simulate(prepared.collect::<Result<_, ProgramError>>()?, store, quiet, None)?;
     let [right, wrong @ ..] = &results[..] else { return Ok(Vec::new()) };
     let asked: Vec<Metric> = right.metrics.iter().filter(|metric| is_asked(case, metric)).cloned().collect();
-    let trial = |(control, wrong): (&&Control, &CaseResult)| ControlTrial::of((*control).clone(), &asked, wrong);
+    let trial = |(control, wrong): (&&Control, &CaseResult)| wrong.trial((*control).clone(), &asked);
     Ok(dear.iter().zip(wrong).map(trial).collect())
 }
 
