@@ -41,7 +41,11 @@ pub(super) fn drawn(
     let claimed = OutputFolder::claim(&command.out)?;
     let draw = Draw::new(workspace, command.seed)?;
     let (mut progress, kept) = DrawProgress::open(workspace, command.seed)?;
-    let note = |text: &str| if quiet { () } else { tell(text) };
+    let note = |text: &str| {
+        if !quiet {
+            tell(text);
+        }
+    };
     let mut wanted = 2 * command.count;
     let (places, program, sample) = loop {
         note(&format!("building a copy of the program with {wanted} of {} mutations", draw.count()));

@@ -86,7 +86,7 @@ impl Candidate {
 pub(super) fn candidates(file: &str, text: &str) -> Result<Vec<Candidate>, syn::Error> {
     let mut finder = Finder { file, text, found: Vec::new() };
     finder.visit_file(&syn::parse_file(text)?);
-    finder.found.sort_by(|a, b| (a.range.start, a.range.end).cmp(&(b.range.start, b.range.end)));
+    finder.found.sort_by_key(|candidate| (candidate.range.start, candidate.range.end));
     Ok(finder.found)
 }
 
