@@ -47,7 +47,7 @@ fn the_program_holds_no_mutation() {
 fn a_draw_takes_a_count_and_a_seed() {
     let place = Place::new();
     for (option, value, rule) in [
-        ("--count", "0", "must be an integer from 1 to 10000, such as 100"),
+        ("--count", "0", "0 is not in 1..=10000"),
         ("--seed", "0xfog", "must be an integer from 0 to 2^64 - 1, such as 1 or 0x22b011ce"),
     ] {
         let refused = place.bagnold(&["dev", "mutate", "drawn", option, value]).assert().code(2).stdout("");
