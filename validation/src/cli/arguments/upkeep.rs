@@ -135,7 +135,7 @@ pub struct DrawnArguments {
     #[arg(long)]
     pub tests: bool,
     /// Folder to write.
-    #[arg(long, value_name = "DIR", default_value = "reports/mutation/drawn")]
+    #[arg(long, value_name = "DIR", default_value = "reports/mutation-drawn")]
     pub out: PathBuf,
     /// Threads to use [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
