@@ -5,9 +5,12 @@ use crate::program::{Place, path};
 #[test]
 fn without_sources_there_is_nothing_to_change() {
     let place = Place::new();
-    for arguments in
-        [&["dev", "mutate"][..], &["dev", "mutate", "list"], &["dev", "mutate", "trial", "von-karman", "film"]]
-    {
+    for arguments in [
+        &["dev", "mutate"][..],
+        &["dev", "mutate", "list"],
+        &["dev", "mutate", "trial", "von-karman", "film"],
+        &["dev", "mutate", "drawn"],
+    ] {
         let finished = place.bagnold(arguments).assert().code(2).stdout("");
         let message = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
         assert!(message.contains("work in a checkout of bagnold"), "{message}");
@@ -38,4 +41,17 @@ fn the_program_holds_no_mutation() {
         assert!(!holds(name), "the program names `{name}`");
     }
     assert!(holds("mutations.toml"), "where they stand is found, so that what is not found is not there");
+}
+
+#[test]
+fn a_draw_takes_a_count_and_a_seed() {
+    let place = Place::new();
+    for (option, value, rule) in [
+        ("--count", "0", "0 is not in 1..=10000"),
+        ("--seed", "0xfog", "must be an integer from 0 to 2^64 - 1, such as 1 or 0x22b011ce"),
+    ] {
+        let refused = place.bagnold(&["dev", "mutate", "drawn", option, value]).assert().code(2).stdout("");
+        let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+        assert!(message.contains(rule), "{message}");
+    }
 }

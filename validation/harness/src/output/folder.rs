@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// What a fresh checkout holds in `reports/`, and what commands put there that were run before a report: they make no
 /// folder foreign.
-const COMMITTED: [&str; 11] = [
+const COMMITTED: [&str; 12] = [
     "README.md",
     "gallery",
     "history.csv",
@@ -23,6 +23,7 @@ const COMMITTED: [&str; 11] = [
     "calibrations",
     "suites",
     "mutation",
+    "mutation-drawn",
 ];
 
 /// Begins the names of all that Bagnold puts into a folder beside its results: marker, lock, staging, halves of them.

@@ -148,8 +148,8 @@ Exit codes: 0 every error was tried; 2 bad input, or no checkout.";
 #[command(after_help = DRAWN_HELP)]
 pub struct DrawnArguments {
     /// Number of errors that compile and are reached.
-    #[arg(long, value_name = "N", default_value = "100", value_parser = count)]
-    pub count: usize,
+    #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u16).range(1..=10_000))]
+    pub count: u16,
     /// Seed of the draw, decimal or hexadecimal.
     #[arg(long, value_name = "SEED", default_value = "0x22b011ce", value_parser = seed)]
     pub seed: u64,
@@ -157,16 +157,11 @@ pub struct DrawnArguments {
     #[arg(long)]
     pub tests: bool,
     /// Folder to write.
-    #[arg(long, value_name = "DIR", default_value = "reports/mutation/drawn")]
+    #[arg(long, value_name = "DIR", default_value = "reports/mutation-drawn")]
     pub out: PathBuf,
     /// Threads to use [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-}
-
-fn count(text: &str) -> Result<usize, String> {
-    let number = text.parse().ok().filter(|number| (1..=10_000).contains(number));
-    number.ok_or_else(|| "must be an integer from 1 to 10000, such as 100".to_owned())
 }
 
 fn seed(text: &str) -> Result<u64, String> {

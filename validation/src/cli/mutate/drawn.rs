@@ -40,9 +40,14 @@ pub(super) fn drawn(
     }
     let claimed = OutputFolder::claim(&command.out)?;
     let draw = Draw::new(workspace, command.seed)?;
-    let (mut progress, kept) = DrawProgress::open(workspace, command.seed)?;
-    let note = |text: &str| if quiet { () } else { tell(text) };
-    let mut wanted = 2 * command.count;
+    let (mut progress, kept) = DrawProgress::open(workspace, &draw);
+    let count = usize::from(command.count);
+    let note = |text: &str| {
+        if !quiet {
+            tell(text);
+        }
+    };
+    let mut wanted = 2 * count;
     let (places, program, sample) = loop {
         note(&format!("building a copy of the program with {wanted} of {} mutations", draw.count()));
         let (places, path) = draw.build(workspace, wanted, &mut progress.rejected, &note)?;
@@ -55,11 +60,11 @@ pub(super) fn drawn(
             progress.save(&kept)?;
         }
         let reached = |place: &&usize| !progress.cases_of(**place).is_empty();
-        let sample: Vec<usize> = places.iter().filter(reached).take(command.count).copied().collect();
-        if sample.len() == command.count || places.len() < wanted {
+        let sample: Vec<usize> = places.iter().filter(reached).take(count).copied().collect();
+        if sample.len() == count || places.len() < wanted {
             break (places, program, sample);
         }
-        wanted += command.count;
+        wanted += count;
     };
     let number = |place: usize| places.iter().position(|other| *other == place).map_or(0, |index| index + 1);
     let trial = Trial { draw, progress: Mutex::new(progress), kept, output: Mutex::new(output) };

@@ -25,7 +25,7 @@ pub(super) fn trial(program: &Path, choice: &str, scope: &Scope, threads: Option
     command
 }
 
-/// Runs a command to its end, or until a time limit or a signal.
+/// Runs a command to its end, or until a time limit or a signal; returns what it said first on standard error, too.
 fn ended(command: &mut Command, limit: Duration) -> Result<(ExitStatus, String), String> {
     let started = Instant::now();
     let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().map_err(|error| error.to_string())?;
@@ -45,7 +45,9 @@ fn ended(command: &mut Command, limit: Duration) -> Result<(ExitStatus, String),
         }
     };
     let said = child.wait_with_output().map(|output| String::from_utf8_lossy(&output.stderr).into_owned());
-    Ok((status, said.unwrap_or_default()))
+    // a panic begins with an empty line
+    let said = said.unwrap_or_default().lines().find(|line| !line.trim().is_empty()).map(str::to_owned);
+    Ok((status, said.unwrap_or_else(|| "the program ended without a word".to_owned())))
 }
 
 /// A copy, and where its trials leave what they found.
@@ -96,8 +98,7 @@ impl Program {
         let threads = u16::try_from(rayon::current_num_threads()).ok();
         let mut command = trial(&self.path, choice, scope, threads);
         let (_, said) = ended(command.arg("--result").arg(&file).stdout(Stdio::null()), limit)?;
-        let reason = || said.lines().next().unwrap_or("the program ended without a word").to_owned();
-        MutantRun::read(&file).ok_or_else(reason)
+        MutantRun::read(&file).ok_or(said)
     }
 
     /// Runs the tests of a program with the mutation of a number on the current pool's number of threads.
@@ -113,15 +114,11 @@ impl Program {
         command.env("RUST_TEST_THREADS", &threads).env("RAYON_NUM_THREADS", &threads);
         // results of this mutation are no other's
         command.env("BAGNOLD_STORE", self.file(&format!("{name}-store")));
-        let outcome = ended(&mut command, limit).map_err(|reason| format!("{}: {reason}", test.name))?;
+        let (status, said) = ended(&mut command, limit).map_err(|reason| format!("{}: {reason}", test.name))?;
         let text = std::fs::read(&printed).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         let failed = text.lines().find_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
-        let stopped = || outcome.1.lines().next().unwrap_or("the program ended without a word").to_owned();
-        if outcome.0.success() {
-            return Ok(());
-        }
-        Err(format!("{}: {}", test.name, failed.map_or_else(stopped, str::to_owned)))
+        if status.success() { Ok(()) } else { Err(format!("{}: {}", test.name, failed.unwrap_or(&said))) }
     }
 }
 

@@ -3,7 +3,6 @@
 use super::record::{FILE, Mutations};
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
-use crate::observation::state_hash;
 use crate::output::FileError;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -280,32 +279,6 @@ fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<P
     let text = changed.remove(&library).map_or_else(|| read(&library), Ok)?;
     changed.insert(library, NO_LINTS.to_owned() + &text + "\nmod chosen_mutation;\n");
     Ok(changed)
-}
-
-/// Digest of everything that the copy is made from.
-pub(super) fn digest(workspace: &Path) -> Result<String, FileError> {
-    fn add(path: &Path, bytes: &mut Vec<u8>) -> io::Result<()> {
-        if std::fs::symlink_metadata(path)?.file_type().is_symlink() {
-            return Ok(());
-        }
-        if !path.is_dir() {
-            bytes.extend(std::fs::read(path).map(|file| state_hash(&file))?.into_bytes());
-            return Ok(());
-        }
-        let mut entries = std::fs::read_dir(path)?.collect::<io::Result<Vec<_>>>()?;
-        entries.retain(|entry| entry.file_name() != "target");
-        entries.sort_by_key(std::fs::DirEntry::file_name);
-        entries.iter().try_for_each(|entry| {
-            bytes.extend(entry.file_name().as_encoded_bytes());
-            add(&entry.path(), bytes)
-        })
-    }
-    let mut bytes = Vec::new();
-    for name in SOURCES {
-        let path = workspace.join(name);
-        add(&path, &mut bytes).map_err(|error| FileError::unreadable(&path, &error))?;
-    }
-    Ok(state_hash(&bytes))
 }
 
 /// Makes `to` what `from` is, but for changed files; what is the same already is not touched, so that little is built anew.

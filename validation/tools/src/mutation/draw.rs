@@ -1,12 +1,14 @@
 //! A random draw of mutations by rule, of those that compile, and what has been found of it so far.
 
-use super::copy::{CopyError, SourceCopy, beginning, digest};
+use super::copy::{CopyError, SourceCopy, beginning};
 use super::generator::{Candidate, candidates};
 use super::record::{Mutation, Mutations};
 use super::{MutantRun, MutationOutcome};
 use crate::input::{WRITTEN_BY_HAND, read_text};
+use crate::observation::state_hash;
 use crate::output::FileError;
 use crate::sampling::Random;
+use crate::store::provenance::source_hash;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,6 +17,7 @@ use std::path::{Path, PathBuf};
 /// Every candidate of the solver, in the random order of a seed. A mutation is known by its place in that order.
 #[derive(Debug)]
 pub struct Draw {
+    seed: u64,
     sources: BTreeMap<String, String>,
     order: Vec<Candidate>,
 }
@@ -36,7 +39,7 @@ impl Draw {
             })?);
         }
         Random::new(seed).shuffle(&mut order);
-        Ok(Self { sources, order })
+        Ok(Self { seed, sources, order })
     }
 
     /// Number of candidates.
@@ -175,15 +178,15 @@ pub struct DrawProgress {
 }
 
 impl DrawProgress {
-    /// What was found of a draw with these sources, and the file that keeps it.
-    ///
-    /// # Errors
-    /// Sources that cannot be read.
-    pub fn open(workspace: &Path, seed: u64) -> Result<(Self, PathBuf), FileError> {
-        let name = format!("drawn-{seed:x}-{}", digest(workspace)?);
+    /// What this program has found of a draw, and the file that keeps it.
+    #[must_use]
+    pub fn open(workspace: &Path, draw: &Draw) -> (Self, PathBuf) {
+        let sources: String = draw.sources.iter().map(|(file, text)| format!("{file}\n{text}")).collect();
+        let digest = state_hash(format!("{}{sources}", source_hash()).as_bytes());
+        let name = format!("drawn-{:x}-{digest}", draw.seed);
         let file = workspace.join("target").join("mutations").join(name);
         let kept = std::fs::read(&file).ok().and_then(|bytes| postcard::from_bytes(&bytes).ok());
-        Ok((kept.unwrap_or_default(), file))
+        (kept.unwrap_or_default(), file)
     }
 
     /// Keeps it.

@@ -4,48 +4,28 @@
 //! expressions of `vec!` are read. What a rule gives may still not compile: the compiler decides (`draw`).
 
 use super::record::{Mutation, SourceReplacement};
-use std::fmt;
 use std::ops::Range;
 use syn::punctuated::Punctuated;
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
 use syn::{Attribute, BinOp, Expr, Lit, Meta, Token, UnOp};
 
-/// Kind of error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Rule {
-    /// `+` for `-`, `*` for `/`, `&&` for `||`, and each the other way round.
-    Operator,
-    /// `<` for `≤`, `<` for `>`, `==` for `!=`.
-    Comparison,
-    /// A sign or a `!` that is dropped or added.
-    Sign,
-    /// 1 for 0, 0 for 1, twice or half of any other number, twice a named constant.
-    Constant,
-    /// One of two terms or factors alone, or a value without its bound or its absolute value.
-    DroppedTerm,
-    /// `min` for `max`.
-    Extremum,
-    /// `[j]` for `[i]`, `[1]` for `[0]`.
-    Index,
-    /// The condition of an `if` or a `while`, negated.
-    Condition,
-}
-
-impl fmt::Display for Rule {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Operator => "operator",
-            Self::Comparison => "comparison",
-            Self::Sign => "sign",
-            Self::Constant => "constant",
-            Self::DroppedTerm => "dropped term",
-            Self::Extremum => "extremum",
-            Self::Index => "index",
-            Self::Condition => "condition",
-        })
-    }
-}
+/// `+` for `-`, `*` for `/`, `&&` for `||`, and each the other way round.
+const OPERATOR: &str = "operator";
+/// `<` for `≤`, `<` for `>`, `==` for `!=`.
+const COMPARISON: &str = "comparison";
+/// A sign or a `!` that is dropped or added.
+const SIGN: &str = "sign";
+/// 1 for 0, 0 for 1, twice or half of any other number, twice a named constant.
+const CONSTANT: &str = "constant";
+/// One of two terms or factors alone, or a value without its bound or its absolute value.
+const DROPPED_TERM: &str = "dropped term";
+/// `min` for `max`.
+const EXTREMUM: &str = "extremum";
+/// `[j]` for `[i]`, `[1]` for `[0]`.
+const INDEX: &str = "index";
+/// The condition of an `if` or a `while`, negated.
+const CONDITION: &str = "condition";
 
 /// An expression of a source and a wrong one.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +34,7 @@ pub(super) struct Candidate {
     pub(super) file: String,
     /// Bytes of the expression in its file.
     pub(super) range: Range<usize>,
-    rule: Rule,
+    rule: &'static str,
     wrong: String,
 }
 
@@ -86,7 +66,7 @@ impl Candidate {
 pub(super) fn candidates(file: &str, text: &str) -> Result<Vec<Candidate>, syn::Error> {
     let mut finder = Finder { file, text, found: Vec::new() };
     finder.visit_file(&syn::parse_file(text)?);
-    finder.found.sort_by_key(|place| (place.range.start, place.range.end));
+    finder.found.sort_by_key(|candidate| (candidate.range.start, candidate.range.end));
     Ok(finder.found)
 }
 
@@ -101,7 +81,7 @@ impl<'a> Finder<'a> {
         &self.text[node.span().byte_range()]
     }
 
-    fn replace(&mut self, node: &impl Spanned, rule: Rule, wrong: impl Into<String>) {
+    fn replace(&mut self, node: &impl Spanned, rule: &'static str, wrong: impl Into<String>) {
         let (file, range) = (self.file.to_owned(), node.span().byte_range());
         self.found.push(Candidate { file, range, rule, wrong: wrong.into() });
     }
@@ -111,23 +91,23 @@ impl<'a> Finder<'a> {
             return;
         }
         let (left, right) = (self.text(&binary.left), self.text(&binary.right));
-        let (rule, others, kept): (Rule, &[&str], &[&str]) = match binary.op {
-            BinOp::Add(_) => (Rule::Operator, &["-"], &[left, right]),
-            BinOp::Sub(_) => (Rule::Operator, &["+"], &[left]),
-            BinOp::Mul(_) => (Rule::Operator, &["/"], &[left, right]),
-            BinOp::Div(_) => (Rule::Operator, &["*"], &[left]),
-            BinOp::And(_) => (Rule::Operator, &["||"], &[left, right]),
-            BinOp::Or(_) => (Rule::Operator, &["&&"], &[left, right]),
-            BinOp::Lt(_) => (Rule::Comparison, &["<=", ">"], &[]),
-            BinOp::Le(_) => (Rule::Comparison, &["<", ">="], &[]),
-            BinOp::Gt(_) => (Rule::Comparison, &[">=", "<"], &[]),
-            BinOp::Ge(_) => (Rule::Comparison, &[">", "<="], &[]),
-            BinOp::Eq(_) => (Rule::Comparison, &["!="], &[]),
-            BinOp::Ne(_) => (Rule::Comparison, &["=="], &[]),
-            BinOp::AddAssign(_) => (Rule::Operator, &["-="], &["()"]),
-            BinOp::SubAssign(_) => (Rule::Operator, &["+="], &["()"]),
-            BinOp::MulAssign(_) => (Rule::Operator, &["/="], &["()"]),
-            BinOp::DivAssign(_) => (Rule::Operator, &["*="], &["()"]),
+        let (rule, others, kept): (&str, &[&str], &[&str]) = match binary.op {
+            BinOp::Add(_) => (OPERATOR, &["-"], &[left, right]),
+            BinOp::Sub(_) => (OPERATOR, &["+"], &[left]),
+            BinOp::Mul(_) => (OPERATOR, &["/"], &[left, right]),
+            BinOp::Div(_) => (OPERATOR, &["*"], &[left]),
+            BinOp::And(_) => (OPERATOR, &["||"], &[left, right]),
+            BinOp::Or(_) => (OPERATOR, &["&&"], &[left, right]),
+            BinOp::Lt(_) => (COMPARISON, &["<=", ">"], &[]),
+            BinOp::Le(_) => (COMPARISON, &["<", ">="], &[]),
+            BinOp::Gt(_) => (COMPARISON, &[">=", "<"], &[]),
+            BinOp::Ge(_) => (COMPARISON, &[">", "<="], &[]),
+            BinOp::Eq(_) => (COMPARISON, &["!="], &[]),
+            BinOp::Ne(_) => (COMPARISON, &["=="], &[]),
+            BinOp::AddAssign(_) => (OPERATOR, &["-="], &["()"]),
+            BinOp::SubAssign(_) => (OPERATOR, &["+="], &["()"]),
+            BinOp::MulAssign(_) => (OPERATOR, &["/="], &["()"]),
+            BinOp::DivAssign(_) => (OPERATOR, &["*="], &["()"]),
             _ => return,
         };
         let is_logical = matches!(binary.op, BinOp::And(_) | BinOp::Or(_));
@@ -137,10 +117,10 @@ impl<'a> Finder<'a> {
             self.replace(binary, rule, wrong);
         }
         for term in kept {
-            self.replace(binary, Rule::DroppedTerm, *term);
+            self.replace(binary, DROPPED_TERM, *term);
         }
         if matches!(binary.op, BinOp::Mul(_) | BinOp::Div(_)) {
-            self.replace(binary, Rule::Sign, format!("-({})", self.text(binary)));
+            self.replace(binary, SIGN, format!("-({})", self.text(binary)));
         }
     }
 
@@ -152,11 +132,11 @@ impl<'a> Finder<'a> {
             _ => return,
         };
         match value {
-            Ok(0.0) => self.replace(literal, Rule::Constant, one),
-            Ok(1.0) => self.replace(literal, Rule::Constant, zero),
+            Ok(0.0) => self.replace(literal, CONSTANT, one),
+            Ok(1.0) => self.replace(literal, CONSTANT, zero),
             Ok(_) => {
-                self.replace(literal, Rule::Constant, format!("{two} * {text}"));
-                self.replace(literal, Rule::Constant, format!("{text} / {two}"));
+                self.replace(literal, CONSTANT, format!("{two} * {text}"));
+                self.replace(literal, CONSTANT, format!("{text} / {two}"));
             }
             Err(_) => {}
         }
@@ -174,9 +154,9 @@ impl<'a> Finder<'a> {
         if let Some(other) = other {
             let (whole, name) = (call.span().byte_range(), call.method.span().byte_range());
             let wrong = format!("{}{other}{}", &self.text[whole.start..name.start], &self.text[name.end..whole.end]);
-            self.replace(call, Rule::Extremum, wrong);
+            self.replace(call, EXTREMUM, wrong);
         }
-        self.replace(call, Rule::DroppedTerm, receiver);
+        self.replace(call, DROPPED_TERM, receiver);
     }
 
     /// Whether the index is one that has a counterpart.
@@ -188,13 +168,13 @@ impl<'a> Finder<'a> {
             "1" => "0",
             _ => return false,
         };
-        self.replace(index, Rule::Index, other);
+        self.replace(index, INDEX, other);
         true
     }
 
     fn condition(&mut self, condition: &Expr) {
         if !has_let(condition) {
-            self.replace(condition, Rule::Condition, format!("!({})", self.text(condition)));
+            self.replace(condition, CONDITION, format!("!({})", self.text(condition)));
         }
     }
 }
@@ -221,13 +201,13 @@ impl<'ast> Visit<'ast> for Finder<'_> {
         match expr {
             Expr::Binary(binary) => self.binary(binary),
             Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_) | UnOp::Not(_)) => {
-                self.replace(unary, Rule::Sign, self.text(&unary.expr));
+                self.replace(unary, SIGN, self.text(&unary.expr));
             }
             Expr::Lit(literal) => self.literal(literal),
             Expr::Path(path) => {
                 let name = path.path.segments.last().map(|last| last.ident.to_string()).unwrap_or_default();
                 if name.len() > 1 && name.chars().all(|letter| letter.is_ascii_uppercase() || letter == '_') {
-                    self.replace(path, Rule::Constant, format!("{0} + {0}", self.text(path)));
+                    self.replace(path, CONSTANT, format!("{0} + {0}", self.text(path)));
                 }
             }
             Expr::MethodCall(call) => self.method(call),
@@ -253,7 +233,7 @@ impl<'ast> Visit<'ast> for Finder<'_> {
     fn visit_macro(&mut self, invoked: &'ast syn::Macro) {
         let list = invoked.parse_body_with(Punctuated::<Expr, Token![,]>::parse_terminated);
         if let (true, Ok(list)) = (invoked.path.is_ident("vec"), list) {
-            // borrowed for this visit alone: a candidate keeps places, not nodes
+            // not as nodes of the file's tree: they live as long as this visit
             list.iter().for_each(|item| Finder::visit_expr(self, item));
         }
     }
@@ -355,7 +335,7 @@ mod tests {
     #[test]
     fn a_candidate_becomes_a_record_whose_text_stands_once() {
         let text = "fn f() { let a = µ + b;\n let c = µ + b; }";
-        let second = candidates("f.rs", text).expect("Rust").into_iter().rev().find(|one| one.rule == Rule::Operator);
+        let second = candidates("f.rs", text).expect("Rust").into_iter().rev().find(|one| one.rule == OPERATOR);
         let mutation = second.expect("a sum").mutation("drawn-7".to_owned(), text);
         assert_eq!(mutation.description, "f.rs:2: operator: µ + b → µ - b");
         let place = &mutation.places[0];
