@@ -1,11 +1,9 @@
 //! What noticed an error: a gate, a divergence, the snapshot, or nothing.
 
-use super::rows::judged_rows;
 use super::{MutantRun, Mutation, Scope};
 use crate::metric::{Limit, Metric, Verdict};
 use crate::report::Baseline;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// A gate that held and fails now.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -65,8 +63,6 @@ pub struct MutationOutcome {
     pub drifted: usize,
     /// The first of them, a sentence; empty where there is none.
     pub first_drift: String,
-    /// Elements of the papers that its cases reproduce without it, and whether they fall with it.
-    pub rows: BTreeMap<String, bool>,
     /// Wall time of its runs `[s]`.
     pub wall_seconds: f64,
 }
@@ -78,7 +74,6 @@ pub type MutationComparison<'a> = (&'a Scope, &'a MutantRun, Result<MutantRun, S
 #[must_use]
 pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> MutationOutcome {
     let (mut broken, mut stops, mut drifts, mut wall_seconds) = (Vec::new(), Vec::new(), Vec::new(), 0.0);
-    let mut rows: BTreeMap<String, bool> = BTreeMap::new();
     for (scope, right, wrong) in comparisons {
         let case = &scope.case;
         match wrong {
@@ -87,9 +82,6 @@ pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> Mutati
                 wall_seconds += wrong.wall_seconds;
                 stops.extend(wrong.diverged.iter().map(|message| format!("{case}: {message}")));
                 broken.extend(broken_gates(case, right, wrong));
-                for (row, falls) in judged_rows(case, right, wrong) {
-                    *rows.entry(row).or_default() |= falls;
-                }
                 let accepted = Baseline::of(case, &right.metrics);
                 drifts.extend(
                     accepted.differences(case, &wrong.metrics).into_iter().map(|text| format!("{case}: {text}")),
@@ -113,7 +105,6 @@ pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> Mutati
         catch,
         drifted: drifts.len(),
         first_drift: drifts.into_iter().next().unwrap_or_default(),
-        rows,
         wall_seconds,
     }
 }

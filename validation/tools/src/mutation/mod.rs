@@ -12,9 +12,6 @@
 //!
 //! Errors written by hand are those that somebody thought of. A second kind is drawn by chance from all that rules give (`generator`,
 //! `draw`): its shares estimate those of any error of that kind in the lines that the quick tier executes.
-//!
-//! The same errors try what the project says of the two papers (`rows`): an element that counts as reproduced has to fall
-//! when the physics behind it is wrong.
 
 mod copy;
 mod draw;
@@ -22,7 +19,6 @@ mod generator;
 mod judgement;
 mod page;
 mod record;
-mod rows;
 mod trial;
 
 pub use copy::{CHOICE, CopyError, TestProgram, build, build_tests};

@@ -3,12 +3,10 @@
 use super::{Detection, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
 use crate::metric::Limit;
 use crate::number::short_digits;
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-const COLUMNS: [&str; 7] =
-    ["error", "what is wrong", "cases", "caught by", "witness", "values drifted", "elements of the papers that fall"];
+const COLUMNS: [&str; 6] = ["error", "what is wrong", "cases", "caught by", "witness", "values drifted"];
 
 /// Who noticed, in a word.
 fn word(catch: &Detection) -> &'static str {
@@ -50,7 +48,7 @@ fn rule(limit: Limit) -> String {
     }
 }
 
-fn row(finding: &MutationOutcome) -> [String; 7] {
+fn row(finding: &MutationOutcome) -> [String; 6] {
     [
         finding.error.name.clone(),
         finding.error.description.clone(),
@@ -58,7 +56,6 @@ fn row(finding: &MutationOutcome) -> [String; 7] {
         word(&finding.catch).to_owned(),
         witness(finding),
         finding.drifted.to_string(),
-        finding.rows.values().filter(|falls| **falls).count().to_string(),
     ]
 }
 
@@ -81,30 +78,6 @@ fn shares(findings: &[MutationOutcome]) -> String {
     )
 }
 
-/// Each element that some case reproduces without errors, with the names of the errors under which it falls.
-fn fallen_rows(findings: &[MutationOutcome]) -> BTreeMap<&str, Vec<&str>> {
-    let mut rows: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
-    for finding in findings {
-        for (row, falls) in &finding.rows {
-            let errors = rows.entry(row).or_default();
-            errors.extend(falls.then_some(finding.error.name.as_str()));
-        }
-    }
-    rows
-}
-
-/// What rows fall and which stand under all errors, in words.
-fn summary(findings: &[MutationOutcome]) -> String {
-    let rows = fallen_rows(findings);
-    let standing: Vec<&str> = rows.iter().filter(|(_, errors)| errors.is_empty()).map(|(row, _)| *row).collect();
-    let fallen = rows.len() - standing.len();
-    let which = if standing.is_empty() { String::new() } else { format!(" Standing: {}.", standing.join(", ")) };
-    format!(
-        "Of {} elements of the papers that these cases reproduce, {fallen} fall under at least one error.{which}\n",
-        rows.len()
-    )
-}
-
 /// A line per error, those that no gate noticed last, then the shares.
 #[must_use]
 pub fn table(findings: &[MutationOutcome]) -> String {
@@ -114,12 +87,12 @@ pub fn table(findings: &[MutationOutcome]) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{:width$}  {:13}  {}", finding.error.name, word(&finding.catch), witness(finding));
     }
-    text + "\n" + &shares(findings) + &summary(findings)
+    text + "\n" + &shares(findings)
 }
 
 /// The same as Markdown, with what is wrong and which cases ran.
 fn markdown(findings: &[MutationOutcome]) -> String {
-    let mut text = format!("# Mutations\n\n{}{}\n", shares(findings), summary(findings));
+    let mut text = format!("# Mutations\n\n{}\n", shares(findings));
     let mut line = |cells: &[String]| {
         let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
         text += &format!("| {} |\n", cells.join(" | "));
@@ -128,10 +101,6 @@ fn markdown(findings: &[MutationOutcome]) -> String {
     line(&COLUMNS.map(|_| "---".to_owned()));
     for finding in findings {
         line(&row(finding));
-    }
-    text += "\n# Elements of the papers, and the errors under which they fall\n\n";
-    for (row, errors) in fallen_rows(findings) {
-        text += &format!("- {row}: {}\n", if errors.is_empty() { "none".to_owned() } else { errors.join(", ") });
     }
     text
 }
