@@ -1,7 +1,6 @@
 //! Controls of a study: changes of its parameters that its checks must reject.
 
 use super::Study;
-use super::file::CheckText;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
 use crate::control::{Answer, Control, ControlKind};
 use crate::evaluation::PlanError;
@@ -38,8 +37,8 @@ impl ControlText {
     }
 }
 
-/// Refuses controls that nothing would come of.
-pub(super) fn check(controls: &[ControlText], checks: &[CheckText]) -> Result<(), FieldError> {
+/// Refuses controls that nothing would come of, beside the names of the checks with a limit.
+pub(super) fn check(controls: &[ControlText], judged: &[&str]) -> Result<(), FieldError> {
     for (place, control) in controls.iter().enumerate() {
         let field = |name: &str| format!("controls[{place}].{name}");
         let name = &control.name;
@@ -52,13 +51,6 @@ pub(super) fn check(controls: &[ControlText], checks: &[CheckText]) -> Result<()
             let remedy = "name a parameter and its wrong value, such as { \"material.viscosity\" = 2.0 }";
             return Err(FieldError::new(&field("set"), "empty", "at least one change", remedy));
         }
-        let is_judged = |check: &&CheckText| {
-            check.within.is_some()
-                || check.at_most.is_some()
-                || check.at_least.is_some()
-                || check.within_uncertainties.is_some()
-        };
-        let judged: Vec<&str> = checks.iter().filter(is_judged).map(|check| check.name.as_str()).collect();
         let unknown = control.rejects.iter().find(|own| !judged.contains(&own.as_str()));
         if control.rejects.is_empty() || unknown.is_some() {
             let value = unknown.map_or("empty", String::as_str);

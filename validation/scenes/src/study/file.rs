@@ -209,6 +209,13 @@ pub(super) enum Distance {
     Mean,
 }
 
+impl CheckText {
+    /// Whether anything judges what is measured.
+    fn has_limit(&self) -> bool {
+        self.at_most.or(self.at_least).or(self.within_uncertainties).is_some() || self.within.is_some()
+    }
+}
+
 impl VariedParameter {
     /// What it is called in variants.
     pub(super) fn label(&self) -> &str {
@@ -267,7 +274,9 @@ impl StudyText {
                 return Err(FieldError::new(&field, &figure.name, "unlike the others", "give each a name of its own"));
             }
         }
-        control::check(&self.controls, &self.checks)?;
+        let judged: Vec<&str> =
+            self.checks.iter().filter(|check| check.has_limit()).map(|check| check.name.as_str()).collect();
+        control::check(&self.controls, &judged)?;
         self.check_variants()
     }
 
