@@ -7,6 +7,7 @@ use super::profile::StageTimer;
 use super::{Exit, print, say, summary, tell};
 use crate::case::{CaseResult, Tier};
 use crate::measured::Measurements;
+use crate::metric::Variant;
 use crate::output::{FileError, OutputFolder};
 use crate::report::{
     self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, MetricKey, Report, ReportProvenance,
@@ -26,7 +27,9 @@ pub(super) struct ResultPublication<'a> {
     pub(super) known: KnownFailures,
     /// What is accepted of the case as it comes: gates that must be judged.
     pub(super) accepted: Baseline,
-    /// Whether the case is run as it comes, with all of its runs.
+    /// The runs of the case as it comes.
+    pub(super) all_runs: Vec<Variant>,
+    /// Whether they are these.
     pub(super) is_whole: bool,
     /// Measurements of which the folder receives copies.
     pub(super) measured: Vec<&'a Measurements>,
@@ -51,7 +54,7 @@ impl ResultPublication<'_> {
         publication: Publication<'_>,
         output: &mut (dyn Write + Send),
     ) -> Result<Exit, ProgramError> {
-        let Self { command, known, accepted, is_whole, .. } = self;
+        let Self { command, known, accepted, all_runs, is_whole, .. } = self;
         let Publication { claimed, store, expectation, started, mut profile } = publication;
         let folder = claimed.folder().to_owned();
         let threads = rayon::current_num_threads();
@@ -65,9 +68,10 @@ impl ResultPublication<'_> {
             }
         }
         let not_judged = |result: &CaseResult| {
-            let has_run = |key: &MetricKey| result.runs.iter().any(|run| key.variant.includes(&run.variant));
+            let is_run = |own: &Variant| result.runs.iter().any(|run| run.variant == *own);
             let gone = accepted.not_judged(&result.name, &result.metrics).into_iter();
-            gone.filter(|(key, _)| is_whole || has_run(key)).collect::<Vec<_>>()
+            let is_due = |key: &MetricKey| key.variant.run_among(&all_runs).map_or(is_whole, is_run);
+            gone.filter(|(key, _)| is_due(key)).collect::<Vec<_>>()
         };
         let page = Report {
             title: self.title,
@@ -109,7 +113,11 @@ impl ResultPublication<'_> {
         }
         for case in &page.cases {
             let lines = summary::not_judged(&case.name, &case.not_judged);
-            if command.json { tell(lines.trim_end()) } else { say(output, &lines) }
+            match lines.trim_end() {
+                "" => {}
+                lines if command.json => tell(lines),
+                _ => say(output, &lines),
+            }
         }
         let is_judged = page.cases.iter().all(|case| case.not_judged.is_empty());
         Ok(Exit::of(results, |result, metric| is_known(&known, result, metric)).unless_whole(is_judged))

@@ -7,7 +7,7 @@ use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
 use super::simulation::{announce, simulate_showing};
-use crate::case::{OutputPlan, ParameterError, Registry, Request, Requested};
+use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
 use crate::report::Baseline;
@@ -47,9 +47,13 @@ pub(super) fn run(
     let expectation = announce("run", std::slice::from_ref(&prepared), &store, quiet || command.json);
     let known = CommittedValues::OfCases.known_failures()?;
     // accepted values are those of the case as it comes; a study in a file has none
-    let of_case = registry.find(prepared.name()).is_ok_and(|case| !case.is_study() || case.name() == command.target);
-    let accepted =
-        if of_case { CommittedValues::OfCases.accepted(prepared.name(), tier)? } else { Baseline::default() };
+    let own = registry.find(prepared.name()).ok().filter(|case| !case.is_study() || case.name() == command.target);
+    let as_it_comes = own.map(|case| case.prepare(tier, &Changes::default())).transpose()?;
+    let accepted = match &as_it_comes {
+        Some(case) => CommittedValues::OfCases.accepted(case.name(), tier)?,
+        None => Baseline::default(),
+    };
+    let all_runs = as_it_comes.iter().flat_map(|case| (0..case.run_count()).map(|run| case.variant(run))).collect();
     let baseline = if changed { Baseline::default() } else { accepted.clone() };
     let started = Instant::now();
     let mut profile = StageTimer::begin();
@@ -71,6 +75,7 @@ pub(super) fn run(
         tier,
         baseline,
         accepted,
+        all_runs,
         is_whole: !changed,
         known,
         measured: overlay.iter().collect(),

@@ -55,6 +55,7 @@ pub(super) fn run(
         title: study.name().to_owned(),
         tier,
         accepted: Baseline::default(),
+        all_runs: Vec::new(),
         is_whole: true,
         baseline,
         known,

@@ -106,11 +106,12 @@ impl CaseResult {
         microseconds_each(self.wall_seconds(), self.particle_steps())
     }
 
-    /// What became of a control of which it is the result, beside the metrics of the right case.
+    /// What became of a control of which it is the result, beside the right case.
     #[must_use]
-    pub fn trial(&self, control: Control, right: &[Metric]) -> ControlTrial {
-        let runs: Vec<Variant> = self.runs.iter().map(|run| run.variant.clone()).collect();
-        ControlTrial::of(control, right, &self.metrics, &runs, self.unexpected_divergences().next().is_some())
+    pub fn trial(&self, control: Control, right: &Self) -> ControlTrial {
+        let runs = |result: &Self| result.runs.iter().map(|run| run.variant.clone()).collect::<Vec<Variant>>();
+        let diverged = self.unexpected_divergences().next().is_some();
+        ControlTrial::of(control, (&right.metrics, &runs(right)), (&self.metrics, &runs(self)), diverged)
     }
 
     /// Metrics whose gate does not hold.

@@ -43,11 +43,19 @@ pub struct ControlTrial {
 }
 
 impl ControlTrial {
-    /// What the metrics of the right case have become in the control's, which come from these runs. A metric is missing where one of the runs has
-    /// its variant and does not give it.
+    /// What the metrics of the right case have become in the control's, each with the runs that they come from. A metric is missing where its run
+    /// was done and does not give it.
     #[must_use]
-    pub fn of(control: Control, right: &[Metric], wrong: &[Metric], runs: &[Variant], diverged: bool) -> Self {
-        let has_run = |variant: &Variant| runs.iter().any(|run| variant.includes(&control.as_right(run)));
+    pub fn of(
+        control: Control,
+        (right, right_runs): (&[Metric], &[Variant]),
+        (wrong, wrong_runs): (&[Metric], &[Variant]),
+        diverged: bool,
+    ) -> Self {
+        let has_run = |variant: &Variant| {
+            let own = variant.run_among(right_runs);
+            own.is_some_and(|own| wrong_runs.iter().any(|run| control.as_right(run) == *own))
+        };
         let found = right.iter().filter_map(|metric| {
             let is_it =
                 |other: &&Metric| other.name == metric.name && control.as_right(&other.variant) == metric.variant;

@@ -95,11 +95,11 @@ impl Study {
 
     /// Whether the checks that a control names reject it, a number each: 1 if so, 0 if it stands. A check that fails on the right run is
     /// left out.
-    pub(super) fn rejections(&self, right: &[Metric], place: usize, wrong: &CaseResult) -> Vec<Metric> {
+    pub(super) fn rejections(&self, right: &CaseResult, place: usize, wrong: &CaseResult) -> Vec<Metric> {
         let control = self.text.controls[place].control();
         let name = control.name.clone();
         let trial = wrong.trial(control, right);
-        let own = right.iter().filter(|metric| trial.control.rejected_by.contains(&metric.name));
+        let own = right.metrics.iter().filter(|metric| trial.control.rejected_by.contains(&metric.name));
         let number = |metric: &Metric| {
             let rejected = match trial.answer(metric)? {
                 Answer::Rejects | Answer::NotJudged => 1.0,

@@ -256,7 +256,7 @@ impl Study {
         let mut rejections = Vec::new();
         for place in 0..self.text.controls.len() {
             let wrong = self.judge_variants(wrong.by_ref().take(self.changes.len()).collect())?;
-            rejections.extend(self.rejections(&judged.metrics, place, &wrong));
+            rejections.extend(self.rejections(&judged, place, &wrong));
         }
         let is_check = |metric: &Metric| self.checks.iter().any(|check| check.name == metric.name);
         let place = judged.metrics.iter().rposition(is_check).map_or(0, |last| last + 1);

@@ -130,8 +130,13 @@ fn of_inputs(
     let prepared = requests.iter().map(|request| Ok(request.prepare(registry)?.prepared));
     let results = simulation::simulate(prepared.collect::<Result<_, ProgramError>>()?, store, quiet, None)?;
     let [right, wrong @ ..] = &results[..] else { return Ok(Vec::new()) };
-    let asked: Vec<Metric> = right.metrics.iter().filter(|metric| is_asked(case, metric)).cloned().collect();
-    let trial = |(control, wrong): (&&Control, &CaseResult)| wrong.trial((*control).clone(), &asked);
+    let trial = |(control, wrong): (&&Control, &CaseResult)| {
+        let mut trial = wrong.trial((*control).clone(), right);
+        let is_it = |metric: &&Metric, found: &Found| metric.name == found.metric && metric.variant == found.variant;
+        let of_right = |found: &Found| right.metrics.iter().find(|metric| is_it(metric, found));
+        trial.found.retain(|found| of_right(found).is_some_and(|metric| is_asked(case, metric)));
+        trial
+    };
     Ok(dear.iter().zip(wrong).map(trial).collect())
 }
 

@@ -61,6 +61,12 @@ impl Variant {
         other.parts().all(|(key, value)| self.get(key) == Some(value))
     }
 
+    /// The run that a number of this variant is of: of those whose keys it has, the one with most; none where it is of several.
+    #[must_use]
+    pub fn run_among<'a>(&self, runs: &'a [Self]) -> Option<&'a Self> {
+        runs.iter().filter(|run| self.includes(run)).max_by_key(|run| run.parts().count())
+    }
+
     /// Whether a number of this variant may come from a run of another: what both name has a value in common.
     #[must_use]
     pub fn concerns(&self, run: &Self) -> bool {
