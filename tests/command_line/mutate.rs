@@ -37,7 +37,9 @@ fn a_checkout_lists_its_mutations() {
 fn the_program_holds_no_mutation() {
     let program = std::fs::read(path()).expect("the program can be read");
     let holds = |text: &str| program.windows(text.len()).any(|window| window == text.as_bytes());
-    for name in ["normalisation * 1.02 / smoothing_length", "0.998_980_632_008_155", "0.5 * *right / time_step + missing"] {
+    for name in
+        ["normalisation * 1.02 / smoothing_length", "0.998_980_632_008_155", "0.5 * *right / time_step + missing"]
+    {
         assert!(!holds(name), "the program names `{name}`");
     }
     assert!(holds("mutations.toml"), "where they stand is found, so that what is not found is not there");

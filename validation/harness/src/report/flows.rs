@@ -1,7 +1,7 @@
 //! The four flows that the first page opens with: a figure, its number, and how far each is validated.
 
 use super::comparison::{Comparison, ModelError, comparisons};
-use super::power::rejected_inputs;
+use super::power::{GatePower, rejected_inputs};
 use super::view::{FigureView, VerdictMark, picture};
 use super::{CaseReport, DrawnFigure, Report};
 use crate::figure::Figure;
@@ -198,6 +198,11 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<VerdictLi
             let mark = if holding == verdicts.len() { VerdictMark::PASS } else { VerdictMark::KNOWN };
             add(mark, format!("{holding} of {} gates against {what} hold", verdicts.len()));
         }
+    }
+    let powers = cases.iter().flat_map(|case| case.metrics.iter().map(|metric| GatePower::of(case, metric)));
+    let blind = powers.filter(|power| *power == GatePower::CannotTell).count();
+    if blind > 0 {
+        add(VerdictMark::KNOWN, format!("cannot tell: {blind} of those that hold reject no control"));
     }
     lines
 }
