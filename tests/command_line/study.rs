@@ -171,7 +171,7 @@ fn a_printed_canonical_study_can_be_prepared_with_a_table_that_it_documents() {
             place.file("printed.toml", &format!("{text}{added}"));
             let study = bagnold_scenes::study::Study::read(&place.path("printed.toml"), registry).expect("a study");
             let cases = study.prepare(registry, None, &[], bagnold_harness::case::Limits::default()).expect("cases");
-            assert!(!cases.is_empty() && cases.len() % times == 0, "{}: {}", case.name(), cases.len());
+            assert!(!cases.is_empty() && cases.len().is_multiple_of(times), "{}: {}", case.name(), cases.len());
         }
     }
 }
