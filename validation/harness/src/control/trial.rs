@@ -36,7 +36,7 @@ pub struct ControlTrial {
     pub control: Control,
     /// All numbers that its runs were to give.
     pub found: Vec<Found>,
-    /// Whether a run diverged that is not meant to: nothing of it counts.
+    /// Whether a run diverged that is not meant to: none of its numbers counts.
     pub diverged: bool,
     /// The commit of the solver that it was tried at, where that is another than the program's.
     pub tried_at: Option<String>,
@@ -72,6 +72,12 @@ impl ControlTrial {
         self.found.iter().find(|found| found.metric == name && found.variant == *variant)
     }
 
+    /// Whether a number went with a run that diverged: it shows nothing.
+    #[must_use]
+    pub fn is_lost(&self, found: &Found) -> bool {
+        self.diverged && !found.value.is_finite()
+    }
+
     /// What the gate of a metric of the right case says; none without a gate, or where the control's runs do not measure it.
     #[must_use]
     pub fn answer(&self, right: &Metric) -> Option<Answer> {
@@ -79,7 +85,7 @@ impl ControlTrial {
         Some(match (right.verdict(), found.verdict) {
             (Verdict::Observed, _) => return None,
             (Verdict::Fail, _) => Answer::Nothing,
-            _ if self.diverged => Answer::Nothing,
+            _ if self.is_lost(found) => Answer::Nothing,
             (_, Some(Verdict::Pass)) => Answer::Accepts,
             (_, Some(Verdict::Fail)) => Answer::Rejects,
             (_, Some(Verdict::Observed) | None) => Answer::NotJudged,
@@ -134,7 +140,9 @@ mod tests {
         assert_eq!(trial(Some(&front(0.6, limit)), false).answer(&right), Some(Answer::Accepts));
         assert_eq!(trial(Some(&front(0.1, None)), false).answer(&right), Some(Answer::NotJudged));
         assert_eq!(trial(None, false).answer(&right), Some(Answer::NotJudged));
-        assert_eq!(trial(Some(&front(0.1, limit)), true).answer(&right), Some(Answer::Nothing));
+        assert_eq!(trial(Some(&front(f64::NAN, limit)), true).answer(&right), Some(Answer::Nothing));
+        assert_eq!(trial(None, true).answer(&right), Some(Answer::Nothing));
+        assert_eq!(trial(Some(&front(0.1, limit)), true).answer(&right), Some(Answer::Rejects), "another run diverged");
         assert_eq!(trial(Some(&front(0.1, limit)), false).answer(&front(0.3, limit)), Some(Answer::Nothing));
         assert_eq!(trial(Some(&front(0.1, limit)), false).answer(&front(0.5, None)), None);
         let other = Metric { variant: Variant::of("start", 2), ..right };

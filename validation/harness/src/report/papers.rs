@@ -149,8 +149,10 @@ impl<'r> ElementOutcome<'r> {
         let mut accepted = Vec::new();
         for case in cases {
             let own: Vec<&Shown<'r>> = shown.iter().filter(|shown| shown.name.case == case.name).collect();
-            for trial in case.controls.iter().filter(|trial| !trial.diverged) {
-                let found = |shown: &&Shown<'r>| trial.found(&shown.metric.name, &shown.metric.variant);
+            for trial in &case.controls {
+                let found = |shown: &&Shown<'r>| {
+                    trial.found(&shown.metric.name, &shown.metric.variant).filter(|found| !trial.is_lost(found))
+                };
                 let tried: Vec<&&Shown<'r>> = own.iter().filter(|shown| found(shown).is_some()).collect();
                 let is_meant = tried.iter().any(|shown| trial.control.is_named_by(&shown.metric.name));
                 let stands = |shown: &&&Shown<'r>| {

@@ -69,7 +69,7 @@ pub(super) fn table(case: &CaseReport) -> Option<ControlsView> {
         command: trial.control.command(&case.name),
         is_solver: matches!(trial.control.kind, ControlKind::Solver(_)),
         note: match (&trial.tried_at, trial.diverged) {
-            (_, true) => "a run diverged, so that it shows nothing".to_owned(),
+            (_, true) => "a run diverged, whose gates show nothing".to_owned(),
             (Some(commit), _) => format!("tried at {}", crate::store::provenance::short_commit(commit)),
             _ => String::new(),
         },
