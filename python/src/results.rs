@@ -2,7 +2,7 @@
 //! a copy; they are read-only.
 
 use crate::waiting::Refused;
-use bagnold_figure::{Figure, render};
+use bagnold_figure::{Figure, FigureFormat, render};
 use bagnold_harness::observation::Frame;
 use bagnold_harness::output::Table;
 use numpy::{PyArray1, PyArrayMethods};
@@ -59,7 +59,10 @@ impl Figures {
     fn svg(&self, name: &str) -> PyResult<Option<String>> {
         let found = self.0.iter().find(|figure| figure.name == name);
         found
-            .map(|figure| render::svg(figure).map_err(|error| Refused::new_err(format!("failed to {error}"))))
+            .map(|figure| {
+                render::svg(figure, FigureFormat::SCREEN)
+                    .map_err(|error| Refused::new_err(format!("failed to {error}")))
+            })
             .transpose()
     }
 }
