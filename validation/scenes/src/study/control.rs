@@ -19,7 +19,7 @@ pub(super) struct ControlText {
     /// Wrong values by the dotted paths of parameters.
     #[schemars(with = "std::collections::BTreeMap<String, serde_json::Value>")]
     pub(super) set: Table,
-    /// What is wrong in words.
+    /// The error in words.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(super) error: String,
     /// Names of the checks that must reject it.
@@ -37,7 +37,7 @@ impl ControlText {
     }
 }
 
-/// Refuses controls that nothing would come of, beside the names of the checks with a limit.
+/// Rejects controls without a change or without a check that could reject them; `judged` holds the names of checks with a limit.
 pub(super) fn check(controls: &[ControlText], judged: &[&str]) -> Result<(), FieldError> {
     for (place, control) in controls.iter().enumerate() {
         let field = |name: &str| format!("controls[{place}].{name}");
@@ -53,8 +53,11 @@ pub(super) fn check(controls: &[ControlText], judged: &[&str]) -> Result<(), Fie
         }
         let unknown = control.rejects.iter().find(|own| !judged.contains(&own.as_str()));
         if control.rejects.is_empty() || unknown.is_some() {
-            let value = unknown.map_or("empty", String::as_str);
-            let remedy = format!("such as \"{}\"", judged.first().unwrap_or(&"front"));
+            let value = unknown.map_or_else(|| "empty".to_owned(), |name| format!("\"{name}\""));
+            let remedy = match judged.first() {
+                Some(name) => format!("name one, such as \"{name}\""),
+                None => "give a check a limit, such as `at_most`".to_owned(),
+            };
             return Err(FieldError::new(&field("rejects"), value, "names of checks with a limit", &remedy));
         }
     }
@@ -62,7 +65,7 @@ pub(super) fn check(controls: &[ControlText], judged: &[&str]) -> Result<(), Fie
 }
 
 impl Study {
-    /// Without its controls, for those who run them themselves.
+    /// The study without its controls, for a report that runs them as those of cases.
     pub(super) fn without_controls(mut self) -> Self {
         self.text.controls.clear();
         self
@@ -85,16 +88,25 @@ impl Study {
         for (place, control) in self.controls().into_iter().enumerate() {
             let ControlKind::Input { set, .. } = control.kind else { continue };
             for (setting, (path, _)) in set.iter().zip(&self.text.controls[place].set) {
-                let within = |error: FieldError| FieldError { field: format!("controls[{place}].set.{path}"), ..error };
-                self.refuse_varied(setting).map_err(|error| within(error).in_file(&self.file))?;
+                let remedy = "set a parameter that no variant sets".into();
+                let of_control = |error: FieldError| {
+                    let field = format!("controls[{place}].set.{path}");
+                    FieldError { field, remedy, ..error }.in_file(&self.file)
+                };
+                self.refuse_varied(setting).map_err(of_control)?;
             }
-            all.extend(self.prepare_variants(registry, tier, &[settings, &set[..]].concat(), limits)?);
+            // without the control's changes the same variants have been prepared
+            let cases = self.prepare_variants(registry, tier, &[settings, &set[..]].concat(), limits);
+            all.extend(cases.map_err(|error| match error {
+                PlanError::Parameter(error) => PlanError::of(error, &self.file),
+                error => error,
+            })?);
         }
         Ok(all)
     }
 
-    /// Whether the checks that a control names reject it, a number each: 1 if so, 0 if it stands. A check that fails on the right run is
-    /// left out.
+    /// One metric for each check that a control names: 1 if the check rejects the control, 0 if it accepts it. A check that fails
+    /// on the right run is left out.
     pub(super) fn rejections(&self, right: &CaseResult, place: usize, wrong: &CaseResult) -> Vec<Metric> {
         let control = self.text.controls[place].control();
         let name = control.name.clone();
