@@ -18,7 +18,7 @@ fn results(requests: &[Request<'_>]) -> Vec<CaseResult> {
     results.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What became of the controls of a case that a report runs, and of those of its table.
+/// Results of the controls of a case: those that a report runs, and those of its table.
 fn trials(case: &dyn AnyCase, right: &CaseResult) -> Vec<ControlTrial> {
     let (controls, tried) = (case.controls(), TriedControls::shipped(case.name()));
     let in_report = |control: &&Control| matches!(control.kind, ControlKind::Input { in_table: false, .. });

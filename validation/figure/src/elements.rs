@@ -6,7 +6,7 @@ use super::glyphs;
 use roxmltree::{Document, Node};
 use tiny_skia::{Path, PathBuilder, Rect, Transform};
 
-/// What an element is drawn with.
+/// Pen and fill of an element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Paint {
     /// Red, green and blue.
@@ -15,7 +15,7 @@ pub(super) struct Paint {
     pub(super) opacity: f32,
 }
 
-/// What takes the elements of a drawing, in units of the drawing, y downwards.
+/// Receiver of the elements of a drawing, in units of the drawing, y downwards.
 pub(super) trait Surface {
     /// The inside of a path.
     fn fill(&mut self, area: &Path, paint: Paint);

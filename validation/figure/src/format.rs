@@ -1,4 +1,4 @@
-//! How large a figure is drawn: its width, its letters and its pixels.
+//! Size of a figure: its width, its letters and its pixels.
 
 use serde::{Deserialize, Serialize};
 use std::str::FromStr;

@@ -223,7 +223,7 @@ pub struct RunArguments {
     /// Say on standard error where the time went: stages, the longest runs, memory.
     #[arg(long)]
     pub profile: bool,
-    /// How figures are drawn.
+    /// Size of figures.
     #[command(flatten)]
     pub figures: FigureOptions,
     /// How much it may ask for.
@@ -291,7 +291,7 @@ pub struct ReportArguments {
     /// Say on standard error where the time went: stages, the longest runs, memory.
     #[arg(long)]
     pub profile: bool,
-    /// How figures are drawn.
+    /// Size of figures.
     #[command(flatten)]
     pub figures: FigureOptions,
     /// How much it may ask for.

@@ -25,11 +25,11 @@ pub(super) struct ResultPublication<'a> {
     pub(super) tier: Tier,
     pub(super) baseline: Baseline,
     pub(super) known: KnownFailures,
-    /// What is accepted of the case as it comes: gates that must be judged.
+    /// Accepted values of the case with default parameters, whose gates must be judged.
     pub(super) accepted: Baseline,
     /// The runs of the case as it comes.
     pub(super) all_runs: Vec<Variant>,
-    /// Whether they are these.
+    /// Whether parameters and runs are the default ones.
     pub(super) is_whole: bool,
     /// Measurements of which the folder receives copies.
     pub(super) measured: Vec<&'a Measurements>,

@@ -106,7 +106,7 @@ impl CaseResult {
         microseconds_each(self.wall_seconds(), self.particle_steps())
     }
 
-    /// What became of a control of which it is the result, beside the right case.
+    /// Trial of a control that gave this result, beside the right case.
     #[must_use]
     pub fn trial(&self, control: Control, right: &Self) -> ControlTrial {
         let runs = |result: &Self| result.runs.iter().map(|run| run.variant.clone()).collect::<Vec<Variant>>();

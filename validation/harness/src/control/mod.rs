@@ -17,7 +17,7 @@ pub use trial::{Answer, ControlTrial, Found};
 use crate::metric::Variant;
 use serde::Deserialize;
 
-/// What is wrong in a control.
+/// Kind of a control.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ControlKind {
     /// `path=value` changes of the case's parameters, and the runs that they need: all where none is named.
@@ -26,9 +26,9 @@ pub enum ControlKind {
         set: Vec<String>,
         /// Keys of the runs.
         only: Vec<Variant>,
-        /// What its runs are called where the change has a key in their names: that of the runs that they stand for.
+        /// Keys and values of the right run that its runs stand for, where the change has a key in their names.
         stands_for: Variant,
-        /// Whether it is too dear for a report and stands in the table instead.
+        /// Whether it takes too long for a report and stands in the table instead.
         in_table: bool,
     },
     /// An error of the solver by its name.
@@ -40,9 +40,9 @@ pub enum ControlKind {
 pub struct Control {
     /// Name, unique in its case, such as `coulomb-friction`.
     pub name: String,
-    /// What is wrong, in words.
+    /// The error in words.
     pub error: String,
-    /// How it is brought about.
+    /// Change of parameters, or error of the solver.
     pub kind: ControlKind,
     /// Metrics that are meant to feel it and reject it.
     pub rejected_by: Vec<String>,
@@ -56,7 +56,7 @@ pub struct Control {
 pub struct CannotTell {
     /// Its name.
     pub metric: String,
-    /// Why it cannot tell.
+    /// Reason for accepting it.
     pub because: String,
 }
 
@@ -67,7 +67,7 @@ impl Control {
         self.rejected_by.iter().any(|name| name == metric) || self.cannot_tell(metric).is_some()
     }
 
-    /// Why a metric that is meant to feel the error accepts it.
+    /// Reason for which a metric that should detect the error accepts it.
     #[must_use]
     pub fn cannot_tell(&self, metric: &str) -> Option<&str> {
         self.accepted_by.iter().find(|entry| entry.metric == metric).map(|entry| entry.because.as_str())

@@ -39,7 +39,7 @@ struct Row {
 pub struct ControlError {
     /// The file.
     pub file: String,
-    /// What is wrong, and what to do.
+    /// The defect and its remedy.
     pub message: String,
 }
 

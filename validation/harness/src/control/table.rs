@@ -28,7 +28,7 @@ const WORDS: [(&str, Option<Verdict>); 4] = [
     ("missing", None),
 ];
 
-/// What the numbers of a case's controls were.
+/// Numbers of the controls of a case.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TriedControls {
     /// SHA-256 of the solver's sources that they were tried with.
@@ -118,7 +118,7 @@ impl TriedControls {
         rows(self) == rows(other)
     }
 
-    /// What became of a control; none where it was never tried.
+    /// Result of a control; none where it was never tried.
     #[must_use]
     pub fn trial(&self, control: &Control) -> Option<ControlTrial> {
         let (found, diverged) = self.tried.get(&control.name)?.clone();

@@ -1,9 +1,9 @@
-//! What became of a control: which gates reject it.
+//! Result of a control: the gates that reject it.
 
 use super::{Control, ControlKind};
 use crate::metric::{Metric, Value, Variant, Verdict};
 
-/// What a gate that holds says of a control.
+/// Answer of a gate to a control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Answer {
     /// It fails.
@@ -21,7 +21,7 @@ pub enum Answer {
 pub struct Found {
     /// Name of the metric.
     pub metric: String,
-    /// Which run or runs.
+    /// Run or runs of the metric.
     pub variant: Variant,
     /// Value, in the metric's unit; NaN for one that is not measured.
     pub value: f64,
@@ -43,8 +43,8 @@ pub struct ControlTrial {
 }
 
 impl ControlTrial {
-    /// What the metrics of the right case have become in the control's, each with the runs that they come from. A metric is missing where its run
-    /// was done and does not give it.
+    /// Compares the metrics of the right case with those of the control, each beside its runs. A metric is missing where its run was done and
+    /// does not give it.
     #[must_use]
     pub fn of(
         control: Control,
@@ -78,7 +78,7 @@ impl ControlTrial {
         self.diverged && !found.value.is_finite()
     }
 
-    /// What the gate of a metric of the right case says; none without a gate, or where the control's runs do not measure it.
+    /// Answer of the gate of a metric of the right case; none without a gate, or where the control's runs do not measure it.
     #[must_use]
     pub fn answer(&self, right: &Metric) -> Option<Answer> {
         let found = self.found(&right.name, &right.variant)?;

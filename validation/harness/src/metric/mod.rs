@@ -138,7 +138,7 @@ pub struct Reference {
     pub confidence: Confidence,
 }
 
-/// Why a metric of a run that diverged has no value.
+/// Reason for which a metric of a diverged run has no value.
 pub const DIVERGED: &str = "its run diverged, so that no number of it means anything";
 
 /// Standard uncertainties that an expanded one has, for 95 % `[-]`.
@@ -316,7 +316,7 @@ impl Metric {
         self
     }
 
-    /// Why there is no value where there should be one, in a word or two.
+    /// Reason for a missing value, in a word or two.
     #[must_use]
     pub fn without_value(&self) -> Option<&'static str> {
         let reason = self.not_steady.as_deref()?;

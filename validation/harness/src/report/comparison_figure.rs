@@ -15,7 +15,7 @@ const WIDE: f64 = 20.0;
 /// Part of the least number at which a bar on a logarithmic axis ends that reaches to zero `[-]`.
 const CUT: f64 = 0.3;
 
-/// What points are coloured by: the verdict, with its colour.
+/// Verdict that gives a point its colour.
 const VERDICTS: [(&str, usize); 4] = [
     ("validated within u_val", 2),
     ("model error, |E| > u_val", 1),

@@ -24,7 +24,7 @@ struct Claim {
     says: &'static str,
 }
 
-/// What a claim counts.
+/// Things that a claim counts.
 enum Share {
     /// The value of a metric.
     Value,
@@ -155,7 +155,7 @@ fn sentence(claim: &Claim, compared: &[&Comparison<'_>], cases: &[&CaseReport]) 
     Some(text.replace("{number}", &values.len().to_string()))
 }
 
-/// What the comparisons with measurements say of the model, and how many gates hold.
+/// Verdict on the model by comparisons with measurements, and the number of gates that hold.
 fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<VerdictLine> {
     let mut lines = Vec::new();
     let mut add = |mark, text| lines.push(VerdictLine { mark, text });

@@ -34,7 +34,7 @@ pub struct JudgedMetric<'r> {
     pub standing: KnownFailureStatus,
     /// Against the baseline.
     pub drift: Drift,
-    /// What its gate can tell.
+    /// Power of its gate.
     pub power: GatePower,
 }
 

@@ -139,7 +139,7 @@ pub struct CaseReport {
     pub metrics: Vec<Metric>,
     /// Accepted gates that do not judge it, with what took each away.
     pub not_judged: Vec<(MetricKey, String)>,
-    /// What became of its controls; empty where none was tried.
+    /// Results of its controls; empty where none was tried.
     pub controls: Vec<ControlTrial>,
     /// Figures in reading order.
     pub figures: Vec<Figure>,

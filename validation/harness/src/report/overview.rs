@@ -1,4 +1,4 @@
-//! What the first page shows of the cases: the worst margins, a line with a picture each, and every gate in one table.
+//! Cases on the first page: the worst margins, a line with a picture each, and every gate in one table.
 
 use super::DrawnFigure;
 use super::case_page::case_statement;

@@ -62,7 +62,7 @@ impl Status {
         Self::of_value(name, metric.value, metric.verdict())
     }
 
-    /// What a value and the verdict of its gate say of an element that names the metric.
+    /// Status that a value and the verdict of its gate give to an element that names the metric.
     fn of_value(name: &MetricName, value: f64, verdict: Verdict) -> Option<Self> {
         match (name.printed, verdict) {
             (Some(printed), _) if printed.agrees(value) => Some(Self::Reproduced),

@@ -1,11 +1,11 @@
-//! What a gate can tell: which controls it rejects, and the table of a case's gates and controls.
+//! Power of a gate: the controls that it rejects, and the table of gates and controls of a case.
 
 use super::CaseReport;
 use super::view::{ControlCell, ControlRow, ControlView, ControlsView};
 use crate::control::{Answer, ControlKind, ControlTrial};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
 
-/// What a gate that holds can tell.
+/// Power of a gate that holds.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum GatePower {
     /// It needs no control: it is the run's own account or no gate, or the report has no controls of its case.
@@ -19,7 +19,7 @@ pub enum GatePower {
 }
 
 impl GatePower {
-    /// What the gate of a metric can tell by the controls of its case.
+    /// Power of the gate of a metric, by the controls of its case.
     pub(super) fn of(case: &CaseReport, metric: &Metric) -> Self {
         if case.controls.is_empty() || metric.kind == MetricKind::Bookkeeping || metric.verdict() != Verdict::Pass {
             return Self::NotAsked;
@@ -47,7 +47,7 @@ impl GatePower {
     }
 }
 
-/// How many controls a gate rejects.
+/// Number of controls that a gate rejects.
 fn rejecting(controls: &[ControlTrial], metric: &Metric) -> usize {
     let answers = controls.iter().filter_map(|trial| trial.answer(metric));
     answers.filter(|answer| matches!(answer, Answer::Rejects | Answer::NotJudged)).count()
@@ -83,7 +83,7 @@ pub(super) fn table(case: &CaseReport) -> Option<ControlsView> {
     (!controls.is_empty()).then(|| ControlsView { controls: controls.iter().map(view).collect(), rows })
 }
 
-/// How many wrong inputs the gates of a case reject, for its panel on the first page; none where no control was tried.
+/// Number of wrong inputs that the gates of a case reject, for its panel on the first page; none where no control was tried.
 pub(super) fn rejected_inputs(case: &CaseReport) -> Option<String> {
     let is_rejected = |trial: &&ControlTrial| {
         let answers = case.metrics.iter().filter_map(|metric| trial.answer(metric));
@@ -93,7 +93,7 @@ pub(super) fn rejected_inputs(case: &CaseReport) -> Option<String> {
     (all > 0).then(|| format!("{}: gates reject {rejected} of {all} controls (wrong physics or input)", case.name))
 }
 
-/// What a gate says of a control.
+/// Cell of a gate and a control.
 fn cell(trial: &ControlTrial, metric: &Metric) -> ControlCell {
     let is_named = trial.control.is_named_by(&metric.name);
     let (class, symbol, word) = match trial.answer(metric) {

@@ -132,7 +132,7 @@ pub(super) struct CaseView {
     pub(super) vanished: Vec<String>,
     /// Gates that are no longer judged, and why.
     pub(super) not_judged: Vec<String>,
-    /// What its gates can tell.
+    /// Its gates and controls.
     pub(super) controls: Option<ControlsView>,
     pub(super) figures: Vec<FigureView>,
     /// Tables of reference data that are written beside the page.
@@ -189,7 +189,7 @@ pub(super) struct MetricView {
     pub(super) change: String,
     pub(super) relative_change: String,
     pub(super) note: String,
-    /// Which controls it rejects, in a few words.
+    /// Controls that it rejects, in a few words.
     pub(super) power: String,
 }
 

@@ -58,7 +58,7 @@ pub struct SensitivitiesArguments {
     /// How much it may ask for.
     #[command(flatten)]
     pub allowance: ResourceLimits,
-    /// How to compute.
+    /// Threads and store.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }
@@ -107,7 +107,7 @@ pub struct ControlsArguments {
     /// Compare with the tables instead of writing them.
     #[arg(long)]
     pub check: bool,
-    /// How to compute.
+    /// Threads and store.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }

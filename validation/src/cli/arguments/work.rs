@@ -46,7 +46,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
     if (0.0..=1e6).contains(&seconds) { Ok(Duration::from_secs_f64(seconds)) } else { Err(rule.to_owned()) }
 }
 
-/// How figures are drawn.
+/// Size of figures.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub struct FigureOptions {
     /// Size of figures for a paper: width, height of the axis labels' letters, resolution of the PNG, such as

@@ -17,7 +17,7 @@ pub const CHOICE: &str = "BAGNOLD_MUTATION";
 /// What of a checkout the program is built from.
 const SOURCES: [&str; 7] = ["Cargo.toml", "Cargo.lock", "README.md", "solver", "validation", "tests", "reference-data"];
 
-/// What the copy has beside: how it knows which mutation is chosen, or where it is to say which expressions are reached.
+/// Module that the copy has in addition: it knows which mutation is chosen, or where to record which expressions are reached.
 const CHOOSER: &str = "//! Which mutation is chosen.
 
 use std::io::Write;
@@ -77,7 +77,7 @@ pub enum CopyError {
         file: PathBuf,
         /// Its line.
         line: usize,
-        /// What is wrong.
+        /// The defect.
         message: String,
     },
     /// The compiler refuses it.
@@ -138,7 +138,7 @@ pub(super) struct SourceCopy {
     target: PathBuf,
 }
 
-/// What a command of cargo said.
+/// Output of a command of cargo.
 pub(super) struct Compilation {
     succeeded: bool,
     /// Objects of cargo's `--message-format=json`.
@@ -153,7 +153,7 @@ impl Compilation {
     }
 
     /// # Errors
-    /// What did not compile.
+    /// Errors of the compiler.
     pub(super) fn whole(self, copy: &SourceCopy) -> Result<Self, CopyError> {
         if self.succeeded {
             return Ok(self);
@@ -203,7 +203,7 @@ impl SourceCopy {
     }
 }
 
-/// How a choice of the copy begins.
+/// Beginning of a choice in the copy.
 pub(super) fn beginning(number: usize) -> String {
     format!("if crate::chosen_mutation::is({number}) {{")
 }

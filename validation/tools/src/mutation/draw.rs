@@ -124,7 +124,7 @@ fn sources(root: &Path) -> Result<BTreeMap<String, String>, FileError> {
     Ok(found)
 }
 
-/// Which of the mutations the compiler's errors stand in; where an error stands in none, the nearest of its file.
+/// Mutations that contain the errors of the compiler; where an error stands in none, the nearest of its file.
 fn culprits<'a>(tree: &Path, list: &[Mutation], errors: impl Iterator<Item = &'a Value>) -> BTreeSet<usize> {
     let place = |(index, mutation): (usize, &Mutation)| {
         let place = &mutation.places[0];
@@ -156,13 +156,13 @@ fn culprits<'a>(tree: &Path, list: &[Mutation], errors: impl Iterator<Item = &'a
 /// A case without an error: what it says, and which mutations of the draw its runs reach.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct TracedCase {
-    /// What it says without an error.
+    /// Its result without an error.
     pub right: MutantRun,
     /// Places in the order of the draw.
     pub reached: BTreeSet<usize>,
 }
 
-/// What is known of a draw; kept in a file, so that a command that was interrupted continues.
+/// Findings of a draw; kept in a file, so that a command that was interrupted continues.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct DrawProgress {
     /// Places whose candidates do not compile.
@@ -171,7 +171,7 @@ pub struct DrawProgress {
     pub traced: BTreeSet<usize>,
     /// Every case by its name.
     pub cases: BTreeMap<String, TracedCase>,
-    /// What became of mutations, by their places.
+    /// Outcomes of mutations by their places.
     pub outcomes: BTreeMap<usize, MutationOutcome>,
     /// Places that the tests were run for.
     pub tested: BTreeSet<usize>,
