@@ -99,6 +99,9 @@ fn a_study_fails_where_a_check_accepts_its_control() {
     assert!(unknown.contains("controls[0].rejects") && unknown.contains("front_at_the_end"), "{unknown}");
     let varied = refused(&place, &(STUDY.to_owned() + &control.replace("gravity = [0.0, -4.905]", "spacing = 0.01")));
     assert!(varied.contains("controls[0].set.spacing") && varied.contains("vary[0].path"), "{varied}");
+    let misspelt = refused(&place, &(STUDY.to_owned() + &control.replace("gravity = ", "gravty = ")));
+    assert!(misspelt.contains("bad.toml") && misspelt.contains("did you mean `gravity`"), "{misspelt}");
+    assert!(!misspelt.contains("--set"), "{misspelt}");
 }
 
 #[test]
