@@ -60,7 +60,7 @@ pub(super) fn draw_series(canvas: &mut Canvas<'_>, plot: &Plot, panel: &Panel) -
             }
         }
     }
-    for series in of(&[Mark::Points, Mark::LinePoints]) {
+    for series in of(&[Mark::Points, Mark::OpenPoints, Mark::LinePoints]) {
         draw_points(canvas, plot, series)?;
     }
     Ok(())
@@ -110,11 +110,7 @@ fn draw_points(canvas: &mut Canvas<'_>, plot: &Plot, series: &Series) -> Result<
         if let Some(&half) = series.error.get(index).filter(|half| half.is_finite() && **half > 0.0) {
             draw_error_bar(canvas, plot, (x, y), half, ink)?;
         }
-        if series.mark == Mark::Points {
-            // A white rim keeps neighbours apart; on a line of its own it would only cut the line.
-            draw_marker(canvas, centre, radius + 1.5, shape(series.colour), WHITE)?;
-        }
-        draw_marker(canvas, centre, radius, shape(series.colour), ink)?;
+        draw_marker(canvas, (centre.0, centre.1 - series.raised * radius), radius, series)?;
     }
     Ok(())
 }
@@ -151,25 +147,28 @@ fn draw_error_bar(
     Ok(())
 }
 
-/// Draws one marker.
-pub(super) fn draw_marker(
-    canvas: &mut Canvas<'_>,
-    (x, y): Point,
-    radius: f64,
-    shape: MarkerShape,
-    colour: RGBColor,
-) -> Result<(), FigureError> {
-    let ink = Ink::solid(colour, 0.0);
+/// Draws one marker of a series.
+fn draw_marker(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, series: &Series) -> Result<(), FigureError> {
     // Sizes that look equal, not sizes that are equal.
-    let corners: &[(f64, f64)] = match shape {
-        MarkerShape::Disc => return canvas.disc((x, y), radius, ink),
+    let corners: &[(f64, f64)] = match shape(series.colour) {
+        MarkerShape::Disc => &[],
         MarkerShape::Square => &[(-0.88, -0.88), (0.88, -0.88), (0.88, 0.88), (-0.88, 0.88)],
         MarkerShape::Triangle => &[(0.0, -1.25), (1.1, 0.75), (-1.1, 0.75)],
         MarkerShape::TriangleDown => &[(0.0, 1.25), (1.1, -0.75), (-1.1, -0.75)],
         MarkerShape::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
     };
-    let outline: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + radius * dx, y + radius * dy)).collect();
-    canvas.polygon(&outline, ink)
+    // A white rim keeps neighbours apart; on a line of its own it would only cut the line.
+    let rim = (series.mark != Mark::LinePoints).then_some((radius + 1.5, WHITE));
+    let hollow = (series.mark == Mark::OpenPoints).then_some((0.6 * radius, WHITE));
+    for (radius, colour) in rim.into_iter().chain([(radius, colour(series.colour))]).chain(hollow) {
+        let ink = Ink::solid(colour, 0.0);
+        if corners.is_empty() {
+            canvas.disc((x, y), radius, ink)?;
+        }
+        let outline: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + radius * dx, y + radius * dy)).collect();
+        canvas.polygon(&outline, ink)?;
+    }
+    Ok(())
 }
 
 /// Dashed for the first reference of a panel; a second and third label get dash-dots and dots.
@@ -200,11 +199,10 @@ pub(super) fn draw_sample(
             }
         }
         Mark::Line | Mark::LinePoints => canvas.line((left, y), (right, y), Ink::solid(ink, CURVE))?,
-        Mark::Points => {}
+        Mark::Points | Mark::OpenPoints => {}
     }
-    if matches!(series.mark, Mark::Points | Mark::LinePoints) {
-        let radius = marker_radius(series.points.len()).max(5.5);
-        draw_marker(canvas, (0.5 * (left + right), y), radius, shape(series.colour), ink)?;
+    if matches!(series.mark, Mark::Points | Mark::OpenPoints | Mark::LinePoints) {
+        draw_marker(canvas, (0.5 * (left + right), y), marker_radius(series.points.len()).max(5.5), series)?;
     }
     Ok(())
 }

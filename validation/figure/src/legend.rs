@@ -214,7 +214,7 @@ fn inked_points(panel: &Panel, plot: &Plot) -> Vec<Point> {
     for series in &panel.series {
         let places: Vec<Option<Point>> = series.points.iter().map(|&point| plot.place(point)).collect();
         inked.extend(places.iter().flatten());
-        if series.mark != Mark::Points {
+        if !matches!(series.mark, Mark::Points | Mark::OpenPoints) {
             for pair in places.windows(2) {
                 if let (Some(from), Some(to)) = (pair[0], pair[1]) {
                     sample_segment(&mut inked, from, to);

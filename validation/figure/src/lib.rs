@@ -104,6 +104,8 @@ pub enum Mark {
     Points,
     /// Line with points.
     LinePoints,
+    /// Hollow points, with error bars where `error` is given.
+    OpenPoints,
 }
 
 /// One curve or cloud.
@@ -119,6 +121,8 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
     /// Half height of the error bar of each point, or empty.
     pub error: Vec<f64>,
+    /// Shift of the marks upwards, in their radii `[-]`, so that marks of several series at one place are all seen.
+    pub raised: f64,
 }
 
 /// A shaded band, such as a reference's uncertainty or a gate: (x, lower, upper).

@@ -26,6 +26,7 @@ fn add_panel(text: &mut String, start: &str, panel: &Panel) {
             Mark::Line => "line",
             Mark::Reference => "reference",
             Mark::Points => "points",
+            Mark::OpenPoints => "open points",
             Mark::LinePoints => "line with points",
         };
         for (place, &(x, y)) in series.points.iter().enumerate() {

@@ -8,7 +8,7 @@ fn axis(label: &str, scale: Scale) -> Axis {
 }
 
 fn series(label: &str, mark: Mark, colour: usize, points: &[(f64, f64)]) -> Series {
-    Series { label: label.to_owned(), mark, colour, points: points.to_vec(), error: Vec::new() }
+    Series::new(label, mark, colour, points.to_vec())
 }
 
 fn panel(series: Vec<Series>) -> Panel {
@@ -132,6 +132,18 @@ fn two_fields_have_a_bar_each_and_a_field_without_a_label_none() {
 }
 
 #[test]
+fn open_marks_are_hollow_and_raised_ones_are_not_hidden() {
+    let blue = |mark: Mark, raised: f64| {
+        // slots 0 and 5 have the same shape
+        let mut below = series("", mark, 0, &[(0.5, 0.5)]);
+        below.raised = raised;
+        share(&raster(&figure(vec![panel(vec![below, series("", Mark::Points, 5, &[(0.5, 0.5)])])])), 0, 114, 178)
+    };
+    assert_eq!(blue(Mark::Points, 0.0), 0.0);
+    assert!(blue(Mark::OpenPoints, 2.2) > 0.0 && blue(Mark::OpenPoints, 2.2) < 0.8 * blue(Mark::Points, 2.2));
+}
+
+#[test]
 fn degenerate_data_draw_something() {
     let odd: [&[(f64, f64)]; 7] = [
         &[],
@@ -144,7 +156,7 @@ fn degenerate_data_draw_something() {
     ];
     for points in odd {
         for scale in [Scale::Linear, Scale::Logarithmic] {
-            for mark in [Mark::Line, Mark::Reference, Mark::Points, Mark::LinePoints] {
+            for mark in [Mark::Line, Mark::Reference, Mark::Points, Mark::LinePoints, Mark::OpenPoints] {
                 let mut odd = panel(vec![series("odd", mark, usize::MAX, points)]);
                 odd.series[0].error = vec![f64::NAN, -1.0, f64::INFINITY];
                 odd.bands

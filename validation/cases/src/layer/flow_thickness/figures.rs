@@ -4,7 +4,7 @@ use super::metrics::{froude_number, incline, relative_thickness};
 use super::{
     FlowThicknessParameters, FlowThicknessRecord, LayerFate, StartStop, StartStopRun, collapses, flows_of, searches,
 };
-use crate::figure::{Axis, Figure, Panel};
+use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::reference::collapse::RoughIncline;
 
 pub(super) fn all(parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Figure> {
@@ -49,51 +49,69 @@ fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, recor
     .in_columns(2)
 }
 
+/// Colour slot of each law, and the shift of its marks upwards in their radii `[-]`: the local law stops layers of any thickness
+/// at one slope, so that its marks may stand higher.
+const LAWS: [(usize, f64); 3] = [(0, 2.2), (3, 0.0), (4, -1.6)];
+
 /// Which layers stop: the local law and the experiments.
 fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
-    let thickness = |step: i32| 1.0e-3 * libm::pow(40.0, f64::from(step) / 60.0);
-    let experiment =
-        (0..=60).map(thickness).map(|h| (incline.stopping_angle(h).to_degrees(), 1e3 * h)).collect::<Vec<_>>();
+    let experiment = thicknesses().map(|h| (incline.stopping_angle(h).to_degrees(), 1e3 * h)).collect::<Vec<_>>();
     let local = libm::atan(incline.static_friction).to_degrees();
     panel.line("experiments: h_stop(θ)", 2, experiment);
     panel.reference("local law: tanθ = μ_s", [(local, 1.0), (local, 40.0)]);
-    // one curve of the nonlocal law for each condition at the surface
-    let mut drawn = Vec::new();
-    for (run, _) in searches(records) {
-        let Some(choice) = run.layer.nonlocal else { continue };
-        if drawn.contains(&choice.surface) {
-            continue;
-        }
-        drawn.push(choice.surface);
-        let angle = |h: f64| {
-            let mut layer = run.layer.clone();
-            layer.layer.layer_height = h;
-            layer.exact(0.0).map(|layer| (layer.stopping_angle().to_degrees(), 1e3 * h))
-        };
-        let label = format!("nonlocal law: {}", choice.surface_name());
-        panel.line(&label, 2 + drawn.len(), (0..=60).map(thickness).filter_map(angle).collect::<Vec<_>>());
-    }
-    let ends = [("stopped", LayerFate::Stops), ("kept flowing", LayerFate::Flows), ("undecided", LayerFate::Undecided)];
-    for (slot, (label, fate)) in ends.into_iter().enumerate() {
-        let of_search = |(run, found): (&StartStopRun, &StartStop)| -> Vec<(f64, f64)> {
-            let ended = found.trials.iter().filter(|trial| trial.fate == fate);
-            ended.map(|trial| (trial.slope_angle, 1e3 * run.layer.layer.layer_height)).collect()
-        };
-        let points: Vec<(f64, f64)> = searches(records).flat_map(of_search).collect();
-        // most searches leave nothing open, and then the legend need not speak of it
-        if fate != LayerFate::Undecided || !points.is_empty() {
-            panel.points(label, slot, points);
-        }
-    }
+    draw_searches(&mut panel, searches(records));
+    // for the legend alone
+    panel.points("kept flowing", 6, []);
+    panel.draw("stopped", Mark::OpenPoints, 6, []);
     Figure::new(
         "start-stop",
-        "Layers that stopped and layers that kept flowing, over slope and thickness. The local μ(I) law stops them \
-         all at one slope; in experiments thin layers stop on steeper slopes, and so they do under the nonlocal law, whose own \
+        "Layers that stopped (open marks) and layers that kept flowing (filled marks), over slope and thickness. Curves are \
+         the h_stop of each nonlocal law, in the colour of its marks. Marks of the local law are drawn slightly above their \
+         thickness and marks of the no-flux law slightly below, so that no mark hides another. \
+         The local μ(I) law stops them all at one slope; in experiments thin layers stop on steeper slopes, and so they do under the nonlocal law, whose own \
          h_stop depends on what its fluidity is at the surface. Left of the curve of h_stop the \
          experiments have no flow, right of the dashed line the law has no deposit.",
         vec![panel],
     )
+}
+
+/// Thicknesses of curves `[m]`.
+fn thicknesses() -> impl Iterator<Item = f64> {
+    (0..=60).map(|step| 1.0e-3 * libm::pow(40.0, f64::from(step) / 60.0))
+}
+
+/// Marks of each law, filled where a layer kept flowing and open where it stopped, and the curve of its own h_stop.
+fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a StartStopRun, &'a StartStop)>) {
+    let mut laws: Vec<String> = Vec::new();
+    for (run, found) in searches {
+        let nonlocal = run.layer.nonlocal.map(|choice| format!("nonlocal law: {}", choice.surface_name()));
+        let law = nonlocal.unwrap_or("local law".to_owned());
+        let place = laws.iter().position(|known| *known == law).unwrap_or(laws.len());
+        let (slot, raised) = LAWS[place % LAWS.len()];
+        let ends = [
+            (law.as_str(), LayerFate::Flows, Mark::Points, slot),
+            (law.as_str(), LayerFate::Stops, Mark::OpenPoints, slot),
+            ("undecided", LayerFate::Undecided, Mark::Points, 1),
+        ];
+        for (label, fate, mark, slot) in ends {
+            let ended = found.trials.iter().filter(|trial| trial.fate == fate).map(|trial| trial.slope_angle);
+            let points: Vec<_> = ended.map(|angle| (angle, 1e3 * run.layer.layer.layer_height)).collect();
+            // most searches leave nothing open, and then the legend need not speak of it
+            if !points.is_empty() {
+                panel.draw(label, mark, slot, points).raised = raised;
+            }
+        }
+        if place == laws.len() {
+            let angle = |h: f64| {
+                let mut layer = run.layer.clone();
+                layer.layer.layer_height = h;
+                layer.exact(0.0).map(|layer| (layer.stopping_angle().to_degrees(), 1e3 * h))
+            };
+            panel.line(&law, slot, thicknesses().filter_map(angle).collect::<Vec<_>>());
+            laws.push(law);
+        }
+    }
 }
 
 /// The flow rule (42).
@@ -164,4 +182,31 @@ fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records:
          The published points are not at hand, nor how they scatter: the band is what half a degree of the slope makes of h_stop.",
         vec![panel],
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Parameters, Tier};
+    use crate::layer::flow_thickness::{FlowThicknessRun, SlopeTrial};
+
+    #[test]
+    fn laws_have_a_mark_each_that_is_open_where_a_layer_stopped() {
+        let trial = |(slope_angle, fate)| SlopeTrial { slope_angle, fate, time: 1.0, mean_velocity: 0.0, lost: 0 };
+        let found = StartStop { trials: [(20.0, LayerFate::Stops), (24.0, LayerFate::Flows)].map(trial).to_vec() };
+        let runs = FlowThicknessParameters::of_tier(Tier::Quick).runs();
+        let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("h [mm]"));
+        let searches = runs.iter().filter_map(|run| match run {
+            FlowThicknessRun::StartStop(run) => Some((run, &found)),
+            _ => None,
+        });
+        draw_searches(&mut panel, searches);
+        let laws = ["local law", "nonlocal law: vanishing", "nonlocal law: no-flux"];
+        for (law, (slot, raised)) in laws.into_iter().zip(LAWS) {
+            for (mark, angle) in [(Mark::Points, 24.0), (Mark::OpenPoints, 20.0)] {
+                let own = panel.series.iter().find(|series| series.label == law && series.mark == mark).expect(law);
+                assert_eq!((own.colour, own.raised, own.points[0].0), (slot, raised, angle));
+            }
+        }
+    }
 }
