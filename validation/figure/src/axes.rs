@@ -45,12 +45,8 @@ pub(super) fn text(em: f64, horizontal: HPos, vertical: VPos, colour: RGBColor) 
     TextSpec { em, weight: Weight::Regular, horizontal, vertical, colour, direction: Direction::Rightwards }
 }
 
-/// Most ticks of a horizontal axis.
-pub(super) const MOST_TICKS: usize = 8;
-
-/// Ticks along a horizontal length `[px]` whose numbers stand clear of each other, at most about `most` of them.
-pub(super) fn uncrowded((range, scale): (Range, Scale), length: f64, em: f64, most: usize) -> Ticks {
-    let mut wanted = (length / (5.0 * em)).clamp(2.0, most as f64) as usize;
+/// About `wanted` ticks along a horizontal length `[px]`, or so few that their numbers stand clear of each other.
+pub(super) fn uncrowded((range, scale): (Range, Scale), length: f64, em: f64, mut wanted: usize) -> Ticks {
     loop {
         let found = ticks(range, scale, wanted);
         let numbers = found.major.iter().filter(|tick| !tick.label.is_empty()).count() as f64;

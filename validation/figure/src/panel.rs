@@ -1,10 +1,10 @@
 //! One panel: how much room it wants, and drawing it in the room it gets.
 
-use super::axes::{MOST_TICKS, Sizes, TICK, TICK_GAP, draw_axes, draw_grid, text, uncrowded, widest_label};
+use super::axes::{Sizes, TICK, TICK_GAP, draw_axes, draw_grid, text, uncrowded, widest_label};
 use super::canvas::{Canvas, Rectangle, TextSpec};
 use super::curves::{Plot, draw_bands, draw_series};
 use super::error::FigureError;
-use super::field::{BarPlace, ColourScale, draw_field, extent};
+use super::field::{ColourScale, draw_field, extent};
 use super::font::{Weight, width};
 use super::legend::{Legend, LegendPosition};
 use super::palette::{AXIS, BLACK};
@@ -43,28 +43,35 @@ pub(super) struct ScaledPanel<'p> {
     y: (Range, Scale, Ticks),
     colours: Option<ColourScale>,
     opposite: Option<ColourScale>,
+    /// A colour bar of its own stands right of the plot.
+    has_bar: bool,
+    /// Numbers and label stand under the horizontal axis, and not under that of a panel below.
+    pub(super) has_x_numbers: bool,
     legend: Legend,
     legend_place: LegendPosition,
     has_data: bool,
 }
 
 impl<'p> ScaledPanel<'p> {
-    /// Fits axes and ticks of `panel` for a plot of about `width` × `height` pixels.
-    pub(super) fn new(panel: &'p Panel, title: String, sizes: Sizes, (wide, high): (f64, f64)) -> Self {
+    /// Fits axes and ticks of `panel` for a plot of about `width` × `height` pixels; `bars` stand at the top of the sheet.
+    pub(super) fn new(
+        panel: &'p Panel,
+        title: String,
+        bars: &[ColourScale],
+        sizes: Sizes,
+        (wide, high): (f64, f64),
+    ) -> Self {
         let (x, y, has_data) = ranges(panel);
-        let colours = panel.field.as_ref().map(|field| {
-            let flat = (x.0.upper - x.0.lower) > 2.6 * (y.0.upper - y.0.lower);
-            let alone = if flat { BarPlace::Above } else { BarPlace::Beside };
-            ColourScale::of(field, if panel.opposite.is_some() { BarPlace::AboveLeft } else { alone })
-        });
-        let opposite = panel.opposite.as_ref().map(|field| ColourScale::of(field, BarPlace::AboveRight));
+        let [colours, opposite] = ColourScale::of_panel(panel);
+        let has_bar = colours.as_ref().is_some_and(|scale| !scale.label.is_empty() && !bars.contains(scale));
         // Equal scales: the narrower direction decides.
         let aspect = (y.0.upper - y.0.lower) / (x.0.upper - x.0.lower);
         let (plot_wide, plot_high) = match colours {
             Some(_) => (wide.min(high / aspect), high.min(wide * aspect)),
             None => (wide, high),
         };
-        let x_ticks = uncrowded(x, plot_wide, sizes.tick, MOST_TICKS);
+        let x_wanted = (plot_wide / (5.0 * sizes.tick)).clamp(2.0, 8.0) as usize;
+        let x_ticks = uncrowded(x, plot_wide, sizes.tick, x_wanted);
         let y_wanted = (plot_high / (3.0 * sizes.tick)).clamp(2.0, 8.0) as usize;
         let y_ticks = if panel.y.names.is_empty() { ticks(y.0, y.1, y_wanted) } else { Ticks::named(&panel.y.names) };
         Self {
@@ -75,6 +82,8 @@ impl<'p> ScaledPanel<'p> {
             y: (y.0, y.1, y_ticks),
             colours,
             opposite,
+            has_bar,
+            has_x_numbers: true,
             legend: Legend::of(panel, sizes.legend, wide + 100.0),
             legend_place: LegendPosition::Inside,
             has_data,
@@ -85,6 +94,20 @@ impl<'p> ScaledPanel<'p> {
     pub(super) fn aspect(&self) -> Option<f64> {
         let (x, y) = (self.x.0, self.y.0);
         self.colours.as_ref().map(|_| (y.upper - y.lower) / (x.upper - x.lower))
+    }
+
+    /// Whether this picture and another one above or below it can have one horizontal axis.
+    pub(super) fn shares_axis(&self, other: &Self) -> bool {
+        let is_picture = self.panel.field.is_some() && self.legend.is_empty();
+        let axis = |panel: &Self| (panel.x.0, panel.aspect());
+        is_picture && axis(self) == axis(other) && self.panel.x.label == other.panel.x.label
+    }
+
+    /// Leaves numbers and label of the horizontal axis to a panel below.
+    pub(super) fn leave_axis(&mut self) {
+        self.has_x_numbers = false;
+        self.x.2.factor.clear();
+        self.x.2.major.iter_mut().for_each(|tick| tick.label.clear());
     }
 
     /// Height of a plot whose places have names: a line of text each.
@@ -105,8 +128,8 @@ impl<'p> ScaledPanel<'p> {
         };
     }
 
-    /// The room that axes, title, legend and colour bar need around a plot `plot_width` pixels wide.
-    pub(super) fn margins(&self, plot_width: f64) -> Margins {
+    /// The room that axes, title, legend and colour bar need around the plot in a column of a width `[px]`.
+    pub(super) fn margins(&self, column_width: f64) -> Margins {
         let sizes = self.sizes;
         let label = |label: &str| if label.is_empty() { 0.0 } else { 1.5 * sizes.label };
         let half_last = self.x.2.major.last().map_or(0.0, |tick| 0.5 * width(&tick.label, sizes.tick, Weight::Regular));
@@ -116,12 +139,13 @@ impl<'p> ScaledPanel<'p> {
             top: 14.0,
             bottom: TICK + TICK_GAP + 1.2 * sizes.tick + label(&self.panel.x.label).max(0.3 * sizes.tick) + 8.0,
         };
-        if let Some(colours) = &self.colours {
-            let (beside, above) = colours.space(sizes);
-            margins.right = margins.right.max(beside + 10.0);
-            margins.top += above;
+        if !self.has_x_numbers {
+            margins.bottom = TICK;
         }
-        if !self.title.is_empty() && !self.title_beside_bar(plot_width) {
+        if let Some(colours) = self.colours.as_ref().filter(|_| self.has_bar) {
+            margins.right = margins.right.max(colours.width_beside(sizes) + 10.0);
+        }
+        if !self.title.is_empty() {
             margins.top += 1.5 * sizes.title;
         }
         if !self.y.2.factor.is_empty() {
@@ -132,7 +156,9 @@ impl<'p> ScaledPanel<'p> {
         match self.legend_place {
             LegendPosition::Inside => {}
             LegendPosition::Beside => margins.right += self.legend.box_width() + 24.0,
-            LegendPosition::Below => margins.bottom += self.legend.height_below(plot_width),
+            LegendPosition::Below => {
+                margins.bottom += self.legend.height_below(column_width - margins.left - margins.right);
+            }
         }
         margins
     }
@@ -147,38 +173,24 @@ impl<'p> ScaledPanel<'p> {
         for (field, colours) in [(&self.panel.field, &self.colours), (&self.panel.opposite, &self.opposite)] {
             if let (Some(field), Some(colours)) = (field, colours) {
                 draw_field(canvas, &plot, field, colours)?;
-                colours.draw_bar(canvas, field, &window, sizes)?;
+                if self.has_bar {
+                    colours.draw_beside(canvas, &window, sizes)?;
+                }
             }
         }
         draw_series(canvas, &plot, self.panel)?;
-        let labels = (self.panel.x.label.as_str(), self.panel.y.label.as_str());
+        let x_label = if self.has_x_numbers { self.panel.x.label.as_str() } else { "" };
+        let labels = (x_label, self.panel.y.label.as_str());
         draw_axes(canvas, &plot, (&self.x.2, &self.y.2), labels, sizes)?;
-        self.draw_title(canvas, &window)?;
+        let whole = width(&self.title, sizes.title, Weight::Bold);
+        let title = text(sizes.title * (room.width() / whole).min(1.0), HPos::Left, VPos::Center, BLACK);
+        let above = (window.left, window.top - 0.85 * sizes.title);
+        canvas.text(&self.title, above, TextSpec { weight: Weight::Bold, ..title })?;
         if !self.has_data {
             let middle = (0.5 * (window.left + window.right), 0.5 * (window.top + window.bottom));
             canvas.text("no data", middle, text(sizes.label, HPos::Center, VPos::Center, AXIS))?;
         }
         self.draw_legend(canvas, &plot)
-    }
-
-    fn draw_title(&self, canvas: &mut Canvas<'_>, window: &Rectangle) -> Result<(), FigureError> {
-        let sizes = self.sizes;
-        let mut above = window.top - 0.85 * sizes.title;
-        if let Some(colours) = &self.colours
-            && !self.title_beside_bar(window.width())
-        {
-            above -= colours.space(sizes).1;
-        }
-        let regular = text(sizes.title, HPos::Left, VPos::Center, BLACK);
-        canvas.text(&self.title, (window.left, above), TextSpec { weight: Weight::Bold, ..regular })
-    }
-
-    /// Whether the title stands on the line of a colour bar above the plot.
-    fn title_beside_bar(&self, plot_width: f64) -> bool {
-        match (&self.panel.field, &self.colours) {
-            (Some(field), Some(colours)) => colours.leaves_room_for(&self.title, field, plot_width, self.sizes),
-            _ => false,
-        }
     }
 
     fn draw_legend(&self, canvas: &mut Canvas<'_>, plot: &Plot) -> Result<(), FigureError> {
@@ -211,8 +223,7 @@ impl<'p> ScaledPanel<'p> {
         let Some(aspect) = self.aspect() else { return *room };
         let width = room.width().min(room.height() / aspect);
         let height = width * aspect;
-        let left = room.left + 0.5 * (room.width() - width);
-        Rectangle { left, top: room.bottom - height, right: left + width, bottom: room.bottom }
+        Rectangle { top: room.bottom - height, right: room.left + width, ..*room }
     }
 
     fn plot(&self, window: Rectangle) -> Plot {

@@ -132,6 +132,33 @@ fn two_fields_have_a_bar_each_and_a_field_without_a_label_none() {
 }
 
 #[test]
+fn one_scale_of_colours_has_one_bar_and_one_range_one_axis() {
+    // a bar, labels of both axes and a number of the horizontal one, of two pictures below each other
+    let counts = |alter: fn(&mut Panel)| {
+        let mut panels = vec![field_panel(20), field_panel(20)];
+        alter(&mut panels[1]);
+        let drawn = render::svg(&figure(panels).in_columns(1), FigureFormat::SCREEN).expect("SVG");
+        ["p [Pa]", "u [m/s]", "y [m]", "1.2"].map(|text| drawn.matches(&format!(">\n{text}\n<")).count())
+    };
+    assert_eq!(counts(|_| ()), [1, 1, 2, 1]);
+    assert_eq!(counts(|panel| panel.field.as_mut().expect("a field").limits = Some((0.0, 7.0))), [2, 1, 2, 1]);
+    assert_eq!(counts(|panel| panel.x.limits = Some((0.0, 1.9))), [1, 2, 2, 2]);
+}
+
+#[test]
+fn a_legend_under_a_narrow_plot_is_on_the_sheet() {
+    let entry = |slot: usize| series(&format!("entry number {slot} of a legend"), Mark::Points, slot, &[(0.0, 1.0)]);
+    let mut narrow = panel((0..6).map(entry).collect());
+    narrow.y = Axis::named(vec!["a long name".repeat(8)]);
+    let drawn = render::svg(&figure(vec![narrow]), FigureFormat::SCREEN).expect("SVG");
+    let number = |text: &str| text.split('"').next().and_then(|digits| digits.parse::<f64>().ok()).expect("a number");
+    let after = |text: &str, mark: &str| number(text.split(mark).nth(1).expect("an attribute"));
+    let height = after(&drawn, "viewBox=\"0 0 6400 ");
+    let lowest = drawn.split("<text ").skip(1).map(|text| after(text, " y=\"")).fold(0.0, f64::max);
+    assert!(lowest < height, "{lowest} below {height}");
+}
+
+#[test]
 fn open_marks_are_hollow_and_raised_ones_are_not_hidden() {
     let blue = |mark: Mark, raised: f64| {
         // slots 0 and 5 have the same shape

@@ -261,9 +261,10 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
     let (fastest, deepest) = (largest(Frame::speeds), largest(Frame::pressures));
     let mut panels = Vec::new();
     for frame in frames {
-        let title = format!("t = {:.2} √(h0/g)", frame.time / run.time_scale());
         for (values, label, limit) in [(frame.speeds(), "|v| [m/s]", fastest), (frame.pressures(), "p [kPa]", deepest)]
         {
+            let quantity = label.split(" [").next().unwrap_or_default();
+            let title = format!("t = {:.2} √(h0/g), {quantity}", frame.time / run.time_scale());
             let x = Axis::linear("x/r0 [-]").between(0.0, far);
             let mut panel = Panel::new(&title, x, Axis::linear("y/r0 [-]").between(0.0, high));
             let seen: Vec<usize> =

@@ -118,8 +118,7 @@ pub fn halves(name: &str, caption: &str, frames: &[&Frame], view: &View) -> Figu
         let field = |points, values, label: &str, limit| Field {
             points,
             values,
-            // the scales are the same in all panels, so their bars stand over the first
-            label: if panels.is_empty() { label.to_owned() } else { String::new() },
+            label: label.to_owned(),
             diameter: view.spacing / unit,
             limits: Some((0.0, limit)),
         };
@@ -192,6 +191,5 @@ mod tests {
             assert_eq!((speed.points[0].0, pressure.points[0].0), (-0.5, 0.5));
             assert_eq!((speed.limits, pressure.limits), (Some((0.0, 1.5)), Some((0.0, 2.0))));
         }
-        assert_eq!(figure.panels[1].field.as_ref().map(|field| field.label.as_str()), Some(""));
     }
 }

@@ -176,8 +176,8 @@ fn fields(
     let far = fields_of(record).flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
     let mut panels = Vec::new();
     for frame in fields_of(record) {
-        let title = format!("t = {:.2} s", frame.time);
         for (values, label, limits) in drawn(frame) {
+            let title = format!("t = {:.2} s, {}", frame.time, label.split(" [").next().unwrap_or_default());
             let (x, y) = (Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high));
             let mut panel = Panel::new(&title, x, y);
             let points = frame.position.iter().map(|x| (x[0], x[1]));
