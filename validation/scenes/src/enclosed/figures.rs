@@ -2,10 +2,15 @@
 
 use super::filling::SiteFate;
 use super::parameters::Dimension;
-use super::series;
+use super::setting::SceneInlet;
 use super::surfaces::Surfaces;
 use super::{SceneObservation, SceneParameters, SceneRecord};
+use super::{series, shapes};
 use crate::figure::{Axis, Figure, Panel};
+use bagnold_solver::vector::Vector;
+
+/// Margin of pictures around the material, over the size of its box in the direction of the axis `[-]`.
+const MARGIN: f64 = 0.1;
 
 pub(crate) fn all<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
@@ -17,6 +22,21 @@ pub(crate) fn all<S: Dimension<D>, const D: usize>(
         [pictures, gauges(parameters, &record.data)]
     };
     records.iter().flat_map(of_run).flatten().collect()
+}
+
+/// Axes of pictures: the material of all of them and the inlets with a margin, but nothing beyond the scene.
+pub(crate) fn picture_axes<'a, S: Dimension<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    material: impl IntoIterator<Item = &'a [f64; 3]>,
+) -> [Axis; D] {
+    let (extent, rim) = (parameters.extent(), 2.0 * parameters.spacing);
+    let scene = (extent.0.add_scalar(-rim), extent.1.add_scalar(rim));
+    let places = material.into_iter().map(|place| Vector::<D>::from_fn(|k, _| place[k]));
+    let seen = places.filter(|place| shapes::box_holds(&scene.0, &scene.1, place));
+    let (lower, upper) = shapes::around(seen.chain(parameters.inlets.iter().flat_map(SceneInlet::corners)));
+    let margin = ((upper - lower) * MARGIN).add_scalar(rim);
+    let limits = |k: usize| ((lower[k] - margin[k]).max(scene.0[k]), (upper[k] + margin[k]).min(scene.1[k]));
+    std::array::from_fn(|k| Axis { limits: Some(limits(k)), ..Axis::linear(["x [m]", "y [m]", "z [m]"][k]) })
 }
 
 /// Where particles start, and what walls take of the bodies.
@@ -61,4 +81,23 @@ fn gauges<S: Dimension<D>, const D: usize>(
     };
     let panels: Vec<Panel> = series::of_run(parameters, data).into_iter().map(panel).collect();
     (!panels.is_empty()).then(|| Figure::new("gauges", "What the gauges of the scene measured.", panels).in_columns(2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Tier;
+    use crate::scene::Plane;
+
+    #[test]
+    fn pictures_show_the_material_and_no_more_of_the_scene() {
+        let parameters = SceneParameters { spacing: 0.01, inlets: Vec::new(), ..Plane::of_tier(Tier::Quick) };
+        let (lower, upper) = parameters.extent();
+        // the last grain has left the scene
+        let heights = [(lower[0], 0.05), (upper[0], 0.06), (upper[0] + 1.0, 0.0)];
+        let material = heights.map(|(x, height)| [x, lower[1] + height, 0.0]);
+        let [x, y] = picture_axes(&parameters, &material).map(|axis| axis.limits.expect("fixed"));
+        assert_eq!(x, (lower[0] - 0.02, upper[0] + 0.02));
+        assert!((y.0 - lower[1] - 0.029).abs() < 1e-12 && (y.1 - lower[1] - 0.081).abs() < 1e-12, "{y:?}");
+    }
 }

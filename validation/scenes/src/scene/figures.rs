@@ -2,6 +2,7 @@
 
 use super::PlaneParameters;
 use crate::enclosed::Measurand;
+use crate::enclosed::figures::picture_axes;
 use crate::enclosed::setting::{SceneGauge, SceneInlet, SceneWall};
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
@@ -11,11 +12,9 @@ use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 /// One panel a picture, the particles in the colours of their speed and the walls where they stand.
 pub(super) fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
-    let (lower, upper) = parameters.extent();
-    let margin = 2.0 * parameters.spacing;
-    let axis = |label: &str, k: usize| Axis::linear(label).between(lower[k] - margin, upper[k] + margin);
+    let [x, y] = picture_axes(parameters, frames.iter().flat_map(|frame| &frame.position));
     let panels = frames.iter().map(|frame| {
-        let mut panel = Panel::new(&format!("t = {:.3} s", frame.time), axis("x [m]", 0), axis("y [m]", 1));
+        let mut panel = Panel::new(&format!("t = {:.3} s", frame.time), x.clone(), y.clone());
         let points: Vec<(f64, f64)> = frame.position.iter().map(|place| (place[0], place[1])).collect();
         panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, frame.speeds()));
         for wall in &parameters.walls {

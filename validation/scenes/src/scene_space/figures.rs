@@ -1,6 +1,7 @@
 //! Pictures of the material from the side and from above, between the edges of its walls.
 
 use super::SpaceParameters;
+use crate::enclosed::figures::picture_axes;
 use crate::enclosed::setting::{SceneInlet, SceneWall};
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
@@ -30,6 +31,7 @@ const VIEWS: [ViewDirection; 2] = [
 /// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
 pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
+    let axes = picture_axes(parameters, frames.iter().flat_map(|frame| &frame.position));
     let walls: Vec<(FacetWall<3>, Vec<[Vector<3>; 2]>)> = parameters
         .walls
         .iter()
@@ -41,14 +43,18 @@ pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure
         .collect();
     let panels = frames.iter().flat_map(|frame| VIEWS.iter().map(move |view| (frame, view)));
     let panels = panels.map(|(frame, view)| {
-        let mut panel = material(parameters, frame, view, fastest);
+        let title = format!("t = {:.3} s, {}", frame.time, view.name);
+        let mut panel = Panel::new(&title, axes[view.right].clone(), axes[view.up].clone());
+        panel.field = Some(material(parameters.spacing, frame, view, fastest));
         let moved = walls.iter().flat_map(|(facet_wall, edges)| {
             let moved = facet_wall.motion.displacement(frame.time);
             edges.iter().map(move |edge| edge.map(|end| end + moved))
         });
         for edge in moved.take(MOST_EDGES) {
-            let points = edge.iter().map(|end| (end[view.right], end[view.up])).collect();
-            panel.series.push(Series::new("", Mark::Reference, 0, points));
+            let mut points = edge.map(|end| (end[view.right], end[view.up]));
+            // dashes of an edge in front of another lie on those behind
+            points.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+            panel.reference("", points);
         }
         panel
     });
@@ -58,15 +64,7 @@ pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure
 }
 
 /// The particles as one view shows them, those nearest to the eye last.
-fn material(parameters: &SpaceParameters, frame: &Frame, view: &ViewDirection, fastest: f64) -> Panel {
-    let (lower, upper) = parameters.extent();
-    let margin = 2.0 * parameters.spacing;
-    let axis = |k: usize| {
-        let label = ["x [m]", "y [m]", "z [m]"][k];
-        Axis::linear(label).between(lower[k] - margin, upper[k] + margin)
-    };
-    let title = format!("t = {:.3} s, {}", frame.time, view.name);
-    let mut panel = Panel::new(&title, axis(view.right), axis(view.up));
+fn material(spacing: f64, frame: &Frame, view: &ViewDirection, fastest: f64) -> Field {
     let mut order: Vec<usize> = (0..frame.position.len()).collect();
     let nearness = |particle: usize| view.towards.1 * frame.position[particle][view.towards.0];
     order.sort_by(|&one, &other| nearness(one).total_cmp(&nearness(other)));
@@ -74,8 +72,7 @@ fn material(parameters: &SpaceParameters, frame: &Frame, view: &ViewDirection, f
         order.iter().map(|&k| (frame.position[k][view.right], frame.position[k][view.up])).collect();
     let speeds = frame.speeds();
     let values: Vec<f64> = order.iter().filter_map(|&k| speeds.get(k).copied()).collect();
-    panel.field = Some(Field::new("|v| [m/s]", parameters.spacing, (0.0, fastest), points, values));
-    panel
+    Field::new("|v| [m/s]", spacing, (0.0, fastest), points, values)
 }
 
 /// The sites in the colours of their values between the edges of walls and openings, from the side and from above.
