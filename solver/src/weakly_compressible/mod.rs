@@ -22,6 +22,8 @@ pub mod snapshot;
 mod state;
 mod step;
 pub mod terms;
+#[cfg(test)]
+mod tests;
 pub mod time_step;
 mod velocity_step;
 pub(crate) mod viscous_solve;

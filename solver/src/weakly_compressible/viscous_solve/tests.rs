@@ -3,13 +3,14 @@ use crate::domain::{AxisBoundary, Domain};
 use crate::lanes::LANES;
 use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::material::rheology::{Bingham, Rheology};
-use crate::vector::{Tensor, Vector};
+use crate::vector::{Tensor, Vector, deviator, strain_rate};
 use crate::weakly_compressible::divergence::Quantity;
 use crate::weakly_compressible::enclosure::BoundarySet;
 use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
 use crate::weakly_compressible::scene::{Flow, Scene};
 use crate::weakly_compressible::simulation::{Compiled, Simulation};
 use crate::weakly_compressible::state::State;
+use crate::weakly_compressible::tests::pairs::{Pair, corrections, pairs_of};
 use crate::weakly_compressible::walls::{Wall, wall};
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
@@ -133,6 +134,45 @@ fn the_operator_is_symmetric_at_walls_mirrors_and_periods() {
     check_symmetry(&patch([9, 8], [periodic(9), AxisBoundary::Open], true, 0.2, 0.1));
     check_symmetry(&patch([9, 8], [mirrors(9), mirrors(8)], false, 0.2, 0.1));
     check_symmetry(&patch([6, 5, 6], [mirrors(6), periodic(5), AxisBoundary::Open], true, 0.2, 0.1));
+}
+
+/// The same product by plain sums over all pairs.
+fn product_by_pairs<const D: usize>(patch: &State<D>, u: &[Vector<D>]) -> Vec<Vector<D>> {
+    let (of, flow) = (&patch.particles, u.len());
+    let pairs = pairs_of(patch, &of.volume);
+    // what stands still behind a wall moves as a line through the surface has it
+    let factor = |b: &Pair<D>| {
+        let (normal, depth) = (of.walls.normal[b.index - flow], of.walls.depth[b.index - flow]);
+        let height = (b.r.dot(&normal) - depth).max(1e-6 * patch.model.kernel.smoothing_length());
+        (1.0 + depth / height).min(6.0)
+    };
+    let stress = |a: usize| {
+        let slip = |b: &Pair<D>| if b.source < flow { u[a] - b.vector(u) } else { u[a] * factor(b) };
+        let gradient = pairs[a].iter().fold(Tensor::zeros(), |sum, b| sum - slip(b) * b.r.transpose() * b.weight);
+        let (_, correction, _) = corrections(&pairs[a]);
+        deviator(&strain_rate(&(gradient * correction))) * correction * (2.0 * of.viscosity[a])
+    };
+    let stress: Vec<_> = (0..flow).map(stress).collect();
+    let row = |a: usize| {
+        let flux = |b: &Pair<D>| if b.source < flow { stress[a] + b.tensor(&stress) } else { stress[a] * factor(b) };
+        let force = pairs[a].iter().fold(Vector::zeros(), |sum, b| sum + flux(b) * b.r * b.weight);
+        u[a] * of.mass[a] - force * (TIME_STEP * of.volume[a])
+    };
+    (0..flow).map(row).collect()
+}
+
+#[test]
+fn the_operator_is_its_sums_over_all_pairs() {
+    fn check<const D: usize>(patch: &State<D>) {
+        let u = random_vector::<D>(patch.particles.flow_count(), 9);
+        let (found, expected) = (product(patch, &mut system(patch), &u), product_by_pairs(patch, &u));
+        let largest = expected.iter().map(Vector::amax).fold(0.0, f64::max);
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).amax() < 1e-12 * largest, "{found} and {expected}");
+        }
+    }
+    check(&patch([7, 6], [mirrors(7), AxisBoundary::Open], true, 0.2, 0.1));
+    check(&patch([5, 5, 5], [mirrors(5), periodic(5), AxisBoundary::Open], true, 0.2, 0.1));
 }
 
 #[test]

@@ -1,0 +1,157 @@
+//! A whole step against plain sums over all pairs, one particle after the other.
+
+pub(super) mod pairs;
+mod step_by_pairs;
+
+use crate::domain::{AxisBoundary, Domain};
+use crate::material::equation_of_state::{EquationOfState, Tension};
+use crate::material::rheology::{Bingham, MuI, NonlocalMuI, Rheology, SofteningDruckerPrager};
+use crate::vector::{Tensor, Vector, deviator, strain_rate};
+use crate::weakly_compressible::enclosure::BoundarySet;
+use crate::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics, PairPrecision, ViscositySwitch};
+use crate::weakly_compressible::scene::{Flow, Scene};
+use crate::weakly_compressible::simulation::{Compiled, Simulation};
+use crate::weakly_compressible::state::State;
+use crate::weakly_compressible::walls::{Surface, Wall, wall};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use step_by_pairs::by_pairs;
+
+const SPACING: f64 = 0.01;
+const DENSITY: f64 = 1500.0;
+const TIME_STEP: f64 = 1e-4;
+
+const GRAINS: MuI = MuI {
+    static_friction: 0.38,
+    limiting_friction: 0.64,
+    reference_inertia: 0.28,
+    grain_diameter: 5e-3,
+    grain_density: 2500.0,
+};
+const SOIL: SofteningDruckerPrager = SofteningDruckerPrager {
+    peak_friction: 0.6,
+    residual_friction: 0.4,
+    peak_cohesion: 200.0,
+    residual_cohesion: 50.0,
+    softening_strain: 0.25,
+    peak_dilation: 0.2,
+    dilation_strain: Some(0.3),
+};
+const MUD: Bingham = Bingham { plastic_viscosity: 5.0, yield_stress: 100.0, regularisation_rate: 2.0 };
+
+/// A jittered block with a free surface, on a rough belt, between a smooth wall and a mirror, and in space periodic across.
+fn block<const D: usize>(rheology: Rheology, tension: Tension, numerics: Numerics) -> State<D>
+where
+    Simulation<D>: Compiled<D>,
+{
+    let mut random = Pcg64Mcg::seed_from_u64(17);
+    let mut symmetric = || 2.0 * random.random::<f64>() - 1.0;
+    let cells: [usize; D] = std::array::from_fn(|axis| [7, 6, 5][axis]);
+    let mut flow = Flow::default();
+    for index in 0..cells.iter().product() {
+        let mut rest = index;
+        flow.position.push(Vector::<D>::from_fn(|axis, _| {
+            let cell = rest % cells[axis];
+            rest /= cells[axis];
+            (cell as f64 + 0.5 + 0.2 * symmetric()) * SPACING
+        }));
+        flow.velocity.push(Vector::from_fn(|_, _| 0.3 * symmetric()));
+        flow.density.push(DENSITY * (1.002 + 0.004 * symmetric()));
+        flow.mass.push(DENSITY * SPACING.powi(D as i32) * (1.0 + 0.05 * symmetric()));
+        flow.stress.push(deviator(&strain_rate(&Tensor::from_fn(|_, _| 500.0 * symmetric()))));
+        if rheology.field().is_some() {
+            flow.field.push(0.1 + 0.1 * symmetric());
+        }
+    }
+    let reach = Vector::<D>::from_fn(|axis, _| cells[axis] as f64 * SPACING);
+    let mut axes = [AxisBoundary::Open; D];
+    for axis in 1..D - 1 {
+        axes[axis] = AxisBoundary::Periodic { lower: 0.0, upper: reach[axis] };
+    }
+    axes[0] = AxisBoundary::Mirror { lower: None, upper: Some(reach[0]) };
+    let domain = Domain { axes };
+    let belt =
+        Wall { velocity: Vector::from_fn(|axis, _| if axis == 0 { 0.2 } else { 0.0 }), ..Wall::still(D - 1, 0.0, 1.0) };
+    let walls = vec![belt, Wall { roughness: Surface::Smooth, ..Wall::still(0, 0.0, 1.0) }];
+    let mut state = Simulation::new(Scene {
+        flow,
+        wall_particles: wall::fill(&walls, &domain, (Vector::zeros(), reach), SPACING, 4),
+        walls,
+        enclosure: BoundarySet::default(),
+        side_walls: None,
+        domain,
+        gravity: Vector::from_fn(|axis, _| if axis + 1 == D { -9.81 } else { 3.0 }),
+        spacing: SPACING,
+        equation_of_state: EquationOfState { reference_density: DENSITY, bulk_modulus: 6e5, tension },
+        rheology,
+        numerics: Numerics { contact: Contact::None, smagorinsky_constant: 0.1, ..numerics },
+    })
+    .expect("a valid scene")
+    .state;
+    let flow = state.particles.flow_count();
+    state.particles.artificial_viscosity[..flow].fill_with(|| 0.5 + 0.3 * symmetric());
+    state
+}
+
+/// The largest difference of two fields over the largest value.
+fn difference<'a>(found: impl Iterator<Item = &'a f64>, expected: impl Iterator<Item = &'a f64>) -> f64 {
+    let (mut error, mut largest) = (0.0_f64, f64::MIN_POSITIVE);
+    for (found, expected) in found.zip(expected) {
+        assert!(found.is_finite());
+        (error, largest) = (error.max((found - expected).abs()), largest.max(expected.abs()));
+    }
+    error / largest
+}
+
+fn check<const D: usize>(rheology: Rheology, tension: Tension, numerics: Numerics)
+where
+    Simulation<D>: Compiled<D>,
+{
+    for pair_precision in [PairPrecision::Double, PairPrecision::Single] {
+        let mut state = block::<D>(rheology, tension, Numerics { pair_precision, ..numerics });
+        let (expected, before) = (by_pairs(&state), state.particles.density.clone());
+        state.advance(TIME_STEP).expect("a step");
+        let (of, flow) = (&state.particles, state.particles.flow_count());
+        let rate: Vec<f64> = (0..flow).map(|a| (of.density[a] - before[a]) / TIME_STEP).collect();
+        let field = of.field.clone().unwrap_or_else(|| vec![0.0; flow]);
+        let errors = [
+            difference(of.acceleration.iter().flatten(), expected.acceleration.iter().flatten()),
+            difference(rate.iter(), expected.density_rate.iter()),
+            difference(of.velocity_gradient[..flow].iter().flatten(), expected.gradient.iter().flatten()),
+            difference(of.stress[..flow].iter().flatten(), expected.stress.iter().flatten()),
+            difference(field.iter().take(flow), expected.field.iter()),
+            difference(of.artificial_viscosity.iter().take(flow), expected.artificial_viscosity.iter()),
+        ];
+        let allowed = if state.model.pairs_in_single() { 1e-5 } else { 1e-10 };
+        assert!(
+            errors.iter().all(|error| *error < allowed),
+            "{}, {pair_precision:?}, {D}: {errors:?}",
+            rheology.name()
+        );
+    }
+}
+
+#[test]
+fn a_step_of_grains_is_its_sums_over_all_pairs() {
+    check::<2>(Rheology::MuI(GRAINS), Tension::Cut, Numerics::default());
+    check::<3>(Rheology::MuI(GRAINS), Tension::Cut, Numerics::default());
+}
+
+#[test]
+fn a_step_of_grains_with_a_fluidity_is_its_sums_over_all_pairs() {
+    check::<2>(Rheology::NonlocalMuI(NonlocalMuI::of(GRAINS)), Tension::Cut, Numerics::default());
+    check::<3>(Rheology::NonlocalMuI(NonlocalMuI::of(GRAINS)), Tension::Cut, Numerics::default());
+}
+
+#[test]
+fn a_step_of_soil_under_tension_is_its_sums_over_all_pairs() {
+    check::<2>(Rheology::SofteningDruckerPrager(SOIL), Tension::Kept, Numerics::default());
+    check::<3>(Rheology::SofteningDruckerPrager(SOIL), Tension::Kept, Numerics::default());
+}
+
+#[test]
+fn a_step_of_mud_is_its_sums_over_all_pairs() {
+    let (momentum_operator, viscosity_switch) = (MomentumOperator::ByLaw, ViscositySwitch::MorrisMonaghan);
+    check::<2>(Rheology::Bingham(MUD), Tension::Kept, Numerics { momentum_operator, ..Numerics::default() });
+    check::<3>(Rheology::Bingham(MUD), Tension::Kept, Numerics { viscosity_switch, ..Numerics::default() });
+}
