@@ -4,6 +4,7 @@ mod eddy_viscosity;
 mod pairs;
 mod pressure_operators;
 mod restart;
+mod velocity_rows;
 
 use super::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLoad,

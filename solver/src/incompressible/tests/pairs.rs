@@ -12,7 +12,7 @@ use crate::vector::Vector;
 use rand::RngExt;
 
 /// Sources within `reach` of every target with their separations, by trying every image.
-fn by_force<const D: usize>(
+pub(super) fn by_force<const D: usize>(
     targets: &[Vector<D>],
     sources: &[Vector<D>],
     which: Sources,

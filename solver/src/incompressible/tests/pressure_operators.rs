@@ -1,11 +1,13 @@
 //! G = −Dᵀ, and A + s D G symmetric and positive, on disordered particles above a wall and with a surface.
 
+use super::super::neighbours::Sources;
 use super::super::numerics::SurfaceTreatment;
 use super::super::passes::pair_rows::fill_rows;
 use super::super::projection::PressurePoisson;
 use super::super::simulation::IncompressibleSimulation;
 use super::super::state::State;
 use super::super::step;
+use super::pairs::by_force;
 use super::{random, symmetric, water};
 use crate::vector::Vector;
 
@@ -126,4 +128,66 @@ fn the_stabilisation_is_minus_s_times_divergence_of_gradient() {
         let expected = -0.7 * with.poisson.divergence(a, &gradient);
         assert!((full[a] - compact[a] - expected).abs() < 1e-10 * full[a].abs().max(1e4), "row {a}");
     }
+}
+
+#[test]
+fn the_operators_are_their_sums_over_all_pairs() {
+    let mut prepared = prepare(false, false, 0.0);
+    let mut random = random(9);
+    let p = prepared.field(|_| symmetric(&mut random));
+    let u: Vec<Vector<2>> = p.iter().map(|_| Vector::<2>::from_fn(|_, _| symmetric(&mut random))).collect();
+    let (product, gradients) = (prepared.apply(&p), prepared.poisson.find_gradient(&p).to_vec());
+    let mut divergences = vec![0.0; p.len()];
+    prepared.poisson.find_divergence(&u, &mut divergences);
+    let phase = &prepared.simulation.state.phases.fluid;
+    let (kernel, volume, moment) = (&phase.kernel, phase.lattice_volume, &phase.moment);
+    let of = |sources: &[Vector<2>], which| {
+        by_force(&phase.position, sources, which, &prepared.simulation.scene().domain, kernel.support())
+    };
+    let (free, walls) = (of(&phase.position, Sources::Same), of(&phase.wall, Sources::Other));
+    let full = 2.0 * volume * phase.lattice.diagonal;
+    for a in 0..p.len() {
+        let (mut laplacian, mut gradient, mut divergence) = (0.0, Vector::<2>::zeros(), 0.0);
+        let (mut diagonal, mut near, mut arm, mut complete) = (0.0, kernel.value_at(0.0) * phase.deficit[a], 0.0, full);
+        for (b, r) in free[a].iter().map(|(b, r)| (*b as usize, r)) {
+            let weight = 2.0 * volume * kernel.gradient_factor_at(r.norm()) / (moment[a] + moment[b]);
+            laplacian -= 2.0 * weight * (p[a] - p[b]);
+            diagonal -= 2.0 * weight;
+            gradient += r * (weight * (p[a] + p[b]));
+            divergence += weight * r.dot(&(u[b] - u[a]));
+            near += kernel.value_at(r.norm()) * phase.deficit[b];
+        }
+        for (_, r) in &walls[a] {
+            let weight = volume * kernel.gradient_factor_at(r.norm());
+            (arm, complete) = (arm + weight * r[1] / moment[a], complete + 2.0 * weight);
+        }
+        gradient[1] += 2.0 * p[a] * arm;
+        divergence -= 2.0 * u[a][1] * arm;
+        // neighbours that are missing at the surface are mirrored with the opposite pressure
+        let mirrored = (8.0 * volume * near).min(1.0) * (4.0 + 2.0 * phase.deficit[a]) / 3.0;
+        laplacian += mirrored * (complete - diagonal).max(0.0) * p[a];
+        // coefficients are single precision
+        assert!((product[a] - laplacian).abs() < 2e-6 * full, "row {a}: {} and {laplacian}", product[a]);
+        let (of_row, one_by_one) = (gradients[a], prepared.poisson.gradient(a, &p));
+        assert!(
+            (of_row - gradient).norm().max((one_by_one - gradient).norm()) < 2e-6 * full * super::SPACING,
+            "row {a}"
+        );
+        let (of_row, one_by_one) = (divergences[a], prepared.poisson.divergence(a, &u));
+        assert!(
+            (of_row - divergence).abs().max((one_by_one - divergence).abs()) < 2e-6 * full * super::SPACING,
+            "row {a}"
+        );
+    }
+}
+
+#[test]
+fn eliminated_particles_have_no_pressure() {
+    let mut simulation = prepare(false, true, 0.5).simulation;
+    simulation.state.phases.fluid.pressure.fill(500.0);
+    simulation.step().expect("a step");
+    let fluid = &simulation.state.phases.fluid;
+    let of_surface = |at_surface: bool| (0..fluid.len()).filter(move |&a| fluid.at_surface[a] == at_surface);
+    assert!(of_surface(true).count() >= 13 && of_surface(true).all(|a| fluid.pressure[a] == 0.0));
+    assert!(of_surface(false).all(|a| fluid.pressure[a] != 0.0));
 }
