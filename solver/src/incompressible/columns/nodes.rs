@@ -162,3 +162,25 @@ impl Nodes {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::stratification::ColumnRow;
+    use super::*;
+
+    #[test]
+    fn only_the_lowest_row_of_fixed_grains_goes_on_below() {
+        let (spacing, density, filling) = (1e-3, 2600.0, 0.6);
+        let row = ColumnRow { count: 1, width: 10.0 * spacing, left: 0.0 };
+        let grid = ColumnGrid::over(row, 0.5 * spacing, (0.0, 3.0 * spacing), 6.0 * spacing);
+        let dilatancy = Dilatancy { dilation: 0.3, packing: 0.6, grain_diameter: 5e-3, grain_density: density };
+        // the second row lies somewhat low
+        let heights = [0.5, 1.4, 2.5];
+        let wall =
+            heights.iter().flat_map(|z| (0..10).map(move |x| Vector::<2>::new(f64::from(x) + 0.5, *z) * spacing));
+        let nodes = Nodes::with_fixed(&grid, &dilatancy, (&wall.collect::<Vec<_>>(), spacing, filling));
+        let below = 0.5 * grid.cell - grid.base;
+        let (mass, expected) = (nodes.fixed_mass.iter().sum::<f64>(), density * filling * (3.0 * spacing + below));
+        assert!((mass / expected - 1.0).abs() < 1e-13, "{mass} of {expected} kg/m²");
+    }
+}

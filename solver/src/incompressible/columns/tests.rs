@@ -172,6 +172,22 @@ fn drag_is_equal_and_opposite_and_the_balance_of_the_grains_closes() {
     assert!(momentum(&columns) > 0.0);
 }
 
+#[test]
+fn the_drag_on_the_grains_is_what_their_nodes_get() {
+    let (mut columns, mut scene, fluid) = columns_of(scene(0.02, shear_flow, 5));
+    // clear of what is held, whose nodes have impulses of their own
+    for position in &mut columns.grains.position {
+        position[1] += 1e-3;
+    }
+    columns.gather(&mut scene, &fluid).expect("within the law");
+    columns.drag.react(&columns.grid, &columns.nodes, &fluid.velocity, 1.5e-4);
+    let held = |node: &usize| node % columns.grid.nodes < columns.grid.held;
+    let nodes = (0..columns.grid.len()).filter(|node| !held(node));
+    let on_nodes = nodes.map(|node| columns.drag.impulse[node]).sum::<f64>() * columns.grid.row.width / 1.5e-4;
+    let on_grains: Vector<2> = columns.drag_forces(1.5e-4).sum();
+    assert!(on_nodes > 0.0 && (on_grains[0] / on_nodes - 1.0).abs() < 1e-13, "{on_grains} of {on_nodes} N/m");
+}
+
 /// Grains at rest under still water lie as they were laid: no eddy finds room among them.
 #[test]
 fn a_resting_bed_leaves_no_room() {

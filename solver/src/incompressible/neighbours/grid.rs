@@ -138,3 +138,26 @@ impl<const D: usize> Grid<D> {
         coordinates.iter().zip(&self.cells).rev().fold(0, |cell, (&coordinate, &cells)| cell * cells + coordinate)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grid whose particles share a cell misses no pair either, but a search in it tries them all.
+    #[test]
+    fn cells_around_a_place_hold_near_particles_only() {
+        let place = |k: usize| Vector::<2>::new((k % 24) as f64 * 0.5 - 0.9, (k / 24) as f64 * 0.5 + 3.0);
+        let positions: Vec<_> = (0..24 * 20).map(place).collect();
+        let axes = [AxisBoundary::Periodic { lower: -1.0, upper: 11.0 }, AxisBoundary::Open];
+        let mut grid = Grid::new();
+        grid.sort(&positions, &Domain { axes }, 1.0);
+        for target in &positions {
+            grid.visit_near(target, |source| {
+                let way = positions[source as usize] - target;
+                let along = way[0].abs().min(12.0 - way[0].abs());
+                // two cells of 1 and of 9.5/9
+                assert!(along < 2.0 && way[1].abs() < 2.2, "{way:?} apart");
+            });
+        }
+    }
+}

@@ -47,6 +47,32 @@ mod tests {
         assert!((rate::<3>(12.0) / 1.5 - 1.0).abs() < 2e-3, "{}", rate::<3>(12.0));
     }
 
+    /// The integral along a row by the angle between a pair and the row's normal, in many parts.
+    #[test]
+    fn the_integral_is_that_over_all_angles() {
+        fn check<const D: usize>(smoothing_ratio: f64) {
+            let kernel = Kernel::<D>::new(KernelShape::CubicSpline, smoothing_ratio);
+            let (mut of_stress, mut of_viscosity) = (0.0, 0.0);
+            for height in (1..3).map(f64::from).filter(|height| *height < kernel.support()) {
+                let (end, parts) = ((height / kernel.support()).acos(), 4000);
+                for part in 0..parts {
+                    let angle = end * (f64::from(part) + 0.5) / f64::from(parts);
+                    let (distance, along) = (height / angle.cos(), height * angle.tan());
+                    let width = end * height / angle.cos().powi(2) * if D == 2 { 1.0 } else { along };
+                    let weight = width * kernel.gradient_factor_at(distance);
+                    of_stress += weight * height * distance;
+                    of_viscosity += weight * height * height;
+                }
+            }
+            let (found, expected) = (rate::<D>(smoothing_ratio), of_stress / of_viscosity);
+            assert!((found / expected - 1.0).abs() < 2e-5, "{found} and {expected}");
+        }
+        for smoothing_ratio in [0.9, 1.2, 1.4] {
+            check::<2>(smoothing_ratio);
+            check::<3>(smoothing_ratio);
+        }
+    }
+
     /// Rows of particles one by one, displaced against each other in steps: what their pairs carry of a stress that does not
     /// depend on the rate, by the viscosity τ r/(rate |u_ab|) of each.
     #[test]

@@ -170,6 +170,25 @@ fn operator_is_symmetric_and_positive() {
 }
 
 #[test]
+fn the_diagonal_is_that_of_the_operator_that_is_applied() {
+    let mut simulation = suspension(at_rest, at_rest, (MeanFlux::Zero, 9.81));
+    simulation.step().unwrap();
+    let (mut random, count) = (Pcg64::seed_from_u64(9), COLUMNS * ROWS);
+    let voidage: Vec<f64> = (0..count).map(|_| 0.5 + 0.4 * random.random::<f64>()).collect();
+    let mut mixture = std::mem::replace(&mut simulation.state.projection.mixture, Mixture::new());
+    let operators = Operators { voidage: &voidage, ..operators(&simulation) };
+    let phases = &simulation.state.phases;
+    mixture.assemble(&operators, &phases.fluid, phases.sediment.as_ref().unwrap());
+    for a in 0..count {
+        let (mut unit, mut product) = (vec![0.0; count], vec![0.0; count]);
+        unit[a] = 1.0;
+        mixture.apply(&operators, &unit, &mut product);
+        let error = product[a] * mixture.inverse_diagonal[a] - 1.0;
+        assert!(error.abs() < 1e-12, "{error} in row {a}");
+    }
+}
+
+#[test]
 fn a_sinusoidal_flux_is_projected() {
     // the grains alone begin to gather along a sine: the fluid must give way
     let wave = |x: Vector<2>| Vector::<2>::new(0.0, 1e-2 * (WAVE_NUMBER * x[1]).sin());
