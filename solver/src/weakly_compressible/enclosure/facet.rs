@@ -151,6 +151,30 @@ mod tests {
             assert!(error.norm() < 1e-15, "{place:?}");
         }
     }
+
+    #[test]
+    fn no_point_of_a_triangle_is_nearer_than_the_nearest() {
+        let corners = [[0.1, -0.2, 0.4], [1.3, 0.1, 0.2], [0.3, 0.9, -0.5]].map(Vector::<3>::from);
+        let facet = Facet::triangle(corners).expect("a triangle");
+        let [a, b, c] = corners;
+        let parts = 60;
+        let points = (0..=parts).flat_map(|i| (0..=parts - i).map(move |j| (i, j)));
+        let points: Vec<_> = points
+            .map(|(i, j)| a + (b - a) * (f64::from(i) / f64::from(parts)) + (c - a) * (f64::from(j) / f64::from(parts)))
+            .collect();
+        let distance =
+            |place: &Vector<3>| points.iter().map(|point| (point - place).norm()).fold(f64::INFINITY, f64::min);
+        for k in 0..9_u32.pow(3) {
+            // all around, and in the plane of the triangle, also beyond its edges and corners
+            let [i, j, l] = [k % 9, k / 9 % 9, k / 81].map(|k| 0.5 * f64::from(k) - 1.5);
+            let place = a + (b - a) * i + (c - a) * j + facet.normal * (l - 0.5);
+            let nearest = facet.nearest(&place);
+            let (found, least) = ((nearest - place).norm(), distance(&place));
+            assert!(found < least + 1e-12 && found > least - 0.03, "{found} and {least} from {place:?}");
+            assert!(distance(&nearest) < 0.03, "{nearest:?} is no point of the triangle");
+        }
+    }
+
     #[test]
     fn a_triangle_faces_those_who_see_its_corners_against_the_clock() {
         let corners = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Vector::<3>::from);

@@ -152,4 +152,22 @@ mod tests {
         // across the edge, the normal and the edge make a right-handed system
         assert!(frame.along[1] == corner(-1.0, 0.0, 0.0) && (frame.origin - corner(1.5, 0.0, 0.0)).norm() < 1e-14);
     }
+
+    #[test]
+    fn a_frame_begins_at_the_lower_corner_whichever_corner_comes_first() {
+        let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.8, 1.9);
+        let [a, b, c, d] =
+            [[1.0, 2.0], [4.0, 2.0], [4.0, 3.0], [1.0, 3.0]].map(|[x, y]| turn * Vector::<3>::new(x, y, 5.0));
+        for corners in [[[a, b, c], [a, c, d]], [[c, d, a], [b, c, a]], [[d, a, c], [c, a, b]], [[b, c, d], [d, a, b]]]
+        {
+            let facets = corners.map(|corners| Facet::triangle(corners).expect("a triangle"));
+            let frame = Frame::of(&facets).expect("facets");
+            for (axis, length) in frame.along.iter().zip(frame.lengths) {
+                let places = corners.iter().flatten().map(|corner| axis.dot(&(corner - frame.origin)));
+                let (lower, upper) = places.fold((f64::INFINITY, 0.0_f64), |(l, u), x| (l.min(x), u.max(x)));
+                assert!(lower.abs() < 1e-13 && (upper - length).abs() < 1e-13, "{lower} to {upper} of {length}");
+            }
+            assert!(frame.normal.dot(&(frame.origin - a)).abs() < 1e-13);
+        }
+    }
 }

@@ -298,3 +298,39 @@ impl<'a> Laying<'a> {
         (found.distance < 0.0 && -found.distance < self.reach()).then(|| candidates[found.facet])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What lies behind the plane z = 0 of a cell with these edges whose middle is at a height `[m]`.
+    fn behind(edges: [Vector<3>; 3], height: f64) -> Option<Piece> {
+        let [a, b, c, d] =
+            [[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]].map(|[x, y]| Vector::<3>::new(x, y, 0.0));
+        let (walls, domain) =
+            ([FacetWall::mesh("bed", &[[a, b, c], [a, c, d]])], Domain { axes: [AxisBoundary::Open; 3] });
+        let laying = Laying::of(&walls, &[0], &domain, 1.0, 4);
+        laying.piece(&Cell { middle: Vector::<3>::new(0.0, 0.0, height), edges }, |_| true)
+    }
+
+    #[test]
+    fn a_plane_cuts_a_cell_into_its_volume_and_centroid() {
+        let [x, y, z] = [0, 1, 2].map(|axis| Vector::<3>::ith(axis, 1.0));
+        for edges in [[x, y, z], [y, z, x], [z, x, y]] {
+            assert!(behind(edges, 0.7).is_none() && behind(edges, -0.7).is_some_and(|piece| piece.whole));
+            // a quarter and three quarters of the height
+            for (height, share, place) in [(0.25, 0.25, -0.125), (-0.25, 0.75, -0.375)] {
+                let piece = behind(edges, height).expect("a piece");
+                assert!(!piece.whole && (piece.volume - share).abs() < 1e-14);
+                assert!((piece.place - z * place).norm() < 1e-14, "{:?}", piece.place);
+            }
+        }
+        // a cell on its corner: the plane cuts a tetrahedron off whose edges are 3/4 along those of the cell
+        let edges =
+            [x, y, z].map(|edge| nalgebra::Rotation3::rotation_between(&(x + y + z), &-z).expect("a turn") * edge);
+        let piece = behind(edges, 0.75 / 3.0_f64.sqrt()).expect("a piece");
+        let middle = z * (0.75 / 3.0_f64.sqrt());
+        assert!((piece.volume - 0.75_f64.powi(3) / 6.0).abs() < 0.01, "{}", piece.volume);
+        assert!((piece.place - middle - (edges[0] + edges[1] + edges[2]) * (0.5 - 0.75 / 4.0)).norm() < 1e-14);
+    }
+}
