@@ -215,3 +215,38 @@ impl<const D: usize> Model<D> {
         Smagorinsky { coefficient: self.numerics.smagorinsky_constant }.mixing_length(self.spacing).powi(2)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::equation_of_state::Tension;
+    use crate::material::rheology::SofteningDruckerPrager;
+    use crate::weakly_compressible::scene::{Flow, Scene};
+    use crate::weakly_compressible::state::State;
+
+    #[test]
+    fn the_stress_ratio_diffuses_only_where_friction_alone_bounds_a_stress() {
+        let diffusion = |cohesion, numerics| {
+            let rheology = Rheology::SofteningDruckerPrager(SofteningDruckerPrager {
+                peak_friction: 0.6,
+                residual_friction: 0.4,
+                peak_cohesion: cohesion,
+                residual_cohesion: 0.0,
+                softening_strain: 0.1,
+                peak_dilation: 0.0,
+                dilation_strain: None,
+            });
+            let equation_of_state =
+                EquationOfState { reference_density: 1500.0, bulk_modulus: 6e5, tension: Tension::Cut };
+            let flow = Flow::at_rest(vec![Vector::<2>::zeros()], 1500.0, 0.01);
+            let scene = Scene { numerics, ..Scene::unbounded(flow, 0.01, equation_of_state, rheology) };
+            State::new(scene, &[]).model.pair_diffusion()
+        };
+        let usual = Numerics::default();
+        assert_eq!(diffusion(0.0, usual), PairDiffusion::StressRatio);
+        assert_eq!(diffusion(10.0, usual), PairDiffusion::None);
+        assert_eq!(diffusion(0.0, Numerics { stress_diffusion: 0.0, ..usual }), PairDiffusion::None);
+        let pairwise = Numerics { momentum_operator: MomentumOperator::Pairwise, ..usual };
+        assert_eq!(diffusion(0.0, pairwise), PairDiffusion::None);
+    }
+}

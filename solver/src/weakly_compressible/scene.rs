@@ -227,3 +227,36 @@ impl<const D: usize> Scene<D> {
 fn is_positive(value: f64) -> bool {
     value > 0.0 && value.is_finite()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::equation_of_state::Tension;
+    use crate::material::rheology::Newtonian;
+
+    type Spoil = fn(&mut Scene<2>, f64);
+
+    #[test]
+    fn values_that_must_be_positive_are_refused_by_their_field() {
+        let equation_of_state = EquationOfState { reference_density: 1e3, bulk_modulus: 1e5, tension: Tension::Kept };
+        let flow = Flow::at_rest(vec![Vector::<2>::zeros()], 1e3, 0.01);
+        let law = Rheology::Newtonian(Newtonian { viscosity: 1.0 });
+        let scene = Scene::unbounded(flow, 0.01, equation_of_state, law);
+        assert!(scene.check().is_ok());
+        let fields: [(&str, Spoil); 5] = [
+            ("spacing", |scene, value| scene.spacing = value),
+            ("reference_density", |scene, value| scene.equation_of_state.reference_density = value),
+            ("bulk_modulus", |scene, value| scene.equation_of_state.bulk_modulus = value),
+            ("density", |scene, value| scene.flow.density[0] = value),
+            ("mass", |scene, value| scene.flow.mass[0] = value),
+        ];
+        for (name, spoil) in fields {
+            for value in [0.0, -1.0, f64::INFINITY, f64::NAN] {
+                let mut bad = scene.clone();
+                spoil(&mut bad, value);
+                let message = bad.check().expect_err("refused").to_string();
+                assert!(message.contains(name) && message.contains("positive and finite"), "{message}");
+            }
+        }
+    }
+}

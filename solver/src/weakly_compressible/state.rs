@@ -183,3 +183,26 @@ fn lattice_weight<const D: usize>(numerics: &Numerics, spacing: f64) -> f64 {
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weight_of_a_lattice_is_that_of_all_its_sites_within_reach() {
+        // two diagonals of two spacings are just within reach
+        let (numerics, spacing) = (Numerics { smoothing_ratio: 1.49, ..Numerics::default() }, 0.02);
+        let (plane, space) = (Kernel::<2>::new(numerics.kernel, 0.0298), Kernel::<3>::new(numerics.kernel, 0.0298));
+        let (mut in_plane, mut in_space) = (0.0, 0.0);
+        let sites = || (-4..=4).map(|site| f64::from(site) * spacing);
+        for (x, y) in sites().flat_map(|x| sites().map(move |y| (x, y))).filter(|site| *site != (0.0, 0.0)) {
+            in_plane -= 2.0 * spacing.powi(2) * plane.gradient_factor_at(x.hypot(y));
+        }
+        for (x, y, z) in sites().flat_map(|x| sites().flat_map(move |y| sites().map(move |z| (x, y, z)))) {
+            let distance = x.hypot(y).hypot(z);
+            in_space -= if distance > 0.0 { 2.0 * spacing.powi(3) * space.gradient_factor_at(distance) } else { 0.0 };
+        }
+        assert!((lattice_weight::<2>(&numerics, spacing) / in_plane - 1.0).abs() < 1e-13);
+        assert!((lattice_weight::<3>(&numerics, spacing) / in_space - 1.0).abs() < 1e-13);
+    }
+}

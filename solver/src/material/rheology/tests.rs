@@ -82,6 +82,16 @@ fn friction_that_falls_with_rate_is_refused_and_explained() {
 }
 
 #[test]
+fn friction_of_fast_flow_is_bounded() {
+    for (static_friction, limiting_friction) in [(0.4, f64::INFINITY), (f64::INFINITY, f64::INFINITY), (0.4, f64::NAN)]
+    {
+        let problem = super::rising_friction(static_friction, limiting_friction).expect("refused");
+        assert_eq!(problem.field, "limiting_friction");
+    }
+    assert!(super::rising_friction(0.4, 0.4).is_none() && super::rising_friction(0.4, 0.7).is_none());
+}
+
+#[test]
 fn a_misspelt_parameter_is_not_read() {
     let read = |fields: &[(&'static str, f64)]| {
         Newtonian::deserialize(MapDeserializer::<_, serde::de::value::Error>::new(fields.iter().copied()))
