@@ -177,10 +177,10 @@ type RunFilter = fn(&BedLoadRun) -> bool;
 fn transport(records: &[BedLoadRecord]) -> Figure {
     let mut panel = transport_panel::formulas();
     let kinds: [(&str, usize, RunFilter); 4] = [
-        ("stabilised", 0, |run| matches!(run.formulation, BedLoadFormulation::Stabilised(_))),
-        ("continuum, given fraction", 5, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
-        ("continuum, dilating", 6, |run| stage_of(run) == Some(Stage::Dilating) && has_judged_law(run)),
-        ("continuum, other pair laws", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
+        ("grains of the paper's law", 0, |run| matches!(run.formulation, BedLoadFormulation::Stabilised(_))),
+        ("grains of a given solid fraction", 2, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
+        ("grains that dilate", 5, |run| stage_of(run) == Some(Stage::Dilating) && has_judged_law(run)),
+        ("other laws between pairs", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
     ];
     for (name, slot, belongs) in kinds {
         let points: Vec<(f64, f64)> = records

@@ -4,9 +4,9 @@ use super::observation::BedLoadObservation;
 use super::parameters::Stage;
 use super::profiles;
 use super::quantities::{
-    DECAY_LENGTH, DRAG_PEAK_HEIGHT, END_TIME, FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS, GRAIN_CURVATURE_ABOVE,
-    GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE, PREDICTED_TRANSPORT,
-    STREAM_VELOCITY, TRANSPORT, TRANSPORT_RATIO,
+    DECAY_LENGTH, DRAG_PEAK_HEIGHT, DRAG_RATIO, END_TIME, FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS,
+    GRAIN_CURVATURE_ABOVE, GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE,
+    PREDICTED_TRANSPORT, STREAM_VELOCITY, TRANSPORT, TRANSPORT_RATIO,
 };
 use super::run::BedLoadRun;
 use super::run::ContinuumRun;
@@ -177,6 +177,14 @@ pub(super) fn continuum(
         stage == Stage::Frozen,
         Limit::AtMost(0.2),
         "the grains' profile, 0.7 u_* a mm, shifted by a third of a spacing of 1 mm",
+    ));
+    let force = profiles::drag_ratio(&data.drag_profile(), layer);
+    let metric = DRAG_RATIO.of(&variant, force).exactly(1.0, source).with_snapshot_tolerance(0.0, 0.02);
+    metrics.push(gated(
+        metric,
+        stage == Stage::Dilating,
+        Limit::Within(0.95, 1.05),
+        "grains take over the stress of the water whatever their profile is; a twentieth for bins that the bed's top cuts",
     ));
     if judged && stage == Stage::Dilating {
         let formula = TransportFormula::WongParker;

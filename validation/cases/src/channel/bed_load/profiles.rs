@@ -138,6 +138,16 @@ pub(super) fn fluid_mean(run: &BedLoadRun, points: &[ProfilePoint], layer: &Laye
     own / other
 }
 
+/// Sum of a drag over equal bins, as `(z [m], [N/m³])`, over that of the layer at the same heights `[-]`.
+pub(super) fn drag_ratio(drag: &[(f64, f64)], layer: &LayerState) -> f64 {
+    let of_layer = |height: f64| {
+        let point = layer.at(height);
+        point.exchange * (point.fluid_velocity - point.grain_velocity)
+    };
+    let (own, other) = drag.iter().fold((0.0, 0.0), |sums, (z, drag)| (sums.0 + drag, sums.1 + of_layer(*z)));
+    own / other
+}
+
 /// Root mean square of u_s − u_1D where the layer's grains are faster than 1 cm/s, over u_* `[-]`.
 pub(super) fn grain_rms(run: &BedLoadRun, points: &[ProfilePoint], layer: &LayerState) -> f64 {
     let errors = points.iter().filter_map(|point| {

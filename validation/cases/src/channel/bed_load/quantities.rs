@@ -23,6 +23,7 @@ quantities! {
         stated("grain_curvature_above", "u_*/d²", "curvature of the grains' profile above the top of the bed"),
     GRAIN_CURVATURE_BELOW: stated("grain_curvature_below", "u_*/d²", "the same below it"),
     DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "where the drag on the grains is greatest"),
+    DRAG_RATIO: verified("drag_ratio", "-", "force of the water on the grains over the 1-D layer's"),
     FLUID_VELOCITY_RMS:
         verified("fluid_velocity_rms", "u_*", "root mean square of the water's velocity less the 1-D layer's"),
     FLUID_VELOCITY_MEAN:
