@@ -3,6 +3,7 @@
 
 use crate::source::workspace;
 use bagnold_harness::case::{Changes, Tier};
+use bagnold_harness::control::ControlKind;
 use bagnold_tools::mutation::Mutations;
 use bagnold_validation::REGISTRY;
 
@@ -15,7 +16,7 @@ fn every_text_of_a_mutation_stands_once_in_its_file() {
         assert!(!mutation.places.is_empty(), "{} changes nothing", mutation.name);
         for place in &mutation.places {
             places += 1;
-            let path = workspace().join("solver/src").join(&place.file);
+            let path = workspace().join(place.path());
             let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
             let count = text.matches(&place.needle()).count();
             if count != 1 {
@@ -28,12 +29,13 @@ fn every_text_of_a_mutation_stands_once_in_its_file() {
 }
 
 #[test]
-fn every_mutation_has_cases_that_take_their_settings() {
+fn every_mutation_has_tests_or_cases_that_take_their_settings() {
     let all = Mutations::read(&workspace()).expect("a file of mutations");
     assert!(all.iter().count() >= 60);
     for mutation in all.iter() {
         let scopes = all.scopes(mutation);
-        assert!(!scopes.is_empty(), "{} is seen by no case", mutation.name);
+        let is_control = || solver_controls().any(|error| error == mutation.name);
+        assert!(!scopes.is_empty() || !mutation.tests.is_empty() || is_control(), "nothing asks for {}", mutation.name);
         for scope in scopes {
             let case = REGISTRY.find(&scope.case).expect("a case");
             let changes = Changes { file: None, settings: &scope.settings, ..Changes::default() };
@@ -42,6 +44,22 @@ fn every_mutation_has_cases_that_take_their_settings() {
     }
     let last = all.iter().last().expect("one");
     assert_eq!((all.number(last), all.find(&last.name)), (all.iter().count(), Some(last)));
+}
+
+/// Errors of the solver that the cases' controls name.
+fn solver_controls() -> impl Iterator<Item = String> {
+    let controls = REGISTRY.iter().flat_map(|case| case.controls());
+    controls.filter_map(|control| match control.kind {
+        ControlKind::Solver(error) => Some(error),
+        ControlKind::Input { .. } => None,
+    })
+}
+
+#[test]
+fn every_control_of_the_solver_is_a_mutation() {
+    let all = Mutations::read(&workspace()).expect("a file of mutations");
+    let missing: Vec<String> = solver_controls().filter(|error| all.find(error).is_none()).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }
 
 #[test]

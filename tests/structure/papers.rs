@@ -4,6 +4,7 @@ use crate::source::workspace;
 use bagnold_harness::case::{Changes, Tier};
 use bagnold_harness::evidence::{Element, PAPERS};
 use bagnold_harness::metric::Variant;
+use bagnold_tools::mutation::Mutations;
 use bagnold_validation::REGISTRY;
 use std::collections::BTreeMap;
 
@@ -34,6 +35,23 @@ fn every_test_is_in_its_file() {
             if !text.contains(&format!("fn {}(", test.function)) {
                 wrong.push(format!("{name}: {} has no test {}", test.file, test.function));
             }
+        }
+    }
+    assert_none(&wrong);
+}
+
+/// `bagnold dev mutate --tests` shows that the test fails.
+#[test]
+fn every_element_that_rests_on_tests_alone_names_an_error_that_one_of_them_notices() {
+    let mutations = Mutations::read(&workspace()).expect("a file of mutations");
+    let mut wrong = Vec::new();
+    for (name, row) in elements() {
+        let rests_on_tests = row.settled.is_none() && row.metrics.is_empty() && row.runs.is_empty();
+        let error = row.control.as_ref().and_then(|control| mutations.find(control));
+        let is_noticed =
+            error.is_some_and(|error| row.tests.iter().any(|test| error.tests.contains(&test.to_string())));
+        if rests_on_tests && !is_noticed {
+            wrong.push(format!("{name}: {:?} is no error that its tests notice", row.control));
         }
     }
     assert_none(&wrong);

@@ -7,10 +7,12 @@
 //! `bagnold dev controls` renews.
 
 mod reading;
+mod series;
 mod table;
 mod trial;
 
 pub use reading::{ControlError, of_case};
+pub use series::ErrorSeries;
 pub use table::TriedControls;
 pub use trial::{Answer, ControlTrial, Found};
 

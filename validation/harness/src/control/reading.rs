@@ -1,6 +1,6 @@
 //! A file of controls → controls; every rule that one can break.
 
-use super::{CannotTell, Control, ControlKind};
+use super::{CannotTell, Control, ControlKind, ErrorSeries};
 use crate::metric::Variant;
 use serde::Deserialize;
 
@@ -9,6 +9,9 @@ include!(concat!(env!("OUT_DIR"), "/controls.rs"));
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
+    /// Errors in several sizes that the case's gates are asked about.
+    #[serde(default)]
+    series: Vec<String>,
     #[serde(default, rename = "control")]
     controls: Vec<Row>,
 }
@@ -80,6 +83,12 @@ fn parse(file: &str, text: &str) -> Result<Vec<Control>, ControlError> {
         };
         controls.push(Control { name, error, kind, rejected_by, accepted_by });
     }
+    for name in rows.series {
+        let series = ErrorSeries::find(&name);
+        let series =
+            series.ok_or_else(|| refuse(format!("`series` names \"{name}\", which is none; name a known one")))?;
+        controls.extend(series.controls());
+    }
     Ok(controls)
 }
 
@@ -106,6 +115,7 @@ mod tests {
             (ROW.replace("set = [\"x=1\"]\n", ""), "either `set`"),
             (ROW.replace("rejected_by = [\"front\"]\n", ""), "meant for no metric"),
             (ROW.replace("error", "mistake"), "mistake"),
+            (format!("series = [\"friction\"]\n{ROW}"), "\"friction\", which is none"),
         ] {
             let error = parse("x.toml", &text).expect_err("refused").to_string();
             assert!(error.contains(expected) && error.contains("controls/x.toml"), "{error}");

@@ -1,15 +1,19 @@
-//! What fails, in two lines each: metric and variant, then the value beside its limit. Why a known failure fails stands
-//! in the metric's row on the page of its case.
+//! What fails, in two lines each, the furthest off first: metric and variant, then the value beside its reference and limit. Why a
+//! known failure fails stands in the metric's row on the page of its case.
 
 use super::judgement::{JudgedCase, JudgedMetric, Severity};
 use super::known_failures::KnownFailureStatus;
 use super::rows::{note, statement, worst_mark};
 use super::view::{BannerItem, VerdictMark, anchor};
-use crate::metric::GateOwner;
+use crate::metric::{GateOwner, Limit, Metric};
+use crate::number::{two_digits, with_unit};
+
+/// Most results that the banner names.
+const MOST_NAMED: usize = 3;
 
 /// Runs that diverged, then gates: unexpected failures first, the user's own gates before those of the case.
 pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<BannerItem> {
-    let mut items: Vec<((Severity, GateOwner), BannerItem)> = Vec::new();
+    let mut items: Vec<((Severity, GateOwner), f64, BannerItem)> = Vec::new();
     for case in cases {
         for &(variant, message) in &case.diverged {
             let item = BannerItem {
@@ -19,9 +23,10 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<BannerItem> {
                 what: "a run diverged".to_owned(),
                 variant: variant.to_string(),
                 statement: message.to_owned(),
+                off: String::new(),
                 note: String::new(),
             };
-            items.push(((Severity::Failure, GateOwner::User), item));
+            items.push(((Severity::Failure, GateOwner::User), f64::INFINITY, item));
         }
         for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::KnownFailure) {
             let item = BannerItem {
@@ -31,14 +36,61 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<BannerItem> {
                 what: judged.metric.name.clone(),
                 variant: judged.metric.variant.to_string(),
                 statement: statement(judged),
+                off: off(judged.metric),
                 note: short_note(judged),
             };
-            items.push(((judged.severity(), judged.metric.gate_owner()), item));
+            // canonical studies are judged as a user's own are, and fail no louder than cases
+            let owner = match judged.severity() {
+                Severity::KnownFailure => GateOwner::Case,
+                _ => judged.metric.gate_owner(),
+            };
+            items.push(((judged.severity(), owner), distance(judged.metric), item));
         }
     }
     // Stable: equal ones keep the order of the page.
-    items.sort_by_key(|(order, _)| *order);
-    items.into_iter().map(|(_, item)| item).collect()
+    items.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    items.into_iter().map(|(.., item)| item).collect()
+}
+
+/// The furthest off of as many cases.
+pub(super) fn weakest(items: &[BannerItem]) -> Vec<usize> {
+    let is_first = |place: &usize| items[..*place].iter().all(|before| before.case != items[*place].case);
+    (0..items.len()).filter(is_first).take(MOST_NAMED).collect()
+}
+
+/// What a value should be: the reference, or the bound of the limit that it breaks where there is none, or none but zero.
+fn expected(metric: &Metric) -> Option<f64> {
+    let reference = metric.reference.as_ref().and_then(|reference| reference.value).filter(|value| *value != 0.0);
+    let bound = || {
+        Some(match metric.gate.as_ref()?.limit {
+            Limit::AtMost(bound) | Limit::AtLeast(bound) => bound,
+            Limit::Within(lower, upper) => {
+                if metric.value < lower {
+                    lower
+                } else {
+                    upper
+                }
+            }
+        })
+    };
+    reference.or_else(bound)
+}
+
+/// |ln(value/expected)|, how many times too large or too small; infinite for no number, zero or the wrong sign.
+fn distance(metric: &Metric) -> f64 {
+    let ratio = expected(metric).map_or(f64::NAN, |expected| metric.value / expected);
+    if ratio > 0.0 { libm::log(ratio).abs() } else { f64::INFINITY }
+}
+
+/// How far off the reference.
+fn off(metric: &Metric) -> String {
+    let reference = metric.reference.as_ref().and_then(|reference| reference.value);
+    let Some(expected) = reference.filter(|value| *value != 0.0 && metric.value.is_finite()) else {
+        return String::new();
+    };
+    let share = 100.0 * (metric.value / expected - 1.0);
+    let sign = if share > 0.0 { "+" } else { "" };
+    format!("{} is right ({sign}{} %)", with_unit(expected, &metric.unit), two_digits(share))
 }
 
 /// What the list of known failures says, without its reason.

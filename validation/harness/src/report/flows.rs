@@ -5,7 +5,7 @@ use super::power::{GatePower, rejected_inputs};
 use super::view::{FigureView, VerdictMark, picture};
 use super::{CaseReport, DrawnFigure, Report};
 use crate::figure::Figure;
-use crate::metric::{Metric, MetricKind, Verdict};
+use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use crate::number::two_digits;
 use serde::Serialize;
 
@@ -13,23 +13,28 @@ use serde::Serialize;
 struct Flow {
     title: &'static str,
     figures: &'static [(&'static str, &'static str)],
-    /// Sentences about the figure's number: the first that has one is shown.
+    /// Sentences about the figure's numbers.
     claims: &'static [Claim],
 }
 
-/// A sentence with the `{least}`, the `{most}` and the `{number}` of values.
+/// A sentence with the `{range}` and the `{number}` of the values of a metric.
 struct Claim {
-    metric: &'static [&'static str],
-    of: Share,
+    case: &'static str,
+    metric: &'static str,
+    /// Variants that it speaks of.
+    of: fn(&Variant) -> bool,
+    value: fn(&Metric) -> f64,
     says: &'static str,
 }
 
-/// Things that a claim counts.
-enum Share {
-    /// The value of a metric.
-    Value,
-    /// Prediction over reference.
-    OverReference,
+/// Prediction over reference.
+fn over_reference(metric: &Metric) -> f64 {
+    metric.reference.as_ref().and_then(|reference| reference.value).map_or(f64::NAN, |value| metric.value / value)
+}
+
+/// Whether a variant has a part, such as `material=sand`.
+fn has(variant: &Variant, part: &str) -> bool {
+    variant.parts().any(|(key, value)| format!("{key}={value}") == part)
 }
 
 const FLOWS: [Flow; 4] = [
@@ -37,42 +42,77 @@ const FLOWS: [Flow; 4] = [
         title: "Bagnold's velocity profile",
         figures: &[("bagnold", "velocity-profile")],
         claims: &[Claim {
-            metric: &["velocity_l2"],
-            of: Share::Value,
-            says: "Velocity profiles are within {most} % (L2) of Bagnold's solution (runs: {number}).",
+            case: "bagnold",
+            metric: "velocity_l2",
+            of: |_| true,
+            value: |metric| metric.value,
+            says: "Velocity profiles differ by {range} % (L2) from the exact solution of the same law, without an experiment (slopes: {number}).",
         }],
     },
     Flow {
         title: "Thickness of flow",
         figures: &[("flow-thickness", "start-stop")],
-        claims: &[Claim {
-            metric: &["experimental_excess"],
-            of: Share::Value,
-            says: "Layers stop at slopes {least}° to {most}° below the measured stopping curve (runs: {number}).",
-        }],
+        claims: &[
+            Claim {
+                case: "flow-thickness",
+                metric: "experimental_excess",
+                of: |variant| variant.get("surface").is_none(),
+                value: |metric| metric.value,
+                says: "Layers of the local law stop on slopes {range}° flatter than measured (layers: {number}).",
+            },
+            Claim {
+                case: "flow-thickness",
+                metric: "experimental_excess",
+                of: |variant| has(variant, "surface=vanishing"),
+                value: |metric| metric.value,
+                says: "Those of the nonlocal law stop {range}° flatter (layers: {number}).",
+            },
+        ],
     },
     Flow {
         title: "Collapses",
         figures: &[("column-planar", "scaling"), ("column-round", "scaling"), ("incline-collapse", "run-out")],
-        claims: &[Claim {
-            metric: &["run_out", "front_displacement"],
-            of: Share::OverReference,
-            says: "Run-outs are {least} to {most} times those of experiments and published laws (comparisons: {number}).",
-        }],
+        claims: &[
+            Claim {
+                case: "column-planar",
+                metric: "run_out",
+                of: |variant| has(variant, "material=sand") || has(variant, "material=lagree"),
+                value: over_reference,
+                says: "Columns on a plane run out {range} times as far as the work that each is compared with says (columns: {number}).",
+            },
+            Claim {
+                case: "incline-collapse",
+                metric: "front_displacement",
+                of: |_| true,
+                value: over_reference,
+                says: "Fronts on slopes come {range} times as far as measured (fronts: {number}).",
+            },
+        ],
     },
     Flow {
         title: "Bed load",
-        figures: &[("bed-load-1d", "transport"), ("bed-load", "transport")],
+        figures: &[("bed-load", "transport"), ("bed-load-1d", "transport")],
         claims: &[
             Claim {
-                metric: &["transport_over_measured"],
-                of: Share::Value,
-                says: "The transport is {least} to {most} times the median of measured runs (slopes: {number}).",
+                case: "bed-load",
+                metric: "predicted_transport",
+                of: |_| true,
+                value: over_reference,
+                says: "Grains that dilate are carried at {range} times the rate of a fit to measured runs (slopes: {number}).",
             },
             Claim {
-                metric: &["predicted_transport"],
-                of: Share::OverReference,
-                says: "The transport is {least} to {most} times a fit to measured runs (slopes: {number}).",
+                case: "bed-load",
+                metric: "transport_ratio",
+                of: |variant| has(variant, "formulation=stabilised"),
+                value: |metric| metric.value,
+                says: "Grains of the paper's law reach {range} of that rate on the slope that they are not fitted to.",
+            },
+            Claim {
+                case: "bed-load-1d",
+                metric: "transport_ratio",
+                of: |variant| has(variant, "layer=sheet-flow"),
+                value: |metric| metric.value,
+                says: "The 1-D layer reaches {range} of the transport in a measured sheet flow.",
             },
         ],
     },
@@ -87,7 +127,7 @@ pub(super) struct FlowPanel {
     figure: FigureView,
     /// Its first panel.
     small: FigureView,
-    sentence: String,
+    sentences: Vec<String>,
     verdict: Vec<VerdictLine>,
     controls: Vec<String>,
 }
@@ -131,28 +171,20 @@ fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[Draw
         title: flow.title,
         figure,
         small,
-        sentence: flow.claims.iter().find_map(|claim| sentence(claim, &compared, &cases)).unwrap_or_default(),
+        sentences: flow.claims.iter().filter_map(|claim| sentence(claim, &cases)).collect(),
         verdict: verdict(&compared, &cases),
         controls: cases.iter().filter_map(|case| rejected_inputs(case)).collect(),
         cases: cases.iter().map(|case| case.name.clone()).collect(),
     })
 }
 
-fn sentence(claim: &Claim, compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Option<String> {
-    let is_it = |name: &str| claim.metric.contains(&name);
-    let values: Vec<f64> = match claim.of {
-        Share::Value => {
-            let metrics = cases.iter().flat_map(|case| &case.metrics).filter(|metric| is_it(&metric.name));
-            metrics.map(|metric| metric.value).filter(|value| value.is_finite()).collect()
-        }
-        Share::OverReference => {
-            let own = compared.iter().filter(|own| is_it(&own.metric.name));
-            own.map(|own| own.metric.value / own.measured()).filter(|ratio| ratio.is_finite()).collect()
-        }
-    };
-    let (least, most) = range(values.iter().copied())?;
-    let text = claim.says.replace("{least}", &two_digits(least)).replace("{most}", &two_digits(most));
-    Some(text.replace("{number}", &values.len().to_string()))
+fn sentence(claim: &Claim, cases: &[&CaseReport]) -> Option<String> {
+    let own = cases.iter().filter(|case| case.name == claim.case).flat_map(|case| &case.metrics);
+    let own = own.filter(|metric| metric.name == claim.metric && (claim.of)(&metric.variant));
+    let values: Vec<f64> = own.map(claim.value).filter(|value| value.is_finite()).collect();
+    let [least, most] = range(values.iter().copied()).map(|(least, most)| [least, most].map(two_digits))?;
+    let range = if least == most { most } else { format!("{least} to {most}") };
+    Some(claim.says.replace("{range}", &range).replace("{number}", &values.len().to_string()))
 }
 
 /// Verdict on the model by comparisons with measurements, and the number of gates that hold.
@@ -174,23 +206,30 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<VerdictLi
     let all = compared.len();
     if let Some((number, level)) = those(|error| if let ModelError::Within(level) = error { Some(level) } else { None })
     {
-        add(VerdictMark::PASS, format!("validated within u_val in {number} of {all} comparisons: u_val is {level}"));
+        add(
+            VerdictMark::PASS,
+            format!("{number} of {all} comparisons with measurements agree within their uncertainty, {level}"),
+        );
     }
     if let Some((number, least)) =
         those(|error| if let ModelError::AtLeast(least) = error { Some(least) } else { None })
     {
-        add(VerdictMark::KNOWN, format!("model error of at least {least} in {number}"));
+        add(VerdictMark::KNOWN, format!("{number} miss by more than their uncertainty, by at least {least}"));
     }
     if let Some((number, _)) = those(|error| if let ModelError::BeyondKnown(by) = error { Some(by) } else { None }) {
-        add(VerdictMark::OBSERVED, format!("error above the known part of u_val in {number}"));
+        add(VerdictMark::OBSERVED, format!("{number} miss by more than what is known of their uncertainty"));
     }
     if let Some((number, _)) = those(|error| (error == ModelError::Unknown).then_some(0.0)) {
-        add(VerdictMark::OBSERVED, format!("not known in {number}"));
+        add(VerdictMark::OBSERVED, format!("{number} have no known uncertainty"));
     }
     if all == 0 {
-        add(VerdictMark::OBSERVED, "not known: no comparison with a measured value".to_owned());
+        add(VerdictMark::OBSERVED, "no comparison whose uncertainty is known".to_owned());
     }
-    for (kind, what) in [(MetricKind::Validation, "experiments"), (MetricKind::Verification, "exact solutions")] {
+    for (kind, what) in [
+        (MetricKind::Validation, "experiments"),
+        (MetricKind::Statement, "statements of the papers"),
+        (MetricKind::Verification, "exact solutions"),
+    ] {
         let judged = cases.iter().flat_map(|case| &case.metrics).filter(|metric| metric.kind == kind);
         let verdicts: Vec<Verdict> = judged.map(Metric::verdict).filter(|own| *own != Verdict::Observed).collect();
         let holding = verdicts.iter().filter(|own| **own == Verdict::Pass).count();
@@ -202,7 +241,7 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<VerdictLi
     let powers = cases.iter().flat_map(|case| case.metrics.iter().map(|metric| GatePower::of(case, metric)));
     let blind = powers.filter(|power| *power == GatePower::CannotTell).count();
     if blind > 0 {
-        add(VerdictMark::KNOWN, format!("cannot tell: {blind} of those that hold reject no control"));
+        add(VerdictMark::KNOWN, format!("{blind} of these would hold with wrong physics as well"));
     }
     lines
 }

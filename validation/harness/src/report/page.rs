@@ -9,7 +9,7 @@ use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
 use super::template::fill;
-use super::view::{Banner, CaseLine, GateRow, VerdictCount, VerdictMark, WorstMetric, typed};
+use super::view::{Banner, CaseLine, GateRow, VerdictCount, VerdictMark, typed};
 use super::{CaseReport, DrawnFigure, Report, comparison, drift, scatter};
 use serde::Serialize;
 
@@ -22,7 +22,6 @@ struct Overview {
     flows: Vec<FlowPanel>,
     counts: Vec<VerdictCount>,
     /// Gates that fail, then those that hold by least.
-    worst: Vec<WorstMetric>,
     cases: Vec<CaseLine>,
     gates: Vec<GateRow>,
     drift: drift::DriftTable,
@@ -48,7 +47,6 @@ pub(super) fn render(
         tier: tier_name(report.tier),
         banner: banner(judgement),
         counts: counts(judgement),
-        worst: overview::worst(judgement),
         flows: flows::panels(report, drawn, small),
         cases: judgement.cases.iter().map(|case| overview::case_line(case, small)).collect(),
         gates: overview::gates(judgement),
@@ -73,7 +71,8 @@ pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<DrawnFigure>], case:
 
 fn banner(judgement: &Judgement<'_>) -> Banner {
     let (mark, headline, detail) = headline(judgement);
-    Banner { mark, headline, detail, items: failures::of(&judgement.cases) }
+    let items = failures::of(&judgement.cases);
+    Banner { mark, headline, detail, weakest: failures::weakest(&items), items }
 }
 
 fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
@@ -85,7 +84,7 @@ fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
     let known = judgement.tallies().iter().map(|tally| tally.known).sum::<usize>() - not_reproduced;
     let mut details = Vec::new();
     if known > 0 {
-        details.push(format!("{known} of them known"));
+        details.push(format!("{known} are known defects"));
     }
     let open: usize = [Status::NotReproduced, Status::Contradicted]
         .map(|status| papers::count(&judgement.papers, status))
@@ -104,7 +103,7 @@ fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
         details.push(format!("{} at odds with the list of known failures", plural(judgement.contradictions, "result")));
     }
     if blind > 0 {
-        details.push(format!("{} cannot tell right from wrong", plural(blind, "gate")));
+        details.push(format!("{} would hold with wrong physics as well", plural(blind, "gate")));
     }
     if judgement.not_judged > 0 {
         details.push(format!("{} no longer judged", plural(judgement.not_judged, "gate")));

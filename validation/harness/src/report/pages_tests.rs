@@ -1,6 +1,6 @@
 //! Pages beside each other: their links, a case alone, and what the first page leads with.
 
-use super::tests::{case, drawing, gated, html, known, report};
+use super::tests::{case, drawing, gated, html, known, place, report};
 use super::*;
 use crate::metric::{Confidence, Metric, MetricKind, Origin, Variant};
 use crate::store::Drawings;
@@ -49,14 +49,18 @@ fn a_case_alone_has_the_same_page_beside_its_figures() {
 }
 
 #[test]
-fn the_first_page_leads_with_the_thinnest_margins_and_the_farthest_moves() {
-    let metrics = vec![gated("roomy", 0.1), gated("thin", 0.69), gated("broken", 0.9)];
-    let mut report = report(vec![case("film", metrics)]);
+fn the_first_page_leads_with_what_is_furthest_off_and_the_farthest_moves() {
+    let metrics = vec![gated("roomy", 0.1), gated("thin", 0.69), gated("broken", 0.9), gated("far", 9.0)];
+    let mut report =
+        report(vec![case("film", metrics), case("bagnold", vec![gated("wrong_sign", -0.1), gated("near", 0.8)])]);
     report.baseline = Baseline::of("film", &[gated("roomy", 0.1), gated("thin", 0.7), gated("broken", 0.5)]);
     let judgement = judge(&report);
-    let names = |lines: Vec<view::WorstMetric>| lines.into_iter().map(|line| line.metric).collect::<Vec<_>>();
-    assert_eq!(names(overview::worst(&judgement)), ["broken", "thin", "roomy"]);
     let page = html(&report);
+    let failing = super::failures::of(&judgement.cases);
+    let names = |places: &[usize]| places.iter().map(|&place| failing[place].what.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&[0, 1, 2]), ["far", "broken", "near"], "twelve times the limit before 1.3 and 1.1 times");
+    assert_eq!(names(&super::failures::weakest(&failing)), ["far", "near"], "one of each case");
+    assert!(place(&page, "Weakest:") < place(&page, "id=\"moved\""));
     let moved: Vec<&str> = page.split("id=\"moved\"").nth(1).expect("a list").split("<b>").skip(1).take(2).collect();
     assert!(moved[0].starts_with("broken") && moved[1].starts_with("thin"), "{moved:?}");
     let thin = overview::gates(&judgement).into_iter().find(|gate| gate.row.metric == "thin").expect("a gate");
@@ -108,7 +112,8 @@ fn figures_stand_above_tables_and_bookkeeping_is_folded() {
 fn overview_of(names: &[&str]) -> String {
     let folder = tempfile::tempdir().expect("folder");
     let of = |name: &&str| {
-        let run_out = Metric::observed("run_out", &Variant::default(), 2.2, "-").of_kind(MetricKind::Validation);
+        let run_out =
+            Metric::observed("run_out", &Variant::of("material", "sand"), 2.2, "-").of_kind(MetricKind::Validation);
         let measured = run_out.against(Some(2.0), "an experiment", Confidence::Medium);
         let known = measured.known_to(Origin::Repeat, Some(0.5), "seeds");
         let mut own = case(name, vec![gated("velocity_l2", 0.25), known]);
@@ -126,12 +131,10 @@ fn the_first_page_opens_with_a_panel_for_each_flow_that_the_report_has() {
     let page = overview_of(&cases);
     assert_eq!(page.matches("<section class=\"flow\"").count(), 4);
     assert!(page.find("<section class=\"flow\"") < page.find("<table"));
-    assert!(page.contains("Velocity profiles are within 0.25 % (L2) of"));
-    assert!(page.contains("Run-outs are 1.1 to 1.1 times") && page.contains("(comparisons: 2)"));
+    assert!(page.contains("Velocity profiles differ by 0.25 % (L2) from"));
+    assert!(page.contains("Columns on a plane run out 1.1 times as far") && page.contains("(columns: 1)"));
     assert!(
-        page.contains(
-            "validated within u<sub>val</sub> in 2 of 2 comparisons: u<sub>val</sub> is 25 % of the reference"
-        )
+        page.contains("2 of 2 comparisons with measurements agree within their uncertainty, 25 % of the reference")
     );
     assert!(page.contains("href=\"figures/column-planar/scaling.csv\""), "the figure that stands for the flow");
     assert_eq!(page.matches("class=\"small\"><a").count(), cases.len(), "a picture a case");

@@ -49,6 +49,8 @@ struct ElementView {
     /// Names of metrics and runs that are not in this report.
     missing: Vec<String>,
     tests: Vec<String>,
+    /// Error that makes one of the tests fail; empty where metrics speak.
+    control: String,
     figures: Vec<CasePageLink>,
 }
 
@@ -142,7 +144,8 @@ fn element(paper: &str, fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Elem
         note: element.note.clone(),
         values: fate.shown.iter().map(value).chain(fate.ended.iter().map(run)).collect(),
         missing: missing.chain(gone).collect(),
-        tests: element.tests.iter().map(|test| format!("{}::{}", test.file, test.function)).collect(),
+        control: element.control.clone().unwrap_or_default(),
+        tests: element.tests.iter().map(ToString::to_string).collect(),
         figures: figures(fate, cases),
     }
 }

@@ -1,8 +1,8 @@
 //! Power of a gate: the controls that it rejects, and the table of gates and controls of a case.
 
 use super::CaseReport;
-use super::view::{ControlCell, ControlRow, ControlView, ControlsView};
-use crate::control::{Answer, ControlKind, ControlTrial};
+use super::view::{ControlCell, ControlRow, ControlView, ControlsView, SeriesView, SizeRow};
+use crate::control::{Answer, ControlKind, ControlTrial, ErrorSeries};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
 
 /// Power of a gate that holds.
@@ -55,7 +55,7 @@ fn rejecting(controls: &[ControlTrial], metric: &Metric) -> usize {
 
 /// The controls of a case and what its gates say of them; none where there are none.
 pub(super) fn table(case: &CaseReport) -> Option<ControlsView> {
-    let controls = &case.controls;
+    let (sized, controls): (Vec<_>, Vec<_>) = case.controls.iter().partition(|trial| trial.control.size().is_some());
     let mut rows: Vec<ControlRow> = Vec::new();
     for metric in case.metrics.iter().filter(|metric| metric.kind != MetricKind::Bookkeeping) {
         let cells: Vec<ControlCell> = controls.iter().map(|trial| cell(trial, metric)).collect();
@@ -80,7 +80,49 @@ pub(super) fn table(case: &CaseReport) -> Option<ControlsView> {
             .map(|entry| (entry.metric.clone(), entry.because.clone()))
             .collect(),
     };
-    (!controls.is_empty()).then(|| ControlsView { controls: controls.iter().map(view).collect(), rows })
+    let mut series: Vec<&ErrorSeries> = sized.iter().filter_map(|trial| Some(trial.control.size()?.0)).collect();
+    series.dedup();
+    (!case.controls.is_empty()).then(|| ControlsView {
+        controls: controls.iter().map(|trial| view(trial)).collect(),
+        rows,
+        sizes: sizes(case, &series, &sized),
+        series: series.iter().map(|series| SeriesView::of(series)).collect(),
+    })
+}
+
+impl SeriesView {
+    fn of(series: &ErrorSeries) -> Self {
+        let factors: Vec<String> = series.factors.iter().map(|factor| format!("× {factor}")).collect();
+        Self { name: series.name, parameter: series.parameter, factors: factors.join(", ") }
+    }
+}
+
+/// The smallest error of each series that each gate of the right run rejects.
+fn sizes(case: &CaseReport, series: &[&ErrorSeries], sized: &[&ControlTrial]) -> Vec<SizeRow> {
+    let metrics = case.metrics.iter().filter(|metric| metric.kind != MetricKind::Bookkeeping);
+    let row = |metric: &Metric| {
+        let cell = |series: &&ErrorSeries| {
+            let of_series = sized
+                .iter()
+                .filter_map(|trial| trial.control.size().filter(|size| size.0 == *series).map(|size| (size.1, trial)));
+            let answers: Vec<(f64, Answer)> =
+                of_series.filter_map(|(factor, trial)| Some((factor, trial.answer(metric)?))).collect();
+            let rejects = |answer: &Answer| matches!(answer, Answer::Rejects | Answer::NotJudged);
+            match answers.iter().find(|(_, answer)| rejects(answer)) {
+                Some((factor, _)) => ("pass", format!("× {factor}")),
+                None if answers.iter().any(|(_, answer)| *answer == Answer::Accepts) => {
+                    ("known", "none of them".to_owned())
+                }
+                None => ("", String::new()),
+            }
+        };
+        SizeRow {
+            metric: metric.name.clone(),
+            variant: metric.variant.to_string(),
+            cells: series.iter().map(cell).collect(),
+        }
+    };
+    metrics.map(row).filter(|row| row.cells.iter().any(|(_, words)| !words.is_empty())).collect()
 }
 
 /// Number of wrong inputs that the gates of a case reject, for its panel on the first page; none where no control was tried.
@@ -89,8 +131,9 @@ pub(super) fn rejected_inputs(case: &CaseReport) -> Option<String> {
         let answers = case.metrics.iter().filter_map(|metric| trial.answer(metric));
         answers.into_iter().any(|answer| matches!(answer, Answer::Rejects | Answer::NotJudged))
     };
-    let (all, rejected) = (case.controls.len(), case.controls.iter().filter(is_rejected).count());
-    (all > 0).then(|| format!("{}: gates reject {rejected} of {all} controls (wrong physics or input)", case.name))
+    let named = || case.controls.iter().filter(|trial| trial.control.size().is_none());
+    let (all, rejected) = (named().count(), named().filter(is_rejected).count());
+    (all > 0).then(|| format!("{}: {rejected} of {all} deliberate errors are rejected", case.name))
 }
 
 /// Cell of a gate and a control.

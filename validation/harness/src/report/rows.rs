@@ -116,7 +116,9 @@ pub(super) fn note(judged: &JudgedMetric<'_>) -> String {
     match &judged.standing {
         KnownFailureStatus::Unlisted => String::new(),
         KnownFailureStatus::Known(entry) => {
-            format!("Known since {} (best {}): {}", entry.date, best(entry.best_value), entry.reason)
+            let (now, best) = (with_unit(judged.metric.value, &judged.metric.unit), best(entry.best_value));
+            let best = if now == best { String::new() } else { format!(" (best {best})") };
+            format!("Known since {}{best}: {}", entry.date, entry.reason)
         }
         KnownFailureStatus::PassesAgain(_) => {
             "Listed as a known failure, but the gate holds: remove the entry.".to_owned()

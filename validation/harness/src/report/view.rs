@@ -32,20 +32,6 @@ pub(super) fn typed(command: &str) -> String {
     command.strip_prefix("bagnold ").map_or_else(|| command.to_owned(), |rest| format!("cargo run -- {rest}"))
 }
 
-/// A metric among the worst.
-#[derive(Debug, Serialize)]
-pub(super) struct WorstMetric {
-    pub(super) mark: VerdictMark,
-    pub(super) case: String,
-    /// Where it stands on the case's page.
-    pub(super) anchor: String,
-    pub(super) metric: String,
-    pub(super) variant: String,
-    /// The margin's share of the limit.
-    pub(super) number: String,
-    pub(super) statement: String,
-}
-
 /// A case in the list of cases.
 #[derive(Debug, Serialize)]
 pub(super) struct CaseLine {
@@ -92,6 +78,8 @@ pub(super) struct Banner {
     pub(super) headline: String,
     pub(super) detail: String,
     pub(super) items: Vec<BannerItem>,
+    /// Number of those, from the first, that are named as the weakest results.
+    pub(super) weakest: Vec<usize>,
 }
 
 #[derive(Debug, Serialize)]
@@ -103,6 +91,8 @@ pub(super) struct BannerItem {
     pub(super) what: String,
     pub(super) variant: String,
     pub(super) statement: String,
+    /// How far off, in words.
+    pub(super) off: String,
     /// What the list of known failures says, without its reason.
     pub(super) note: String,
 }
@@ -198,6 +188,28 @@ pub(super) struct MetricView {
 pub(super) struct ControlsView {
     pub(super) controls: Vec<ControlView>,
     pub(super) rows: Vec<ControlRow>,
+    /// Parameters whose errors were tried in several sizes.
+    pub(super) series: Vec<SeriesView>,
+    /// Gates that were tried with these.
+    pub(super) sizes: Vec<SizeRow>,
+}
+
+/// A parameter whose errors were tried in several sizes.
+#[derive(Debug, Serialize)]
+pub(super) struct SeriesView {
+    pub(super) name: &'static str,
+    pub(super) parameter: &'static str,
+    /// Its factors, from the smallest error to the largest.
+    pub(super) factors: String,
+}
+
+/// The smallest error of each series that a gate rejects.
+#[derive(Debug, Serialize)]
+pub(super) struct SizeRow {
+    pub(super) metric: String,
+    pub(super) variant: String,
+    /// Class and words; both empty where the gate was not tried.
+    pub(super) cells: Vec<(&'static str, String)>,
 }
 
 #[derive(Debug, Serialize)]

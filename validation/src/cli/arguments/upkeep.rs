@@ -125,6 +125,9 @@ pub struct MutateArguments {
     /// Only errors found by rule, each of which a gate must kill.
     #[arg(long, conflicts_with = "errors")]
     pub generated: bool,
+    /// Only errors that tests must notice: for each element of a paper that rests on tests alone.
+    #[arg(long, conflicts_with = "generated")]
+    pub tests: bool,
     /// Folder to write.
     #[arg(long, value_name = "DIR", default_value = "reports/mutation")]
     pub out: PathBuf,
@@ -153,7 +156,7 @@ pub struct DrawnArguments {
     /// Seed of the draw, decimal or hexadecimal.
     #[arg(long, value_name = "SEED", default_value = "0x22b011ce", value_parser = seed)]
     pub seed: u64,
-    /// Run tests with errors that no gate has killed: the solver's unit tests, invariants, convergence, determinism, physics.
+    /// Run tests with errors that no gate has killed: the solver's unit tests, invariants, convergence, determinism.
     #[arg(long)]
     pub tests: bool,
     /// Folder to write.

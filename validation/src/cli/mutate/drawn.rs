@@ -8,7 +8,7 @@ use crate::cli::exit::Exit;
 use crate::cli::terminal::{say, tell};
 use crate::interruption;
 use crate::mutation::{
-    Detection, Draw, DrawProgress, MutationOutcome, Scope, TracedCase, build_tests, drawn_line, drawn_page,
+    Detection, Draw, DrawProgress, MutationOutcome, Scope, TestTarget, TracedCase, build_tests, drawn_line, drawn_page,
 };
 use crate::output::{FileError, OutputFolder};
 use std::collections::{BTreeMap, BTreeSet};
@@ -170,9 +170,9 @@ impl Trial<'_> {
             return Ok(());
         }
         let mut tests = Vec::new();
-        for test in build_tests(workspace)? {
+        for test in build_tests(workspace, &TestTarget::of_physics())? {
             let started = Instant::now();
-            let outcome = program.test(&test, 0, Duration::MAX);
+            let outcome = program.test(&test, None, 0, Duration::MAX);
             going_on()?;
             match outcome {
                 Ok(()) => tests.push((started.elapsed(), test)),
@@ -183,7 +183,8 @@ impl Trial<'_> {
         share_out(places, |place| {
             let started = Instant::now();
             let limit = |time: Duration| 10 * time + Duration::from_secs_f64(PATIENCE);
-            let failed = tests.iter().find_map(|(time, test)| program.test(test, number(place), limit(*time)).err());
+            let failed =
+                tests.iter().find_map(|(time, test)| program.test(test, None, number(place), limit(*time)).err());
             going_on()?;
             let mut outcome = {
                 let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);

@@ -3,6 +3,7 @@
 pub(super) mod controls;
 mod drawn;
 mod program;
+mod through_tests;
 
 use super::arguments::MutateArguments;
 use super::arguments::upkeep::MutateAction;
@@ -11,7 +12,7 @@ use super::error::ProgramError;
 use super::{Exit, say, summary, tell};
 use crate::case::{Registry, share_out};
 use crate::mutation::{
-    CHOICE, DetectionTally, Mutation, MutationOutcome, Mutations, Scope, build, run_trial, table, write,
+    CHOICE, Detection, DetectionTally, Mutation, MutationOutcome, Mutations, Scope, build, run_trial, table, write,
 };
 use crate::output::{FileError, OutputFolder};
 use crate::store::provenance::workspace;
@@ -91,7 +92,11 @@ fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) 
     let workspace = sources()?;
     let mutations = Mutations::read(&workspace)?;
     let errors: Vec<&Mutation> = if command.errors.is_empty() {
-        mutations.iter().filter(|mutation| mutation.generated || !command.generated).collect()
+        let is_asked = |mutation: &&Mutation| mutation.generated || !command.generated;
+        let has_witness = |mutation: &&Mutation| {
+            if command.tests { !mutation.tests.is_empty() } else { !mutation.cases.is_empty() }
+        };
+        mutations.iter().filter(is_asked).filter(has_witness).collect()
     } else {
         command.errors.iter().map(|name| named(&mutations, name.trim())).collect::<Result<_, _>>()?
     };
@@ -104,15 +109,21 @@ fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) 
         tell("building a copy of the program that holds all mutations");
     }
     let program = Program::new(build(&workspace, &mutations)?, claimed.staging())?;
-    let findings = findings(&errors, &mutations, &program, quiet)?;
+    let (of_tests, of_cases): (Vec<&Mutation>, _) =
+        errors.into_iter().partition(|error| command.tests || error.cases.is_empty());
+    let mut findings = findings(&of_cases, &mutations, &program, quiet)?;
+    let of_tests = through_tests::findings(of_tests, &mutations, &program, &workspace, quiet)?;
     // what the trials left goes before the folder is published
     drop(program);
+    let survives = |finding: &MutationOutcome| finding.error.generated && !finding.catch.is_certain();
+    let is_noticed = |finding: &MutationOutcome| matches!(finding.catch, Detection::Test(_));
+    let by_cases = of_cases.is_empty() || DetectionTally::of(&findings).holds() && !findings.iter().any(survives);
+    let holds = by_cases && of_tests.iter().all(is_noticed);
+    findings.extend(of_tests);
     write(&findings, claimed.staging()).map_err(|error| FileError::unwritable(&command.out, &error))?;
     claimed.publish()?;
     say(output, &table(&findings));
     say(output, &format!("{:.0} s; written to {}\n", started.elapsed().as_secs_f64(), command.out.display()));
-    let survives = |finding: &MutationOutcome| finding.error.generated && !finding.catch.is_certain();
-    let holds = DetectionTally::of(&findings).holds() && !findings.iter().any(survives);
     Ok(if holds { Exit::Held } else { Exit::GateFailed })
 }
 

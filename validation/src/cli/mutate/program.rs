@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
+/// End of the line of a test that failed.
+const FAILED: &str = " ... FAILED";
+
 /// The name of no error: a case as it is.
 pub(super) const NONE: &str = "none";
 
@@ -25,13 +28,18 @@ pub(super) fn trial(program: &Path, choice: &str, scope: &Scope, threads: Option
     command
 }
 
-/// Runs a command to its end, or until a time limit or a signal; returns what it said first on standard error, too.
-fn ended(command: &mut Command, limit: Duration) -> Result<(ExitStatus, String), String> {
+/// Runs a command to its end, or until enough is known, a time limit or a signal; returns what it said first on standard error, too.
+fn ended(command: &mut Command, limit: Duration, is_enough: impl Fn() -> bool) -> Result<(ExitStatus, String), String> {
     let started = Instant::now();
     let mut child = command.stdin(Stdio::null()).stderr(Stdio::piped()).spawn().map_err(|error| error.to_string())?;
     let status = loop {
         match child.try_wait().map_err(|error| error.to_string())? {
             Some(status) => break status,
+            None if is_enough() => {
+                // It may have ended just now.
+                let _ = child.kill();
+                break child.wait().map_err(|error| error.to_string())?;
+            }
             None if started.elapsed() > limit || interruption::asked().is_some() => {
                 // It may have ended just now.
                 let _ = child.kill();
@@ -97,28 +105,42 @@ impl Program {
         let file = self.file(&format!("{name}-{}-result", scope.case));
         let threads = u16::try_from(rayon::current_num_threads()).ok();
         let mut command = trial(&self.path, choice, scope, threads);
-        let (_, said) = ended(command.arg("--result").arg(&file).stdout(Stdio::null()), limit)?;
+        let (_, said) = ended(command.arg("--result").arg(&file).stdout(Stdio::null()), limit, || false)?;
         MutantRun::read(&file).ok_or(said)
     }
 
-    /// Runs the tests of a program with the mutation of a number on the current pool's number of threads.
+    /// Runs the tests of a program, or those of one name, with the mutation of a number on the current pool's number of threads, until one
+    /// fails.
     ///
     /// # Errors
     /// Which test failed first, or why the program stopped.
-    pub(super) fn test(&self, test: &TestProgram, number: usize, limit: Duration) -> Result<(), String> {
-        let name = format!("{number}-{}", test.name);
+    pub(super) fn test(
+        &self,
+        test: &TestProgram,
+        only: Option<&str>,
+        number: usize,
+        limit: Duration,
+    ) -> Result<(), String> {
+        let name = format!("{number}-{}-{}", test.target, only.unwrap_or("all"));
         let (printed, threads) = (self.file(&name), rayon::current_num_threads().to_string());
         let file = File::create(&printed).map_err(|error| error.to_string())?;
         let mut command = Command::new(&test.path);
-        command.current_dir(&test.folder).env(CHOICE, number.to_string()).stdout(file);
+        command.current_dir(&test.folder).env(CHOICE, number.to_string()).args(only).stdout(file);
         command.env("RUST_TEST_THREADS", &threads).env("RAYON_NUM_THREADS", &threads);
         // results of this mutation are no other's
         command.env("BAGNOLD_STORE", self.file(&format!("{name}-store")));
-        let (status, said) = ended(&mut command, limit).map_err(|reason| format!("{}: {reason}", test.name))?;
-        let text = std::fs::read(&printed).unwrap_or_default();
-        let text = String::from_utf8_lossy(&text);
-        let failed = text.lines().find_map(|line| line.strip_prefix("test ")?.strip_suffix(" ... FAILED"));
-        if status.success() { Ok(()) } else { Err(format!("{}: {}", test.name, failed.unwrap_or(&said))) }
+        let text =
+            || std::fs::read(&printed).map(|text| String::from_utf8_lossy(&text).into_owned()).unwrap_or_default();
+        let has_failed = || text().lines().any(|line| line.starts_with("test ") && line.ends_with(FAILED));
+        let (status, said) =
+            ended(&mut command, limit, has_failed).map_err(|reason| format!("{}: {reason}", test.target))?;
+        let text = text();
+        let mut results = text.lines().filter_map(|line| line.strip_prefix("test ")?.split_once(" ... "));
+        if status.success() {
+            return results.next().map(drop).ok_or_else(|| format!("{}: no test of this name", test.target));
+        }
+        let failed = results.find(|(_, result)| *result == FAILED.trim_start_matches(" ... "));
+        Err(format!("{}: {}", test.target, failed.map_or(&*said, |(name, _)| name)))
     }
 }
 

@@ -5,10 +5,10 @@ use crate::evaluation::PlanError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::FileError;
 use serde_json::Value;
-use std::collections::BTreeMap;
-use std::io;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::{fmt, io};
 
 /// By which the copy is told the number of the mutation; none or 0 for the program as it is; a file, to write there the numbers of the
 /// mutations whose expressions it reaches.
@@ -100,32 +100,73 @@ pub fn build(workspace: &Path, mutations: &Mutations) -> Result<PathBuf, CopyErr
     Ok(copy.program())
 }
 
+/// The target of cargo that has some tests.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TestTarget {
+    package: String,
+    name: String,
+    is_library: bool,
+}
+
+impl TestTarget {
+    /// The targets that ask for physics: the solver's unit tests, and those of balances, orders and bits.
+    #[must_use]
+    pub fn of_physics() -> Vec<Self> {
+        let sources = ["solver/src", "tests/invariants", "tests/convergence", "tests/determinism"];
+        sources.iter().filter_map(|source| Self::of(source)).collect()
+    }
+
+    /// The target of a source, by its path in the checkout.
+    #[must_use]
+    pub fn of(source: &str) -> Option<Self> {
+        let mut folders = source.split('/');
+        let (package, name, is_library) = match (folders.next()?, folders.next()?) {
+            ("solver", "src") => ("bagnold-solver-tests".to_owned(), "solver".to_owned(), false),
+            ("tests", target) => ("bagnold-tests".to_owned(), target.to_owned(), false),
+            ("validation", part) => (format!("bagnold-{part}"), format!("bagnold_{part}"), true),
+            _ => return None,
+        };
+        Some(Self { package, name, is_library })
+    }
+}
+
+impl fmt::Display for TestTarget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
 /// A test program of the copy.
 #[derive(Debug, Clone)]
 pub struct TestProgram {
-    /// Name of its target.
-    pub name: String,
+    /// Its target.
+    pub target: TestTarget,
     /// The program.
     pub path: PathBuf,
     /// Folder that it runs in.
     pub folder: PathBuf,
 }
 
-/// Builds the tests of the copy that ask for physics: the solver's unit tests and those of balances, orders, bits and gates.
+/// Builds tests of the copy that [`build`] has made.
 ///
 /// # Errors
 /// Tests that do not compile.
-pub fn build_tests(workspace: &Path) -> Result<Vec<TestProgram>, CopyError> {
+pub fn build_tests(workspace: &Path, targets: &[TestTarget]) -> Result<Vec<TestProgram>, CopyError> {
     let copy = SourceCopy::at(workspace);
-    let targets = ["solver", "invariants", "convergence", "determinism", "physics"];
-    let mut arguments = vec!["test", "--no-run", "-p", "bagnold-solver-tests", "-p", "bagnold-tests"];
-    arguments.extend(targets.iter().flat_map(|target| ["--test", target]));
+    let mut arguments = vec!["test", "--no-run"];
+    for target in targets {
+        arguments.extend(["-p", &target.package]);
+        if !target.is_library {
+            arguments.extend(["--test", &target.name]);
+        }
+    }
+    arguments.extend(targets.iter().any(|target| target.is_library).then_some("--lib"));
     let compiled = copy.compile(&arguments)?.whole(&copy)?;
     let test = |message: &Value| {
-        let text = |value: &Value| value.as_str().map(str::to_owned);
+        let name = message["target"]["name"].as_str()?;
         Some(TestProgram {
-            name: text(&message["target"]["name"]).filter(|name| targets.contains(&name.as_str()))?,
-            path: text(&message["executable"])?.into(),
+            target: targets.iter().find(|target| target.name == name)?.clone(),
+            path: message["executable"].as_str()?.into(),
             folder: Path::new(message["manifest_path"].as_str()?).parent()?.to_owned(),
         })
     };
@@ -224,9 +265,8 @@ impl MutatedExpression {
     }
 }
 
-/// The sources of the solver that differ in the copy, by their paths in the checkout.
+/// The sources that differ in the copy, by their paths in the checkout.
 fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<PathBuf, String>, CopyError> {
-    let root = Path::new("solver").join("src");
     let read = |path: &Path| {
         let file = workspace.join(path);
         read_text(&file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(&file, &error))
@@ -235,7 +275,7 @@ fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<P
     for mutation in mutations.iter() {
         let number = mutations.number(mutation);
         for place in &mutation.places {
-            let path = root.join(&place.file);
+            let path = place.path();
             if !sources.contains_key(&path) {
                 sources.insert(path.clone(), (read(&path)?, Vec::new()));
             }
@@ -273,11 +313,15 @@ fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<P
         (path, text)
     });
     let mut changed: BTreeMap<PathBuf, String> = changed.collect();
-    let library = root.join("lib.rs");
     let count = format!("\nconst COUNT: usize = {};\n", mutations.iter().count() + 1);
-    changed.insert(root.join("chosen_mutation.rs"), CHOOSER.to_owned() + &count);
-    let text = changed.remove(&library).map_or_else(|| read(&library), Ok)?;
-    changed.insert(library, NO_LINTS.to_owned() + &text + "\nmod chosen_mutation;\n");
+    let root_of = |path: &PathBuf| path.ancestors().find(|folder| folder.ends_with("src")).map(Path::to_owned);
+    let roots: BTreeSet<PathBuf> = changed.keys().filter_map(root_of).collect();
+    for root in roots {
+        let library = root.join("lib.rs");
+        changed.insert(root.join("chosen_mutation.rs"), CHOOSER.to_owned() + &count);
+        let text = changed.remove(&library).map_or_else(|| read(&library), Ok)?;
+        changed.insert(library, NO_LINTS.to_owned() + &text + "\nmod chosen_mutation;\n");
+    }
     Ok(changed)
 }
 

@@ -55,7 +55,7 @@ impl Candidate {
             text: right.to_owned(),
             instead: self.wrong.clone(),
         };
-        Mutation { name, description, cases: Vec::new(), generated: true, places: vec![place] }
+        Mutation { name, description, cases: Vec::new(), tests: Vec::new(), generated: true, places: vec![place] }
     }
 }
 

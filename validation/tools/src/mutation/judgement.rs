@@ -192,7 +192,8 @@ mod tests {
     fn found(right: &MutantRun, wrong: Result<MutantRun, String>) -> MutationOutcome {
         let scope = Scope { case: "film".to_owned(), settings: Vec::new() };
         let (name, description) = ("von-karman".to_owned(), "κ = 0.45 instead of 0.41".to_owned());
-        let error = Mutation { name, description, cases: Vec::new(), generated: false, places: Vec::new() };
+        let error =
+            Mutation { name, description, cases: Vec::new(), tests: Vec::new(), generated: false, places: Vec::new() };
         judge(&error, &[(&scope, right, wrong)])
     }
 

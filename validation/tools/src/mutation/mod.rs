@@ -21,7 +21,7 @@ mod page;
 mod record;
 mod trial;
 
-pub use copy::{CHOICE, CopyError, TestProgram, build, build_tests};
+pub use copy::{CHOICE, CopyError, TestProgram, TestTarget, build, build_tests};
 pub use draw::{Draw, DrawProgress, TracedCase};
 pub use judgement::{Broken, Detection, DetectionTally, MutationComparison, MutationOutcome, judge};
 pub use page::{drawn_line, drawn_page, table, write};

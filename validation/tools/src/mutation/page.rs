@@ -35,7 +35,7 @@ fn witness(finding: &MutationOutcome) -> String {
         }
         Detection::Stop(message) | Detection::Test(message) => message.clone(),
         Detection::Snapshot => finding.first_drift.clone(),
-        Detection::Nothing => String::new(),
+        Detection::Nothing => finding.first_drift.clone(),
     }
 }
 
@@ -63,6 +63,14 @@ fn row(finding: &MutationOutcome) -> [String; 6] {
 fn shares(findings: &[MutationOutcome]) -> String {
     let tally = DetectionTally::of(findings);
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    if tally.all() > 0 && tally.gated() == 0.0 && tally.snapshot == 0 {
+        return format!(
+            "{} errors: {} caught by their tests, {} by nothing.\n",
+            tally.all(),
+            tally.test,
+            tally.nothing
+        );
+    }
     format!(
         "{} errors: {} caught by a gate, {} by a run that stopped, {} by the snapshot only, {} by nothing.\n\
          Caught: {} (at least {}). By a gate or a stop: {} (at least {}).\n",

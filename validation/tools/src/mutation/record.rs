@@ -5,7 +5,7 @@ use crate::evaluation::{PlanError, read_plan};
 use crate::input::FieldError;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Where they stand in a checkout.
 pub const FILE: &str = "validation/tools/mutations.toml";
@@ -19,7 +19,11 @@ pub struct Mutation {
     /// What is wrong, half a sentence.
     pub description: String,
     /// The cases that ought to notice, the likeliest first.
+    #[serde(default)]
     pub cases: Vec<String>,
+    /// The tests that ought to fail, where no case is asked: `path/of/file.rs::function`.
+    #[serde(default)]
+    pub tests: Vec<String>,
     /// Whether it was found by rule, and stands here because a gate kills it.
     #[serde(default)]
     pub generated: bool,
@@ -31,7 +35,7 @@ pub struct Mutation {
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SourceReplacement {
-    /// File below `solver/src`.
+    /// File below `solver/src`, or from the root of the checkout where it begins with `validation/`.
     pub file: String,
     /// What stands right before the text, where the text alone is not unique.
     #[serde(default)]
@@ -53,6 +57,13 @@ pub struct Mutations {
 }
 
 impl SourceReplacement {
+    /// The file from the root of the checkout.
+    #[must_use]
+    pub fn path(&self) -> PathBuf {
+        let root = if self.file.starts_with("validation/") { "" } else { "solver/src" };
+        Path::new(root).join(&self.file)
+    }
+
     /// What is looked for in the file.
     #[must_use]
     pub fn needle(&self) -> String {

@@ -22,6 +22,7 @@ struct ElementRow {
     implemented: String,
     #[serde(default)]
     tests: Vec<String>,
+    control: Option<String>,
     #[serde(default)]
     metrics: Vec<MetricRow>,
     #[serde(default)]
@@ -135,8 +136,8 @@ fn element(row: ElementRow, place: &RowPlace<'_>) -> Result<Element, PaperError>
         let rule = format!("one of {}, where no metric, run or test says what became of the element", words.join(", "));
         return Err(place.refuse("status", "", rule));
     }
-    let ElementRow { id, place, says, note, .. } = row;
-    Ok(Element { id, place, statement: says, implemented, tests, metrics, runs, figures, settled, note })
+    let ElementRow { id, place, says, note, control, .. } = row;
+    Ok(Element { id, place, statement: says, implemented, tests, control, metrics, runs, figures, settled, note })
 }
 
 fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(ElementStatus, String)>, PaperError> {

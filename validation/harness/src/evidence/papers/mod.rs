@@ -10,6 +10,7 @@ mod tests;
 pub use error::PaperError;
 
 use crate::metric::Variant;
+use std::fmt;
 use std::sync::LazyLock;
 
 /// One paper with all its elements.
@@ -38,6 +39,8 @@ pub struct Element {
     pub implemented: Option<String>,
     /// Tests that hold it.
     pub tests: Vec<TestName>,
+    /// Error that makes one of the tests fail, where nothing else shows the element (`bagnold dev mutate --tests`).
+    pub control: Option<String>,
     /// Metrics that show it.
     pub metrics: Vec<MetricName>,
     /// Runs that have to end without diverging.
@@ -68,6 +71,12 @@ pub struct TestName {
     pub file: String,
     /// Function.
     pub function: String,
+}
+
+impl fmt::Display for TestName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}::{}", self.file, self.function)
+    }
 }
 
 /// Metrics of a case: those of a name whose variant has all the parts that are given.
