@@ -76,10 +76,15 @@ fn expected(metric: &Metric) -> Option<f64> {
     reference.or_else(bound)
 }
 
-/// |ln(value/expected)|, how many times too large or too small; infinite for no number, zero or the wrong sign.
+/// Logarithm of how many times too large or too small a value is; of the wrong sign, of one and its error over what is expected; infinite
+/// for zero and for no number.
 fn distance(metric: &Metric) -> f64 {
     let ratio = expected(metric).map_or(f64::NAN, |expected| metric.value / expected);
-    if ratio > 0.0 { libm::log(ratio).abs() } else { f64::INFINITY }
+    match ratio {
+        positive if positive > 0.0 => libm::log(positive).abs(),
+        negative if negative < 0.0 => libm::log(2.0 - negative),
+        _ => f64::INFINITY,
+    }
 }
 
 /// How far off the reference.

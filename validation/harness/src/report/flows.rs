@@ -63,9 +63,9 @@ const FLOWS: [Flow; 4] = [
             Claim {
                 case: "flow-thickness",
                 metric: "experimental_excess",
-                of: |variant| has(variant, "surface=vanishing"),
+                of: |variant| variant.get("surface").is_some(),
                 value: |metric| metric.value,
-                says: "Those of the nonlocal law stop {range}° flatter (layers: {number}).",
+                says: "Those of the nonlocal law stop on slopes {range}° flatter (layers: {number}, two conditions at the surface).",
             },
         ],
     },
@@ -105,7 +105,7 @@ const FLOWS: [Flow; 4] = [
                 metric: "transport_ratio",
                 of: |variant| has(variant, "formulation=stabilised"),
                 value: |metric| metric.value,
-                says: "Grains of the paper's law reach {range} of that rate on the slope that they are not fitted to.",
+                says: "Bingham grains, fitted on two other slopes, reach {range} of that rate.",
             },
             Claim {
                 case: "bed-load-1d",
@@ -214,10 +214,13 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<VerdictLi
     if let Some((number, least)) =
         those(|error| if let ModelError::AtLeast(least) = error { Some(least) } else { None })
     {
-        add(VerdictMark::KNOWN, format!("{number} miss by more than their uncertainty, by at least {least}"));
+        add(
+            VerdictMark::KNOWN,
+            format!("{number} miss by more than their uncertainty: the model is wrong by at least {least}"),
+        );
     }
     if let Some((number, _)) = those(|error| if let ModelError::BeyondKnown(by) = error { Some(by) } else { None }) {
-        add(VerdictMark::OBSERVED, format!("{number} miss by more than what is known of their uncertainty"));
+        add(VerdictMark::OBSERVED, format!("{number} are undecided: part of their uncertainty is not known"));
     }
     if let Some((number, _)) = those(|error| (error == ModelError::Unknown).then_some(0.0)) {
         add(VerdictMark::OBSERVED, format!("{number} have no known uncertainty"));
@@ -241,7 +244,7 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<VerdictLi
     let powers = cases.iter().flat_map(|case| case.metrics.iter().map(|metric| GatePower::of(case, metric)));
     let blind = powers.filter(|power| *power == GatePower::CannotTell).count();
     if blind > 0 {
-        add(VerdictMark::KNOWN, format!("{blind} of these would hold with wrong physics as well"));
+        add(VerdictMark::KNOWN, format!("{blind} of the gates that hold reject none of the deliberate errors"));
     }
     lines
 }

@@ -177,7 +177,7 @@ type RunFilter = fn(&BedLoadRun) -> bool;
 fn transport(records: &[BedLoadRecord]) -> Figure {
     let mut panel = transport_panel::formulas();
     let kinds: [(&str, usize, RunFilter); 4] = [
-        ("grains of the paper's law", 0, |run| matches!(run.formulation, BedLoadFormulation::Stabilised(_))),
+        ("Bingham grains, fitted elsewhere", 0, |run| matches!(run.formulation, BedLoadFormulation::Stabilised(_))),
         ("grains of a given solid fraction", 2, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
         ("grains that dilate", 5, |run| stage_of(run) == Some(Stage::Dilating) && has_judged_law(run)),
         ("other laws between pairs", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),

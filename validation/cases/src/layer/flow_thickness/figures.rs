@@ -55,7 +55,8 @@ const LAWS: [(usize, f64); 3] = [(0, 2.2), (3, 0.0), (4, -1.6)];
 
 /// Which layers stop: the local law and the experiments.
 fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
-    let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
+    let title = "marks of one thickness stand apart";
+    let mut panel = Panel::new(title, Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
     let experiment = thicknesses().map(|h| (incline.stopping_angle(h).to_degrees(), 1e3 * h)).collect::<Vec<_>>();
     let local = libm::atan(incline.static_friction).to_degrees();
     panel.line("experiments: h_stop(θ)", 2, experiment);
