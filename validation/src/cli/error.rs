@@ -61,6 +61,22 @@ pub enum ProgramError {
         /// What was asked for.
         name: String,
     },
+    /// A mutation that no test is named for.
+    #[error(
+        "mutation `{name}` names no test to run; give it `tests` in validation/tools/mutations.toml, or try it in a case: `bagnold dev mutate trial {name} CASE`"
+    )]
+    ErrorWithoutTests {
+        /// Its name.
+        name: String,
+    },
+    /// A test that fails without a mutation as well.
+    #[error("test {test} fails without an error as well: {reason}; mend it first")]
+    TestFails {
+        /// The test.
+        test: String,
+        /// What it said.
+        reason: String,
+    },
     /// A case that does not even run without an error.
     #[error("failed to run {case} without an error: {reason}; see `bagnold run {case}`")]
     Trial {

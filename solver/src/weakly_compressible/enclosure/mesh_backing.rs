@@ -303,7 +303,7 @@ impl<'a> Laying<'a> {
 mod tests {
     use super::*;
 
-    /// What lies behind the plane z = 0 of a cell with these edges whose middle is at a height `[m]`.
+    /// Volume behind the plane z = 0 of a cell with these edges whose middle is at a height `[m]`.
     fn behind(edges: [Vector<3>; 3], height: f64) -> Option<Piece> {
         let [a, b, c, d] =
             [[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]].map(|[x, y]| Vector::<3>::new(x, y, 0.0));

@@ -13,7 +13,7 @@ fn wet_inverse(sum: f64, unit: f64) -> f64 {
     if sum > 1e-12 * unit { 1.0 / sum } else { 0.0 }
 }
 
-/// What a step makes, and ∂ρ/∂t.
+/// Result of a step, and ∂ρ/∂t.
 pub(super) struct Made<const D: usize> {
     pub(super) acceleration: Vec<Vector<D>>,
     pub(super) density_rate: Vec<f64>,

@@ -1,4 +1,4 @@
-//! What fails, in two lines each, the furthest off first: metric and variant, then the value beside its reference and limit. Why a
+//! Failures in two lines each, the furthest off first: metric and variant, then the value beside its reference and limit. Why a
 //! known failure fails stands in the metric's row on the page of its case.
 
 use super::judgement::{JudgedCase, JudgedMetric, Severity};
@@ -58,7 +58,7 @@ pub(super) fn weakest(items: &[BannerItem]) -> Vec<usize> {
     (0..items.len()).filter(is_first).take(MOST_NAMED).collect()
 }
 
-/// What a value should be: the reference, or the bound of the limit that it breaks where there is none, or none but zero.
+/// Right value: the reference, or the bound of the limit that it breaks where there is none, or none but zero.
 fn expected(metric: &Metric) -> Option<f64> {
     let reference = metric.reference.as_ref().and_then(|reference| reference.value).filter(|value| *value != 0.0);
     let bound = || {
@@ -87,7 +87,7 @@ fn distance(metric: &Metric) -> f64 {
     }
 }
 
-/// How far off the reference.
+/// Distance from the reference in words.
 fn off(metric: &Metric) -> String {
     let reference = metric.reference.as_ref().and_then(|reference| reference.value);
     let Some(expected) = reference.filter(|value| *value != 0.0 && metric.value.is_finite()) else {

@@ -91,7 +91,7 @@ pub(super) struct BannerItem {
     pub(super) what: String,
     pub(super) variant: String,
     pub(super) statement: String,
-    /// How far off, in words.
+    /// Distance from the reference in words.
     pub(super) off: String,
     /// What the list of known failures says, without its reason.
     pub(super) note: String,

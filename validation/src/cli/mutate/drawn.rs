@@ -128,7 +128,7 @@ fn traced(
 
 /// # Errors
 /// A signal: what a trial that it ended says is no finding.
-fn going_on() -> Result<(), ProgramError> {
+pub(super) fn going_on() -> Result<(), ProgramError> {
     interruption::asked().map_or(Ok(()), |_| Err(ParameterError::Interrupted.into()))
 }
 

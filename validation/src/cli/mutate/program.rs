@@ -135,7 +135,9 @@ impl Program {
         let (status, said) =
             ended(&mut command, limit, has_failed).map_err(|reason| format!("{}: {reason}", test.target))?;
         let text = text();
-        let mut results = text.lines().filter_map(|line| line.strip_prefix("test ")?.split_once(" ... "));
+        let results = text.lines().filter_map(|line| line.strip_prefix("test ")?.split_once(" ... "));
+        // the program takes the name as a part of others
+        let mut results = results.filter(|(name, _)| only.is_none_or(|own| name.rsplit("::").next() == Some(own)));
         if status.success() {
             return results.next().map(drop).ok_or_else(|| format!("{}: no test of this name", test.target));
         }

@@ -1,6 +1,7 @@
 //! Errors that tests must notice: each is run through the tests that it names, all of which must fail.
 
 use super::PATIENCE;
+use super::drawn::going_on;
 use super::program::Program;
 use crate::case::share_out;
 use crate::cli::count::CountBar;
@@ -23,6 +24,9 @@ pub(super) fn findings(
     if errors.is_empty() {
         return Ok(Vec::new());
     }
+    if let Some(error) = errors.iter().find(|error| error.tests.is_empty()) {
+        return Err(ProgramError::ErrorWithoutTests { name: error.name.clone() });
+    }
     let tests: BTreeSet<&str> = errors.iter().flat_map(|error| error.tests.iter().map(String::as_str)).collect();
     let targets: BTreeSet<TestTarget> = tests.iter().filter_map(|test| TestTarget::of(test)).collect();
     if !quiet {
@@ -33,8 +37,9 @@ pub(super) fn findings(
     let right = Mutex::new(BTreeMap::new());
     share_out(Vec::from_iter(tests), |test: &str| -> Result<(), ProgramError> {
         let started = Instant::now();
-        run(program, &programs, test, 0, Duration::MAX)
-            .map_err(|reason| ProgramError::Trial { case: test.to_owned(), reason })?;
+        let outcome = run(program, &programs, test, 0, Duration::MAX);
+        going_on()?;
+        outcome.map_err(|reason| ProgramError::TestFails { test: test.to_owned(), reason })?;
         right.lock().unwrap_or_else(PoisonError::into_inner).insert(test, started.elapsed());
         bar.step();
         Ok(())
@@ -48,10 +53,10 @@ pub(super) fn findings(
             run(program, &programs, test, number, limit).err()
         };
         let answers: Vec<Option<String>> = error.tests.iter().map(answer).collect();
+        going_on()?;
         let mut stands = error.tests.iter().zip(&answers).filter(|(_, answer)| answer.is_none());
         let accepted = match stands.next() {
             Some((test, _)) => format!("{test} passes with the error"),
-            None if answers.is_empty() => "it names no test".to_owned(),
             None => String::new(),
         };
         let finding = MutationOutcome {
