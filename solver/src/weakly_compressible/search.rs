@@ -11,7 +11,7 @@ use crate::weakly_compressible::walls::Images;
 /// The domain, the grids and the buffers of the sort, reused from search to search.
 #[derive(Debug)]
 pub(crate) struct Search<const D: usize> {
-    domain: Domain<D>,
+    pub(crate) domain: Domain<D>,
     flow_grid: CellGrid<D>,
     wall_grid: CellGrid<D>,
     /// Images of the flow and of walls.
@@ -101,7 +101,7 @@ impl<const D: usize> Search<D> {
             .map_err(|particle| Crowded { particle })
     }
 
-    /// Brings the flow back through periods and mirrors; what a mirror pushes back is support.
+    /// Brings the flow back through periods and mirrors, and walls through periods; what a mirror pushes back is support.
     fn keep_inside(&self, particles: &mut Particles<D>) {
         let flow = particles.flow_count();
         let Particles { position, velocity, velocity_gradient, stress, mass, support_impulse, .. } = particles;
@@ -122,5 +122,7 @@ impl<const D: usize> Search<D> {
                 *support_impulse += pushed_back;
             },
         );
+        // what a moving wall takes out of the period comes in on its other side
+        position[flow..].iter_mut().for_each(|position| self.domain.wrap(position));
     }
 }

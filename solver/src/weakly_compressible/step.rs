@@ -64,9 +64,11 @@ impl<const D: usize> State<D> {
     /// # Errors
     /// A particle that has passed one.
     fn touch_facets(&mut self, time_step: f64, friction: f64) -> Result<(), Divergence<D>> {
-        let Self { enclosure, model, particles, pairs, time, .. } = self;
+        let Self { enclosure, model, particles, pairs, time, search, .. } = self;
         let times = (*time, time_step);
-        let Some((fastest, passed)) = enclosure.touch(model, particles, &mut pairs.energy, friction, times) else {
+        let surroundings = (&*model, &search.domain);
+        let touched = enclosure.touch(surroundings, particles, &mut pairs.energy, friction, times);
+        let Some((fastest, passed)) = touched else {
             return Ok(());
         };
         self.pairs.close_ledger(&mut self.energy);

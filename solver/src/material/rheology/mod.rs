@@ -58,7 +58,7 @@ pub use softening_drucker_prager::SofteningDruckerPrager;
 use field::{FieldLaw, FieldStep, LawField, StateReturn};
 use open::{OpenField, OpenPlastic, OpenViscous};
 
-use crate::lanes::algebra::{load_tensor, store_tensor};
+use crate::lanes::algebra::{deviatoric_rate, invariant, load_tensor, store_tensor};
 use crate::lanes::{LANES, Lanes, Real};
 use crate::parameter::{ParameterProblem, range_problem};
 use crate::vector::Tensor;
@@ -363,6 +363,31 @@ macro_rules! rheology {
                     $(Self::$plastic(_) => 0.0,)*
                     $(Self::$keeper(_) => 0.0,)*
                 }
+            }
+
+            /// Viscosity `[Pa·s]` that is left of a viscous law without pressure, and its share of the whole `[-]`, of eight particles with
+            /// these velocity gradients `[1/s]` and viscosities `[Pa·s]`: all of a liquid's, none of grains' whose stress is friction, nor
+            /// of a law that carries its stress along.
+            #[inline(always)]
+            pub(crate) fn viscosity_without_pressure<V: Lanes, const D: usize>(
+                &self,
+                velocity_gradient: &[[V; D]; D],
+                viscosities: &[f64],
+            ) -> (V, V) {
+                let (mut left, mut share) = ([0.0; LANES], [0.0; LANES]);
+                match self {
+                    $(Self::$viscous(law) => {
+                        let shear_rates = invariant(2.0, &deviatoric_rate(velocity_gradient)).to_array();
+                        for (lane, &viscosity) in viscosities.iter().enumerate() {
+                            if viscosity > 0.0 {
+                                left[lane] = law.viscosity(shear_rates[lane], 0.0).min(viscosity);
+                                share[lane] = left[lane] / viscosity;
+                            }
+                        }
+                    })*
+                    _ => {}
+                }
+                (V::load(&left), V::load(&share))
             }
 
             /// Whether the law carries the stress from step to step.

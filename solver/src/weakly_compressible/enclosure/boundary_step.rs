@@ -3,6 +3,7 @@
 use super::boundary_set::Exits;
 use super::boundary_state::BoundaryState;
 use super::facet_contact::{self, Passed, Touch};
+use crate::domain::Domain;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
 use crate::weakly_compressible::energy::{EnergyLedger, energy_of};
@@ -91,7 +92,7 @@ impl<const D: usize> BoundaryState<D> {
     /// `[m/s]` and the first particle that was found behind a wall; none without facet walls.
     pub(crate) fn touch(
         &mut self,
-        model: &Model<D>,
+        (model, domain): (&Model<D>, &Domain<D>),
         particles: &mut Particles<D>,
         energy: &mut [EnergyLedger],
         friction: f64,
@@ -105,7 +106,7 @@ impl<const D: usize> BoundaryState<D> {
             self.velocities[wall] = way / time_step;
         }
         let Self { walls, grids, range, displacements, velocities, blocks, .. } = self;
-        let touch = Touch { walls, grids, displacements, velocities, range: *range, friction };
+        let touch = Touch { domain, walls, grids, displacements, velocities, range: *range, friction };
         let found = facet_contact::run(model, particles, energy, touch, time_step, blocks);
         self.close_impulses();
         let passed = found.passed.map(|(index, Passed { wall, distance })| OutOfRange {

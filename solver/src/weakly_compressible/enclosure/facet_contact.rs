@@ -5,6 +5,7 @@ use super::facet::Facet;
 use super::facet_grid::FacetGrid;
 use super::facet_side::{FacetSide, facet_side};
 use super::facet_wall::FacetWall;
+use crate::domain::Domain;
 use crate::lanes::LANES;
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
@@ -25,6 +26,7 @@ const TIE: f64 = 1e-9;
 /// Facet walls in a step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch<'a, const D: usize> {
+    pub(super) domain: &'a Domain<D>,
     pub(super) walls: &'a [FacetWall<D>],
     /// Grids to find their facets by, wall by wall.
     pub(super) grids: &'a [FacetGrid<D>],
@@ -58,7 +60,10 @@ impl<'a, const D: usize> Touch<'a, D> {
     /// Facets whose boxes hold a place, with their wall and the place in the wall's frame.
     fn near(self, position: Vector<D>) -> impl Iterator<Item = (usize, &'a Facet<D>, Vector<D>)> + Clone {
         self.walls.iter().enumerate().flat_map(move |(k, wall)| {
-            let place = position - self.displacements[k];
+            let mut place = position - self.displacements[k];
+            if !wall.motion.is_rest() {
+                self.domain.wrap(&mut place);
+            }
             let near = move |facet: &&Facet<D>| facet.may_reach(&place, self.range);
             let listed = self.grids[k].near(&place).iter().map(|&index| &wall.facets[index as usize]);
             listed.filter(near).map(move |facet| (k, facet, place))
@@ -221,6 +226,7 @@ pub(super) fn run<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::domain::AxisBoundary;
     use crate::weakly_compressible::enclosure::facet_wall::Side;
 
     fn polyline(points: &[[f64; 2]]) -> Vec<FacetWall<2>> {
@@ -231,7 +237,15 @@ mod tests {
     fn after(walls: &[FacetWall<2>], place: [f64; 2], velocity: [f64; 2]) -> Result<Vector<2>, Passed> {
         let rest = vec![Vector::zeros(); walls.len()];
         let grids: Vec<_> = walls.iter().map(|wall| FacetGrid::new(&wall.facets, 0.5)).collect();
-        let touch = Touch { walls, grids: &grids, displacements: &rest, velocities: &rest, range: 0.5, friction: 0.4 };
+        let touch = Touch {
+            domain: &Domain { axes: [AxisBoundary::Open; 2] },
+            walls,
+            grids: &grids,
+            displacements: &rest,
+            velocities: &rest,
+            range: 0.5,
+            friction: 0.4,
+        };
         let mut booked = Vector::<2>::zeros();
         let velocity = Vector::from(velocity);
         let change = touch.respond(&place.into(), &velocity, |_, push| booked += push)?;

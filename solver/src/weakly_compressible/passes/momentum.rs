@@ -37,7 +37,10 @@ fn fill<P: Precision, const D: usize>(model: &Model<D>, particles: &Particles<D>
         record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
         record.tensor(&particles.corrected_stress[index]);
         match wall {
-            Some(wall) => record.vector(&walls.normal[wall]),
+            Some(wall) => {
+                record.vector(&walls.normal[wall]);
+                record.scalar(walls.smoothness[wall]);
+            }
             None if P::SINGLE => record.half_form(&particles.velocity_gradient[index]),
             None => {
                 record.tensor(&particles.velocity_gradient[index]);
@@ -213,7 +216,6 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 _ => P::Lanes::<V>::splat(constants.artificial_viscosity * constants.speed_length),
             };
             let traction = stress_divergence::traction(&own.corrected_stress, &other.corrected_stress, &r);
-            let push = artificial_viscosity::pair_factor(alpha, approach, inverse);
             let speed_sum = own.pressure_speed + other.pressure_speed;
             let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
             let mass_weight = weight * other.density;
@@ -231,7 +233,9 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
             if P::SINGLE {
                 // all of it acts along the pair: one factor of r
                 let explained = hourglass::explained_along(&own.velocity_gradient, &other.velocity_gradient, &r);
-                let along = (approach - explained) * (half * inverse * density_sum);
+                let unexplained = approach - explained;
+                let push = artificial_viscosity::pair_factor(alpha, approach, unexplained, inverse);
+                let along = unexplained * (half * inverse * density_sum);
                 let mut pull = mass_weight * (push + drag * along);
                 if let Some(relief) = relief {
                     pull = pull + relief;
@@ -239,6 +243,7 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 part.damp(mirrored, pull, &r);
             } else {
                 let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
+                let push = artificial_viscosity::pair_factor(alpha, approach, dot(&r, &unexplained), inverse);
                 let unexplained = hourglass::along_pair(&unexplained, &r, regular);
                 part.damp(mirrored, mass_weight * push, &r);
                 part.damp(mirrored, mass_weight * drag, &unexplained);
@@ -257,7 +262,7 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
     if group.wall.is_empty() {
         return forces;
     }
-    let seen = WallGroup::of::<V, P>(particles, own, here);
+    let seen = WallGroup::of::<V, P>(&model.rheology, particles, own, here);
     let mut walls = weighing.pairs(group.wall, wall_weights);
     while let Some(walls) = walls.next() {
         for (w, weight) in walls {

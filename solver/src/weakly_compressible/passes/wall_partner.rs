@@ -5,10 +5,11 @@ use super::flow_partner::{Constants, FlowPartner};
 use super::layout::Momentum;
 use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
-use crate::lanes::algebra::{difference, load_tensor, scaled};
+use crate::lanes::algebra::{difference, dot, load_tensor, matrix_product, product, scaled};
 use crate::lanes::{LANES, LaneIndices, Lanes, Real};
+use crate::material::rheology::Rheology;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::{hourglass, stress_divergence, wall_slip};
+use crate::weakly_compressible::terms::{hourglass, no_slip, stress_divergence, wall_slip};
 use std::ops::Range;
 
 /// What is read of a wall particle: records of the length of [`FlowPartner`]'s with a layout of their own.
@@ -23,6 +24,8 @@ pub(super) struct WallPartner<V, const D: usize> {
     /// σ `[Pa]`.
     pub(super) stress: [[V; D]; D],
     pub(super) normal: [V; D],
+    /// 1 of a smooth wall, 0 of a rough one `[-]`.
+    pub(super) smoothness: V,
 }
 
 impl<V: Real, const D: usize> WallPartner<V, D> {
@@ -35,6 +38,7 @@ impl<V: Real, const D: usize> WallPartner<V, D> {
             pressure_speed: records::scalar(record, Momentum::<P, D>::SPEED),
             stress: records::tensor(record, Momentum::<P, D>::STRESS),
             normal: records::vector(record, Momentum::<P, D>::LAST),
+            smoothness: records::scalar(record, Momentum::<P, D>::LAST + D),
         }
     }
 }
@@ -53,26 +57,46 @@ pub(super) struct WallPair<V, const D: usize> {
 pub(super) struct WallGroup<V, const D: usize> {
     own: FlowPartner<V, D>,
     correction: [[V; D]; D],
+    viscous: ViscousPart<V, D>,
+}
+
+/// What of a particle's stress needs no pressure: [`no_slip`] takes it.
+struct ViscousPart<V, const D: usize> {
+    /// Its share of the stress `[-]`: 1 of a liquid, 0 of grains.
+    share: V,
+    /// That share of s E `[Pa]`.
+    stress: [[V; D]; D],
+    /// Twice its viscosity `[Pa·s]`.
+    twice_viscosity: V,
 }
 
 impl<S: Real, const D: usize> WallGroup<S, D> {
     /// Of the particles at `places`, whose velocity gradient is whole, unlike in a record.
     #[inline(always)]
     pub(super) fn of<V: Lanes, P: Precision<Lanes<V> = S>>(
+        law: &Rheology,
         particles: &Particles<D>,
         mut own: FlowPartner<S, D>,
         places: Range<usize>,
     ) -> Self {
         let whole = particles.force_correction.load::<V>(places.start / LANES);
-        let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places]);
+        let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]);
+        let (viscosity, share) = law.viscosity_without_pressure(&gradient, &particles.viscosity[places.clone()]);
+        let stress = matrix_product(&load_tensor::<V, D>(&particles.stress[places]), &whole);
+        let mut viscous = ViscousPart {
+            share: P::narrow(share),
+            stress: own.velocity_gradient,
+            twice_viscosity: P::narrow(viscosity + viscosity),
+        };
         let mut correction = own.velocity_gradient;
         for i in 0..D {
             for j in 0..D {
                 own.velocity_gradient[i][j] = P::narrow(gradient[i][j]);
                 correction[i][j] = P::narrow(whole[i][j]);
+                viscous.stress[i][j] = P::narrow(share * stress[i][j]);
             }
         }
-        Self { own, correction }
+        Self { own, correction, viscous }
     }
 
     /// Parts of the forces of eight wall particles.
@@ -83,12 +107,21 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
         records: &Records<P>,
         indices: &LaneIndices<'_>,
     ) -> WallPair<S, D> {
-        let Self { own, correction } = self;
+        let Self { own, correction, viscous } = self;
         let wall = WallPartner::of::<P>(&records.load::<V>(const { Momentum::<P, D>::QUADS }, indices));
         let r = records.apart::<V, D>(&own.position, &wall.position);
         let beta = wall_slip::factor(&r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
         let slip = scaled(beta, &difference(&own.velocity, &wall.velocity));
-        let traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
+        let mut traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
+        let corrected = product(correction, &r);
+        let rough = S::splat(1.0) - wall.smoothness;
+        let wall_pressure = S::splat(constants.reference_density) * wall.pressure_speed * wall.pressure_speed;
+        let rub = no_slip::traction(viscous.twice_viscosity, &slip, &wall.normal, &r, &corrected);
+        for i in 0..D {
+            let extrapolated = dot(&wall.stress[i], &corrected) + wall_pressure * corrected[i];
+            let replaced = dot(&viscous.stress[i], &r) + viscous.share * extrapolated;
+            traction[i] = traction[i] + rough * (rub[i] - replaced);
+        }
         let speed_sum = own.pressure_speed + wall.pressure_speed;
         let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum);
         let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal);

@@ -88,6 +88,7 @@ fn sums<V: Lanes, const D: usize>(
     let weight_of_gravity = model.equation_of_state.reference_density * model.gravity.norm() * model.spacing;
     let full_increment = V::splat((0.5 * weight_of_gravity).max(f64::MIN_POSITIVE));
     let smallest_pressure = V::splat((1e-3 * weight_of_gravity).max(f64::MIN_POSITIVE));
+    let grows = model.rheology.is_solid();
     let gravity = splat_vector::<V, D>(&model.gravity);
     let gravity_along_normal = dot(&gravity, normal);
     let place = gather_vectors::<V, D>(&particles.position, &group.own);
@@ -108,8 +109,8 @@ fn sums<V: Lanes, const D: usize>(
                 let extrapolated = pressure + growth;
                 sums.pressure = sums.pressure + weight * extrapolated;
                 let stress = gather_tensors::<V, D>(&particles.stress, &f);
-                let growth = extrapolated / pressure.max(smallest_pressure);
-                // under tension nothing is extrapolated: the stress is that of the flow, not a multiple of it
+                // friction grows with the pressure, but not under tension; what a liquid has across a smooth wall does not
+                let growth = if grows { extrapolated / pressure.max(smallest_pressure) } else { V::splat(1.0) };
                 let ratio = weight * V::splat(1.0).if_less(pressure, V::splat(0.0), growth);
                 for i in 0..D {
                     for j in 0..D {

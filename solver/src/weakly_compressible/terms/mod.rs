@@ -8,6 +8,7 @@ pub mod density_coupling;
 pub mod field_diffusion;
 pub mod hourglass;
 pub mod kernel_correction;
+pub mod no_slip;
 pub mod pair_distance;
 pub mod pair_viscosity;
 pub mod pressure_force;

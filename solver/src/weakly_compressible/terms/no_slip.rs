@@ -1,0 +1,32 @@
+//! Viscous traction of a rough wall, from the velocity that vanishes at its surface.
+//!
+//! A stress that a wall particle takes from the flow around it is right where it grows with the pressure, as friction does. A
+//! viscous stress does not: scaled by a pressure that falls towards the wall it lets a liquid slip, and constant or as a fitted line
+//! it leaves the row at the wall without a bond to it, for a gradient over many rows does not feel a zigzag. So the part of a law's
+//! stress that needs no pressure follows from the velocity itself: between a flow particle and a wall particle, on the line
+//! through zero at the surface, the shear rate is v_t/d_a, whatever the law (Morris, Fox & Zhu 1997; Adami, Hu & Adams 2012). In plane
+//! Couette flow this is the traction of the exact stress to rounding.
+
+use crate::lanes::Real;
+use crate::lanes::algebra::dot;
+
+/// 2 η (v_t/d_a) (n·E r) `[Pa m]`, along the wall: `slip` is β (v_a − v_wall) `[m/s]`, which is v_t (n·r)/d_a, `normal` n that of the wall into
+/// the flow, `r` r_aw `[m]` and `corrected` E r `[m]`.
+#[inline(always)]
+pub fn traction<V: Real, const D: usize>(
+    twice_viscosity: V,
+    slip: &[V; D],
+    normal: &[V; D],
+    r: &[V; D],
+    corrected: &[V; D],
+) -> [V; D] {
+    let height = dot(normal, r);
+    // beside an edge a wall particle may stand in front of its own surface: there the correction does not matter
+    let share = (dot(normal, corrected) / height).if_less(V::splat(0.0), height, V::splat(1.0));
+    let across = dot(slip, normal);
+    let mut lanes = *slip;
+    for i in 0..D {
+        lanes[i] = twice_viscosity * share * (slip[i] - across * normal[i]);
+    }
+    lanes
+}
