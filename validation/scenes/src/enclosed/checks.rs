@@ -104,10 +104,12 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     fn check_scales(&self) -> Result<(), ParameterError> {
         names::check_times(self.interval, self.duration)?;
         rules::count("pictures", self.pictures, 1, 100, "three or four are usual")?;
-        if vector(&self.gravity).norm() == 0.0 {
+        if vector(&self.gravity).norm() == 0.0 && self.pressure <= 0.0 {
             let none = shown(&[0.0; D]);
             let level = "0, ".repeat(D - 1);
-            let remedy = format!("the stiffness is measured by it; give it in m/s², such as [{level}-9.81]");
+            let remedy = format!(
+                "the stiffness is measured by it: give it in m/s², such as [{level}-9.81], or a `pressure` to start with"
+            );
             return Err(ParameterError::field("gravity", &none, &format!("unlike {none}"), &remedy));
         }
         let (lower, upper) = self.extent();

@@ -33,7 +33,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             tracing::warn!("{remark}");
         }
         let gravity = vector(&self.gravity);
-        let (up, weight) = (-gravity.normalize(), equation_of_state.reference_density * gravity.norm());
+        let (up, weight) = (-self.down(), equation_of_state.reference_density * gravity.norm());
         let (mut all, mut free) = (0, Vec::new());
         for LatticeGroup { lattice, bodies: members } in &groups {
             let sites = self.held(lattice, members, walls);
@@ -47,7 +47,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         let mut flow = displaced_flow(
             free.iter().map(|(site, _)| site.place),
             (jitter * spacing, self.seed),
-            |site| equation_of_state.density(weight * depth(bodies, site, &up, spacing)),
+            |site| equation_of_state.density(self.pressure + weight * depth(bodies, site, &up, spacing)),
             |_| 0.0,
         );
         flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();

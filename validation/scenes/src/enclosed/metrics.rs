@@ -3,7 +3,7 @@
 use super::parameters::Dimension;
 use super::prediction;
 use super::series;
-use super::setting::{SceneInlet, vector};
+use super::setting::SceneInlet;
 use super::sides::SceneSides;
 use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
@@ -198,14 +198,13 @@ fn energy<S: Dimension<D>, const D: usize>(
     if book.total.is_empty() {
         return Vec::new();
     }
-    let (gravity, height) = (vector(&parameters.gravity).norm(), parameters.height());
-    let weight = data.whole_mass() * gravity;
+    let (fall, height) = (parameters.fall(), parameters.height());
     let numerics = &parameters.numerics;
     let smoothing_length = numerics.smoothing_ratio * parameters.spacing;
-    let sound_speed = (parameters.stiffness * gravity * height).sqrt();
+    let sound_speed = (parameters.stiffness * fall).sqrt();
     let scale = EnergyScale::WorkOver {
-        fall_time: (height / gravity).sqrt(),
-        weight_by_height: weight * height,
+        fall_time: height / fall.sqrt(),
+        weight_by_height: data.whole_mass() * fall,
         time_step: numerics.acoustic_courant * smoothing_length / sound_speed,
     };
     let share = |value: f64| 100.0 * value / scale.of(book).0;

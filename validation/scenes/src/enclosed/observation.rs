@@ -52,7 +52,7 @@ pub struct SceneObservation<const D: usize> {
     /// Largest difference between what the walls have given, wall by wall, and what the particles have got from them, mirrors
     /// included `[kg m/s]`.
     pub unassigned_impulse: f64,
-    /// Impulse of gravity up to the last sample, its size `[kg m/s]`.
+    /// Impulse of gravity up to the last sample, its size, and more under pressure `[kg m/s]`.
     pub gravity_impulse: f64,
     /// Momentum at the start `[kg m/s]`.
     pub momentum_at_start: Vector<D>,
@@ -85,12 +85,12 @@ impl<const D: usize> Default for SceneObservation<D> {
 }
 
 impl<const D: usize> SceneObservation<D> {
-    /// Enters a sample.
+    /// Enters a sample under gravity, with the acceleration by which impulses are scaled `[m/s²]`.
     pub(super) fn enter(
         &mut self,
         simulation: &Simulation<D>,
         snapshot: &Snapshot<D>,
-        gravity: &Vector<D>,
+        (gravity, pull): (&Vector<D>, f64),
         gauges: Vec<f64>,
     ) {
         let sides = &simulation.outflow().sides;
@@ -106,7 +106,8 @@ impl<const D: usize> SceneObservation<D> {
         let came: Vector<D> = inlets.iter().map(|fed| fed.momentum).sum();
         let absent: f64 = inlets.iter().map(|fed| fed.mass_times_time).sum();
         let worked = sides.iter().map(|side| side.mass_times_time).sum::<f64>() - absent;
-        let given = gravity * (inside * snapshot.time + worked);
+        let over_time = inside * snapshot.time + worked;
+        let given = gravity * over_time;
         if self.time.is_empty() {
             self.momentum_at_start = held;
             self.gauges = vec![Vec::new(); gauges.len()];
@@ -132,7 +133,7 @@ impl<const D: usize> SceneObservation<D> {
         self.missing_impulse = self.missing_impulse.max(missing.norm());
         self.unsolved_impulse = self.unsolved_impulse.max(unsolved.norm());
         self.unassigned_impulse = self.unassigned_impulse.max((supports - walls).norm());
-        self.gravity_impulse = given.norm();
+        self.gravity_impulse = pull * over_time;
         if let Some(account) = &snapshot.energy {
             let kept: f64 = sides.iter().map(|side| side.energy).sum();
             let given: f64 = inlets.iter().map(|fed| fed.energy).sum();

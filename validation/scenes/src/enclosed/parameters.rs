@@ -13,7 +13,7 @@ use crate::observation::Frame;
 use crate::setup::Bulk;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
-use bagnold_solver::parameter::{between, positive};
+use bagnold_solver::parameter::{at_least, between, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
@@ -106,6 +106,11 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     pub sides: S::Sides,
     /// Where the material is at the start; none where an inlet brings it.
     pub bodies: Vec<S::Body>,
+    /// Pressure at the start, beside that of the weight of the material above `[Pa]`. What walls enclose on all sides keeps it; a free
+    /// surface lets it go.
+    #[serde(default, skip_serializing_if = "is_none")]
+    #[schemars(transform = at_least(0.0, "a pressure pushes: leave it out for material under its weight alone"))]
+    pub pressure: f64,
     /// Walls; what is not held by one falls.
     pub walls: Vec<S::Wall>,
     /// Openings by which material comes in.
@@ -119,6 +124,10 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     pub measured: Vec<MeasuredSeries>,
     /// Numerics.
     pub numerics: Numerics,
+}
+
+fn is_none(pressure: &f64) -> bool {
+    *pressure == 0.0
 }
 
 impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
@@ -152,6 +161,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             cut_at_most: 0.1,
             walls: Vec::new(),
             inlets: Vec::new(),
+            pressure: 0.0,
             side_walls: None,
             gauges: Vec::new(),
             measured: Vec::new(),
@@ -160,9 +170,20 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         }
     }
 
-    /// The unit vector along gravity `[-]`.
+    /// The unit vector along gravity `[-]`; without gravity against the last axis.
     pub(super) fn down(&self) -> Vector<D> {
-        vector(&self.gravity).normalize()
+        let gravity = vector::<D>(&self.gravity);
+        if gravity.norm() == 0.0 {
+            Vector::from_fn(|axis, _| if axis + 1 == D { -1.0 } else { 0.0 })
+        } else {
+            gravity.normalize()
+        }
+    }
+
+    /// What the height of the scene weighs and the pressure at the start, over the density `[m²/s²]`: the square of the speed that
+    /// either gives.
+    pub(super) fn fall(&self) -> f64 {
+        vector::<D>(&self.gravity).norm() * self.height() + self.pressure / self.bulk.density(&self.material)
     }
 
     /// What the gauges measure, gauge by gauge.
@@ -212,9 +233,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     pub(super) fn equation_of_state(&self) -> EquationOfState {
         let reference_density = self.bulk.density(&self.material);
         let fastest = self.bodies.iter().map(|body| body.velocity().norm_squared()).fold(0.0, f64::max);
-        let falls = vector(&self.gravity).norm() * self.height();
         // what moves at the start must be as slow against sound as what falls
-        let bulk_modulus = self.stiffness * reference_density * falls.max(0.5 * fastest);
+        let bulk_modulus = self.stiffness * reference_density * self.fall().max(0.5 * fastest);
         EquationOfState { reference_density, bulk_modulus, tension: self.tension }
     }
 }

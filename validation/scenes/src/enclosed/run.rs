@@ -88,6 +88,7 @@ where
             return Err(ParameterError::field("bodies", value, &rule, remedy));
         }
         let (gravity, measures) = (vector(&scene.gravity), scene.measures());
+        let pull = scene.fall() / scene.height();
         let periods = Periods::of(&scene.sides.axes());
         let stage = SimulationStage { progress, end: scene.duration, interval: scene.interval, context: &() };
         let begin = |_: &Simulation<D>| SceneObserver {
@@ -108,7 +109,7 @@ where
                 progress.advance(last_good.time, scene.duration, steps);
                 let known = begun + simulation.inflow().particles() as usize;
                 let values = watch.memory.read_all(&measures, simulation, last_good, (known, &periods));
-                watch.observation.enter(simulation, last_good, &gravity, values);
+                watch.observation.enter(simulation, last_good, (&gravity, pull), values);
                 let due = watch.frames.len() as f64 * scene.duration / scene.pictures as f64;
                 if last_good.time >= due - 0.5 * scene.interval && watch.frames.len() < scene.pictures {
                     watch.frames.push(Frame::of_flow(last_good));
@@ -172,9 +173,9 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
         TimeStepBounds::new(numerics, smoothing_length, equation_of_state.sound_speed(), speed, viscosity)
     }
 
-    /// √(g H) with the height of the scene `[m/s]`.
+    /// √(g H) with the height of the scene, and more under pressure `[m/s]`.
     fn fall_speed(&self) -> f64 {
-        (vector(&self.scene.gravity).norm() * self.scene.height()).sqrt()
+        self.scene.fall().sqrt()
     }
 
     /// Speed at the start of the fastest body `[m/s]`.
