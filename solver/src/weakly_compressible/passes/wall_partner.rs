@@ -116,7 +116,8 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
         let corrected = product(correction, &r);
         let rough = S::splat(1.0) - wall.smoothness;
         let wall_pressure = S::splat(constants.reference_density) * wall.pressure_speed * wall.pressure_speed;
-        let rub = no_slip::traction(viscous.twice_viscosity, &slip, &wall.normal, &r, &corrected);
+        let shear = no_slip::slip_at_middle(&slip, beta, &own.velocity_gradient, &wall.normal, &r);
+        let rub = no_slip::traction(viscous.twice_viscosity, &shear, &wall.normal, &r, &corrected);
         for i in 0..D {
             let extrapolated = dot(&wall.stress[i], &corrected) + wall_pressure * corrected[i];
             let replaced = dot(&viscous.stress[i], &r) + viscous.share * extrapolated;
