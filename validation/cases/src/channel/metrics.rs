@@ -16,6 +16,8 @@ quantities! {
     HEIGHT_CHANGE: verified("height_change", "%", "mean height over half the depth, less 1"),
     PRESSURE_L2: verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one"),
     BED_SHEAR: verified("bed_shear", "-", "friction of the bed over the weight's part along it"),
+    VELOCITY_ITERATIONS: accounted("velocity_iterations", "-", "iterations of the implicit velocities, mean over all steps"),
+    PRESSURE_ITERATIONS: accounted("pressure_iterations", "-", "iterations of the pressure, mean over all steps"),
     VELOCITY_DRIFT: verified("velocity_drift", "%", "relative change of the mean velocity over U/(2 g i) in the window"),
 }
 
@@ -72,6 +74,17 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
              steps, not a tolerance of a solve",
         )
         .with_snapshot_tolerance(0.0, 1e-11)
+}
+
+/// Iterations of both solves a step `[-]`, gated where a largest number is given.
+#[must_use]
+pub fn iterations(variant: &Variant, data: &ChannelObservation, most: [Option<f64>; 2]) -> Vec<Metric> {
+    let solves = [VELOCITY_ITERATIONS, PRESSURE_ITERATIONS].into_iter().zip(data.iterations).zip(most);
+    let metric = |((quantity, found), most): ((Quantity, Option<f64>), Option<f64>)| {
+        let metric = quantity.of(variant, found?).with_snapshot_tolerance(0.05, 0.0);
+        Some(metric.gated_by(most.map(Limit::AtMost), "TODO"))
+    };
+    solves.filter_map(metric).collect()
 }
 
 /// Mean height over half the depth, less 1 `[%]`, with why it matters.

@@ -4,7 +4,7 @@ use crate::channel;
 use crate::metric::quantities;
 
 quantities! {
-    [channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::VELOCITY_DRIFT]
+    [channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::VELOCITY_DRIFT]
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
     PREDICTED_TRANSPORT: validated("predicted_transport", "-", "q* of grains that dilate, whose closures are not fitted to transport"),
     TRANSPORT_RATIO:

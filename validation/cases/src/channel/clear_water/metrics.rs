@@ -11,7 +11,7 @@ use crate::statistics::linear_fit;
 
 quantities! {
     [
-        channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR, channel::VELOCITY_DRIFT,
+        channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR, channel::VELOCITY_DRIFT,
         channel::HEIGHT_CHANGE, channel::PRESSURE_L2, printed_laws::LAW_ERROR,
     ]
     STATIONARY_AFTER: verified("stationary_after", "s", "when the depth mean had become stationary by the criterion"),
@@ -39,6 +39,7 @@ const COMPARED: (f64, f64) = (0.1, 0.9);
 pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     let (variant, data, law) = (run.variant(), &record.data, run.reference());
     let mut metrics = vec![channel::particles_lost(&variant, record), channel::momentum_residual(&variant, record)];
+    metrics.extend(channel::iterations(&variant, data, [None; 2]));
     let stationary = matches!(run.flow.period, Period::Stationary { .. });
     if let Period::Stationary { at_most, .. } = run.flow.period {
         let source = "depth mean changes by less than the tolerance over U/(2 g i), times in a row";
