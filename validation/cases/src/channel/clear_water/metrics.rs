@@ -39,8 +39,8 @@ const COMPARED: (f64, f64) = (0.1, 0.9);
 pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     let (variant, data, law) = (run.variant(), &record.data, run.reference());
     let mut metrics = vec![channel::particles_lost(&variant, record), channel::momentum_residual(&variant, record)];
-    metrics.extend(channel::iterations(&variant, data, [None; 2]));
     let stationary = matches!(run.flow.period, Period::Stationary { .. });
+    metrics.extend(channel::iterations(&variant, data, (!stationary).then_some([1.0, 2.93])));
     if let Period::Stationary { at_most, .. } = run.flow.period {
         let source = "depth mean changes by less than the tolerance over U/(2 g i), times in a row";
         let limit = Limit::AtMost(at_most * law.adjustment_time());

@@ -66,9 +66,18 @@ fn of_run((run, record): &WaterFilmRecord) -> Vec<Metric> {
         error(VELOCITY_L2_OWN_DEPTH, FilmDepth::Own),
         channel::height_change(&variant, data, "mean height h/2; the velocity goes with the square of the depth"),
         channel::bed_shear(&variant, data, density * gravity * depth * run.film.slope),
-        LONGEST_WAVE.of(&variant, data.longest_wave).exactly(0.0, "nothing tells one place along the film from another"),
+        LONGEST_WAVE
+            .of(&variant, data.longest_wave)
+            .exactly(0.0, "nothing tells one place along the film from another")
+            .gated_by(
+                (run.particles == Arrangement::Lattice).then_some(Limit::AtMost(1e-4)),
+                "the solve of the velocities ends at a residual of 1e-6 and meets particles in an order: that leaves 1e-5, and \
+                 particles that start displaced 4e-3",
+            )
+            .with_snapshot_tolerance(0.5, 1e-5),
     ];
-    metrics.extend(channel::iterations(&variant, data, [None; 2]));
+    let short = run.water.resolution == 20 && run.film.relaxation_times <= 2.0;
+    metrics.extend(channel::iterations(&variant, data, short.then_some([1.0, 1.24])));
     metrics
 }
 
