@@ -84,12 +84,11 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
 
 /// Iterations of the velocities and of the pressure a step `[-]`, gated where it is known how many they take.
 #[must_use]
-pub fn iterations(variant: &Variant, data: &ChannelObservation, known: Option<[f64; 2]>) -> Vec<Metric> {
-    let limits = known.map_or([None; 2], |known| known.map(|count| Some(Limit::AtMost(MORE_ITERATIONS * count))));
-    let solves = [VELOCITY_ITERATIONS, PRESSURE_ITERATIONS].into_iter().zip(data.iterations).zip(limits);
-    let metric = |((quantity, found), limit): ((Quantity, Option<f64>), Option<Limit>)| {
-        let metric = quantity.of(variant, found?).with_snapshot_tolerance(0.05, 0.0);
-        Some(metric.gated_by(limit, ITERATIONS_REASON))
+pub fn iterations(variant: &Variant, data: &ChannelObservation, known: [Option<f64>; 2]) -> Vec<Metric> {
+    let solves = [VELOCITY_ITERATIONS, PRESSURE_ITERATIONS].into_iter().zip(data.iterations).zip(known);
+    let metric = |((quantity, found), known): ((Quantity, Option<f64>), Option<f64>)| {
+        let limit = known.map(|count| Limit::AtMost(MORE_ITERATIONS * count));
+        Some(quantity.of(variant, found?).gated_by(limit, ITERATIONS_REASON).with_snapshot_tolerance(0.05, 0.0))
     };
     solves.filter_map(metric).collect()
 }

@@ -195,7 +195,8 @@ impl ChannelProbe {
         });
         self.observation.longest_wave = self.observation.longest_wave.max(2.0 * wave.norm() / along.abs());
         let (cost, steps) = (simulation.cost(), simulation.steps() as f64);
-        self.observation.iterations = [cost.velocity_iterations, cost.fluid_pressure_iterations].map(|all| Some(all as f64 / steps));
+        self.observation.iterations =
+            [cost.velocity_iterations, cost.fluid_pressure_iterations].map(|all| Some(all as f64 / steps));
         let series = &mut self.observation.series;
         series.time.push(time);
         series.mean_velocity.push(mean_velocity);

@@ -224,13 +224,7 @@ fn column(text: &CheckText) -> Result<ColumnWindow, FieldError> {
             return Err(FieldError::new(field, format!("\"{other}\""), &rule, "name another"));
         }
     }
-    Ok(ColumnWindow {
-        table: needed("table", &text.table)?,
-        column,
-        others,
-        over: text.over.clone(),
-        window,
-    })
+    Ok(ColumnWindow { table: needed("table", &text.table)?, column, others, over: text.over.clone(), window })
 }
 
 /// The limit and its reason.

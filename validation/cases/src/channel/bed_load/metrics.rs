@@ -8,7 +8,8 @@ use super::quantities::{
     GRAIN_CURVATURE_ABOVE, GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE,
     PREDICTED_TRANSPORT, STREAM_VELOCITY, TRANSPORT, TRANSPORT_RATIO,
 };
-use super::run::{BedLoadFormulation, BedLoadRun, ContinuumRun};
+use super::run::BedLoadRun;
+use super::run::ContinuumRun;
 use crate::case::Run;
 use crate::channel;
 use crate::metric::{Confidence, Limit, Metric};
@@ -45,14 +46,7 @@ pub(super) fn common(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recor
             .exactly(1.0, "clear water over a fixed bed"),
     );
     metrics.push(channel::velocity_drift(&variant, drift(run, data), "stream's velocity"));
-    let known = match &run.formulation {
-        BedLoadFormulation::Stabilised(_) => Some([1.06, 5.39]),
-        BedLoadFormulation::Continuum(own) if own.stage == Stage::Dilating => Some([1.0, 12.5]),
-        BedLoadFormulation::Continuum(_) => Some([1.0, 5.8]),
-        _ => None,
-    };
-    let known = known.filter(|_| run.averaging_time < JUDGED_FROM);
-    metrics.extend(channel::iterations(&variant, &data.channel, known));
+    metrics.extend(channel::iterations(&variant, &data.channel, [None; 2]));
 }
 
 /// Whether a run is judged: it was watched for long, or it does not change.

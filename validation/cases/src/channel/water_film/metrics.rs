@@ -77,7 +77,7 @@ fn of_run((run, record): &WaterFilmRecord) -> Vec<Metric> {
             .with_snapshot_tolerance(0.5, 1e-5),
     ];
     let short = run.water.resolution == 20 && run.film.relaxation_times <= 2.0;
-    metrics.extend(channel::iterations(&variant, data, short.then_some([1.0, 1.24])));
+    metrics.extend(channel::iterations(&variant, data, if short { [Some(1.0), Some(1.24)] } else { [None; 2] }));
     metrics
 }
 
