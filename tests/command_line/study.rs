@@ -266,7 +266,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         ),
         ("value = \"last\"", "", "exactly one of `metric`, `value`, `compare` and `order_of`"),
         ("value = \"last\"", "value = \"last\"\nminus = \"t [s]\"", "a column in the unit of `column`, m"),
-        ("value = \"last\"", "value = \"last\"\nplus = \"fron [m]\"", "did you mean \"front: front [m]\"?"),
+        ("value = \"last\"", "value = \"last\"\nplus = \"front [m]\"", "did you mean \"front: front [m]\"?"),
         ("value = \"last\"", "value = \"last\"\norder_in = \"spacing\"", "`checks[0].order_in` is given"),
         ("value = \"last\"", "value = \"last\"\nonly = \"spacing=3\"", "`checks[0].only` is \"spacing=3\""),
         ("compare = \"front.csv\"", "compare = \"flume.toml\"", "`checks[1].compare` is \"flume.toml\""),
