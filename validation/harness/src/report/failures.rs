@@ -1,11 +1,11 @@
-//! Failures in two lines each, the furthest off first: metric and variant, then the value beside its reference and limit. Why a
+//! Failures in two lines each, the furthest off first: case, quantity and variant, then the value beside its reference and limit. Why a
 //! known failure fails stands in the metric's row on the page of its case.
 
 use super::judgement::{JudgedCase, JudgedMetric, Severity};
 use super::known_failures::KnownFailureStatus;
 use super::rows::{note, statement, worst_mark};
 use super::view::{BannerItem, VerdictMark, anchor};
-use crate::metric::{GateOwner, Limit, Metric};
+use crate::metric::{GateOwner, Limit, Metric, Quantity};
 use crate::number::{two_digits, with_unit};
 
 /// Most results that the banner names.
@@ -20,7 +20,9 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<BannerItem> {
                 mark: VerdictMark { word: "diverged", ..VerdictMark::FAIL },
                 case: case.case.name.clone(),
                 anchor: "runs".to_owned(),
+                title: title(&case.case.summary).to_owned(),
                 what: "a run diverged".to_owned(),
+                metric: String::new(),
                 variant: variant.to_string(),
                 statement: message.to_owned(),
                 off: String::new(),
@@ -33,7 +35,9 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<BannerItem> {
                 mark: worst_mark(judged),
                 case: case.case.name.clone(),
                 anchor: anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
-                what: judged.metric.name.clone(),
+                title: title(&case.case.summary).to_owned(),
+                what: in_words(case.case.quantities, &judged.metric.name),
+                metric: judged.metric.name.clone(),
                 variant: judged.metric.variant.to_string(),
                 statement: statement(judged),
                 off: off(judged.metric),
@@ -50,6 +54,20 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<BannerItem> {
     // Stable: equal ones keep the order of the page.
     items.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
     items.into_iter().map(|(.., item)| item).collect()
+}
+
+/// What a case's line says is simulated, without its details and what it is judged against.
+fn title(summary: &str) -> &str {
+    // a list may begin with a single word
+    let ends = [": ", ", ", " against "].into_iter().filter_map(|end| summary.find(end));
+    let ends = ends.filter(|end| summary[..*end].contains(' '));
+    &summary[..ends.min().unwrap_or(summary.len())]
+}
+
+/// What a quantity is: as its case declares it, or else its name.
+fn in_words(quantities: &[Quantity], name: &str) -> String {
+    let declared = quantities.iter().find(|quantity| quantity.name == name);
+    declared.map_or_else(|| name.replace('_', " "), |quantity| quantity.description.to_owned())
 }
 
 /// The furthest off of as many cases.

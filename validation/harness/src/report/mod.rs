@@ -57,7 +57,7 @@ use crate::case::{Features, Tier};
 use crate::control::ControlTrial;
 use crate::evidence::Paper;
 use crate::figure::{self, Animation, Figure, FigureError};
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::store::{Drawings, provenance};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -137,6 +137,8 @@ pub struct CaseReport {
     pub command: String,
     /// Judged and observed numbers.
     pub metrics: Vec<Metric>,
+    /// What they are in words, as far as the case declares it.
+    pub quantities: &'static [Quantity],
     /// Accepted gates that do not judge it, with what took each away.
     pub not_judged: Vec<(MetricKey, String)>,
     /// Results of its controls; empty where none was tried.

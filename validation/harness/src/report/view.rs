@@ -88,7 +88,12 @@ pub(super) struct BannerItem {
     pub(super) case: String,
     /// Where it stands on the case's page.
     pub(super) anchor: String,
+    /// The case in words.
+    pub(super) title: String,
+    /// The quantity in words.
     pub(super) what: String,
+    /// Its name; empty where no metric is meant.
+    pub(super) metric: String,
     pub(super) variant: String,
     pub(super) statement: String,
     /// Distance from the reference in words.
