@@ -9,6 +9,7 @@ use super::{History, Report};
 use crate::metric::{Limit, Metric};
 use crate::number::{four_digits, two_digits, with_unit};
 use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Size of a small plot `[px]`.
@@ -20,36 +21,6 @@ const EDGE: f64 = 3.0;
 const FEWEST: usize = 2;
 /// Share of the range of a plot's values by which a limit may lie outside of it and is still drawn `[-]`.
 const NEAR: f64 = 1.5;
-
-#[derive(Serialize)]
-struct HistoryPage {
-    title: String,
-    tier: &'static str,
-    commits: usize,
-    biases: Vec<TrendRow>,
-    speeds: Vec<TrendRow>,
-    cases: Vec<CaseTrends>,
-}
-
-#[derive(Serialize)]
-struct CaseTrends {
-    name: String,
-    rows: Vec<TrendRow>,
-    /// Gates that have stood still.
-    steady: usize,
-}
-
-#[derive(Serialize)]
-struct TrendRow {
-    what: String,
-    variant: String,
-    anchor: String,
-    first: String,
-    last: String,
-    limit: String,
-    values: usize,
-    plot: Plot,
-}
 
 /// A line through values over time, and lines that it is held against; places in `[px]`.
 #[derive(Serialize)]
@@ -89,7 +60,7 @@ fn bounds(limit: Limit) -> Vec<f64> {
 }
 
 /// A gate over time; none of fewer than two values, or where they have not moved by their own tolerance.
-fn of_gate(history: &History, case: &str, judged: &JudgedMetric<'_>) -> Option<TrendRow> {
+fn of_gate(history: &History, case: &str, judged: &JudgedMetric<'_>) -> Option<Value> {
     let metric = judged.metric;
     let series = history.series(&MetricKey::of(case, metric));
     if series.len() < FEWEST {
@@ -97,16 +68,15 @@ fn of_gate(history: &History, case: &str, judged: &JudgedMetric<'_>) -> Option<T
     }
     let unit = |value: f64| with_unit(value, &metric.unit);
     let gate = metric.gate.as_ref()?;
-    Some(TrendRow {
-        what: metric.name.clone(),
-        variant: metric.variant.to_string().replace(',', ", "),
-        anchor: format!("cases/{case}/index.html#{}", anchor(case, &metric.name, &metric.variant)),
-        first: unit(series[0].1),
-        last: unit(series[series.len() - 1].1),
-        limit: limit(gate.limit, &metric.unit),
-        values: series.len(),
-        plot: plot(&series, history.commits().len().saturating_sub(1), &bounds(gate.limit)),
-    })
+    Some(json!({
+        "what": metric.name,
+        "variant": metric.variant.to_string().replace(',', ", "),
+        "anchor": format!("cases/{case}/index.html#{}", anchor(case, &metric.name, &metric.variant)),
+        "first": unit(series[0].1),
+        "last": unit(series[series.len() - 1].1),
+        "limit": limit(gate.limit, &metric.unit),
+        "plot": plot(&series, history.commits().len().saturating_sub(1), &bounds(gate.limit)),
+    }))
 }
 
 /// Whether a gate's values have moved by more than the tolerance of its accepted value.
@@ -119,7 +89,7 @@ fn has_moved(history: &History, case: &str, metric: &Metric) -> bool {
 
 /// Bias of every quantity that is gated against measurements: the geometric mean of prediction over today's reference, over all of
 /// its gates with their values of that time.
-fn biases(report: &Report) -> Vec<TrendRow> {
+fn biases(report: &Report) -> Vec<Value> {
     let history = &report.history;
     type Ratios = Vec<Vec<(usize, f64)>>;
     let mut quantities: BTreeMap<&str, Ratios> = BTreeMap::new();
@@ -147,35 +117,33 @@ fn biases(report: &Report) -> Vec<TrendRow> {
         };
         let first = ratios.iter().filter_map(|series| series.first()).map(|point| point.0).min().unwrap_or(0);
         let series: Vec<(usize, f64)> = (first..=last).map(at).collect();
-        (series.len() >= FEWEST).then(|| TrendRow {
-            what: name.replace('_', " "),
-            variant: format!("{} gates", ratios.len()),
-            anchor: "comparisons.html".to_owned(),
-            first: four_digits(series[0].1).to_string(),
-            last: four_digits(series[series.len() - 1].1).to_string(),
-            limit: "1".to_owned(),
-            values: series.len(),
-            plot: plot(&series, last, &[1.0]),
+        (series.len() >= FEWEST).then(|| {
+            json!({
+                "what": name.replace('_', " "),
+                "variant": format!("{} gates", ratios.len()),
+                "anchor": "comparisons.html",
+                "first": four_digits(series[0].1),
+                "last": four_digits(series[series.len() - 1].1),
+                "limit": "1",
+                "plot": plot(&series, last, &[1.0]),
+            })
         })
     };
     quantities.into_iter().filter_map(of_quantity).collect()
 }
 
-fn speeds(report: &Report) -> Vec<TrendRow> {
+fn speeds(report: &Report) -> Vec<Value> {
     let of_case = |case: &super::CaseReport| {
         let values = report.speeds.of(&case.name);
         let series: Vec<(usize, f64)> = values.iter().copied().enumerate().collect();
         let (first, last) = (values.first()?, values.last()?);
-        Some(TrendRow {
-            what: case.name.clone(),
-            variant: String::new(),
-            anchor: format!("cases/{}/index.html#runs", case.name),
-            first: format!("{} µs", two_digits(*first)),
-            last: format!("{} µs", two_digits(*last)),
-            limit: String::new(),
-            values: series.len(),
-            plot: plot(&series, series.len().saturating_sub(1), &[]),
-        })
+        Some(json!({
+            "what": case.name,
+            "anchor": format!("cases/{}/index.html#runs", case.name),
+            "first": format!("{} µs", two_digits(*first)),
+            "last": format!("{} µs", two_digits(*last)),
+            "plot": plot(&series, series.len().saturating_sub(1), &[]),
+        }))
     };
     report.cases.iter().filter_map(of_case).collect()
 }
@@ -187,19 +155,19 @@ pub(super) fn render(report: &Report, judgement: &Judgement<'_>) -> Result<Strin
         let metrics = judged.map_or(&[][..], |judged| &judged.metrics);
         let (moved, steady): (Vec<&JudgedMetric<'_>>, Vec<&JudgedMetric<'_>>) =
             metrics.iter().partition(|judged| has_moved(&report.history, &case.name, judged.metric));
-        let rows: Vec<TrendRow> =
+        let rows: Vec<Value> =
             moved.into_iter().filter_map(|judged| of_gate(&report.history, &case.name, judged)).collect();
         let is_gate = |judged: &&&JudgedMetric<'_>| of_gate(&report.history, &case.name, judged).is_some();
-        CaseTrends { name: case.name.clone(), rows, steady: steady.iter().filter(is_gate).count() }
+        json!({ "name": case.name, "rows": rows, "steady": steady.iter().filter(is_gate).count() })
     };
-    let page = HistoryPage {
-        title: report.title.clone(),
-        tier: tier_name(report.tier),
-        commits: report.history.commits().len(),
-        biases: biases(report),
-        speeds: speeds(report),
-        cases: report.cases.iter().map(of_case).collect(),
-    };
+    let page = json!({
+        "title": report.title,
+        "tier": tier_name(report.tier),
+        "commits": report.history.commits().len(),
+        "biases": biases(report),
+        "speeds": speeds(report),
+        "cases": report.cases.iter().map(of_case).collect::<Vec<_>>(),
+    });
     fill("history.html", &page)
 }
 

@@ -272,14 +272,14 @@ fn put_case(case: &CaseReport, folder: &Path) -> Result<(), ReportError> {
 }
 
 /// The cases before and after one, in the report's order.
-fn neighbours(report: &Report, name: &str) -> view::Neighbours {
+fn neighbours(report: &Report, name: &str) -> serde_json::Value {
     let place = report.cases.iter().position(|case| case.name == name).unwrap_or(0);
-    let name_at = |place: Option<usize>| report.cases.get(place?).map(|case| case.name.clone());
-    view::Neighbours {
-        has_papers: !report.papers.is_empty(),
-        previous: name_at(place.checked_sub(1)),
-        next: name_at(Some(place + 1)),
-    }
+    let name_at = |place: Option<usize>| report.cases.get(place?).map(|case| &case.name);
+    serde_json::json!({
+        "has_papers": !report.papers.is_empty(),
+        "previous": name_at(place.checked_sub(1)),
+        "next": name_at(Some(place + 1)),
+    })
 }
 
 fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {

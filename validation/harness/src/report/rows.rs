@@ -4,7 +4,7 @@ use super::accepted::{Drift, MetricKey};
 use super::judgement::{JudgedMetric, Severity};
 use super::known_failures::KnownFailureStatus;
 use super::snapshot_text::word;
-use super::view::{MetricView, PredictionView, VerdictMark, anchor};
+use super::view::{MetricView, VerdictMark, anchor};
 use super::width::width;
 use crate::metric::{Confidence, Gate, Limit, Metric, MetricKind, PredictionInterval, Verdict};
 use crate::number::{distinct_digits, four_digits, in_unit, two_digits, with_unit};
@@ -77,10 +77,10 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
 }
 
 /// The interval of a prediction in words.
-fn prediction(found: &PredictionInterval, unit: &str) -> PredictionView {
+fn prediction(found: &PredictionInterval, unit: &str) -> serde_json::Value {
     let bounds = [found.lower, found.upper].map(|bound| with_unit(bound, unit));
     let interval = format!("95 % interval {} to {}, by {} comparisons", bounds[0], bounds[1], found.comparisons);
-    PredictionView { interval, warnings: found.warnings.clone() }
+    serde_json::json!({ "interval": interval, "warnings": found.warnings })
 }
 
 /// Why the gate stands where it does, and why it does not judge where the spacing is too coarse for it.
