@@ -7,11 +7,11 @@ use super::origin::{provenance, seconds};
 use super::power::GatePower;
 use super::rows::{mark, rows, vanished};
 use super::template::fill;
-use super::view::{MetricView, VerdictMark, picture, typed};
+use super::view::{VerdictMark, typed};
 use super::{DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
-use crate::metric::{MetricKind, Verdict};
+use crate::metric::{Metric, MetricKind, Verdict};
 use crate::number::{count, four_digits};
 use crate::observation::Outcome;
 use serde_json::{Value, json};
@@ -51,7 +51,7 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> Value {
     let mut rows = rows(&case.name, &judged.metrics);
     for (row, judged) in rows.iter_mut().zip(&judged.metrics) {
         if judged.metric.kind != MetricKind::Bookkeeping {
-            row.figure = figure(row, drawn);
+            row["figure"] = figure(judged.metric, drawn).into();
         }
     }
     let not_judged = case.not_judged.iter().map(|(key, reason)| format!("{}: {reason}", vanished(key)));
@@ -66,7 +66,7 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> Value {
         "vanished": judged.vanished.iter().map(vanished).collect::<Vec<_>>(),
         "not_judged": not_judged.collect::<Vec<_>>(),
         "controls": power::table(case),
-        "figures": drawn.iter().map(picture).collect::<Vec<_>>(),
+        "figures": drawn,
         // tables of reference data that are written beside the page
         "tables": tables(&case.name).map(|(name, _)| name).collect::<Vec<_>>(),
         "parameters": case.parameters_toml,
@@ -80,7 +80,7 @@ const SHORT: usize = 12;
 
 /// The rows by what they say: judged ones, the run's own account, and what is only observed. The latter two are folded, and a
 /// long table too: the page's failures and figures stand above.
-fn groups(rows: Vec<MetricView>, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
+fn groups(rows: Vec<Value>, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
     let titles = [("judged", "Judged"), ("bookkeeping", "Bookkeeping"), ("observed", "Observed only")];
     let mut groups = titles.map(|title| (title, Vec::new()));
     for (row, judged) in rows.into_iter().zip(metrics) {
@@ -91,12 +91,15 @@ fn groups(rows: Vec<MetricView>, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
         };
         groups[place].1.push(row);
     }
-    let view = |((name, title), rows): &((&str, &str), Vec<MetricView>)| json!({ "name": name, "title": title, "is_open": *name == "judged" && rows.len() <= SHORT, "rows": rows });
+    let view = |((name, title), rows): &((&str, &str), Vec<Value>)| {
+        let is_open = *name == "judged" && rows.len() <= SHORT;
+        json!({ "name": name, "title": title, "is_open": is_open, "rows": rows })
+    };
     groups.iter().filter(|(_, rows)| !rows.is_empty()).map(view).collect()
 }
 
 /// The figure that is named like a value of a metric's variant, else the one that shares most words with its name; nothing where none does.
-fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
+fn figure(metric: &Metric, drawn: &[DrawnFigure]) -> String {
     let is_word_of = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|other| other == word);
     let shared = |drawn: &DrawnFigure| {
         let caption = drawn.caption.to_lowercase();
@@ -106,7 +109,7 @@ fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
             _ if is_word_of(&caption, word) => 1,
             _ => 0,
         };
-        row.metric.split('_').map(weight).sum::<usize>()
+        metric.name.split('_').map(weight).sum::<usize>()
     };
     // a figure `heap` is that of a run `heap`, or else of one `local-heap`
     let of_run = |drawn: &DrawnFigure| {
@@ -115,8 +118,7 @@ fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
             _ if value.split('-').any(|word| word == drawn.name) => 1,
             _ => 0,
         };
-        let values = row.variant.iter().filter_map(|part| part.split_once('='));
-        values.map(|(_, value)| by_value(value)).max().unwrap_or_default()
+        metric.variant.parts().map(|(_, value)| by_value(&value.to_string())).max().unwrap_or_default()
     };
     let fit = |drawn: &DrawnFigure| (of_run(drawn), shared(drawn));
     // the first of equals

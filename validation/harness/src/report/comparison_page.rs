@@ -3,7 +3,7 @@
 use super::accepted::tier_name;
 use super::comparison::{self, Comparison, ModelError, QuantityComparisons};
 use super::template::fill;
-use super::view::{VerdictMark, anchor, picture};
+use super::view::{VerdictMark, anchor};
 use super::{DrawnFigure, Report, scatter};
 use crate::evidence::StatedUncertainty;
 use crate::metric::{ComparisonPart, Metric, UncertaintyComponent};
@@ -45,7 +45,7 @@ fn levels<'c>(all: impl Iterator<Item = &'c Comparison<'c>>) -> Option<[String; 
 
 fn quantity(((name, _), own): &QuantityComparisons<'_>, drawn: Option<&DrawnFigure>) -> Value {
     let rows: Vec<Value> = own.iter().map(row).collect();
-    json!({ "name": name.replace('_', " "), "figure": drawn.map(picture), "rows": rows })
+    json!({ "name": name.replace('_', " "), "figure": drawn, "rows": rows })
 }
 
 fn row(compared: &Comparison<'_>) -> Value {

@@ -9,7 +9,13 @@ use serde_json::{Value, json};
 
 /// Class of a cell, letters of its grades, the strongest first, and the same in words.
 fn cell(covered: Option<&CaseCoverage>) -> Value {
-    let of = |class: &str, letters: String, meaning: String| json!({ "class": class, "letters": letters, "meaning": meaning });
+    let of = |class: &str, letters: String, meaning: String| {
+        json!({
+            "class": class,
+            "letters": letters,
+            "meaning": meaning,
+        })
+    };
     let Some(covered) = covered else { return of("", String::new(), String::new()) };
     if covered.gates.is_empty() {
         let grade = Grade::Accepted;

@@ -2,7 +2,7 @@
 
 use super::comparison::{Comparison, ModelError, comparisons};
 use super::power::{GatePower, rejected_inputs};
-use super::view::{VerdictMark, picture};
+use super::view::VerdictMark;
 use super::{CaseReport, DrawnFigure, Report};
 use crate::figure::Figure;
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
@@ -140,7 +140,7 @@ fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[Draw
         let name = &figure_of(case)?.name;
         let whole = drawn.get(place)?.iter().find(|drawn| drawn.name == *name && drawn.failure.is_none())?;
         let small = small.iter().find(|drawn| drawn.name == case.name && drawn.failure.is_none())?;
-        Some((picture(whole), picture(small)))
+        Some((whole, small))
     });
     let (figure, small) = first?;
     let all = comparisons(report);

@@ -8,7 +8,6 @@ use super::view::anchor;
 use super::{History, Report};
 use crate::metric::{Limit, Metric};
 use crate::number::{four_digits, two_digits, with_unit};
-use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -22,17 +21,8 @@ const FEWEST: usize = 2;
 /// Share of the range of a plot's values by which a limit may lie outside of it and is still drawn `[-]`.
 const NEAR: f64 = 1.5;
 
-/// A line through values over time, and lines that it is held against; places in `[px]`.
-#[derive(Serialize)]
-struct Plot {
-    points: String,
-    last: (String, String),
-    marks: Vec<String>,
-    words: String,
-}
-
-/// The plot of values over times from 0 to `end`, with marks where they lie near.
-fn plot(series: &[(usize, f64)], end: usize, marks: &[f64]) -> Plot {
+/// A line through values over time, and lines that it is held against; places in `[px]`. The plot of values over times from 0 to `end`, with marks where they lie near.
+fn plot(series: &[(usize, f64)], end: usize, marks: &[f64]) -> Value {
     let values = || series.iter().map(|point| point.1).filter(|value| value.is_finite());
     let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
     let scale = (most - least).max(1e-3 * least.abs().max(most.abs())).max(f64::MIN_POSITIVE);
@@ -44,12 +34,12 @@ fn plot(series: &[(usize, f64)], end: usize, marks: &[f64]) -> Plot {
     let upwards = |value: f64| HEIGHT - EDGE - (HEIGHT - 2.0 * EDGE) * (value - low) / range;
     let place = |(time, value): &(usize, f64)| (format!("{:.1}", across(*time)), format!("{:.1}", upwards(*value)));
     let places: Vec<(String, String)> = series.iter().filter(|point| point.1.is_finite()).map(place).collect();
-    Plot {
-        points: places.iter().map(|(x, y)| format!("{x},{y}")).collect::<Vec<_>>().join(" "),
-        last: places.last().cloned().unwrap_or_default(),
-        marks: near.iter().map(|mark| format!("{:.1}", upwards(*mark))).collect(),
-        words: format!("{} values from {} to {}", places.len(), two_digits(least), two_digits(most)),
-    }
+    json!({
+        "points": places.iter().map(|(x, y)| format!("{x},{y}")).collect::<Vec<_>>().join(" "),
+        "last": places.last().cloned().unwrap_or_default(),
+        "marks": near.iter().map(|mark| format!("{:.1}", upwards(*mark))).collect::<Vec<_>>(),
+        "words": format!("{} values from {} to {}", places.len(), two_digits(least), two_digits(most)),
+    })
 }
 
 fn bounds(limit: Limit) -> Vec<f64> {
@@ -179,9 +169,9 @@ mod tests {
     fn a_plot_runs_from_the_first_time_to_the_last_and_shows_marks_that_lie_near() {
         let drawn = plot(&[(0, 1.0), (2, 3.0), (4, 2.0)], 4, &[0.5, 100.0]);
         // from 0.5, the mark, to 3: 24 px between the edges
-        assert_eq!(drawn.points, "3.0,22.2 84.0,3.0 165.0,12.6");
-        assert_eq!((drawn.last, drawn.marks), (("165.0".to_owned(), "12.6".to_owned()), vec!["27.0".to_owned()]));
+        assert_eq!(drawn["points"], "3.0,22.2 84.0,3.0 165.0,12.6");
+        assert_eq!((&drawn["last"], &drawn["marks"]), (&json!(["165.0", "12.6"]), &json!(["27.0"])));
         let still = plot(&[(0, 2.0), (1, 2.0)], 1, &[]);
-        assert_eq!(still.points, "3.0,27.0 165.0,27.0");
+        assert_eq!(still["points"], "3.0,27.0 165.0,27.0");
     }
 }

@@ -60,6 +60,7 @@ use crate::figure::{self, Animation, Figure, FigureError};
 use crate::metric::{Metric, Quantity};
 use crate::store::{Drawings, provenance};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -156,13 +157,13 @@ pub struct CaseReport {
 }
 
 /// A figure or animation as the page refers to it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 struct DrawnFigure {
     caption: String,
     name: String,
     /// A GIF, instead of an SVG with a PNG.
     moves: bool,
-    /// Width and height of the picture `[px]`.
+    /// Width and height of the picture `[px]`, so that the page does not move when it comes.
     size: Option<(u32, u32)>,
     /// Why there is no picture, or nothing.
     failure: Option<String>,

@@ -137,7 +137,7 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<Va
             "scatter": percent(found.scatter),
             "model": model,
             "experiment": experiment,
-            "figure": drawn.get(place).map(super::view::picture),
+            "figure": drawn.get(place),
         })
     };
     quantities.iter().enumerate().map(row).collect()

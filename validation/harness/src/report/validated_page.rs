@@ -2,7 +2,6 @@
 
 use super::accepted::tier_name;
 use super::template::fill;
-use super::view::picture;
 use super::{CaseReport, DrawnFigure, Report};
 use crate::evidence::{ValidatedComparison, ValidationSet, WAY_OF_FRONT};
 use crate::figure::{Axis, Figure, Panel};
@@ -125,7 +124,7 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, m
             "bias": bias.map(|bias| four_digits(bias.bias)).unwrap_or_default(),
             "inputs": inputs.unwrap_or_default(),
             "interval": interval.unwrap_or_default(),
-            "figure": drawn.iter().find(|drawn| drawn.name == figure).map(picture),
+            "figure": drawn.iter().find(|drawn| drawn.name == figure),
         })
     };
     let row = |Predicted { case, metric, found }: &Predicted<'_>| -> Value {
