@@ -255,12 +255,8 @@ impl Baseline {
                 Drift::New => "is not among the accepted values".to_owned(),
                 Drift::UnitChanged { unit } => format!("was in {unit}, is in {}", metric.unit),
                 Drift::VerdictChanged { verdict } => {
-                    let word = snapshot_text::word;
-                    format!(
-                        "is within its tolerance, but the verdict was {}, is {}",
-                        word(verdict),
-                        word(metric.verdict())
-                    )
+                    let now = metric.verdict().word();
+                    format!("is within its tolerance, but the verdict was {}, is {now}", verdict.word())
                 }
                 Drift::Drifted { change, baseline, tolerance } => format!(
                     "was {}, is {}: change {change:.3e}, tolerance {tolerance:.3e}",

@@ -5,7 +5,6 @@ use super::accepted::{Drift, MetricKey};
 use super::history::History;
 use super::judgement::{JudgedMetric, Judgement};
 use super::rows::{value_and_baseline, vanished};
-use super::snapshot_text::word;
 use super::view::{VerdictMark, anchor};
 use crate::number::{two_digits, with_unit};
 use serde_json::{Value, json};
@@ -88,7 +87,7 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, history: &History) -> Option
             (value, format!("{was} ± {}", two_digits(*tolerance)))
         }
         Drift::UnitChanged { unit } => (value, format!("in {unit}")),
-        Drift::VerdictChanged { verdict } => (value, format!("{}, now {}", word(*verdict), word(judged.verdict))),
+        Drift::VerdictChanged { verdict } => (value, format!("{}, now {}", verdict.word(), judged.verdict.word())),
     };
     let key = MetricKey::of(case, metric);
     let history = history.of(&key).iter().copied().chain([metric.value]).filter(|value| value.is_finite());

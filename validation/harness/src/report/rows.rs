@@ -3,7 +3,6 @@
 use super::accepted::{Drift, MetricKey};
 use super::judgement::{JudgedMetric, Severity};
 use super::known_failures::KnownFailureStatus;
-use super::snapshot_text::word;
 use super::view::{VerdictMark, anchor};
 use super::width::width;
 use crate::metric::{Confidence, Gate, Limit, Metric, MetricKind, PredictionInterval, Verdict};
@@ -139,7 +138,7 @@ pub(super) fn statement(judged: &JudgedMetric<'_>) -> String {
             format!("{value}, baseline {was} ± {}", two_digits(*tolerance))
         }
         (Severity::Drifted, _, Drift::UnitChanged { unit }) => format!("{value}, baseline in {unit}"),
-        (Severity::Drifted, _, Drift::VerdictChanged { verdict }) => format!("{value}, verdict was {}", word(*verdict)),
+        (Severity::Drifted, _, Drift::VerdictChanged { verdict }) => format!("{value}, verdict was {}", verdict.word()),
         (_, Some(gate), _) => format!("{value}, limit {}", limit(gate.limit, &metric.unit)),
         _ => value,
     }
@@ -160,11 +159,7 @@ pub(super) fn vanished(key: &MetricKey) -> String {
 }
 
 pub(super) fn limit(limit: Limit, unit: &str) -> String {
-    match limit {
-        Limit::AtMost(bound) => format!("≤ {}", with_unit(bound, unit)),
-        Limit::AtLeast(bound) => format!("≥ {}", with_unit(bound, unit)),
-        Limit::Within(lower, upper) => format!("{} … {}", four_digits(lower), with_unit(upper, unit)),
-    }
+    in_unit(&limit.in_words(four_digits), unit)
 }
 
 fn margin(metric: &Metric, limit: Limit) -> String {
@@ -231,7 +226,7 @@ fn drift(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
         Drift::Drifted { change, baseline, .. } => (VerdictMark::DRIFT, signed(*change), relative(*change, *baseline)),
         Drift::UnitChanged { unit } => (VerdictMark::DRIFT, format!("unit was {unit}"), String::new()),
         Drift::VerdictChanged { verdict } => {
-            (VerdictMark::DRIFT, format!("verdict was {}", word(*verdict)), String::new())
+            (VerdictMark::DRIFT, format!("verdict was {}", verdict.word()), String::new())
         }
     }
 }

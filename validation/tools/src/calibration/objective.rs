@@ -4,7 +4,7 @@ use super::data::{Group, Synthetic};
 use super::error::CalibrationError;
 use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
-use super::target::{Datum, DatumUncertainty, Target};
+use super::target::{Datum, DatumUncertainty, ProfileLocation, Target};
 use crate::case::{PreparedCase, Registry, Silent, share_out_for};
 use crate::evaluation::{self, EvaluationRecord};
 use crate::inference::Evaluate;
@@ -254,7 +254,7 @@ impl Synthetic {
         }
         let places: Vec<Target> = match &self.target {
             Target::Metric { .. } => vec![self.target.clone()],
-            Target::Profile { table, x, .. } => {
+            Target::Profile(ProfileLocation { table, x, .. }) => {
                 let tables = truth.with_seed(0).map_or(&[][..], |record| &record.tables);
                 let range = tables.iter().find(|other| other.name == *table).and_then(|found| {
                     let column = found.columns.iter().position(|column| column == x)?;

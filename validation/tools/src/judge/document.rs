@@ -8,12 +8,7 @@ use serde_json::{Value, json};
 
 /// The word of a verdict in `metrics.json`.
 pub(super) fn word(verdict: Option<Verdict>) -> &'static str {
-    match verdict {
-        Some(Verdict::Pass) => "pass",
-        Some(Verdict::Fail) => "fail",
-        Some(Verdict::Observed) => "observed",
-        None => "not_given",
-    }
+    verdict.map_or("not_given", Verdict::word)
 }
 
 /// Bias and scatter of what a code gives.

@@ -2,7 +2,7 @@
 
 use super::document::{biases, document, given, junit};
 use super::{CodeComparison, JudgedCode, MetricComparison};
-use crate::metric::{Limit, Metric, Verdict};
+use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
 use crate::page::{self, PageFigure};
 use crate::report::ReportError;
@@ -84,20 +84,12 @@ fn rows(judgement: &CodeComparison) -> Vec<Value> {
                 "unit": metric.unit,
                 "reference": reference.and_then(|of| of.value).map(four_digits).unwrap_or_default(),
                 "source": reference.map(|of| &of.source),
-                "limit": metric.gate.as_ref().map(|gate| limit(gate.limit)).unwrap_or_default(),
+                "limit": metric.gate.as_ref().map(|gate| gate.limit.in_words(four_digits)).unwrap_or_default(),
                 "reason": metric.gate.as_ref().map(|gate| &gate.reason),
                 "cells": std::iter::once(cell(Some(metric))).chain(theirs).collect::<Vec<_>>(),
             }))
         })
         .collect()
-}
-
-fn limit(limit: Limit) -> String {
-    match limit {
-        Limit::AtMost(bound) => format!("≤ {}", four_digits(bound)),
-        Limit::AtLeast(bound) => format!("≥ {}", four_digits(bound)),
-        Limit::Within(lower, upper) => format!("{} … {}", four_digits(lower), four_digits(upper)),
-    }
 }
 
 fn cell(metric: Option<&Metric>) -> Value {
