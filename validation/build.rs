@@ -3,7 +3,7 @@
 
 #[path = "build/commit.rs"]
 mod commit;
-#[path = "build/embed.rs"]
+#[path = "build/texts/embed.rs"]
 mod embed;
 
 use embed::{embed, sorted_files, texts};

@@ -75,6 +75,20 @@ fn a_study_is_judged_by_what_its_tables_hold() {
     assert_eq!(document(&again).state_hash, document(&finished).state_hash);
 }
 
+#[test]
+fn a_column_less_itself_is_nothing_and_with_itself_twice() {
+    let place = place();
+    let value = |field: &str| {
+        let own = format!("value = \"last\"\n{field} = \"front: front [m]\"");
+        place.file("study.toml", &STUDY.replacen("value = \"last\"", &own, 1));
+        let values = of(&place.run(&["study.toml", "--json", "--quiet"]), "front_at_the_end");
+        values.iter().filter_map(|metric| metric.value).collect::<Vec<_>>()
+    };
+    let (whole, nothing) = (value("plus"), value("minus"));
+    assert!(whole.iter().all(|front| *front > 0.2 && *front < 0.4), "{whole:?}");
+    assert_eq!(nothing, [0.0, 0.0]);
+}
+
 /// A front that anything has is no check; one that half of the gravity does not reach is.
 #[test]
 fn a_study_fails_where_a_check_accepts_its_control() {
@@ -251,6 +265,8 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
             "`checks[0].confidence` is unverified, but must be more than that beside a limit",
         ),
         ("value = \"last\"", "", "exactly one of `metric`, `value`, `compare` and `order_of`"),
+        ("value = \"last\"", "value = \"last\"\nminus = \"t [s]\"", "a column in the unit of `column`, m"),
+        ("value = \"last\"", "value = \"last\"\nplus = \"front [m]\"", "did you mean \"front: front [m]\"?"),
         ("value = \"last\"", "value = \"last\"\norder_in = \"spacing\"", "`checks[0].order_in` is given"),
         ("value = \"last\"", "value = \"last\"\nonly = \"spacing=3\"", "`checks[0].only` is \"spacing=3\""),
         ("compare = \"front.csv\"", "compare = \"flume.toml\"", "`checks[1].compare` is \"flume.toml\""),

@@ -79,6 +79,7 @@ fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
         parameters_toml: String::new(),
         command: String::new(),
         metrics,
+        quantities: &[],
         controls: Vec::new(),
         not_judged: Vec::new(),
         figures: Vec::new(),

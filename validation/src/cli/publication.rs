@@ -5,7 +5,7 @@ use super::error::ProgramError;
 use super::expectation::Expectation;
 use super::profile::StageTimer;
 use super::{Exit, print, say, summary, tell};
-use crate::case::{CaseResult, Tier};
+use crate::case::{CaseResult, Registry, Tier};
 use crate::measured::Measurements;
 use crate::metric::Variant;
 use crate::output::{FileError, OutputFolder};
@@ -41,6 +41,7 @@ pub(super) struct ResultPublication<'a> {
 pub(super) struct Publication<'a> {
     pub(super) claimed: OutputFolder,
     pub(super) store: &'a Store,
+    pub(super) registry: Registry,
     pub(super) expectation: Expectation,
     pub(super) started: Instant,
     pub(super) profile: StageTimer,
@@ -55,7 +56,7 @@ impl ResultPublication<'_> {
         output: &mut (dyn Write + Send),
     ) -> Result<Exit, ProgramError> {
         let Self { command, known, accepted, all_runs, is_whole, .. } = self;
-        let Publication { claimed, store, expectation, started, mut profile } = publication;
+        let Publication { claimed, store, registry, expectation, started, mut profile } = publication;
         let folder = claimed.folder().to_owned();
         let threads = rayon::current_num_threads();
         for result in results {
@@ -79,7 +80,7 @@ impl ResultPublication<'_> {
             generated: ReportProvenance::of_this_program(started.elapsed(), String::new()),
             cases: results
                 .iter()
-                .map(|result| CaseReport { not_judged: not_judged(result), ..case_report(result) })
+                .map(|result| CaseReport { not_judged: not_judged(result), ..case_report(result, registry) })
                 .collect(),
             baseline: self.baseline,
             against: None,
@@ -125,7 +126,7 @@ impl ResultPublication<'_> {
 }
 
 /// A finished case as a report shows it.
-pub(super) fn case_report(result: &CaseResult) -> CaseReport {
+pub(super) fn case_report(result: &CaseResult, registry: Registry) -> CaseReport {
     CaseReport {
         name: result.name.clone(),
         summary: result.summary.clone(),
@@ -133,6 +134,7 @@ pub(super) fn case_report(result: &CaseResult) -> CaseReport {
         parameters_toml: result.parameters_toml.clone(),
         command: result.command.clone(),
         metrics: result.metrics.clone(),
+        quantities: registry.find(&result.name).map_or(&[], |case| case.quantities()),
         controls: Vec::new(),
         not_judged: Vec::new(),
         figures: result.figures.clone(),

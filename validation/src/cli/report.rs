@@ -67,7 +67,7 @@ pub(super) fn report(
     let of_case = |(result, controls): (&CaseResult, _)| CaseReport {
         controls,
         not_judged: baseline.not_judged(&result.name, &result.metrics),
-        ..case_report(result)
+        ..case_report(result, registry)
     };
     let cases: Vec<CaseReport> = results.iter().zip(controls).map(of_case).collect();
     let page = Report {

@@ -82,5 +82,5 @@ pub(super) fn run(
         // states on the way take a time of their own
         learns: wanted.is_none(),
     };
-    written.publish(&results, Publication { claimed, store: &store, expectation, started, profile }, output)
+    written.publish(&results, Publication { claimed, store: &store, registry, expectation, started, profile }, output)
 }

@@ -62,7 +62,7 @@ pub(super) fn run(
         measured: study.measurements().collect(),
         learns: false,
     };
-    written.publish(&[result], Publication { claimed, store: &store, expectation, started, profile }, output)
+    written.publish(&[result], Publication { claimed, store: &store, registry, expectation, started, profile }, output)
 }
 
 /// Options that mean one case.

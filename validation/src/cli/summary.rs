@@ -1,7 +1,7 @@
 //! Results as a compact table for the terminal.
 
 use crate::case::CaseResult;
-use crate::metric::{Limit, Metric, Variant, Verdict};
+use crate::metric::{Metric, Variant, Verdict};
 use crate::number::aligned_digits;
 use crate::observation::Outcome;
 use crate::report::MetricKey;
@@ -85,23 +85,15 @@ fn row(metric: &Metric, is_known: bool) -> [String; 7] {
         metric.variant.to_string(),
         metric.without_value().map_or_else(|| aligned_digits(metric.value), str::to_owned),
         metric.unit.clone(),
-        limit.map_or_else(String::new, rule),
+        limit.map_or_else(String::new, |limit| limit.in_words(aligned_digits)),
         limit.map_or_else(String::new, |limit| aligned_digits(limit.margin(metric.value))),
     ]
-}
-
-fn rule(limit: Limit) -> String {
-    match limit {
-        Limit::AtMost(bound) => format!("≤ {}", aligned_digits(bound)),
-        Limit::AtLeast(bound) => format!("≥ {}", aligned_digits(bound)),
-        Limit::Within(lower, upper) => format!("{} … {}", aligned_digits(lower), aligned_digits(upper)),
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metric::Variant;
+    use crate::metric::Limit;
 
     #[test]
     fn an_observed_metric_shows_no_limit() {

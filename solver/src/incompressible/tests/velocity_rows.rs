@@ -77,3 +77,20 @@ fn implicit_velocities_close_the_balance_of_every_particle() {
         assert!(change.norm() < 1e-6, "row {row}: {change} of {}", solved[row] - before);
     }
 }
+
+/// Without weight, walls and pressure the grains gain what the drag that is shown has given them, along the water.
+#[test]
+fn the_drag_that_is_shown_is_what_the_grains_gain() {
+    let mut scene = water([12, 12], 0.2, true, 7);
+    scene.fluid.particles.velocity.fill(Vector::<2>::new(0.3, 0.1));
+    scene.sediment = Some(grains([6, 6], 0.2, 4));
+    scene.numerics.velocity_tolerance = 1e-13;
+    let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
+    simulation.step().expect("a step");
+    let (system, first) = (&simulation.state.system, simulation.state.phases.fluid.len());
+    let gained: Vector<2> = (first..system.velocity.len()).map(|row| system.velocity[row] * system.inertia[row]).sum();
+    let given: Vector<2> = simulation.drag().iter().sum();
+    assert!(given[0] > 0.0 && given[1] > 0.0, "{given}");
+    let difference = (given * simulation.state.last_step - gained).norm();
+    assert!(difference < 1e-10 * gained.norm(), "{given} and {gained}");
+}

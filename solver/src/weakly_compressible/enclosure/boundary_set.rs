@@ -123,3 +123,27 @@ impl<const D: usize> OutflowBySide<D> {
         self.sides.iter().map(|side| side.particles).sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_leaves_by_the_first_side_that_it_lies_beyond() {
+        let exits =
+            Exits { lower: Vector::<3>::new(-1.0, -2.0, -3.0), upper: Vector::<3>::new(1.0, 2.0, f64::INFINITY) };
+        for (place, side) in [
+            ([-1.1, 0.0, 0.0], Some(0)),
+            ([1.1, 0.0, 0.0], Some(1)),
+            ([0.0, -2.1, 0.0], Some(2)),
+            ([0.0, 2.1, 0.0], Some(3)),
+            ([0.0, 0.0, -3.1], Some(4)),
+            ([0.0, 0.0, 9.9], None),
+            ([1.0, -2.0, -3.0], None),
+            ([0.9, 2.1, -3.1], Some(3)),
+        ] {
+            assert_eq!(exits.side(&Vector::<3>::from(place)), side, "{place:?}");
+        }
+        assert_eq!(OutflowBySide::<3>::default().sides.len(), 6);
+    }
+}

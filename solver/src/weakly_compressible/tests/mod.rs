@@ -8,6 +8,7 @@ use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::material::rheology::{Bingham, MuI, NonlocalMuI, Rheology, SofteningDruckerPrager};
 use crate::vector::{Tensor, Vector, deviator, strain_rate};
 use crate::weakly_compressible::enclosure::BoundarySet;
+use crate::weakly_compressible::energy::{EnergyAccount, EnergyLedger, energy_of};
 use crate::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics, PairPrecision, ViscositySwitch};
 use crate::weakly_compressible::scene::{Flow, Scene};
 use crate::weakly_compressible::simulation::{Compiled, Simulation};
@@ -154,4 +155,29 @@ fn a_step_of_mud_is_its_sums_over_all_pairs() {
     let (momentum_operator, viscosity_switch) = (MomentumOperator::ByLaw, ViscositySwitch::MorrisMonaghan);
     check::<2>(Rheology::Bingham(MUD), Tension::Kept, Numerics { momentum_operator, ..Numerics::default() });
     check::<3>(Rheology::Bingham(MUD), Tension::Kept, Numerics { viscosity_switch, ..Numerics::default() });
+}
+
+/// ½ m v², m K/ρ0 (ln(1 + e) − e/(1 + e)) of the compression e, and V s:s/(4 G), particle by particle and all together.
+#[test]
+fn the_energy_of_a_particle_is_its_motion_compression_and_shear() {
+    fn check<const D: usize>()
+    where
+        Simulation<D>: Compiled<D>,
+    {
+        let State { particles: of, model, .. } = block::<D>(Rheology::MuI(GRAINS), Tension::Cut, Numerics::default());
+        let mut sum = 0.0;
+        for a in 0..of.flow_count() {
+            let strain = (of.density[a] / DENSITY - 1.0).max(0.0);
+            let compression = 6e5 / DENSITY * (libm::log1p(strain) - strain / (1.0 + strain));
+            let shear = of.stress[a].norm_squared() / (4.0 * 0.3 * 6e5 * of.density[a]);
+            let expected = of.mass[a] * (0.5 * of.velocity[a].norm_squared() + compression + shear);
+            let found = energy_of(&of, a, &model);
+            assert!((found - expected).abs() < 1e-12 * expected, "{found} and {expected}");
+            sum += expected;
+        }
+        let account = EnergyAccount::of(&of, &model, EnergyLedger::default());
+        assert!((account.kinetic + account.elastic - sum).abs() < 1e-12 * sum);
+    }
+    check::<2>();
+    check::<3>();
 }

@@ -258,6 +258,24 @@ fn the_viscous_forces_add_up_to_none_and_leave_a_translation_alone() {
     check(&patch([6, 5, 5], [periodic(6), periodic(5), periodic(5)], false, 0.2, 0.1));
 }
 
+/// A smooth bed gives no traction along it, and no viscous one across it; a rough one holds.
+#[test]
+fn a_smooth_bed_leaves_a_translation_alone_and_a_rough_one_holds_it() {
+    fn check<const D: usize>(mut patch: State<D>) {
+        let still = vec![Vector::repeat(1.0); patch.particles.flow_count()];
+        let force = |patch: &State<D>| {
+            let found = product(patch, &mut system(patch), &still);
+            found.iter().zip(momentum(patch, &still)).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+        };
+        let rough = force(&patch);
+        patch.particles.walls.smoothness.fill(1.0);
+        let smooth = force(&patch);
+        assert!(smooth < 1e-12 * rough, "{smooth} of {rough}");
+    }
+    check(patch([9, 8], [periodic(9), AxisBoundary::Open], true, 0.2, 0.1));
+    check(patch([6, 5, 6], [periodic(6), periodic(5), AxisBoundary::Open], true, 0.2, 0.1));
+}
+
 #[test]
 fn a_shear_flow_on_the_bed_dissipates_exactly_up_to_the_free_surface() {
     let patch = patch([8, 10], [periodic(8), AxisBoundary::Open], true, 0.0, 0.1);

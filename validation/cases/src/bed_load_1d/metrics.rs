@@ -33,19 +33,19 @@ quantities! {
     TOP_OF_GRAINS: verified("top_of_grains", "mm", "height up to which there are grains"),
     DECAY_LENGTH: verified("decay_length", "mm", "length over which the velocity of the grains falls by e in the bed"),
     DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "where the drag on the grains is greatest"),
-    DRAG_FROM: verified("drag_from", "mm", "lower end of the range in which it exceeds a tenth of that"),
-    DRAG_TO: verified("drag_to", "mm", "its upper end"),
+    DRAG_FROM: verified("drag_from", "mm", "lower end of the range in which the drag on the grains exceeds a tenth of its peak"),
+    DRAG_TO: verified("drag_to", "mm", "upper end of the range in which the drag on the grains exceeds a tenth of its peak"),
     LOGARITHMIC_SLOPE:
         verified("logarithmic_slope", "-", "slope of the water's velocity over ln z in a range of heights, over u_*/κ"),
     VELOCITY_DEFICIT: verified("velocity_deficit", "u_*", "velocity of the water less clear water's at a height"),
     MOTION_DEPTH_GROWTH:
         stated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
-    DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "the same of the decay length"),
-    DRAG_DEPTH_GROWTH: stated("drag_depth_growth", "-", "the same of the depth down to which the drag exceeds a tenth of its peak"),
+    DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "least ratio of the decay length from a slope to the next"),
+    DRAG_DEPTH_GROWTH: stated("drag_depth_growth", "-", "least ratio, from a slope to the next, of the depth down to which the drag exceeds a tenth of its peak"),
     ONSET_RATIO: validated("onset_ratio", "-", "Shields number at which grains move over that of Shields' curve"),
-    ONSET: validated("onset", "-", "that Shields number"),
+    ONSET: validated("onset", "-", "Shields number at which grains move"),
     ONSET_OVER_MEASURED:
-        validated("onset_over_measured", "-", "that Shields number over the median of the measured thresholds of grains of its size"),
+        validated("onset_over_measured", "-", "Shields number at which grains move over the median of the measured thresholds of grains of its size"),
     TRANSPORT_SENSITIVITY:
         verified("transport_sensitivity", "-", "q* with a replaced closure over that of the literature's"),
 }

@@ -16,8 +16,8 @@ quantities! {
         "power_law_misfit_ratio", "-",
         "rms misfit of the water's velocity among moving grains to a power of the height over that to its logarithm",
     ),
-    POWER_LAW_MISFIT: stated("power_law_misfit", "%", "that misfit to a power of the height over the largest velocity there"),
-    LOWEST_LAYER_EXPONENT: validated("lowest_layer_exponent", "-", "exponent of that power"),
+    POWER_LAW_MISFIT: stated("power_law_misfit", "%", "rms misfit of the water's velocity among moving grains to a power of the height, over the largest velocity there"),
+    LOWEST_LAYER_EXPONENT: validated("lowest_layer_exponent", "-", "exponent of the power of the height that fits the water's velocity in the lowest layer"),
     TRANSPORT_OVER_MEASURED: validated(
         "transport_over_measured", "-",
         "q* over the median of measured runs of about the same Shields number",

@@ -70,9 +70,7 @@ pub(crate) fn observe(given: &ExternalData) -> Result<ExternalObservation<Channe
         window: (last - LAST * (last - first), last),
         profile: BlockProfile::known((0..height.len().min(velocity.len())).map(point)),
         momentum: MomentumBalance { before: f64::NAN, after: f64::NAN, driven: f64::NAN, held: f64::NAN },
-        marks: Vec::new(),
-        stationary_since: None,
-        particles_lost: 0,
+        ..ChannelObservation::default()
     };
     Ok(ExternalObservation { observation, measured })
 }

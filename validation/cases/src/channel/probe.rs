@@ -66,7 +66,7 @@ impl MomentumBalance {
 }
 
 /// All that a channel's run leaves behind.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ChannelObservation {
     /// The whole run, from the first sample after the start.
     pub series: ChannelSeries,
@@ -82,6 +82,10 @@ pub struct ChannelObservation {
     pub stationary_since: Option<f64>,
     /// Particles that ended outside: of the fluid, those below the floor or above twice the depth.
     pub particles_lost: usize,
+    /// Iterations a step of the implicit velocities and of the pressure; none of another program.
+    pub iterations: [Option<f64>; 2],
+    /// Largest amplitude of the longest wave along the period in the velocity along the floor, over its depth mean `[-]`.
+    pub longest_wave: f64,
 }
 
 /// Collects observations during a run; sees every step.
@@ -127,13 +131,8 @@ impl ChannelProbe {
             window_start: None,
             stationarity: Stationarity::new(channel.until, channel.gravity * channel.slope),
             observation: ChannelObservation {
-                series: ChannelSeries::default(),
-                window: (0.0, 0.0),
                 profile: BlockProfile::new(fluid.bottom, fluid.spacing, fluid.rows + SPARE_BINS),
-                momentum: MomentumBalance::default(),
-                marks: Vec::new(),
-                stationary_since: None,
-                particles_lost: 0,
+                ..ChannelObservation::default()
             },
         }
     }
@@ -190,6 +189,14 @@ impl ChannelProbe {
             scale += exact * exact;
         }
         let mean_velocity = along / n;
+        let wave = position.iter().zip(velocity).fold(Vector::<2>::zeros(), |sum, (x, v)| {
+            let (sine, cosine) = libm::sincos(std::f64::consts::TAU * x[0] / self.length);
+            sum + Vector::<2>::new(cosine, sine) * v[0]
+        });
+        self.observation.longest_wave = self.observation.longest_wave.max(2.0 * wave.norm() / along.abs());
+        let (cost, steps) = (simulation.cost(), simulation.steps() as f64);
+        self.observation.iterations =
+            [cost.velocity_iterations, cost.fluid_pressure_iterations].map(|all| Some(all as f64 / steps));
         let series = &mut self.observation.series;
         series.time.push(time);
         series.mean_velocity.push(mean_velocity);

@@ -20,8 +20,8 @@ quantities! {
         accounted("energy_gain", "%", "largest excess of the energy over that of the start, over the potential one"),
     FLOWING_LAYER_SHEAR_RATE:
         validated("flowing_layer_shear_rate", "1/s", "slope of a line through the flowing layer's velocity"),
-    FLOWING_LAYER_R_SQUARED: stated("flowing_layer_r_squared", "-", "share of the variance that this line explains"),
-    ENSEMBLE_FLOWING_LAYER_R_SQUARED: stated("ensemble_flowing_layer_r_squared", "-", "mean of that share over the seeds"),
+    FLOWING_LAYER_R_SQUARED: stated("flowing_layer_r_squared", "-", "share of the variance of the flowing layer's velocity that a straight line over the height explains"),
+    ENSEMBLE_FLOWING_LAYER_R_SQUARED: stated("ensemble_flowing_layer_r_squared", "-", "share of the variance of the flowing layer's velocity that a straight line over the height explains, mean over the seeds"),
     FASTEST_HEIGHT:
         stated("fastest_height", "-", "height of the fastest row of particles at the column's edge in mid-collapse, over that of the surface"),
     LINEAR_MISFIT_RATIO: stated(
@@ -33,8 +33,8 @@ quantities! {
         "length over which the velocity below the flowing layer decays, over the grain diameter",
     ),
     TAIL_DECAY_LENGTH_OVER_SPACING:
-        validated("tail_decay_length_over_spacing", "-", "the same length over the particle spacing"),
-    TAIL_DECAY_LENGTH_STANDARD_ERROR: validated("tail_decay_length_standard_error", "spacings", "its standard error"),
+        validated("tail_decay_length_over_spacing", "-", "length over which the velocity below the flowing layer decays, over the particle spacing"),
+    TAIL_DECAY_LENGTH_STANDARD_ERROR: validated("tail_decay_length_standard_error", "spacings", "standard error of the length over which the velocity below the flowing layer decays"),
     SURFACE_DISTANCE:
         validated("surface_distance", "%", "root mean square of the deposit's thickness less the measured one, over the initial height"),
     FAILURE_LINE_DISTANCE:
@@ -63,10 +63,10 @@ quantities! {
     FOOT_VELOCITY_RATIO:
         stated("foot_velocity_ratio", "-", "velocity of the lowest row near the front in mid-collapse over that of the fastest row there"),
     EDDY_CHANGE: stated("eddy_change", "%", "by how much an eddy viscosity moves a result"),
-    EDDY_GAIN: stated("eddy_gain", "%", "how much nearer to Lube's law it brings the run-out, of that law"),
+    EDDY_GAIN: stated("eddy_gain", "%", "how much nearer to Lube's law an eddy viscosity brings the run-out, of that law"),
     PRESSURE_NOISE_RATIO: stated("pressure_noise_ratio", "-",
         "pressure of particles less their neighbours' in mid-collapse, root mean square, without the coupling (27) over that with it"),
-    VELOCITY_NOISE_RATIO: stated("velocity_noise_ratio", "-", "the same of the velocity over the mean speed"),
+    VELOCITY_NOISE_RATIO: stated("velocity_noise_ratio", "-", "velocity of particles less their neighbours' over the mean speed in mid-collapse, root mean square, without the coupling (27) over that with it"),
     SCALING_EXPONENT: validated("scaling_exponent", "-", "exponent of a power law in the aspect ratio, tall columns"),
     SCALING_CONFIDENCE: validated("scaling_confidence", "-", "half width of the exponent's 95 % interval"),
     SCALING_COEFFICIENT: validated("scaling_coefficient", "-", "coefficient of the power law"),

@@ -42,7 +42,7 @@ pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
 pub use registry::Registry;
 pub use request::{Request, Requested};
 pub use result::{CaseResult, RunSummary};
-pub use schedule::{Monitor, Silent, execute, share_out};
+pub use schedule::{Monitor, Silent, execute, share_out, share_out_for};
 pub use tables::tables_to_add;
 
 use crate::checkpoint::Checkpoints;

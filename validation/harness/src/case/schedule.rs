@@ -7,6 +7,7 @@ use super::error::ParameterError;
 use super::{CaseResult, PreparedCase, Progress, StateOutput};
 use crate::checkpoint::is_interrupted;
 use crate::store::Store;
+use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 /// Watches the work, for a progress bar. Called from several threads.
@@ -126,6 +127,23 @@ pub fn share_out<J: Send, E: From<ParameterError> + Send>(
         Some(error) => Err(error),
         None => Ok(()),
     }
+}
+
+/// What each job gives, in the order of the jobs; else as [`share_out`].
+///
+/// # Errors
+/// The first job that fails; jobs that have not begun are then left.
+pub fn share_out_for<J: Send, R: Send, E: From<ParameterError> + Send>(
+    jobs: Vec<J>,
+    work: impl Fn(J) -> Result<R, E> + Sync,
+) -> Result<Vec<R>, E> {
+    let given = Mutex::new(BTreeMap::new());
+    share_out(jobs.into_iter().enumerate().collect(), |(place, job)| {
+        let result = work(job)?;
+        given.lock().unwrap_or_else(PoisonError::into_inner).insert(place, result);
+        Ok::<(), E>(())
+    })?;
+    Ok(given.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect())
 }
 
 /// Simulates all runs of all cases on the current rayon pool's number of threads and judges them.

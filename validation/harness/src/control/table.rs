@@ -20,13 +20,8 @@ struct Row {
 
 const DIVERGED: &str = "diverged";
 
-/// Words for what became of a metric; none of one that the control does not have.
-const WORDS: [(&str, Option<Verdict>); 4] = [
-    ("pass", Some(Verdict::Pass)),
-    ("fail", Some(Verdict::Fail)),
-    ("observed", Some(Verdict::Observed)),
-    ("missing", None),
-];
+/// Word for a metric that the control does not have.
+const MISSING: &str = "missing";
 
 /// Numbers of the controls of a case.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -78,8 +73,7 @@ impl TriedControls {
                 *diverged = true;
                 continue;
             }
-            let verdict = WORDS.iter().find(|(word, _)| *word == verdict).and_then(|(_, verdict)| *verdict);
-            found.push(Found { metric, variant, value, verdict });
+            found.push(Found { metric, variant, value, verdict: Verdict::of_word(&verdict) });
         }
         Ok(table)
     }
@@ -102,8 +96,7 @@ impl TriedControls {
                 rows.serialize(row("", &Variant::default(), f64::NAN, DIVERGED))?;
             }
             for Found { metric, variant, value, verdict } in found {
-                let word = WORDS.iter().find(|(_, own)| own == verdict).map_or("", |(word, _)| *word);
-                rows.serialize(row(metric, variant, *value, word))?;
+                rows.serialize(row(metric, variant, *value, verdict.map_or(MISSING, Verdict::word)))?;
             }
         }
         let rows = rows.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;

@@ -41,6 +41,24 @@ pub enum Verdict {
     Observed,
 }
 
+impl Verdict {
+    /// Its word in files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Observed => "observed",
+        }
+    }
+
+    /// That of a word; none of another.
+    #[must_use]
+    pub fn of_word(word: &str) -> Option<Self> {
+        [Self::Pass, Self::Fail, Self::Observed].into_iter().find(|own| own.word() == word)
+    }
+}
+
 /// How sure the project is of a reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -86,6 +104,16 @@ impl Limit {
             Self::AtMost(bound) => value <= bound,
             Self::AtLeast(bound) => value >= bound,
             Self::Within(lower, upper) => value >= lower && value <= upper,
+        }
+    }
+
+    /// The rule, with its bounds as `digits` writes them: `≤ 0.7`, `0.5 … 2`.
+    #[must_use]
+    pub fn in_words(self, digits: impl Fn(f64) -> String) -> String {
+        match self {
+            Self::AtMost(bound) => format!("≤ {}", digits(bound)),
+            Self::AtLeast(bound) => format!("≥ {}", digits(bound)),
+            Self::Within(lower, upper) => format!("{} … {}", digits(lower), digits(upper)),
         }
     }
 

@@ -103,30 +103,17 @@ pub struct Recorded<O> {
 impl<O> Recorded<O> {
     /// The same record with other data.
     pub fn map<P>(self, change: impl FnOnce(O) -> P) -> Recorded<P> {
-        let Self {
-            outcome,
-            state_hash,
-            particles,
-            steps,
-            simulated_time,
-            wall_seconds,
-            threads,
-            frames,
-            first_bad,
-            data,
-        } = self;
-        let data = change(data);
         Recorded {
-            outcome,
-            state_hash,
-            particles,
-            steps,
-            simulated_time,
-            wall_seconds,
-            threads,
-            frames,
-            first_bad,
-            data,
+            outcome: self.outcome,
+            state_hash: self.state_hash,
+            particles: self.particles,
+            steps: self.steps,
+            simulated_time: self.simulated_time,
+            wall_seconds: self.wall_seconds,
+            threads: self.threads,
+            frames: self.frames,
+            first_bad: self.first_bad,
+            data: change(self.data),
         }
     }
 }

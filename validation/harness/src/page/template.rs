@@ -8,6 +8,8 @@ pub fn fill(
     page: &impl serde::Serialize,
 ) -> Result<String, minijinja::Error> {
     let mut environment = minijinja::Environment::new();
+    // a name that the values do not have is an error where it is printed
+    environment.set_undefined_behavior(minijinja::UndefinedBehavior::SemiStrict);
     environment.add_global("style", include_str!("style.css"));
     environment.add_template("figure.html", include_str!("figure.html"))?;
     for (own, text) in templates {

@@ -1,12 +1,12 @@
 //! The accepted values, `tests/snapshots/TIER/CASE.snap`: what every metric was, and whether it has drifted since. The
 //! report and the drift test read the same files and compare in the same way.
 
-use super::error::BaselineError;
+use super::error::{BaselineError, read_if_there};
 use super::shipped;
 use super::snapshot_text::{self, SnapshotLine};
 use crate::case::Tier;
 use crate::figure::is_file_name;
-use crate::input::{DOCUMENT, read_text};
+use crate::input::DOCUMENT;
 use crate::metric::{Metric, Variant, Verdict};
 use crate::number::with_unit;
 use std::collections::{BTreeMap, BTreeSet};
@@ -158,11 +158,7 @@ impl Baseline {
             return Err(BaselineError::Name { name: case.to_owned() });
         }
         let path = Self::path(folder, case, tier);
-        let text = match read_text(&path, DOCUMENT) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
-            Err(source) => return Err(BaselineError::Read { path, source }),
-        };
+        let Some(text) = read_if_there(&path, DOCUMENT)? else { return Ok(Self::default()) };
         Self::parse(path, &text, case, tier)
     }
 
@@ -259,12 +255,8 @@ impl Baseline {
                 Drift::New => "is not among the accepted values".to_owned(),
                 Drift::UnitChanged { unit } => format!("was in {unit}, is in {}", metric.unit),
                 Drift::VerdictChanged { verdict } => {
-                    let word = snapshot_text::word;
-                    format!(
-                        "is within its tolerance, but the verdict was {}, is {}",
-                        word(verdict),
-                        word(metric.verdict())
-                    )
+                    let now = metric.verdict().word();
+                    format!("is within its tolerance, but the verdict was {}, is {now}", verdict.word())
                 }
                 Drift::Drifted { change, baseline, tolerance } => format!(
                     "was {}, is {}: change {change:.3e}, tolerance {tolerance:.3e}",

@@ -7,13 +7,14 @@ use super::origin::{provenance, seconds};
 use super::power::GatePower;
 use super::rows::{mark, rows, vanished};
 use super::template::fill;
-use super::view::{CasePage, CaseView, MetricGroup, MetricView, Neighbours, RunView, VerdictMark, picture, typed};
+use super::view::{VerdictMark, typed};
 use super::{DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
-use crate::metric::{MetricKind, Verdict};
+use crate::metric::{Metric, MetricKind, Verdict};
 use crate::number::{count, four_digits};
 use crate::observation::Outcome;
+use serde_json::{Value, json};
 
 /// Fills the template for one case: in its report's folder `cases/CASE` if it has neighbours there, else in a folder of its
 /// own.
@@ -21,17 +22,19 @@ pub(super) fn render(
     report: &Report,
     judged: &JudgedCase<'_>,
     drawn: &[DrawnFigure],
-    neighbours: Option<Neighbours>,
+    neighbours: Option<Value>,
 ) -> Result<String, minijinja::Error> {
-    let page = CasePage {
-        title: report.title.clone(),
-        tier: tier_name(report.tier),
-        case: case(judged, drawn),
-        compared: !report.baseline.is_empty(),
-        report: neighbours,
-        provenance: provenance(&report.generated),
-        script: include_str!("template/page.js"),
-    };
+    let page = json!({
+        "title": report.title,
+        "tier": tier_name(report.tier),
+        "case": case(judged, drawn),
+        // whether there is a baseline to have moved from
+        "compared": !report.baseline.is_empty(),
+        // the report that the page belongs to, if it does
+        "report": neighbours,
+        "provenance": provenance(&report.generated),
+        "script": include_str!("template/page.js"),
+    });
     fill("case.html", &page)
 }
 
@@ -43,31 +46,33 @@ pub(super) fn tables(case: &str) -> impl Iterator<Item = (&'static str, &'static
     })
 }
 
-fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> CaseView {
+fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> Value {
     let case = judged.case;
     let mut rows = rows(&case.name, &judged.metrics);
     for (row, judged) in rows.iter_mut().zip(&judged.metrics) {
         if judged.metric.kind != MetricKind::Bookkeeping {
-            row.figure = figure(row, drawn);
+            row["figure"] = figure(judged.metric, drawn).into();
         }
     }
-    CaseView {
-        name: case.name.clone(),
-        summary: case.summary.clone(),
-        description: case.description.split("\n\n").map(str::to_owned).collect(),
-        mark: if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
-        statement: case_statement(judged),
-        failures: failures::of(std::slice::from_ref(judged)),
-        groups: groups(rows, &judged.metrics),
-        vanished: judged.vanished.iter().map(vanished).collect(),
-        not_judged: case.not_judged.iter().map(|(key, reason)| format!("{}: {reason}", vanished(key))).collect(),
-        controls: power::table(case),
-        figures: drawn.iter().map(picture).collect(),
-        tables: tables(&case.name).map(|(name, _)| name).collect(),
-        parameters: case.parameters_toml.clone(),
-        command: typed(&case.command),
-        runs: case.runs.iter().map(run).collect(),
-    }
+    let not_judged = case.not_judged.iter().map(|(key, reason)| format!("{}: {reason}", vanished(key)));
+    json!({
+        "name": case.name,
+        "summary": case.summary,
+        "description": case.description.split("\n\n").collect::<Vec<_>>(),
+        "mark": if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
+        "statement": case_statement(judged),
+        "failures": failures::of(std::slice::from_ref(judged)),
+        "groups": groups(rows, &judged.metrics),
+        "vanished": judged.vanished.iter().map(vanished).collect::<Vec<_>>(),
+        "not_judged": not_judged.collect::<Vec<_>>(),
+        "controls": power::table(case),
+        "figures": drawn,
+        // tables of reference data that are written beside the page
+        "tables": tables(&case.name).map(|(name, _)| name).collect::<Vec<_>>(),
+        "parameters": case.parameters_toml,
+        "command": typed(&case.command),
+        "runs": case.runs.iter().map(run).collect::<Vec<_>>(),
+    })
 }
 
 /// Rows of a table that is shown unfolded, at most.
@@ -75,26 +80,26 @@ const SHORT: usize = 12;
 
 /// The rows by what they say: judged ones, the run's own account, and what is only observed. The latter two are folded, and a
 /// long table too: the page's failures and figures stand above.
-fn groups(rows: Vec<MetricView>, metrics: &[JudgedMetric<'_>]) -> Vec<MetricGroup> {
-    let mut groups: Vec<MetricGroup> =
-        [("judged", "Judged"), ("bookkeeping", "Bookkeeping"), ("observed", "Observed only")]
-            .map(|(name, title)| MetricGroup { name, title, is_open: false, rows: Vec::new() })
-            .into();
+fn groups(rows: Vec<Value>, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
+    let titles = [("judged", "Judged"), ("bookkeeping", "Bookkeeping"), ("observed", "Observed only")];
+    let mut groups = titles.map(|title| (title, Vec::new()));
     for (row, judged) in rows.into_iter().zip(metrics) {
         let place = match (judged.metric.kind, judged.severity()) {
             (MetricKind::Bookkeeping, _) => 1,
             (_, Severity::Observed) => 2,
             _ => 0,
         };
-        groups[place].rows.push(row);
+        groups[place].1.push(row);
     }
-    groups[0].is_open = groups[0].rows.len() <= SHORT;
-    groups.retain(|group| !group.rows.is_empty());
-    groups
+    let view = |((name, title), rows): &((&str, &str), Vec<Value>)| {
+        let is_open = *name == "judged" && rows.len() <= SHORT;
+        json!({ "name": name, "title": title, "is_open": is_open, "rows": rows })
+    };
+    groups.iter().filter(|(_, rows)| !rows.is_empty()).map(view).collect()
 }
 
 /// The figure that is named like a value of a metric's variant, else the one that shares most words with its name; nothing where none does.
-fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
+fn figure(metric: &Metric, drawn: &[DrawnFigure]) -> String {
     let is_word_of = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|other| other == word);
     let shared = |drawn: &DrawnFigure| {
         let caption = drawn.caption.to_lowercase();
@@ -104,7 +109,7 @@ fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
             _ if is_word_of(&caption, word) => 1,
             _ => 0,
         };
-        row.metric.split('_').map(weight).sum::<usize>()
+        metric.name.split('_').map(weight).sum::<usize>()
     };
     // a figure `heap` is that of a run `heap`, or else of one `local-heap`
     let of_run = |drawn: &DrawnFigure| {
@@ -113,8 +118,7 @@ fn figure(row: &MetricView, drawn: &[DrawnFigure]) -> String {
             _ if value.split('-').any(|word| word == drawn.name) => 1,
             _ => 0,
         };
-        let values = row.variant.iter().filter_map(|part| part.split_once('='));
-        values.map(|(_, value)| by_value(value)).max().unwrap_or_default()
+        metric.variant.parts().map(|(_, value)| by_value(&value.to_string())).max().unwrap_or_default()
     };
     let fit = |drawn: &DrawnFigure| (of_run(drawn), shared(drawn));
     // the first of equals
@@ -141,7 +145,7 @@ pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
     if words.is_empty() { "no metrics".to_owned() } else { words.join(" · ") }
 }
 
-fn run(run: &RunSummary) -> RunView {
+fn run(run: &RunSummary) -> Value {
     let (mark, outcome) = match &run.outcome {
         Outcome::Finished => (VerdictMark { word: "finished", ..VerdictMark::PASS }, String::new()),
         Outcome::Stopped { criterion } => (VerdictMark { word: "stopped", ..VerdictMark::PASS }, criterion.clone()),
@@ -152,18 +156,18 @@ fn run(run: &RunSummary) -> RunView {
             (VerdictMark { word: "diverged", ..VerdictMark::FAIL }, message.clone())
         }
     };
-    RunView {
-        variant: run.variant.to_string(),
-        mark,
-        outcome,
-        particles: count(run.particles as u64),
-        steps: count(run.steps),
-        simulated_time: four_digits(run.simulated_time),
-        wall_seconds: seconds(run.wall_seconds),
-        threads: run.threads,
-        pace: run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), four_digits),
-        hash: run.state_hash.clone(),
-        short_hash: run.state_hash.chars().take(12).collect(),
-        from_store: run.from_store,
-    }
+    json!({
+        "variant": run.variant.to_string(),
+        "mark": mark,
+        "outcome": outcome,
+        "particles": count(run.particles as u64),
+        "steps": count(run.steps),
+        "simulated_time": four_digits(run.simulated_time),
+        "wall_seconds": seconds(run.wall_seconds),
+        "threads": run.threads,
+        "pace": run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), four_digits),
+        "hash": run.state_hash,
+        "short_hash": run.state_hash.chars().take(12).collect::<String>(),
+        "from_store": run.from_store,
+    })
 }

@@ -3,57 +3,12 @@
 use super::accepted::tier_name;
 use super::comparison::{self, Comparison, ModelError, QuantityComparisons};
 use super::template::fill;
-use super::view::{FigureView, VerdictMark, anchor, picture};
+use super::view::{VerdictMark, anchor};
 use super::{DrawnFigure, Report, scatter};
 use crate::evidence::StatedUncertainty;
 use crate::metric::{ComparisonPart, Metric, UncertaintyComponent};
 use crate::number::{two_digits, with_unit};
-use serde::Serialize;
-
-#[derive(Serialize)]
-struct ComparisonPage {
-    title: String,
-    tier: &'static str,
-    within: usize,
-    beyond: usize,
-    partly: usize,
-    unknown: usize,
-    /// Comparisons without u_input.
-    without_input: usize,
-    /// Least, middle and greatest level of those that are within their uncertainty `[%]`.
-    levels: Option<[String; 3]>,
-    has_scatter: bool,
-    quantities: Vec<QuantityView>,
-}
-
-#[derive(Serialize)]
-struct QuantityView {
-    name: String,
-    figure: Option<FigureView>,
-    rows: Vec<RowView>,
-}
-
-#[derive(Serialize)]
-struct RowView {
-    case: String,
-    anchor: String,
-    variant: String,
-    source: String,
-    value: String,
-    reference: String,
-    error: String,
-    /// u_num, u_input and u_D, each with where it comes from.
-    parts: [(String, String); 3],
-    /// The input that most of u_input comes from, with its share.
-    dominant: String,
-    uncertainty: String,
-    /// u_val over the reference.
-    level: String,
-    mark: VerdictMark,
-    statement: String,
-    /// Why parts are not known.
-    reasons: Vec<String>,
-}
+use serde_json::{Value, json};
 
 const NOT_KNOWN: &str = "not known";
 
@@ -63,18 +18,19 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Option<Result<St
     let count = |is_it: fn(ModelError) -> bool| {
         groups.iter().flat_map(|(_, own)| own).filter(|compared| is_it(compared.model_error())).count()
     };
-    let page = ComparisonPage {
-        title: report.title.clone(),
-        tier: tier_name(report.tier),
-        within: count(|error| matches!(error, ModelError::Within(_))),
-        beyond: count(|error| matches!(error, ModelError::AtLeast(_))),
-        partly: count(|error| matches!(error, ModelError::BeyondKnown(_))),
-        unknown: count(|error| error == ModelError::Unknown),
-        without_input: groups.iter().flat_map(|(_, own)| own).filter(|compared| compared.input.is_none()).count(),
-        levels: levels(groups.iter().flat_map(|(_, own)| own)),
-        has_scatter: !scatter::quantities(report).is_empty(),
-        quantities: groups.iter().enumerate().map(|(place, group)| quantity(group, drawn.get(place))).collect(),
-    };
+    let quantities = groups.iter().enumerate().map(|(place, group)| quantity(group, drawn.get(place)));
+    let page = json!({
+        "title": report.title,
+        "tier": tier_name(report.tier),
+        "within": count(|error| matches!(error, ModelError::Within(_))),
+        "beyond": count(|error| matches!(error, ModelError::AtLeast(_))),
+        "partly": count(|error| matches!(error, ModelError::BeyondKnown(_))),
+        "unknown": count(|error| error == ModelError::Unknown),
+        "without_input": groups.iter().flat_map(|(_, own)| own).filter(|compared| compared.input.is_none()).count(),
+        "levels": levels(groups.iter().flat_map(|(_, own)| own)),
+        "has_scatter": !scatter::quantities(report).is_empty(),
+        "quantities": quantities.collect::<Vec<_>>(),
+    });
     (!groups.is_empty()).then(|| fill("comparisons.html", &page))
 }
 
@@ -87,11 +43,12 @@ fn levels<'c>(all: impl Iterator<Item = &'c Comparison<'c>>) -> Option<[String; 
     Some([of(0)?, of(levels.len() / 2)?, of(levels.len().checked_sub(1)?)?])
 }
 
-fn quantity(((name, _), own): &QuantityComparisons<'_>, drawn: Option<&DrawnFigure>) -> QuantityView {
-    QuantityView { name: name.replace('_', " "), figure: drawn.map(picture), rows: own.iter().map(row).collect() }
+fn quantity(((name, _), own): &QuantityComparisons<'_>, drawn: Option<&DrawnFigure>) -> Value {
+    let rows: Vec<Value> = own.iter().map(row).collect();
+    json!({ "name": name.replace('_', " "), "figure": drawn, "rows": rows })
 }
 
-fn row(compared: &Comparison<'_>) -> RowView {
+fn row(compared: &Comparison<'_>) -> Value {
     let metric = compared.metric;
     let unit = |value: f64| with_unit(value, &metric.unit);
     let part = |value: Option<f64>| match value {
@@ -133,26 +90,28 @@ fn row(compared: &Comparison<'_>) -> RowView {
         Some(format!("{}: {reason}", part.symbol()))
     };
     let reference = metric.reference.as_ref();
-    RowView {
-        case: compared.case.to_owned(),
-        anchor: anchor(compared.case, &metric.name, &metric.variant),
-        variant: metric.variant.to_string().replace(',', ", "),
-        source: reference.map(|reference| reference.source.clone()).unwrap_or_default(),
-        value: unit(metric.value),
-        reference: reference.and_then(|reference| reference.value).map(unit).unwrap_or_default(),
-        error: format!("{}{}", if compared.error > 0.0 { "+" } else { "" }, two_digits(compared.error)),
-        parts: [
+    json!({
+        "case": compared.case,
+        "anchor": anchor(compared.case, &metric.name, &metric.variant),
+        "variant": metric.variant.to_string().replace(',', ", "),
+        "source": reference.map_or("", |reference| &reference.source),
+        "value": unit(metric.value),
+        "reference": reference.and_then(|reference| reference.value).map(unit).unwrap_or_default(),
+        "error": format!("{}{}", if compared.error > 0.0 { "+" } else { "" }, two_digits(compared.error)),
+        // u_num, u_input and u_D, each with where it comes from
+        "parts": [
             (part(compared.numerical), words(ComparisonPart::Numerical)),
             (part(compared.input), words(ComparisonPart::Input)),
             (part(compared.reference), words(ComparisonPart::Reference)),
         ],
-        dominant: dominant(metric),
-        uncertainty: part(compared.uncertainty()),
-        level: compared.level().map(|level| format!("{} %", two_digits(100.0 * level))).unwrap_or_default(),
-        mark,
-        statement: statement + &lower_bound,
-        reasons: unknown.iter().filter_map(reason).collect(),
-    }
+        "dominant": dominant(metric),
+        "uncertainty": part(compared.uncertainty()),
+        // u_val over the reference
+        "level": compared.level().map(|level| format!("{} %", two_digits(100.0 * level))),
+        "mark": mark,
+        "statement": statement + &lower_bound,
+        "reasons": unknown.iter().filter_map(reason).collect::<Vec<_>>(),
+    })
 }
 
 /// The input that most of u_input comes from.

@@ -5,10 +5,9 @@ use super::accepted::{Drift, MetricKey};
 use super::history::History;
 use super::judgement::{JudgedMetric, Judgement};
 use super::rows::{value_and_baseline, vanished};
-use super::snapshot_text::word;
 use super::view::{VerdictMark, anchor};
 use crate::number::{two_digits, with_unit};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::fmt;
 
 /// Rows of the table; what has drifted is always in it.
@@ -88,7 +87,7 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, history: &History) -> Option
             (value, format!("{was} ± {}", two_digits(*tolerance)))
         }
         Drift::UnitChanged { unit } => (value, format!("in {unit}")),
-        Drift::VerdictChanged { verdict } => (value, format!("{}, now {}", word(*verdict), word(judged.verdict))),
+        Drift::VerdictChanged { verdict } => (value, format!("{}, now {}", verdict.word(), judged.verdict.word())),
     };
     let key = MetricKey::of(case, metric);
     let history = history.of(&key).iter().copied().chain([metric.value]).filter(|value| value.is_finite());
@@ -102,44 +101,8 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, history: &History) -> Option
     })
 }
 
-/// The table as its template sees it.
-#[derive(Debug, Serialize)]
-pub(super) struct DriftTable {
-    /// What the values are compared with.
-    against: String,
-    rows: Vec<DriftRow>,
-    /// Rows that are left out: all within their tolerances.
-    omitted: usize,
-}
-
-#[derive(Debug, Serialize)]
-struct DriftRow {
-    mark: VerdictMark,
-    case: String,
-    metric: String,
-    variant: String,
-    /// Where it stands on the page of its case; the table of verdicts for what is gone.
-    anchor: String,
-    tolerances: String,
-    value: String,
-    baseline: String,
-    line: Option<Sparkline>,
-}
-
-/// A line of earlier values and this one.
-#[derive(Debug, Serialize)]
-struct Sparkline {
-    /// Points of a polyline.
-    points: String,
-    /// The last one.
-    last: (String, String),
-    size: (f64, f64),
-    /// What is seen, for those who do not see it.
-    words: String,
-}
-
 /// The table of what has moved.
-pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> DriftTable {
+pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> Value {
     let against = match &report.against {
         Some(folder) => format!("the report in {folder}"),
         None => "the accepted values".to_owned(),
@@ -147,30 +110,32 @@ pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> DriftTable {
     table_of(&moved(judgement, &report.history), against)
 }
 
-fn table_of(all: &[Moved], against: String) -> DriftTable {
+fn table_of(all: &[Moved], against: String) -> Value {
     let drifted = all.iter().filter(|moved| moved.has_drifted).count();
     let shown = all.len().min(ROWS.max(drifted));
-    DriftTable { against, rows: all[..shown].iter().map(row).collect(), omitted: all.len() - shown }
+    let rows: Vec<Value> = all[..shown].iter().map(row).collect();
+    json!({ "against": against, "rows": rows, "omitted": all.len() - shown })
 }
 
-fn row(moved: &Moved) -> DriftRow {
+fn row(moved: &Moved) -> Value {
     let key = &moved.key;
     let unchanged = VerdictMark { word: "within", ..VerdictMark::PASS };
-    DriftRow {
-        mark: if moved.has_drifted { VerdictMark::DRIFT } else { unchanged },
-        case: key.case.clone(),
-        metric: key.metric.clone(),
-        variant: key.variant.to_string(),
-        anchor: if moved.is_measured { anchor(&key.case, &key.metric, &key.variant) } else { "verdicts".to_owned() },
-        tolerances: if moved.tolerances.is_finite() { two_digits(moved.tolerances) } else { "–".to_owned() },
-        value: moved.statement.0.clone(),
-        baseline: moved.statement.1.clone(),
-        line: sparkline(&moved.history, &vanished(key)),
-    }
+    json!({
+        "mark": if moved.has_drifted { VerdictMark::DRIFT } else { unchanged },
+        "case": key.case,
+        "metric": key.metric,
+        "variant": key.variant.to_string(),
+        // the table of verdicts for what is gone
+        "anchor": if moved.is_measured { anchor(&key.case, &key.metric, &key.variant) } else { "verdicts".to_owned() },
+        "tolerances": if moved.tolerances.is_finite() { two_digits(moved.tolerances) } else { "–".to_owned() },
+        "value": moved.statement.0,
+        "baseline": moved.statement.1,
+        "line": sparkline(&moved.history, &vanished(key)),
+    })
 }
 
 /// The last values as a line from left to right; none for fewer than two.
-fn sparkline(values: &[f64], name: &str) -> Option<Sparkline> {
+fn sparkline(values: &[f64], name: &str) -> Option<Value> {
     let values = &values[values.len().saturating_sub(POINTS)..];
     let (first, last) = (values.first()?, values.last().filter(|_| values.len() > 1)?);
     let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
@@ -192,7 +157,7 @@ fn sparkline(values: &[f64], name: &str) -> Option<Sparkline> {
         two_digits(least),
         two_digits(most)
     );
-    Some(Sparkline { points: text.join(" "), last: points.last()?.clone(), size: LINE, words })
+    Some(json!({ "points": text.join(" "), "last": points.last()?, "size": LINE, "words": words }))
 }
 
 #[cfg(test)]

@@ -33,8 +33,9 @@ fn a_drift_of_two_tolerances_tops_the_table_and_is_denied() {
     assert_eq!(names, ["velocity_l2", "wall_slip"]);
     assert!(all[0].has_drifted && (all[0].tolerances - 2.0).abs() < 1e-6, "{:?}", all[0]);
     let shown = table(&report, &judgement);
-    assert_eq!((shown.rows[0].metric.as_str(), shown.rows[0].mark), ("velocity_l2", VerdictMark::DRIFT));
-    assert_eq!((shown.omitted, shown.against.as_str()), (0, "the accepted values"));
+    assert_eq!(shown["rows"][0]["metric"], "velocity_l2");
+    assert_eq!(shown["rows"][0]["mark"], json!(VerdictMark::DRIFT));
+    assert_eq!((&shown["omitted"], &shown["against"]), (&json!(0), &json!("the accepted values")));
 }
 
 #[test]
@@ -58,8 +59,9 @@ fn a_value_that_moved_within_its_fourth_digit_is_shown_with_the_digits_that_move
         all[0].to_string(),
         "film front_error [] 12.345698\u{202f}% (+2.7×10⁻⁵), was 12.345671\u{202f}% ± 1.2×10⁻⁵: 2.2 tolerances"
     );
-    let row = &table(&report, &judgement).rows[0];
-    assert_eq!((row.value.as_str(), &row.baseline[..9]), ("12.345698\u{202f}% (+2.7×10⁻⁵)", "12.345671"));
+    let row = &table(&report, &judgement)["rows"][0];
+    assert_eq!(row["value"], "12.345698\u{202f}% (+2.7×10⁻⁵)");
+    assert!(row["baseline"].as_str().is_some_and(|text| text.starts_with("12.345671")), "{row}");
 }
 
 #[test]
@@ -113,8 +115,8 @@ fn a_line_shows_the_history_and_this_value() {
     let all = moved(&judge(&report), &history);
     assert_eq!(all[0].history, [8.0, 9.0, 9.5, 10.2]);
     let line = sparkline(&all[0].history, "velocity_l2").expect("two values and more");
-    assert_eq!(line.points, "2.0,18.0 32.7,10.7 63.3,7.1 94.0,2.0");
-    assert!(line.words.starts_with("velocity_l2: 4 values from 8"), "{}", line.words);
+    assert_eq!(line["points"], "2.0,18.0 32.7,10.7 63.3,7.1 94.0,2.0");
+    assert!(line["words"].as_str().is_some_and(|words| words.starts_with("velocity_l2: 4 values from 8")), "{line}");
     assert!(sparkline(&[1.0], "a").is_none() && sparkline(&[], "a").is_none());
-    assert_eq!(sparkline(&[1.0, 1.0], "a").expect("a constant").last.1, "10.0");
+    assert_eq!(sparkline(&[1.0, 1.0], "a").expect("a constant")["last"][1], "10.0");
 }

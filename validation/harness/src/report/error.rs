@@ -1,7 +1,9 @@
 //! What can go wrong while a report is read, judged or written.
 
 use crate::figure::FigureError;
-use std::path::PathBuf;
+use crate::input::read_text;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
 /// Why a report was not written; the message completes "failed to …".
 #[derive(Debug, thiserror::Error)]
@@ -63,6 +65,15 @@ pub enum BaselineError {
         /// The name as given.
         name: String,
     },
+}
+
+/// The text of a committed file of at most so many bytes; none where there is no file.
+pub(super) fn read_if_there(path: &Path, most: u64) -> Result<Option<String>, BaselineError> {
+    match read_text(path, most) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(source) => Err(BaselineError::Read { path: path.to_owned(), source }),
+    }
 }
 
 /// Why an earlier report's folder is no baseline; the message completes "failed to …".

@@ -1,44 +1,47 @@
-//! Failures in two lines each, the furthest off first: metric and variant, then the value beside its reference and limit. Why a
+//! Failures in two lines each, the furthest off first: case, quantity and variant, then the value beside its reference and limit. Why a
 //! known failure fails stands in the metric's row on the page of its case.
 
 use super::judgement::{JudgedCase, JudgedMetric, Severity};
 use super::known_failures::KnownFailureStatus;
 use super::rows::{note, statement, worst_mark};
-use super::view::{BannerItem, VerdictMark, anchor};
-use crate::metric::{GateOwner, Limit, Metric};
+use super::view::{VerdictMark, anchor};
+use crate::metric::{GateOwner, Limit, Metric, Quantity};
 use crate::number::{two_digits, with_unit};
+use serde_json::{Value, json};
 
 /// Most results that the banner names.
 const MOST_NAMED: usize = 3;
 
 /// Runs that diverged, then gates: unexpected failures first, the user's own gates before those of the case.
-pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<BannerItem> {
-    let mut items: Vec<((Severity, GateOwner), f64, BannerItem)> = Vec::new();
+pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<Value> {
+    let mut items: Vec<((Severity, GateOwner), f64, Value)> = Vec::new();
     for case in cases {
         for &(variant, message) in &case.diverged {
-            let item = BannerItem {
-                mark: VerdictMark { word: "diverged", ..VerdictMark::FAIL },
-                case: case.case.name.clone(),
-                anchor: "runs".to_owned(),
-                what: "a run diverged".to_owned(),
-                variant: variant.to_string(),
-                statement: message.to_owned(),
-                off: String::new(),
-                note: String::new(),
-            };
+            let item = json!({
+                "mark": VerdictMark { word: "diverged", ..VerdictMark::FAIL },
+                "case": case.case.name,
+                "anchor": "runs",
+                "title": title(&case.case.summary),
+                "what": "a run diverged",
+                "metric": "",
+                "variant": variant.to_string(),
+                "statement": message,
+            });
             items.push(((Severity::Failure, GateOwner::User), f64::INFINITY, item));
         }
         for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::KnownFailure) {
-            let item = BannerItem {
-                mark: worst_mark(judged),
-                case: case.case.name.clone(),
-                anchor: anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
-                what: judged.metric.name.clone(),
-                variant: judged.metric.variant.to_string(),
-                statement: statement(judged),
-                off: off(judged.metric),
-                note: short_note(judged),
-            };
+            let item = json!({
+                "mark": worst_mark(judged),
+                "case": case.case.name,
+                "anchor": anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
+                "title": title(&case.case.summary),
+                "what": in_words(case.case.quantities, &judged.metric.name),
+                "metric": judged.metric.name,
+                "variant": judged.metric.variant.to_string(),
+                "statement": statement(judged),
+                "off": off(judged.metric),
+                "note": short_note(judged),
+            });
             // canonical studies are judged as a user's own are, and fail no louder than cases
             let owner = match judged.severity() {
                 Severity::KnownFailure => GateOwner::Case,
@@ -52,9 +55,23 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<BannerItem> {
     items.into_iter().map(|(.., item)| item).collect()
 }
 
+/// What a case's line says is simulated, without its details and what it is judged against.
+fn title(summary: &str) -> &str {
+    // a list may begin with a single word
+    let ends = [": ", ", ", " against "].into_iter().filter_map(|end| summary.find(end));
+    let ends = ends.filter(|end| summary[..*end].contains(' '));
+    &summary[..ends.min().unwrap_or(summary.len())]
+}
+
+/// What a quantity is: as its case declares it, or else its name.
+fn in_words(quantities: &[Quantity], name: &str) -> String {
+    let declared = quantities.iter().find(|quantity| quantity.name == name);
+    declared.map_or_else(|| name.replace('_', " "), |quantity| quantity.description.to_owned())
+}
+
 /// The furthest off of as many cases.
-pub(super) fn weakest(items: &[BannerItem]) -> Vec<usize> {
-    let is_first = |place: &usize| items[..*place].iter().all(|before| before.case != items[*place].case);
+pub(super) fn weakest(items: &[Value]) -> Vec<usize> {
+    let is_first = |place: &usize| items[..*place].iter().all(|before| before["case"] != items[*place]["case"]);
     (0..items.len()).filter(is_first).take(MOST_NAMED).collect()
 }
 

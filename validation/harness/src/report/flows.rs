@@ -2,12 +2,12 @@
 
 use super::comparison::{Comparison, ModelError, comparisons};
 use super::power::{GatePower, rejected_inputs};
-use super::view::{FigureView, VerdictMark, picture};
+use super::view::VerdictMark;
 use super::{CaseReport, DrawnFigure, Report};
 use crate::figure::Figure;
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use crate::number::two_digits;
-use serde::Serialize;
+use serde_json::{Value, json};
 
 /// A flow, the cases that show it and the figure that stands for it in each.
 struct Flow {
@@ -118,27 +118,6 @@ const FLOWS: [Flow; 4] = [
     },
 ];
 
-/// A flow as the template sees it.
-#[derive(Debug, Serialize)]
-pub(super) struct FlowPanel {
-    title: &'static str,
-    cases: Vec<String>,
-    /// The whole figure, whose files are linked.
-    figure: FigureView,
-    /// Its first panel.
-    small: FigureView,
-    sentences: Vec<String>,
-    verdict: Vec<VerdictLine>,
-    controls: Vec<String>,
-}
-
-/// A part of a verdict.
-#[derive(Debug, Serialize)]
-struct VerdictLine {
-    mark: VerdictMark,
-    text: String,
-}
-
 /// The figure that stands for a case: that of its flow, else its first.
 pub(super) fn figure_of(case: &CaseReport) -> Option<&Figure> {
     let named = FLOWS.iter().flat_map(|flow| flow.figures).find(|(name, _)| *name == case.name);
@@ -148,11 +127,11 @@ pub(super) fn figure_of(case: &CaseReport) -> Option<&Figure> {
 
 /// The flows that the report has a case of. `drawn` holds the figures of the cases in the report's order, `small` those of the
 /// table of cases.
-pub(super) fn panels(report: &Report, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Vec<FlowPanel> {
+pub(super) fn panels(report: &Report, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Vec<Value> {
     FLOWS.iter().filter_map(|flow| panel(flow, report, drawn, small)).collect()
 }
 
-fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Option<FlowPanel> {
+fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Option<Value> {
     let place = |name: &str| report.cases.iter().position(|case| case.name == name);
     let places: Vec<usize> = flow.figures.iter().filter_map(|(name, _)| place(name)).collect();
     let cases: Vec<&CaseReport> = places.iter().map(|&place| &report.cases[place]).collect();
@@ -161,21 +140,22 @@ fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[Draw
         let name = &figure_of(case)?.name;
         let whole = drawn.get(place)?.iter().find(|drawn| drawn.name == *name && drawn.failure.is_none())?;
         let small = small.iter().find(|drawn| drawn.name == case.name && drawn.failure.is_none())?;
-        Some((picture(whole), picture(small)))
+        Some((whole, small))
     });
     let (figure, small) = first?;
     let all = comparisons(report);
     let compared: Vec<&Comparison<'_>> =
         all.iter().flat_map(|(_, own)| own).filter(|own| cases.iter().any(|case| case.name == own.case)).collect();
-    Some(FlowPanel {
-        title: flow.title,
-        figure,
-        small,
-        sentences: flow.claims.iter().filter_map(|claim| sentence(claim, &cases)).collect(),
-        verdict: verdict(&compared, &cases),
-        controls: cases.iter().filter_map(|case| rejected_inputs(case)).collect(),
-        cases: cases.iter().map(|case| case.name.clone()).collect(),
-    })
+    Some(json!({
+        "title": flow.title,
+        // the whole figure, whose files are linked, and its first panel
+        "figure": figure,
+        "small": small,
+        "sentences": flow.claims.iter().filter_map(|claim| sentence(claim, &cases)).collect::<Vec<_>>(),
+        "verdict": verdict(&compared, &cases),
+        "controls": cases.iter().filter_map(|case| rejected_inputs(case)).collect::<Vec<_>>(),
+        "cases": cases.iter().map(|case| &case.name).collect::<Vec<_>>(),
+    }))
 }
 
 fn sentence(claim: &Claim, cases: &[&CaseReport]) -> Option<String> {
@@ -188,9 +168,9 @@ fn sentence(claim: &Claim, cases: &[&CaseReport]) -> Option<String> {
 }
 
 /// Verdict on the model by comparisons with measurements, and the number of gates that hold.
-fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<VerdictLine> {
+fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
     let mut lines = Vec::new();
-    let mut add = |mark, text| lines.push(VerdictLine { mark, text });
+    let mut add = |mark: VerdictMark, text: String| lines.push(json!({ "mark": mark, "text": text }));
     // how many comparisons say something, and the part of the reference that it is about
     let those = |part: fn(ModelError) -> Option<f64>| {
         let own: Vec<(f64, f64)> =

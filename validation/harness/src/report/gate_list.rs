@@ -2,9 +2,9 @@
 //! judged stays in the list, and the CHANGELOG has to say why it went: a limit cannot be lost in a change of something else.
 
 use super::accepted::{Baseline, MetricKey, tier_name};
-use super::error::BaselineError;
+use super::error::{BaselineError, read_if_there};
 use crate::case::Tier;
-use crate::input::{DOCUMENT, read_text};
+use crate::input::DOCUMENT;
 use crate::metric::Variant;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -35,11 +35,7 @@ impl GateList {
     /// If the file is there but cannot be read, or a line of it is no gate.
     pub fn read(folder: &Path, tier: Tier) -> Result<Self, BaselineError> {
         let path = Self::path(folder, tier);
-        let text = match read_text(&path, DOCUMENT) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
-            Err(source) => return Err(BaselineError::Read { path, source }),
-        };
+        let Some(text) = read_if_there(&path, DOCUMENT)? else { return Ok(Self::default()) };
         let mut list = Self::default();
         for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')) {
             let message = || format!("line {} is {line:?} instead of `case | metric | variant`", index + 1);

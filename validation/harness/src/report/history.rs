@@ -1,9 +1,9 @@
 //! `history.csv`: every gated figure whenever the baseline is taken anew, so that a trend over many commits shows.
 
 use super::accepted::MetricKey;
-use super::error::BaselineError;
+use super::error::{BaselineError, read_if_there};
 use crate::case::Tier;
-use crate::input::{DOCUMENT, read_text};
+use crate::input::DOCUMENT;
 use crate::metric::{Metric, Variant, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -87,11 +87,7 @@ impl History {
     /// # Errors
     /// If the file is there but cannot be read or is malformed.
     pub fn read(path: &Path, tier: Tier) -> Result<Self, BaselineError> {
-        let text = match read_text(path, DOCUMENT) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
-            Err(source) => return Err(BaselineError::Read { path: path.to_owned(), source }),
-        };
+        let Some(text) = read_if_there(path, DOCUMENT)? else { return Ok(Self::default()) };
         let mut read = Self::default();
         for row in csv::Reader::from_reader(text.as_bytes()).deserialize() {
             let row: ReadRow = row.map_err(|error: csv::Error| BaselineError::Content {

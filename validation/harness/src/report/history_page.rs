@@ -8,7 +8,7 @@ use super::view::anchor;
 use super::{History, Report};
 use crate::metric::{Limit, Metric};
 use crate::number::{four_digits, two_digits, with_unit};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Size of a small plot `[px]`.
@@ -21,47 +21,8 @@ const FEWEST: usize = 2;
 /// Share of the range of a plot's values by which a limit may lie outside of it and is still drawn `[-]`.
 const NEAR: f64 = 1.5;
 
-#[derive(Serialize)]
-struct HistoryPage {
-    title: String,
-    tier: &'static str,
-    commits: usize,
-    biases: Vec<TrendRow>,
-    speeds: Vec<TrendRow>,
-    cases: Vec<CaseTrends>,
-}
-
-#[derive(Serialize)]
-struct CaseTrends {
-    name: String,
-    rows: Vec<TrendRow>,
-    /// Gates that have stood still.
-    steady: usize,
-}
-
-#[derive(Serialize)]
-struct TrendRow {
-    what: String,
-    variant: String,
-    anchor: String,
-    first: String,
-    last: String,
-    limit: String,
-    values: usize,
-    plot: Plot,
-}
-
-/// A line through values over time, and lines that it is held against; places in `[px]`.
-#[derive(Serialize)]
-struct Plot {
-    points: String,
-    last: (String, String),
-    marks: Vec<String>,
-    words: String,
-}
-
-/// The plot of values over times from 0 to `end`, with marks where they lie near.
-fn plot(series: &[(usize, f64)], end: usize, marks: &[f64]) -> Plot {
+/// A line through values over time, and lines that it is held against; places in `[px]`. The plot of values over times from 0 to `end`, with marks where they lie near.
+fn plot(series: &[(usize, f64)], end: usize, marks: &[f64]) -> Value {
     let values = || series.iter().map(|point| point.1).filter(|value| value.is_finite());
     let (least, most) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
     let scale = (most - least).max(1e-3 * least.abs().max(most.abs())).max(f64::MIN_POSITIVE);
@@ -73,12 +34,12 @@ fn plot(series: &[(usize, f64)], end: usize, marks: &[f64]) -> Plot {
     let upwards = |value: f64| HEIGHT - EDGE - (HEIGHT - 2.0 * EDGE) * (value - low) / range;
     let place = |(time, value): &(usize, f64)| (format!("{:.1}", across(*time)), format!("{:.1}", upwards(*value)));
     let places: Vec<(String, String)> = series.iter().filter(|point| point.1.is_finite()).map(place).collect();
-    Plot {
-        points: places.iter().map(|(x, y)| format!("{x},{y}")).collect::<Vec<_>>().join(" "),
-        last: places.last().cloned().unwrap_or_default(),
-        marks: near.iter().map(|mark| format!("{:.1}", upwards(*mark))).collect(),
-        words: format!("{} values from {} to {}", places.len(), two_digits(least), two_digits(most)),
-    }
+    json!({
+        "points": places.iter().map(|(x, y)| format!("{x},{y}")).collect::<Vec<_>>().join(" "),
+        "last": places.last().cloned().unwrap_or_default(),
+        "marks": near.iter().map(|mark| format!("{:.1}", upwards(*mark))).collect::<Vec<_>>(),
+        "words": format!("{} values from {} to {}", places.len(), two_digits(least), two_digits(most)),
+    })
 }
 
 fn bounds(limit: Limit) -> Vec<f64> {
@@ -89,7 +50,7 @@ fn bounds(limit: Limit) -> Vec<f64> {
 }
 
 /// A gate over time; none of fewer than two values, or where they have not moved by their own tolerance.
-fn of_gate(history: &History, case: &str, judged: &JudgedMetric<'_>) -> Option<TrendRow> {
+fn of_gate(history: &History, case: &str, judged: &JudgedMetric<'_>) -> Option<Value> {
     let metric = judged.metric;
     let series = history.series(&MetricKey::of(case, metric));
     if series.len() < FEWEST {
@@ -97,16 +58,15 @@ fn of_gate(history: &History, case: &str, judged: &JudgedMetric<'_>) -> Option<T
     }
     let unit = |value: f64| with_unit(value, &metric.unit);
     let gate = metric.gate.as_ref()?;
-    Some(TrendRow {
-        what: metric.name.clone(),
-        variant: metric.variant.to_string().replace(',', ", "),
-        anchor: format!("cases/{case}/index.html#{}", anchor(case, &metric.name, &metric.variant)),
-        first: unit(series[0].1),
-        last: unit(series[series.len() - 1].1),
-        limit: limit(gate.limit, &metric.unit),
-        values: series.len(),
-        plot: plot(&series, history.commits().len().saturating_sub(1), &bounds(gate.limit)),
-    })
+    Some(json!({
+        "what": metric.name,
+        "variant": metric.variant.to_string().replace(',', ", "),
+        "anchor": format!("cases/{case}/index.html#{}", anchor(case, &metric.name, &metric.variant)),
+        "first": unit(series[0].1),
+        "last": unit(series[series.len() - 1].1),
+        "limit": limit(gate.limit, &metric.unit),
+        "plot": plot(&series, history.commits().len().saturating_sub(1), &bounds(gate.limit)),
+    }))
 }
 
 /// Whether a gate's values have moved by more than the tolerance of its accepted value.
@@ -119,7 +79,7 @@ fn has_moved(history: &History, case: &str, metric: &Metric) -> bool {
 
 /// Bias of every quantity that is gated against measurements: the geometric mean of prediction over today's reference, over all of
 /// its gates with their values of that time.
-fn biases(report: &Report) -> Vec<TrendRow> {
+fn biases(report: &Report) -> Vec<Value> {
     let history = &report.history;
     type Ratios = Vec<Vec<(usize, f64)>>;
     let mut quantities: BTreeMap<&str, Ratios> = BTreeMap::new();
@@ -147,35 +107,33 @@ fn biases(report: &Report) -> Vec<TrendRow> {
         };
         let first = ratios.iter().filter_map(|series| series.first()).map(|point| point.0).min().unwrap_or(0);
         let series: Vec<(usize, f64)> = (first..=last).map(at).collect();
-        (series.len() >= FEWEST).then(|| TrendRow {
-            what: name.replace('_', " "),
-            variant: format!("{} gates", ratios.len()),
-            anchor: "comparisons.html".to_owned(),
-            first: four_digits(series[0].1).to_string(),
-            last: four_digits(series[series.len() - 1].1).to_string(),
-            limit: "1".to_owned(),
-            values: series.len(),
-            plot: plot(&series, last, &[1.0]),
+        (series.len() >= FEWEST).then(|| {
+            json!({
+                "what": name.replace('_', " "),
+                "variant": format!("{} gates", ratios.len()),
+                "anchor": "comparisons.html",
+                "first": four_digits(series[0].1),
+                "last": four_digits(series[series.len() - 1].1),
+                "limit": "1",
+                "plot": plot(&series, last, &[1.0]),
+            })
         })
     };
     quantities.into_iter().filter_map(of_quantity).collect()
 }
 
-fn speeds(report: &Report) -> Vec<TrendRow> {
+fn speeds(report: &Report) -> Vec<Value> {
     let of_case = |case: &super::CaseReport| {
         let values = report.speeds.of(&case.name);
         let series: Vec<(usize, f64)> = values.iter().copied().enumerate().collect();
         let (first, last) = (values.first()?, values.last()?);
-        Some(TrendRow {
-            what: case.name.clone(),
-            variant: String::new(),
-            anchor: format!("cases/{}/index.html#runs", case.name),
-            first: format!("{} µs", two_digits(*first)),
-            last: format!("{} µs", two_digits(*last)),
-            limit: String::new(),
-            values: series.len(),
-            plot: plot(&series, series.len().saturating_sub(1), &[]),
-        })
+        Some(json!({
+            "what": case.name,
+            "anchor": format!("cases/{}/index.html#runs", case.name),
+            "first": format!("{} µs", two_digits(*first)),
+            "last": format!("{} µs", two_digits(*last)),
+            "plot": plot(&series, series.len().saturating_sub(1), &[]),
+        }))
     };
     report.cases.iter().filter_map(of_case).collect()
 }
@@ -187,19 +145,19 @@ pub(super) fn render(report: &Report, judgement: &Judgement<'_>) -> Result<Strin
         let metrics = judged.map_or(&[][..], |judged| &judged.metrics);
         let (moved, steady): (Vec<&JudgedMetric<'_>>, Vec<&JudgedMetric<'_>>) =
             metrics.iter().partition(|judged| has_moved(&report.history, &case.name, judged.metric));
-        let rows: Vec<TrendRow> =
+        let rows: Vec<Value> =
             moved.into_iter().filter_map(|judged| of_gate(&report.history, &case.name, judged)).collect();
         let is_gate = |judged: &&&JudgedMetric<'_>| of_gate(&report.history, &case.name, judged).is_some();
-        CaseTrends { name: case.name.clone(), rows, steady: steady.iter().filter(is_gate).count() }
+        json!({ "name": case.name, "rows": rows, "steady": steady.iter().filter(is_gate).count() })
     };
-    let page = HistoryPage {
-        title: report.title.clone(),
-        tier: tier_name(report.tier),
-        commits: report.history.commits().len(),
-        biases: biases(report),
-        speeds: speeds(report),
-        cases: report.cases.iter().map(of_case).collect(),
-    };
+    let page = json!({
+        "title": report.title,
+        "tier": tier_name(report.tier),
+        "commits": report.history.commits().len(),
+        "biases": biases(report),
+        "speeds": speeds(report),
+        "cases": report.cases.iter().map(of_case).collect::<Vec<_>>(),
+    });
     fill("history.html", &page)
 }
 
@@ -211,9 +169,9 @@ mod tests {
     fn a_plot_runs_from_the_first_time_to_the_last_and_shows_marks_that_lie_near() {
         let drawn = plot(&[(0, 1.0), (2, 3.0), (4, 2.0)], 4, &[0.5, 100.0]);
         // from 0.5, the mark, to 3: 24 px between the edges
-        assert_eq!(drawn.points, "3.0,22.2 84.0,3.0 165.0,12.6");
-        assert_eq!((drawn.last, drawn.marks), (("165.0".to_owned(), "12.6".to_owned()), vec!["27.0".to_owned()]));
+        assert_eq!(drawn["points"], "3.0,22.2 84.0,3.0 165.0,12.6");
+        assert_eq!((&drawn["last"], &drawn["marks"]), (&json!(["165.0", "12.6"]), &json!(["27.0"])));
         let still = plot(&[(0, 2.0), (1, 2.0)], 1, &[]);
-        assert_eq!(still.points, "3.0,27.0 165.0,27.0");
+        assert_eq!(still["points"], "3.0,27.0 165.0,27.0");
     }
 }

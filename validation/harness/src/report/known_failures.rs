@@ -1,9 +1,9 @@
 //! Gates that honest attempts did not reach. They stay red on the page, but only a change of them is an error.
 
 use super::accepted::{MetricKey, snapshot_tolerance};
-use super::error::BaselineError;
+use super::error::{BaselineError, read_if_there};
 use super::shipped;
-use crate::input::{WRITTEN_BY_HAND, read_text};
+use crate::input::WRITTEN_BY_HAND;
 use crate::metric::{Metric, Variant, Verdict};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -76,11 +76,7 @@ impl KnownFailures {
     /// If the file cannot be read, has an unknown or missing field, an empty reason or date, a best value that is not
     /// finite, or names a gate twice.
     pub fn read(path: &Path) -> Result<Self, BaselineError> {
-        let text = match read_text(path, WRITTEN_BY_HAND) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
-            Err(source) => return Err(BaselineError::Read { path: path.to_owned(), source }),
-        };
+        let Some(text) = read_if_there(path, WRITTEN_BY_HAND)? else { return Ok(Self::default()) };
         Self::parse(path, &text)
     }
 

@@ -57,9 +57,10 @@ use crate::case::{Features, Tier};
 use crate::control::ControlTrial;
 use crate::evidence::Paper;
 use crate::figure::{self, Animation, Figure, FigureError};
-use crate::metric::Metric;
+use crate::metric::{Metric, Quantity};
 use crate::store::{Drawings, provenance};
 use rayon::prelude::*;
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -137,6 +138,8 @@ pub struct CaseReport {
     pub command: String,
     /// Judged and observed numbers.
     pub metrics: Vec<Metric>,
+    /// What they are in words, as far as the case declares it.
+    pub quantities: &'static [Quantity],
     /// Accepted gates that do not judge it, with what took each away.
     pub not_judged: Vec<(MetricKey, String)>,
     /// Results of its controls; empty where none was tried.
@@ -154,13 +157,13 @@ pub struct CaseReport {
 }
 
 /// A figure or animation as the page refers to it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 struct DrawnFigure {
     caption: String,
     name: String,
     /// A GIF, instead of an SVG with a PNG.
     moves: bool,
-    /// Width and height of the picture `[px]`.
+    /// Width and height of the picture `[px]`, so that the page does not move when it comes.
     size: Option<(u32, u32)>,
     /// Why there is no picture, or nothing.
     failure: Option<String>,
@@ -270,14 +273,14 @@ fn put_case(case: &CaseReport, folder: &Path) -> Result<(), ReportError> {
 }
 
 /// The cases before and after one, in the report's order.
-fn neighbours(report: &Report, name: &str) -> view::Neighbours {
+fn neighbours(report: &Report, name: &str) -> serde_json::Value {
     let place = report.cases.iter().position(|case| case.name == name).unwrap_or(0);
-    let name_at = |place: Option<usize>| report.cases.get(place?).map(|case| case.name.clone());
-    view::Neighbours {
-        has_papers: !report.papers.is_empty(),
-        previous: name_at(place.checked_sub(1)),
-        next: name_at(Some(place + 1)),
-    }
+    let name_at = |place: Option<usize>| report.cases.get(place?).map(|case| &case.name);
+    serde_json::json!({
+        "has_papers": !report.papers.is_empty(),
+        "previous": name_at(place.checked_sub(1)),
+        "next": name_at(Some(place + 1)),
+    })
 }
 
 fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {

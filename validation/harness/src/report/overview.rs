@@ -4,14 +4,15 @@ use super::DrawnFigure;
 use super::case_page::case_statement;
 use super::judgement::{JudgedCase, JudgedMetric, Judgement, Severity};
 use super::rows::{margin_share, mark, row, whole};
-use super::view::{CaseLine, GateRow, VerdictMark, picture};
+use super::view::VerdictMark;
 use crate::metric::MetricKind;
+use serde_json::{Value, json};
 
 /// Folder of the small pictures.
 pub(super) const FOLDER: &str = "overview";
 
 /// A case's line in the list of cases.
-pub(super) fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> CaseLine {
+pub(super) fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> Value {
     let case = judged.case;
     // what is exact holds by nothing
     let counts = |judged: &&JudgedMetric<'_>| {
@@ -19,23 +20,23 @@ pub(super) fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> CaseL
     };
     let gates = judged.metrics.iter().filter(counts);
     let least = gates.filter_map(|judged| margin_share(judged.metric)).min_by(f64::total_cmp);
-    CaseLine {
-        mark: if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
-        picture: small.iter().find(|drawn| drawn.name == case.name && drawn.failure.is_none()).map(picture),
-        name: case.name.clone(),
-        summary: case.summary.clone(),
-        statement: case_statement(judged),
-        least_margin: match least {
+    json!({
+        "mark": if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
+        "picture": small.iter().find(|drawn| drawn.name == case.name && drawn.failure.is_none()),
+        "name": case.name,
+        "summary": case.summary,
+        "statement": case_statement(judged),
+        "least_margin": match least {
             Some(share) if share.is_finite() => format!("{} %", whole(100.0 * share)),
             _ => "–".to_owned(),
         },
-    }
+    })
 }
 
 /// Every metric that is judged or has drifted; what is only observed stands on its case's page.
-pub(super) fn gates(judgement: &Judgement<'_>) -> Vec<GateRow> {
+pub(super) fn gates(judgement: &Judgement<'_>) -> Vec<Value> {
     let judged = metrics(judgement).filter(|(_, judged)| judged.severity() != Severity::Observed);
-    judged.map(|(case, judged)| GateRow { case: case.case.name.clone(), row: row(&case.case.name, judged) }).collect()
+    judged.map(|(case, judged)| json!({ "case": case.case.name, "row": row(&case.case.name, judged) })).collect()
 }
 
 fn metrics<'a, 'r>(judgement: &'a Judgement<'r>) -> impl Iterator<Item = (&'a JudgedCase<'r>, &'a JudgedMetric<'r>)> {

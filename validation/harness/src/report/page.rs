@@ -2,64 +2,43 @@
 
 use super::accepted::tier_name;
 use super::failures;
-use super::flows::{self, FlowPanel};
+use super::flows;
 use super::judgement::{GateTally, Judgement};
 use super::origin::provenance;
 use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
 use super::template::fill;
-use super::view::{Banner, CaseLine, GateRow, VerdictCount, VerdictMark, typed};
-use super::{CaseReport, DrawnFigure, Report, comparison, drift, scatter};
-use serde::Serialize;
-
-/// The first page: what a reader must know, and the way to everything else.
-#[derive(Debug, Serialize)]
-struct Overview {
-    title: String,
-    tier: &'static str,
-    banner: Banner,
-    flows: Vec<FlowPanel>,
-    counts: Vec<VerdictCount>,
-    /// Gates that fail, then those that hold by least.
-    cases: Vec<CaseLine>,
-    gates: Vec<GateRow>,
-    drift: drift::DriftTable,
-    scatter: Vec<scatter::ScatterRow>,
-    has_papers: bool,
-    has_coverage: bool,
-    has_comparisons: bool,
-    provenance: Vec<(&'static str, String)>,
-    command: String,
-    date: Option<String>,
-    script: &'static str,
-}
+use super::view::{VerdictMark, typed};
+use super::{CaseReport, DrawnFigure, Report, comparison, drift};
+use serde_json::{Value, json};
 
 /// Fills the template; `drawn` holds the figures of the report's cases in the report's order, `small` a picture a case.
 pub(super) fn render(
     report: &Report,
     judgement: &Judgement<'_>,
     (drawn, small): (&[Vec<DrawnFigure>], &[DrawnFigure]),
-    scatter: Vec<scatter::ScatterRow>,
+    scatter: Vec<Value>,
 ) -> Result<String, minijinja::Error> {
-    let page = Overview {
-        title: report.title.clone(),
-        tier: tier_name(report.tier),
-        banner: banner(judgement),
-        counts: counts(judgement),
-        flows: flows::panels(report, drawn, small),
-        cases: judgement.cases.iter().map(|case| overview::case_line(case, small)).collect(),
-        gates: overview::gates(judgement),
-        drift: drift::table(report, judgement),
-        scatter,
-        has_papers: !judgement.papers.is_empty(),
-        has_coverage: report.features.is_some(),
-        has_comparisons: !comparison::comparisons(report).is_empty(),
-        provenance: provenance(&report.generated),
-        command: typed(&report.generated.command),
-        date: report.generated.date.clone(),
-        script: include_str!("template/page.js"),
-    };
+    let page = json!({
+        "title": report.title,
+        "tier": tier_name(report.tier),
+        "banner": banner(judgement),
+        "counts": counts(judgement),
+        "flows": flows::panels(report, drawn, small),
+        // gates that fail, then those that hold by least
+        "cases": judgement.cases.iter().map(|case| overview::case_line(case, small)).collect::<Vec<_>>(),
+        "gates": overview::gates(judgement),
+        "drift": drift::table(report, judgement),
+        "scatter": scatter,
+        "has_papers": !judgement.papers.is_empty(),
+        "has_coverage": report.features.is_some(),
+        "has_comparisons": !comparison::comparisons(report).is_empty(),
+        "provenance": provenance(&report.generated),
+        "command": typed(&report.generated.command),
+        "date": report.generated.date,
+        "script": include_str!("template/page.js"),
+    });
     fill("index.html", &page)
 }
 
@@ -69,10 +48,11 @@ pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<DrawnFigure>], case:
     position.and_then(|position| drawn.get(position)).map_or(&[][..], Vec::as_slice)
 }
 
-fn banner(judgement: &Judgement<'_>) -> Banner {
+fn banner(judgement: &Judgement<'_>) -> Value {
     let (mark, headline, detail) = headline(judgement);
     let items = failures::of(&judgement.cases);
-    Banner { mark, headline, detail, weakest: failures::weakest(&items), items }
+    let weakest = failures::weakest(&items);
+    json!({ "mark": mark, "headline": headline, "detail": detail, "weakest": weakest, "items": items })
 }
 
 fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
@@ -140,8 +120,8 @@ fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
     }
 }
 
-fn counts(judgement: &Judgement<'_>) -> Vec<VerdictCount> {
-    let gates = |name, meaning, tally: GateTally, known: &str| {
+fn counts(judgement: &Judgement<'_>) -> Vec<Value> {
+    let gates = |name: &str, meaning: &str, tally: GateTally, known: &str| {
         let all = tally.hold + tally.cannot_tell + tally.fail + tally.known;
         let mut details = Vec::new();
         if tally.fail > 0 {
@@ -160,26 +140,26 @@ fn counts(judgement: &Judgement<'_>) -> Vec<VerdictCount> {
             GateTally { .. } => VerdictMark::FAIL,
         };
         let statement = if all == 0 { "no gates".to_owned() } else { format!("{} of {all} gates hold", tally.hold) };
-        VerdictCount { mark, name, meaning, statement, detail: details.join(" · "), link: None }
+        let detail = details.join(" · ");
+        json!({ "mark": mark, "name": name, "meaning": meaning, "statement": statement, "detail": detail })
     };
     let Judgement { bookkeeping, verification, validation, statements, drift, .. } = judgement;
     let compared = drift.unchanged + drift.drifted;
     let changes = [(drift.drifted, "drifted"), (drift.new, "new")].into_iter().filter(|(count, _)| *count > 0);
-    let regression = VerdictCount {
-        mark: match (drift.drifted, compared) {
+    let regression = json!({
+        "mark": match (drift.drifted, compared) {
             (0, 0) => VerdictMark::OBSERVED,
             (0, _) => VerdictMark::PASS,
             _ => VerdictMark::DRIFT,
         },
-        name: "Regression",
-        meaning: "against the committed baseline",
-        statement: match compared {
+        "name": "Regression",
+        "meaning": "against the committed baseline",
+        "statement": match compared {
             0 => "no baseline".to_owned(),
             _ => format!("{} of {compared} values unchanged", drift.unchanged),
         },
-        detail: changes.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(" · "),
-        link: None,
-    };
+        "detail": changes.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(" · "),
+    });
     let mut counts = vec![
         gates("Validation", "against experiments and published fits", *validation, "known to fail"),
         gates("Statements", "against what the two papers say", *statements, "not reproduced"),

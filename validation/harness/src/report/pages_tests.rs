@@ -57,16 +57,29 @@ fn the_first_page_leads_with_what_is_furthest_off_and_the_farthest_moves() {
     let judgement = judge(&report);
     let page = html(&report);
     let failing = super::failures::of(&judgement.cases);
-    let names = |places: &[usize]| places.iter().map(|&place| failing[place].what.clone()).collect::<Vec<_>>();
+    let names = |places: &[usize]| places.iter().map(|&place| failing[place]["metric"].clone()).collect::<Vec<_>>();
     assert_eq!(names(&[0, 1, 2]), ["far", "broken", "near"], "twelve times the limit before 1.3 and 1.1 times");
     assert_eq!(names(&super::failures::weakest(&failing)), ["far", "near"], "one of each case");
     assert!(place(&page, "Furthest off by factor:") < place(&page, "id=\"moved\""));
     let moved: Vec<&str> = page.split("id=\"moved\"").nth(1).expect("a list").split("<b>").skip(1).take(2).collect();
     assert!(moved[0].starts_with("broken") && moved[1].starts_with("thin"), "{moved:?}");
-    let thin = overview::gates(&judgement).into_iter().find(|gate| gate.row.metric == "thin").expect("a gate");
-    let number = |text: &str| text.parse::<f64>().expect("a number");
-    assert!((number(&thin.row.margin_key) - 0.01 / 0.7).abs() < 1e-5, "{}", thin.row.margin_key);
-    assert!((number(&thin.row.change_key) - 0.01 / (0.05 * 0.7)).abs() < 1e-4, "{}", thin.row.change_key);
+    let thin = overview::gates(&judgement).into_iter().find(|gate| gate["row"]["metric"] == "thin").expect("a gate");
+    let number = |key: &str| thin["row"][key].as_str().and_then(|text| text.parse::<f64>().ok()).expect("a number");
+    assert!((number("margin_key") - 0.01 / 0.7).abs() < 1e-5, "{thin}");
+    assert!((number("change_key") - 0.01 / (0.05 * 0.7)).abs() < 1e-4, "{thin}");
+}
+
+#[test]
+fn a_failure_is_named_in_words_before_its_name() {
+    const FRONT: Quantity = Quantity::validated("front", "m", "how far the front has come");
+    let mut grains = case("grains", vec![gated("front", 0.9), gated("run_out", 0.8)]);
+    grains.summary = "grains on a slope: front against experiments".to_owned();
+    grains.quantities = &[FRONT];
+    let page = html(&report(vec![grains]));
+    for (words, name) in [("how far the front has come", "front"), ("run out", "run_out")] {
+        let named = format!(">grains on a slope: <b>{words}</b></a> <span class=\"variant\">grains {name}");
+        assert!(page.contains(&named), "{named}");
+    }
 }
 
 #[test]

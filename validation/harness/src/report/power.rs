@@ -1,9 +1,9 @@
 //! Power of a gate: the controls that it rejects, and the table of gates and controls of a case.
 
 use super::CaseReport;
-use super::view::{ControlCell, ControlRow, ControlView, ControlsView, SeriesView, SizeRow};
 use crate::control::{Answer, ControlKind, ControlTrial, ErrorSeries};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
+use serde_json::{Value, json};
 
 /// Power of a gate that holds.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,51 +54,50 @@ fn rejecting(controls: &[ControlTrial], metric: &Metric) -> usize {
 }
 
 /// The controls of a case and what its gates say of them; none where there are none.
-pub(super) fn table(case: &CaseReport) -> Option<ControlsView> {
+pub(super) fn table(case: &CaseReport) -> Option<Value> {
     let (sized, controls): (Vec<_>, Vec<_>) = case.controls.iter().partition(|trial| trial.control.size().is_some());
-    let mut rows: Vec<ControlRow> = Vec::new();
+    let mut rows: Vec<Value> = Vec::new();
     for metric in case.metrics.iter().filter(|metric| metric.kind != MetricKind::Bookkeeping) {
-        let cells: Vec<ControlCell> = controls.iter().map(|trial| cell(trial, metric)).collect();
-        if cells.iter().any(|cell| !cell.word.is_empty()) {
-            rows.push(ControlRow { metric: metric.name.clone(), variant: metric.variant.to_string(), cells });
+        if controls.iter().any(|trial| trial.answer(metric).is_some()) {
+            let cells: Vec<Value> = controls.iter().map(|trial| cell(trial, metric)).collect();
+            rows.push(json!({ "metric": metric.name, "variant": metric.variant.to_string(), "cells": cells }));
         }
     }
-    let view = |trial: &ControlTrial| ControlView {
-        name: trial.control.name.clone(),
-        error: trial.control.error.clone(),
-        command: trial.control.command(&case.name),
-        is_solver: matches!(trial.control.kind, ControlKind::Solver(_)),
-        note: match (&trial.tried_at, trial.diverged) {
-            (_, true) => "a run diverged, whose gates show nothing".to_owned(),
-            (Some(commit), _) => format!("tried at {}", crate::store::provenance::short_commit(commit)),
-            _ => String::new(),
-        },
-        cannot_tell: trial
-            .control
-            .accepted_by
-            .iter()
-            .map(|entry| (entry.metric.clone(), entry.because.clone()))
-            .collect(),
+    let view = |trial: &&ControlTrial| {
+        let control = &trial.control;
+        json!({
+            "name": control.name,
+            "error": control.error,
+            "command": control.command(&case.name),
+            "is_solver": matches!(control.kind, ControlKind::Solver(_)),
+            "note": match (&trial.tried_at, trial.diverged) {
+                (_, true) => "a run diverged, whose gates show nothing".to_owned(),
+                (Some(commit), _) => format!("tried at {}", crate::store::provenance::short_commit(commit)),
+                _ => String::new(),
+            },
+            // metrics that are meant to feel it and accept it, and why
+            "cannot_tell": control.accepted_by.iter().map(|entry| (&entry.metric, &entry.because)).collect::<Vec<_>>(),
+        })
+    };
+    let of_series = |series: &&ErrorSeries| {
+        let factors: Vec<String> = series.factors.iter().map(|factor| format!("× {factor}")).collect();
+        json!({ "parameter": series.parameter, "factors": factors.join(", ") })
     };
     let mut series: Vec<&ErrorSeries> = sized.iter().filter_map(|trial| Some(trial.control.size()?.0)).collect();
     series.dedup();
-    (!case.controls.is_empty()).then(|| ControlsView {
-        controls: controls.iter().map(|trial| view(trial)).collect(),
-        rows,
-        sizes: sizes(case, &series, &sized),
-        series: series.iter().map(|series| SeriesView::of(series)).collect(),
+    (!case.controls.is_empty()).then(|| {
+        json!({
+            "controls": controls.iter().map(view).collect::<Vec<_>>(),
+            "rows": rows,
+            // parameters whose errors were tried in several sizes, and the gates that were tried with these
+            "series": series.iter().map(of_series).collect::<Vec<_>>(),
+            "sizes": sizes(case, &series, &sized),
+        })
     })
 }
 
-impl SeriesView {
-    fn of(series: &ErrorSeries) -> Self {
-        let factors: Vec<String> = series.factors.iter().map(|factor| format!("× {factor}")).collect();
-        Self { name: series.name, parameter: series.parameter, factors: factors.join(", ") }
-    }
-}
-
 /// The smallest error of each series that each gate of the right run rejects.
-fn sizes(case: &CaseReport, series: &[&ErrorSeries], sized: &[&ControlTrial]) -> Vec<SizeRow> {
+fn sizes(case: &CaseReport, series: &[&ErrorSeries], sized: &[&ControlTrial]) -> Vec<Value> {
     let metrics = case.metrics.iter().filter(|metric| metric.kind != MetricKind::Bookkeeping);
     let row = |metric: &Metric| {
         let cell = |series: &&ErrorSeries| {
@@ -116,13 +115,11 @@ fn sizes(case: &CaseReport, series: &[&ErrorSeries], sized: &[&ControlTrial]) ->
                 None => ("", String::new()),
             }
         };
-        SizeRow {
-            metric: metric.name.clone(),
-            variant: metric.variant.to_string(),
-            cells: series.iter().map(cell).collect(),
-        }
+        let cells: Vec<(&str, String)> = series.iter().map(cell).collect();
+        let is_tried = cells.iter().any(|(_, words)| !words.is_empty());
+        is_tried.then(|| json!({ "metric": metric.name, "variant": metric.variant.to_string(), "cells": cells }))
     };
-    metrics.map(row).filter(|row| row.cells.iter().any(|(_, words)| !words.is_empty())).collect()
+    metrics.filter_map(row).collect()
 }
 
 /// Number of wrong inputs that the gates of a case reject, for its panel on the first page; none where no control was tried.
@@ -137,7 +134,7 @@ pub(super) fn rejected_inputs(case: &CaseReport) -> Option<String> {
 }
 
 /// Cell of a gate and a control.
-fn cell(trial: &ControlTrial, metric: &Metric) -> ControlCell {
+fn cell(trial: &ControlTrial, metric: &Metric) -> Value {
     let is_named = trial.control.is_named_by(&metric.name);
     let (class, symbol, word) = match trial.answer(metric) {
         Some(Answer::Rejects) => ("pass", "✓", "rejects"),
@@ -147,5 +144,5 @@ fn cell(trial: &ControlTrial, metric: &Metric) -> ControlCell {
         Some(Answer::Nothing) => ("observed", "–", "shows nothing"),
         None => ("observed", "", ""),
     };
-    ControlCell { class, symbol, word, is_named }
+    json!({ "class": class, "symbol": symbol, "word": word, "is_named": is_named })
 }

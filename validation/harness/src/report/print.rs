@@ -26,15 +26,9 @@ impl Chapter {
     }
 }
 
-#[derive(Serialize)]
-struct PrintPage<'c> {
-    title: &'c str,
-    chapters: &'c [Chapter],
-}
-
 /// The pages one after the other, each beginning on a sheet of its own, with links that stay among them.
 pub(super) fn render(title: &str, chapters: &[Chapter]) -> Result<String, minijinja::Error> {
-    fill("print.html", &PrintPage { title, chapters })
+    fill("print.html", &serde_json::json!({ "title": title, "chapters": chapters }))
 }
 
 fn between<'t>(text: &'t str, start: &str, end: &str) -> &'t str {

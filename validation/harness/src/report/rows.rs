@@ -3,11 +3,11 @@
 use super::accepted::{Drift, MetricKey};
 use super::judgement::{JudgedMetric, Severity};
 use super::known_failures::KnownFailureStatus;
-use super::snapshot_text::word;
-use super::view::{MetricView, PredictionView, VerdictMark, anchor};
+use super::view::{VerdictMark, anchor};
 use super::width::width;
 use crate::metric::{Confidence, Gate, Limit, Metric, MetricKind, PredictionInterval, Verdict};
 use crate::number::{distinct_digits, four_digits, in_unit, two_digits, with_unit};
+use serde_json::{Value, json};
 
 /// The mark of a severity.
 pub(super) fn mark(severity: Severity) -> VerdictMark {
@@ -21,13 +21,15 @@ pub(super) fn mark(severity: Severity) -> VerdictMark {
 }
 
 /// The rows of a case; reasons and sources that stand in the row above are marked as repeated.
-pub(super) fn rows(case: &str, metrics: &[JudgedMetric<'_>]) -> Vec<MetricView> {
-    let mut rows: Vec<MetricView> = Vec::with_capacity(metrics.len());
+pub(super) fn rows(case: &str, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
+    let mut rows: Vec<Value> = Vec::with_capacity(metrics.len());
     for judged in metrics {
         let mut row = row(case, judged);
-        if let Some(above) = rows.last().filter(|above| above.metric == row.metric) {
-            row.reason_repeats = above.reason == row.reason;
-            row.source_repeats = above.source == row.source && above.confidence == row.confidence;
+        if let Some(above) = rows.last().filter(|above| above["metric"] == row["metric"]) {
+            let repeats = |field: &str| above[field] == row[field];
+            let (reason, source) = (repeats("reason"), repeats("source") && repeats("confidence"));
+            row["reason_repeats"] = reason.into();
+            row["source_repeats"] = source.into();
         }
         rows.push(row);
     }
@@ -35,52 +37,46 @@ pub(super) fn rows(case: &str, metrics: &[JudgedMetric<'_>]) -> Vec<MetricView> 
 }
 
 /// A metric as a row.
-pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> MetricView {
+pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> Value {
     let metric = judged.metric;
     let reference = metric.reference.as_ref();
     let gate = metric.gate.as_ref();
     let (drift, change, relative_change) = drift(judged);
-    MetricView {
-        anchor: anchor(case, &metric.name, &metric.variant),
-        mark: gate_mark(judged),
-        width: width(metric),
-        metric: metric.name.clone(),
-        variant: metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect(),
-        value: metric.without_value().map_or_else(|| with_unit(metric.value, &metric.unit), str::to_owned),
-        prediction: metric.prediction.as_ref().map(|found| prediction(found, &metric.unit)),
-        reference: reference
-            .and_then(|reference| reference.value)
-            .map(|value| with_unit(value, &metric.unit))
-            .unwrap_or_default(),
-        residual: reference
-            .and_then(|reference| reference.value)
-            .map(|expected| residual(metric.value - expected, expected))
-            .unwrap_or_default(),
-        source: reference.map(|reference| reference.source.clone()).unwrap_or_default(),
-        confidence: reference.map_or("", |reference| confidence(reference.confidence)),
-        kind: kind(metric.kind),
-        limit: gate.map(|gate| limit(gate.limit, &metric.unit)).unwrap_or_default(),
-        reason: metric.not_steady.clone().or_else(|| gate.map(|gate| reason(metric, gate))).unwrap_or_default(),
-        reason_repeats: false,
-        source_repeats: false,
-        margin: gate.map(|gate| margin(metric, gate.limit)).unwrap_or_default(),
-        relative_margin: relative_margin(metric),
-        margin_key: margin_share(metric).map(sort_key).unwrap_or_default(),
-        change_key: judged.drift.in_tolerances().map(sort_key).unwrap_or_default(),
-        figure: String::new(),
-        drift,
-        change,
-        relative_change,
-        note: note(judged),
-        power: judged.power.words(),
-    }
+    let expected = reference.and_then(|reference| reference.value);
+    json!({
+        "anchor": anchor(case, &metric.name, &metric.variant),
+        "mark": gate_mark(judged),
+        // what is known of the uncertainty, over the width of the gate
+        "width": width(metric),
+        "metric": metric.name,
+        "variant": metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect::<Vec<_>>(),
+        "value": metric.without_value().map_or_else(|| with_unit(metric.value, &metric.unit), str::to_owned),
+        "prediction": metric.prediction.as_ref().map(|found| prediction(found, &metric.unit)),
+        "reference": expected.map(|value| with_unit(value, &metric.unit)).unwrap_or_default(),
+        "residual": expected.map(|expected| residual(metric.value - expected, expected)),
+        "source": reference.map(|reference| &reference.source),
+        "confidence": reference.map(|reference| confidence(reference.confidence)),
+        "kind": kind(metric.kind),
+        "limit": gate.map(|gate| limit(gate.limit, &metric.unit)).unwrap_or_default(),
+        "reason": metric.not_steady.clone().or_else(|| gate.map(|gate| reason(metric, gate))),
+        "margin": gate.map(|gate| margin(metric, gate.limit)).unwrap_or_default(),
+        "relative_margin": relative_margin(metric),
+        // numbers to sort by: the margin's share of the limit, and the change in tolerances
+        "margin_key": margin_share(metric).map(sort_key).unwrap_or_default(),
+        "change_key": judged.drift.in_tolerances().map(sort_key).unwrap_or_default(),
+        "drift": drift,
+        "change": change,
+        "relative_change": relative_change,
+        "note": note(judged),
+        "power": judged.power.words(),
+    })
 }
 
 /// The interval of a prediction in words.
-fn prediction(found: &PredictionInterval, unit: &str) -> PredictionView {
+fn prediction(found: &PredictionInterval, unit: &str) -> Value {
     let bounds = [found.lower, found.upper].map(|bound| with_unit(bound, unit));
     let interval = format!("95 % interval {} to {}, by {} comparisons", bounds[0], bounds[1], found.comparisons);
-    PredictionView { interval, warnings: found.warnings.clone() }
+    json!({ "interval": interval, "warnings": found.warnings })
 }
 
 /// Why the gate stands where it does, and why it does not judge where the spacing is too coarse for it.
@@ -142,7 +138,7 @@ pub(super) fn statement(judged: &JudgedMetric<'_>) -> String {
             format!("{value}, baseline {was} ± {}", two_digits(*tolerance))
         }
         (Severity::Drifted, _, Drift::UnitChanged { unit }) => format!("{value}, baseline in {unit}"),
-        (Severity::Drifted, _, Drift::VerdictChanged { verdict }) => format!("{value}, verdict was {}", word(*verdict)),
+        (Severity::Drifted, _, Drift::VerdictChanged { verdict }) => format!("{value}, verdict was {}", verdict.word()),
         (_, Some(gate), _) => format!("{value}, limit {}", limit(gate.limit, &metric.unit)),
         _ => value,
     }
@@ -163,11 +159,7 @@ pub(super) fn vanished(key: &MetricKey) -> String {
 }
 
 pub(super) fn limit(limit: Limit, unit: &str) -> String {
-    match limit {
-        Limit::AtMost(bound) => format!("≤ {}", with_unit(bound, unit)),
-        Limit::AtLeast(bound) => format!("≥ {}", with_unit(bound, unit)),
-        Limit::Within(lower, upper) => format!("{} … {}", four_digits(lower), with_unit(upper, unit)),
-    }
+    in_unit(&limit.in_words(four_digits), unit)
 }
 
 fn margin(metric: &Metric, limit: Limit) -> String {
@@ -234,7 +226,7 @@ fn drift(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
         Drift::Drifted { change, baseline, .. } => (VerdictMark::DRIFT, signed(*change), relative(*change, *baseline)),
         Drift::UnitChanged { unit } => (VerdictMark::DRIFT, format!("unit was {unit}"), String::new()),
         Drift::VerdictChanged { verdict } => {
-            (VerdictMark::DRIFT, format!("verdict was {}", word(*verdict)), String::new())
+            (VerdictMark::DRIFT, format!("verdict was {}", verdict.word()), String::new())
         }
     }
 }

@@ -1,13 +1,12 @@
 //! Bias and scatter of every quantity that is compared with experiments or published fits often enough.
 
-use super::view::FigureView;
 use super::{DrawnFigure, Report};
 use crate::evidence::StatedUncertainty;
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::Metric;
 use crate::number::{four_digits, two_digits};
 use crate::statistics::{Comparison, Deviation, ModelBias, model_bias};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Folder of the figures.
@@ -117,23 +116,8 @@ fn figure(quantity: &QuantityBias) -> Figure {
     Figure::new(&quantity.quantity.replace('_', "-"), &caption, vec![panel])
 }
 
-/// A quantity as the template sees it.
-#[derive(Debug, Serialize)]
-pub(super) struct ScatterRow {
-    quantity: String,
-    cases: String,
-    comparisons: usize,
-    left_out: usize,
-    bias: String,
-    interval: String,
-    scatter: String,
-    model: String,
-    experiment: String,
-    figure: Option<FigureView>,
-}
-
 /// The table, with the figures that were drawn of the same quantities.
-pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<ScatterRow> {
+pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<Value> {
     let row = |(place, of): (usize, &QuantityBias)| {
         let found = &of.found;
         let percent = |share: f64| format!("{}\u{202f}%", two_digits(100.0 * share));
@@ -143,65 +127,45 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<Sc
             Deviation::Unknown => ("none".to_owned(), "not known".to_owned()),
         };
         let cases: Vec<&str> = of.cases.iter().map(|(case, _)| case.as_str()).collect();
-        ScatterRow {
-            quantity: of.quantity.clone(),
-            cases: cases.join(", "),
-            comparisons: found.comparisons,
-            left_out: of.left_out,
-            bias: four_digits(found.bias),
-            interval: format!("{} … {}", two_digits(found.interval.0), two_digits(found.interval.1)),
-            scatter: percent(found.scatter),
-            model,
-            experiment,
-            figure: drawn.get(place).map(super::view::picture),
-        }
+        json!({
+            "quantity": of.quantity,
+            "cases": cases.join(", "),
+            "comparisons": found.comparisons,
+            "left_out": of.left_out,
+            "bias": four_digits(found.bias),
+            "interval": format!("{} … {}", two_digits(found.interval.0), two_digits(found.interval.1)),
+            "scatter": percent(found.scatter),
+            "model": model,
+            "experiment": experiment,
+            "figure": drawn.get(place),
+        })
     };
     quantities.iter().enumerate().map(row).collect()
 }
 
-/// A quantity in the report's `metrics.json`.
-#[derive(Debug, Serialize)]
-struct ScatterEntry<'q> {
-    quantity: &'q str,
-    unit: &'q str,
-    cases: Vec<&'q str>,
-    comparisons: usize,
-    left_out: usize,
-    /// δ `[-]`.
-    bias: f64,
-    /// Its 95 % interval `[-]`.
-    bias_interval: [f64; 2],
-    /// Standard deviation of ln(M/E) `[-]`.
-    scatter: f64,
-    /// σ_M `[-]`; null where it cannot be told.
-    model_deviation: Option<f64>,
-    /// σ_E `[-]`; null where it is not known.
-    experimental_deviation: Option<f64>,
-}
-
 /// The text of the report's `metrics.json`: what its cases say together.
 pub(super) fn json(quantities: &[QuantityBias]) -> String {
-    let entry = |of| {
-        let QuantityBias { quantity, unit, cases, left_out, found }: &QuantityBias = of;
+    let entry = |of: &QuantityBias| {
+        let found = &of.found;
         let experimental_deviation = match found.deviation {
             Deviation::Known { experiment, .. } | Deviation::WithinExperiment { experiment } => Some(experiment),
             Deviation::Unknown => None,
         };
-        ScatterEntry {
-            quantity,
-            unit,
-            cases: cases.iter().map(|(case, _)| case.as_str()).collect(),
-            comparisons: found.comparisons,
-            left_out: *left_out,
-            bias: found.bias,
-            bias_interval: [found.interval.0, found.interval.1],
-            scatter: found.scatter,
-            model_deviation: found.model_deviation(),
-            experimental_deviation,
-        }
+        json!({
+            "quantity": of.quantity,
+            "unit": of.unit,
+            "cases": of.cases.iter().map(|(case, _)| case).collect::<Vec<_>>(),
+            "comparisons": found.comparisons,
+            "left_out": of.left_out,
+            // δ with its 95 % interval, standard deviation of ln(M/E), σ_M and σ_E `[-]`; null for what is not known
+            "bias": found.bias,
+            "bias_interval": found.interval,
+            "scatter": found.scatter,
+            "model_deviation": found.model_deviation(),
+            "experimental_deviation": experimental_deviation,
+        })
     };
-    let quantities: Vec<ScatterEntry<'_>> = quantities.iter().map(entry).collect();
-    crate::result::pretty(&serde_json::json!({ "quantities": quantities }))
+    crate::result::pretty(&json!({ "quantities": quantities.iter().map(entry).collect::<Vec<_>>() }))
 }
 
 #[cfg(test)]

@@ -32,7 +32,7 @@ pub fn description(case: &str, tier: &str) -> String {
 pub(super) fn content<'a>(lines: impl Iterator<Item = SnapshotLine<'a>>) -> String {
     let mut text = format!("{COLUMNS}\n");
     for SnapshotLine { name, variant, value, unit, verdict } in lines {
-        text += &format!("{name} | {variant} | {} | {unit} | {}\n", number(value), word(verdict));
+        text += &format!("{name} | {variant} | {} | {unit} | {}\n", number(value), verdict.word());
     }
     text
 }
@@ -67,17 +67,8 @@ pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<Vec<Sna
 fn parse_line(text: &str) -> Option<SnapshotLine<'_>> {
     let cells: Vec<&str> = text.split('|').map(str::trim).collect();
     let &[name, variant, value, unit, verdict] = cells.as_slice() else { return None };
-    let verdict = [Verdict::Pass, Verdict::Fail, Verdict::Observed].into_iter().find(|own| word(*own) == verdict)?;
+    let verdict = Verdict::of_word(verdict)?;
     Some(SnapshotLine { name, variant: variant.parse().ok()?, value: value.parse().ok()?, unit, verdict })
-}
-
-/// The verdict's word in a file.
-pub(super) fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Pass => "pass",
-        Verdict::Fail => "fail",
-        Verdict::Observed => "observed",
-    }
 }
 
 /// The value that a file holds.

@@ -1,8 +1,8 @@
 //! `speeds.csv` beside `history.csv`: what a particle-step of every case took whenever the baseline was taken anew.
 
-use super::error::BaselineError;
+use super::error::{BaselineError, read_if_there};
 use crate::case::{CaseResult, Tier};
-use crate::input::{DOCUMENT, read_text};
+use crate::input::DOCUMENT;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
@@ -42,11 +42,7 @@ impl SpeedHistory {
     /// # Errors
     /// If the file is there but cannot be read or is malformed.
     pub fn read(path: &Path, tier: Tier) -> Result<Self, BaselineError> {
-        let text = match read_text(path, DOCUMENT) {
-            Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Self::default()),
-            Err(source) => return Err(BaselineError::Read { path: path.to_owned(), source }),
-        };
+        let Some(text) = read_if_there(path, DOCUMENT)? else { return Ok(Self::default()) };
         let rows = csv::Reader::from_reader(text.as_bytes()).into_deserialize().collect::<Result<Vec<SpeedRow>, _>>();
         let rows =
             rows.map_err(|error| BaselineError::Content { path: path.to_owned(), message: error.to_string() })?;

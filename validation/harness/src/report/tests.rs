@@ -21,6 +21,7 @@ pub(super) fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
         parameters_toml: "depth = 0.01\n".to_owned(),
         command: format!("bagnold run {name}"),
         metrics,
+        quantities: &[],
         controls: Vec::new(),
         not_judged: Vec::new(),
         figures: Vec::new(),

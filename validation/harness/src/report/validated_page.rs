@@ -2,13 +2,12 @@
 
 use super::accepted::tier_name;
 use super::template::fill;
-use super::view::{FigureView, picture};
 use super::{CaseReport, DrawnFigure, Report};
 use crate::evidence::{ValidatedComparison, ValidationSet, WAY_OF_FRONT};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Metric, PredictionInterval, REGIME_NUMBERS};
 use crate::number::{four_digits, two_digits};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
 /// Folder of the figures.
@@ -16,35 +15,6 @@ pub(super) const FOLDER: &str = "validated";
 
 /// Ratio of the ends of an interval from which its axis is logarithmic `[-]`.
 const WIDE: f64 = 10.0;
-
-#[derive(Serialize)]
-struct ValidatedPage {
-    title: String,
-    tier: &'static str,
-    numbers: [&'static str; 4],
-    quantities: Vec<QuantityView>,
-    predictions: Vec<PredictionRow>,
-}
-
-#[derive(Serialize)]
-struct QuantityView {
-    name: String,
-    comparisons: usize,
-    ranges: Vec<String>,
-    bias: String,
-    inputs: String,
-    interval: String,
-    figure: Option<FigureView>,
-}
-
-#[derive(Serialize)]
-struct PredictionRow {
-    case: String,
-    metric: String,
-    variant: String,
-    interval: String,
-    warnings: Vec<String>,
-}
 
 /// What is shown as one: its name and the quantities of metrics.
 struct Group {
@@ -135,7 +105,7 @@ fn panel(set: &ValidationSet, names: &[&str], number: usize) -> Option<Panel> {
 /// Fills the template of the page.
 pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, minijinja::Error> {
     let set = ValidationSet::shipped();
-    let view = |group: &Group| {
+    let view = |group: &Group| -> Value {
         let names = group.names();
         let bias = set.bias(&names);
         let range = |range: &Option<(f64, f64)>| match range {
@@ -144,33 +114,34 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, m
             Some((low, high)) => format!("{} … {}", two_digits(*low), two_digits(*high)),
         };
         let figure = group.name.replace(' ', "-");
-        QuantityView {
-            name: group.name.clone(),
-            comparisons: set.number(&names),
-            ranges: set.ranges(&names).iter().map(range).collect(),
-            bias: bias.map_or_else(String::new, |bias| four_digits(bias.bias).to_string()),
-            inputs: set
-                .input_uncertainty(&names)
-                .map_or_else(String::new, |inputs| format!("{}\u{202f}%", two_digits(100.0 * inputs))),
-            interval: set
-                .next_ratio(&names)
-                .map_or_else(String::new, |(least, most)| format!("{} … {}", two_digits(least), two_digits(most))),
-            figure: drawn.iter().find(|drawn| drawn.name == figure).map(picture),
-        }
+        let inputs = set.input_uncertainty(&names).map(|inputs| format!("{}\u{202f}%", two_digits(100.0 * inputs)));
+        let interval = set.next_ratio(&names);
+        let interval = interval.map(|(least, most)| format!("{} … {}", two_digits(least), two_digits(most)));
+        json!({
+            "name": group.name,
+            "comparisons": set.number(&names),
+            "ranges": set.ranges(&names).iter().map(range).collect::<Vec<_>>(),
+            "bias": bias.map(|bias| four_digits(bias.bias)).unwrap_or_default(),
+            "inputs": inputs.unwrap_or_default(),
+            "interval": interval.unwrap_or_default(),
+            "figure": drawn.iter().find(|drawn| drawn.name == figure),
+        })
     };
-    let row = |Predicted { case, metric, found }: &Predicted<'_>| PredictionRow {
-        case: (*case).to_owned(),
-        metric: metric.name.clone(),
-        variant: metric.variant.to_string(),
-        interval: format!("{} … {} {}", four_digits(found.lower), four_digits(found.upper), metric.unit),
-        warnings: found.warnings.clone(),
+    let row = |Predicted { case, metric, found }: &Predicted<'_>| -> Value {
+        json!({
+            "case": case,
+            "metric": metric.name,
+            "variant": metric.variant.to_string(),
+            "interval": format!("{} … {} {}", four_digits(found.lower), four_digits(found.upper), metric.unit),
+            "warnings": found.warnings,
+        })
     };
-    let page = ValidatedPage {
-        title: report.title.clone(),
-        tier: tier_name(report.tier),
-        numbers: REGIME_NUMBERS,
-        quantities: groups(set).iter().map(view).collect(),
-        predictions: predictions(report).iter().map(row).collect(),
-    };
+    let page = json!({
+        "title": report.title,
+        "tier": tier_name(report.tier),
+        "numbers": REGIME_NUMBERS,
+        "quantities": groups(set).iter().map(view).collect::<Vec<_>>(),
+        "predictions": predictions(report).iter().map(row).collect::<Vec<_>>(),
+    });
     fill("validated.html", &page)
 }

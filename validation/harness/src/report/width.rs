@@ -2,31 +2,13 @@
 
 use crate::metric::{COVERAGE, Gate, Limit, Metric, Origin};
 use crate::number::{two_digits, with_unit};
-use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Length of a bar that fills the gate `[px]`.
 const LENGTH: f64 = 120.0;
 
-/// The bar as its template sees it.
-#[derive(Debug, Serialize)]
-pub(super) struct Width {
-    /// From the left, none where the gate has no half width.
-    parts: Vec<BarPart>,
-    /// The sum in words, below the bar.
-    statement: String,
-    /// Everything in words, with the source of each part.
-    words: String,
-}
-
-#[derive(Debug, Serialize)]
-struct BarPart {
-    class: &'static str,
-    x: String,
-    width: String,
-}
-
 /// The bar of a metric; none where nothing is known.
-pub(super) fn width(metric: &Metric) -> Option<Width> {
+pub(super) fn width(metric: &Metric) -> Option<Value> {
     let standard = metric.uncertainty.standard().filter(|standard| *standard > 0.0)?;
     let unit = |value: f64| with_unit(value, &metric.unit);
     let expanded = COVERAGE * standard;
@@ -39,14 +21,15 @@ pub(super) fn width(metric: &Metric) -> Option<Width> {
     let mut words = vec![format!("± {} (twice the standard uncertainty)", unit(expanded))];
     for part in metric.uncertainty.parts() {
         let wide = length * (part.standard / standard).powi(2);
-        parts.push(BarPart { class: class(part.origin), x: format!("{x:.1}"), width: format!("{wide:.1}") });
+        parts.push(json!({ "class": class(part.origin), "x": format!("{x:.1}"), "width": format!("{wide:.1}") }));
         x += wide;
         words.push(format!("{} {}: {}", part.origin.name(), unit(part.standard), part.source));
     }
     let of_gate = gate.map(|_| format!(", {}\u{202f}% of the gate", two_digits(100.0 * share))).unwrap_or_default();
     let names: Vec<&str> = metric.uncertainty.parts().iter().map(|part| part.origin.name()).collect();
     let statement = format!("± {} known{of_gate}: {}", unit(expanded), names.join(", "));
-    Some(Width { parts, statement, words: words.join("; ") })
+    // the sum in words below the bar, and everything in words, with the source of each part
+    Some(json!({ "parts": parts, "statement": statement, "words": words.join("; ") }))
 }
 
 /// How far a gate lets its value go, in the metric's unit.
@@ -85,18 +68,15 @@ mod tests {
         );
         // 0.25, twice of it is half of the gate: 60 px, of which 9/25 and 16/25
         let bar = width(&metric).expect("known");
-        let drawn: Vec<(&str, &str, &str)> =
-            bar.parts.iter().map(|part| (part.class, part.x.as_str(), part.width.as_str())).collect();
-        assert_eq!(drawn, [("digitisation", "0.0", "21.6"), ("repeat", "21.6", "38.4")]);
-        assert!(bar.statement.contains("of the gate: digitisation, repetition"), "{}", bar.statement);
-        assert!(bar.words.contains("repetition 0.2\u{202f}m: five seeds"), "{}", bar.words);
+        let part = |class: &str, x: &str, width: &str| json!({ "class": class, "x": x, "width": width });
+        assert_eq!(bar["parts"], json!([part("digitisation", "0.0", "21.6"), part("repeat", "21.6", "38.4")]));
+        let says = |field: &str, text: &str| bar[field].as_str().is_some_and(|own| own.contains(text));
+        assert!(says("statement", "of the gate: digitisation, repetition"), "{bar}");
+        assert!(says("words", "repetition 0.2\u{202f}m: five seeds"), "{bar}");
         let too_wide = metric.known_to(Origin::Experiment, Some(5.0), "theirs");
-        let ends: f64 = width(&too_wide)
-            .expect("known")
-            .parts
-            .iter()
-            .map(|part| part.width.parse::<f64>().expect("a number"))
-            .sum();
+        let bar = width(&too_wide).expect("known");
+        let wide = |part: &Value| part["width"].as_str().and_then(|wide| wide.parse::<f64>().ok()).expect("a number");
+        let ends: f64 = bar["parts"].as_array().expect("parts").iter().map(wide).sum();
         assert!((ends - LENGTH).abs() < 0.2, "no longer than the gate");
     }
 }

@@ -1,6 +1,5 @@
 //! A finished case as files: `metrics.json`, tables and particle snapshots.
 
-mod base64;
 mod document;
 mod snapshots;
 mod states;

@@ -1,8 +1,9 @@
 //! Particle snapshots that ParaView opens: a VTU file per frame and a PVD file per run with the times.
 
-use super::base64::encode;
 use crate::metric::Variant;
 use crate::observation::Frame;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
@@ -81,7 +82,7 @@ fn array(text: &mut String, kind: &str, name: &str, attributes: &str, bytes: imp
         text,
         "<DataArray type=\"{kind}\" Name=\"{}\" {attributes} format=\"binary\">{}</DataArray>",
         escape(name),
-        encode(&data)
+        STANDARD.encode(&data)
     );
 }
 

@@ -24,6 +24,7 @@ quantities! { shared pub(super)
     FORCE_RESIDUAL:
         accounted("force_residual", "%", "impulse of all walls, wall by wall, less that of all particles, over that of gravity"),
     UNSOLVED: accounted("unsolved", "%", "impulse that implicit viscous steps leave out, over that of gravity"),
+    VISCOUS_ITERATIONS: accounted("viscous_iterations", "-", "iterations of an implicit viscous step, mean over all steps"),
     THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
     MASS_LEFT: accounted("mass_left", "%", "mass that has left by open sides"),
     CUT_OFF: accounted("cut_off", "%", "material of the bodies that is behind walls or at them, and is left out at the start"),
@@ -38,7 +39,7 @@ quantities! { shared pub(super)
 
 /// All quantities of a case of scenes, of which three have units of its own: [`Dimension::MEAN_FORCE`],
 /// [`Dimension::MASS_CROSSED`] and [`Dimension::MASS_FED`].
-pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 19] {
+pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 20] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -48,6 +49,7 @@ pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantit
         MOMENTUM_RESIDUAL,
         FORCE_RESIDUAL,
         UNSOLVED,
+        VISCOUS_ITERATIONS,
         THROUGH_WALLS,
         MASS_LEFT,
         CUT_OFF,
@@ -88,6 +90,7 @@ fn of_run<S: Dimension<D>, const D: usize>(
                 )
                 .with_snapshot_tolerance(1.0, 1e-3),
         );
+        metrics.push(VISCOUS_ITERATIONS.of(&variant, data.viscous_iterations).with_snapshot_tolerance(0.05, 0.0));
     }
     metrics.extend(feeds(&variant, data, parameters));
     metrics.extend(energy(&variant, data, parameters));

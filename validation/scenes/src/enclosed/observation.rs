@@ -49,6 +49,8 @@ pub struct SceneObservation<const D: usize> {
     pub missing_impulse: f64,
     /// Largest impulse that implicit viscous steps have left out up to a sample `[kg m/s]`.
     pub unsolved_impulse: f64,
+    /// Iterations of an implicit viscous step, their mean over all steps.
+    pub viscous_iterations: f64,
     /// Largest difference between what the walls have given, wall by wall, and what the particles have got from them, mirrors
     /// included `[kg m/s]`.
     pub unassigned_impulse: f64,
@@ -75,6 +77,7 @@ impl<const D: usize> Default for SceneObservation<D> {
             missing_mass: 0.0,
             missing_impulse: 0.0,
             unsolved_impulse: 0.0,
+            viscous_iterations: 0.0,
             unassigned_impulse: 0.0,
             gravity_impulse: 0.0,
             momentum_at_start: Vector::zeros(),
@@ -132,6 +135,7 @@ impl<const D: usize> SceneObservation<D> {
         self.missing_mass = self.missing_mass.max((inside + outside - self.mass[0] - brought).abs());
         self.missing_impulse = self.missing_impulse.max(missing.norm());
         self.unsolved_impulse = self.unsolved_impulse.max(unsolved.norm());
+        self.viscous_iterations = simulation.viscous_iterations() as f64 / simulation.steps().max(1) as f64;
         self.unassigned_impulse = self.unassigned_impulse.max((supports - walls).norm());
         self.gravity_impulse = pull * over_time;
         if let Some(account) = &snapshot.energy {

@@ -1,7 +1,7 @@
 //! A check: what is measured, with its reference, limit and reason.
 
 use super::file::{CheckText, Distance, Reduction};
-use super::probe::ColumnWindow;
+use super::probe::{ColumnWindow, unit_of};
 use crate::input::{FieldError, check_text};
 use crate::measured::Measurements;
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
@@ -98,6 +98,7 @@ impl StudyCheck {
             })
             .gated_by(self.limit, &self.reason)
             .as_wide_as_scatter(self.scatter)
+            .with_snapshot_tolerance(1e-6, self.drift())
             .of_user();
         match &self.source {
             Some(source) => metric.against(self.expected(), source, self.confidence).known_to(
@@ -106,6 +107,16 @@ impl StudyCheck {
                 source,
             ),
             None => metric,
+        }
+    }
+
+    /// What a value may drift by. What columns leave of each other is rounding where they are equal: a tenth of the limit.
+    fn drift(&self) -> f64 {
+        match (&self.read, self.limit) {
+            (CheckedQuantity::Value(column, _), Some(Limit::Within(lower, upper))) if column.is_combined() => {
+                0.05 * (upper - lower)
+            }
+            _ => 0.0,
         }
     }
 
@@ -146,6 +157,8 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
     let belongs = [
         ("table", text.table.is_some(), "value and compare"),
         ("column", text.column.is_some(), "value and compare"),
+        ("plus", text.plus.is_some(), "value and compare"),
+        ("minus", text.minus.is_some(), "value and compare"),
         ("over", text.over.is_some(), "value and compare"),
         ("from", text.from.is_some(), "value and compare"),
         ("to", text.to.is_some(), "value and compare"),
@@ -203,12 +216,15 @@ fn column(text: &CheckText) -> Result<ColumnWindow, FieldError> {
         let value = format!("{} … {}", window.0, window.1);
         return Err(FieldError::new("from", value, "at most `to`", "exchange them"));
     }
-    Ok(ColumnWindow {
-        table: needed("table", &text.table)?,
-        column: needed("column", &text.column)?,
-        over: text.over.clone(),
-        window,
-    })
+    let column = needed("column", &text.column)?;
+    let others = [("plus", text.plus.clone(), 1.0), ("minus", text.minus.clone(), -1.0)];
+    for (field, other, _) in &others {
+        if let Some(other) = other.as_ref().filter(|other| unit_of(other) != unit_of(&column)) {
+            let rule = format!("a column in the unit of `column`, {}", unit_of(&column));
+            return Err(FieldError::new(field, format!("\"{other}\""), &rule, "name another"));
+        }
+    }
+    Ok(ColumnWindow { table: needed("table", &text.table)?, column, others, over: text.over.clone(), window })
 }
 
 /// The limit and its reason.

@@ -119,6 +119,12 @@ pub(super) struct CheckText {
     /// Heading of the column that is measured; beside `value` or `compare`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) column: Option<String>,
+    /// Heading of a column of the same table that is added to it; beside `value` or `compare`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) plus: Option<String>,
+    /// Heading of a column of the same table that is taken from it, such as that of a mirror image; beside `value` or `compare`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) minus: Option<String>,
     /// Heading of the column that it is measured over; the first one, if it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) over: Option<String>,

@@ -16,6 +16,8 @@ pub(super) struct ColumnWindow {
     pub(super) table: String,
     /// Heading of what is measured.
     pub(super) column: String,
+    /// Headings of what is added to it and taken from it.
+    pub(super) others: [(&'static str, Option<String>, f64); 2],
     /// Heading of what it is measured over; none for the first column.
     pub(super) over: Option<String>,
     /// First and last value of the latter that count.
@@ -40,6 +42,11 @@ pub(super) fn unit_of(heading: &str) -> &str {
 }
 
 impl ColumnWindow {
+    /// Whether another column is added to it or taken from it.
+    pub(super) fn is_combined(&self) -> bool {
+        self.others.iter().any(|(_, heading, _)| heading.is_some())
+    }
+
     /// The column in every table of that name: one a run.
     pub(super) fn curves(&self, result: &CaseResult) -> Result<Vec<RunCurve>, FieldError> {
         let is_meant = |table: &&Table| {
@@ -68,7 +75,14 @@ impl ColumnWindow {
         };
         let measured = place("column", &self.column)?;
         let over = self.over.as_ref().map_or(Ok(0), |over| place("over", over))?;
-        let rows = table.rows.iter().map(|row| (row[over], row[measured]));
+        let mut others = Vec::new();
+        for (field, heading, sign) in &self.others {
+            if let Some(heading) = heading {
+                others.push((place(field, heading)?, sign));
+            }
+        }
+        let value = |row: &[f64]| others.iter().fold(row[measured], |sum, (other, sign)| sum + *sign * row[*other]);
+        let rows = table.rows.iter().map(|row| (row[over], value(row)));
         let (from, to) = self.window;
         let mut points: Vec<(f64, f64)> = rows.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
         points.retain(|(x, _)| *x >= from && *x <= to);

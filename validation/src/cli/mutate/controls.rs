@@ -3,7 +3,7 @@
 
 use super::program::Program;
 use super::{PATIENCE, named, sources};
-use crate::case::{CaseResult, Registry, Request, Tier, share_out};
+use crate::case::{CaseResult, Registry, Request, Tier, share_out_for};
 use crate::cli::arguments::ControlsArguments;
 use crate::cli::count::CountBar;
 use crate::cli::error::ProgramError;
@@ -16,7 +16,6 @@ use crate::output::{FileError, write_whole};
 use crate::store::Store;
 use std::io::Write;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 /// Tries the controls of the cases asked for and writes, or compares, their tables.
@@ -87,8 +86,7 @@ fn of_solver(
     let right = right.map_err(|reason| ProgramError::Trial { case: case.to_owned(), reason })?;
     let limit = Duration::from_secs_f64(10.0 * right.wall_seconds + PATIENCE);
     let bar = CountBar::new("controls", errors.len(), 0, quiet);
-    let trials = Mutex::new(Vec::new());
-    share_out(errors, |(control, number): (&Control, usize)| -> Result<(), ProgramError> {
+    let trials = share_out_for(errors, |(control, number): (&Control, usize)| -> Result<_, ProgramError> {
         bar.say(&control.name);
         // a program that stops has noticed, but its gates have not
         let wrong = program.run(&number.to_string(), &scope, limit).ok();
@@ -100,12 +98,11 @@ fn of_solver(
             diverged,
             tried_at: None,
         };
-        trials.lock().unwrap_or_else(PoisonError::into_inner).push(trial);
         bar.step();
-        Ok(())
+        Ok(trial)
     })?;
     bar.clear();
-    Ok(trials.into_inner().unwrap_or_else(PoisonError::into_inner))
+    Ok(trials)
 }
 
 /// Each dear change of parameters, against the case as it comes.

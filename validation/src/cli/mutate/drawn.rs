@@ -1,7 +1,7 @@
 //! `bagnold dev mutate drawn`: draws mutations by rule, runs each through the cases that reach it, and estimates how many are killed.
 
 use super::program::Program;
-use crate::case::{ParameterError, Registry, share_out};
+use crate::case::{ParameterError, Registry, share_out, share_out_for};
 use crate::cli::arguments::upkeep::DrawnArguments;
 use crate::cli::error::ProgramError;
 use crate::cli::exit::Exit;
@@ -109,8 +109,7 @@ fn traced(
     places: &[usize],
     registry: Registry,
 ) -> Result<BTreeMap<String, TracedCase>, ProgramError> {
-    let found = Mutex::new(BTreeMap::new());
-    share_out(registry.iter().map(|case| case.name().to_owned()).collect(), |case: String| {
+    let cases = share_out_for(registry.iter().map(|case| case.name().to_owned()).collect(), |case: String| {
         let file = program.file(&format!("reached-{case}"));
         let scope = Scope { case, settings: Vec::new() };
         let right = program.run(&file.to_string_lossy(), &scope, Duration::MAX);
@@ -119,11 +118,9 @@ fn traced(
         let numbers = std::fs::read_to_string(&file).unwrap_or_default();
         let place = |line: &str| places.get(line.parse::<usize>().ok()?.checked_sub(1)?).copied();
         let reached: BTreeSet<usize> = numbers.lines().filter_map(place).collect();
-        let mut found = found.lock().unwrap_or_else(PoisonError::into_inner);
-        found.insert(scope.case, TracedCase { right, reached });
-        Ok::<(), ProgramError>(())
+        Ok::<_, ProgramError>((scope.case, TracedCase { right, reached }))
     })?;
-    Ok(found.into_inner().unwrap_or_else(PoisonError::into_inner))
+    Ok(cases.into_iter().collect())
 }
 
 /// # Errors

@@ -10,18 +10,19 @@ use super::arguments::upkeep::MutateAction;
 use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, say, summary, tell};
-use crate::case::{Registry, share_out};
+use crate::case::{Registry, share_out_for};
 use crate::mutation::{
-    CHOICE, Detection, DetectionTally, Mutation, MutationOutcome, Mutations, Scope, build, run_trial, table, write,
+    CHOICE, Detection, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, run_trial, table,
+    write,
 };
 use crate::output::{FileError, OutputFolder};
 use crate::store::provenance::workspace;
+use drawn::going_on;
 use program::{NONE, Program, trial};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
-use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Seconds that a case with an error may take beyond ten times its own.
@@ -112,7 +113,7 @@ fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) 
     let (of_tests, of_cases): (Vec<&Mutation>, _) =
         errors.into_iter().partition(|error| command.tests || error.cases.is_empty());
     let mut findings = findings(&of_cases, &mutations, &program, quiet)?;
-    let of_tests = through_tests::findings(of_tests, &mutations, &program, &workspace, quiet)?;
+    let of_tests = through_tests::findings(&of_tests, &mutations, &program, &workspace, quiet)?;
     // what the trials left goes before the folder is published
     drop(program);
     let survives = |finding: &MutationOutcome| finding.error.generated && !finding.catch.is_certain();
@@ -127,44 +128,66 @@ fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) 
     Ok(if holds { Exit::Held } else { Exit::GateFailed })
 }
 
-/// Every case first without errors, then each error through its cases until one notices for certain; as many at a time
-/// as there are threads.
+/// Each error through its cases until one notices for certain.
 fn findings(
     errors: &[&Mutation],
     mutations: &Mutations,
     program: &Program,
     quiet: bool,
 ) -> Result<Vec<MutationOutcome>, ProgramError> {
-    let scopes = |error: &Mutation| mutations.scopes(error);
-    let cases: BTreeSet<Scope> = errors.iter().flat_map(|&error| scopes(error)).collect();
-    let bar = CountBar::new("cases and errors", cases.len() + errors.len(), 0, quiet);
-    let right = Mutex::new(BTreeMap::new());
-    share_out(cases.into_iter().collect(), |scope: Scope| -> Result<(), ProgramError> {
-        bar.say(&scope.case);
-        let sighting = program.run("0", &scope, Duration::MAX);
+    let right = |scope: &Scope| {
+        let sighting = program.run("0", scope, Duration::MAX);
+        sighting.map_err(|reason| ProgramError::Trial { case: scope.case.clone(), reason })
+    };
+    let wrong = |error: &Mutation, right: &[(&Scope, &MutantRun)]| {
+        let finding = program.try_error(error, mutations.number(error), right, PATIENCE);
+        tracing::info!("{}", table(std::slice::from_ref(&finding)).lines().next().unwrap_or_default());
+        finding
+    };
+    let cases = |error: &Mutation| mutations.scopes(error);
+    try_all(errors, mutations, ("cases and errors", quiet), (cases, right, wrong))
+}
+
+/// Every witness, a case or a test, first without errors, then each error before its own, the dearest first; as many at a time as there
+/// are threads. The findings are in the order of the errors' file.
+///
+/// `witnesses` are those of an error in order; `right` is what a witness says without an error, `wrong` what becomes of an error before
+/// its witnesses, each with what it says without.
+fn try_all<W: Ord + Send + Sync, R: Send + Sync>(
+    errors: &[&Mutation],
+    mutations: &Mutations,
+    (what, quiet): (&str, bool),
+    (witnesses, right, wrong): (
+        impl Fn(&Mutation) -> Vec<W> + Sync,
+        impl Fn(&W) -> Result<R, ProgramError> + Sync,
+        impl Fn(&Mutation, &[(&W, &R)]) -> MutationOutcome + Sync,
+    ),
+) -> Result<Vec<MutationOutcome>, ProgramError> {
+    let all: BTreeSet<W> = errors.iter().flat_map(|error| witnesses(error)).collect();
+    let bar = CountBar::new(what, all.len() + errors.len(), 0, quiet);
+    let said = share_out_for(Vec::from_iter(all), |witness: W| {
+        let started = Instant::now();
+        let said = right(&witness);
+        going_on()?;
         bar.step();
-        let sighting = sighting.map_err(|reason| ProgramError::Trial { case: scope.case.clone(), reason })?;
-        right.lock().unwrap_or_else(PoisonError::into_inner).insert(scope, sighting);
-        Ok(())
+        Ok::<_, ProgramError>((witness, (said?, started.elapsed())))
     })?;
-    let right = right.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let cost = |error: &Mutation| -> f64 {
-        scopes(error).iter().filter_map(|scope| right.get(scope)).map(|sighting| sighting.wall_seconds).sum()
+    let said: BTreeMap<W, (R, Duration)> = said.into_iter().collect();
+    let cost = |error: &Mutation| -> Duration {
+        witnesses(error).iter().filter_map(|witness| said.get(witness)).map(|(_, time)| *time).sum()
     };
     let mut queue = errors.to_vec();
-    queue.sort_by(|&a, &b| cost(b).total_cmp(&cost(a)));
-    let findings = Mutex::new(BTreeMap::new());
-    share_out(queue, |error: &Mutation| -> Result<(), ProgramError> {
+    queue.sort_by_key(|error| std::cmp::Reverse(cost(error)));
+    let mut findings = share_out_for(queue, |error: &Mutation| {
         bar.say(&error.name);
-        let number = mutations.number(error);
-        let scopes = scopes(error);
-        let cases: Vec<_> = scopes.iter().filter_map(|scope| Some((scope, right.get(scope)?))).collect();
-        let finding = program.try_error(error, number, &cases, PATIENCE);
-        tracing::info!("{}", table(std::slice::from_ref(&finding)).lines().next().unwrap_or_default());
-        findings.lock().unwrap_or_else(PoisonError::into_inner).insert(number, finding);
+        let own = witnesses(error);
+        let own: Vec<(&W, &R)> = own.iter().filter_map(|witness| Some((witness, &said.get(witness)?.0))).collect();
+        let finding = wrong(error, &own);
+        going_on()?;
         bar.step();
-        Ok(())
+        Ok::<_, ProgramError>(finding)
     })?;
     bar.clear();
-    Ok(findings.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect())
+    findings.sort_by_key(|finding| mutations.number(&finding.error));
+    Ok(findings)
 }

@@ -1,7 +1,7 @@
 //! What a model is compared with: single numbers, profiles from a CSV file, or synthetic data.
 
 use super::error::CalibrationError;
-use super::target::{Datum, DatumUncertainty, Target, parted};
+use super::target::{Datum, DatumUncertainty, ProfileLocation, Target, parted};
 use crate::evidence::{MeasuredData, ReferenceColumn};
 use crate::input::FieldError;
 use serde::Deserialize;
@@ -178,12 +178,12 @@ impl DatumText {
     fn target(&self, at: f64) -> Target {
         match (&self.metric, &self.table) {
             (Some(name), _) => Target::Metric { name: name.clone(), variant: self.variant.clone() },
-            (None, table) => Target::Profile {
+            (None, table) => Target::Profile(ProfileLocation {
                 table: table.clone().unwrap_or_default(),
                 x: self.x.clone().unwrap_or_default(),
                 y: self.y.clone().unwrap_or_default(),
                 at,
-            },
+            }),
         }
     }
 

@@ -4,14 +4,15 @@ use super::data::{Group, Synthetic};
 use super::error::CalibrationError;
 use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
-use super::target::{Datum, DatumUncertainty, Target};
-use crate::case::{PreparedCase, Registry, Silent, share_out};
+use super::target::{Datum, DatumUncertainty, ProfileLocation, Target};
+use crate::case::{PreparedCase, Registry, Silent, share_out_for};
 use crate::evaluation::{self, EvaluationRecord};
 use crate::inference::Evaluate;
 use crate::input::FieldError;
 use crate::output::FileError;
 use crate::sampling::Random;
 use crate::store::Store;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
@@ -31,9 +32,6 @@ pub(super) struct Question {
     /// `path=value` settings.
     pub(super) settings: Vec<String>,
 }
-
-/// A job that one of the workers takes: key and case.
-type Waiting = Mutex<Option<(String, Box<dyn PreparedCase>)>>;
 
 /// The model and the data that it is fitted to.
 pub(super) struct Objective<'a> {
@@ -76,23 +74,27 @@ impl Objective<'_> {
 
     /// Records of questions, in their order; what has a file is read, the rest simulated on the current pool's threads.
     fn ask_each(&self, questions: &[Question]) -> Result<Vec<EvaluationRecord>, CalibrationError> {
-        let mut answers: Vec<Option<EvaluationRecord>> = Vec::with_capacity(questions.len());
+        // the key of an answer, or why there is none
+        let mut answers: Vec<Result<String, EvaluationRecord>> = Vec::with_capacity(questions.len());
+        let mut records: BTreeMap<String, EvaluationRecord> = BTreeMap::new();
         let mut waiting: Vec<(usize, String, Box<dyn PreparedCase>)> = Vec::new();
         for (place, question) in questions.iter().enumerate() {
             let request = &self.plan.blocks[question.block].request;
             match request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits) {
                 Ok(prepared) => {
                     let key = evaluation::key(prepared.as_ref());
-                    let known = EvaluationRecord::read(&self.file(&key), &key);
                     // two questions of one batch may be the same
-                    let asked = waiting.iter().any(|(_, other, _)| *other == key);
-                    if known.is_none() && !asked {
-                        waiting.push((place, key, prepared));
+                    let asked = records.contains_key(&key) || waiting.iter().any(|(_, other, _)| *other == key);
+                    if !asked {
+                        match EvaluationRecord::read(&self.file(&key), &key) {
+                            Some(known) => drop(records.insert(key.clone(), known)),
+                            None => waiting.push((place, key.clone(), prepared)),
+                        }
                     }
-                    answers.push(known);
+                    answers.push(Ok(key));
                 }
                 // a point that the case refuses is one where the model fails
-                Err(error) => answers.push(Some(EvaluationRecord::failed("", &request.case, &error.to_string()))),
+                Err(error) => answers.push(Err(EvaluationRecord::failed("", &request.case, &error.to_string()))),
             }
         }
         self.watch.expected(waiting.len());
@@ -100,29 +102,17 @@ impl Objective<'_> {
             (0..prepared.run_count()).map(|k| prepared.particle_steps(k)).sum()
         };
         waiting.sort_by(|a, b| cost(b.2.as_ref()).total_cmp(&cost(a.2.as_ref())).then(a.0.cmp(&b.0)));
-        let jobs: Vec<Waiting> =
-            waiting.into_iter().map(|(_, key, prepared)| Mutex::new(Some((key, prepared)))).collect();
-        share_out(jobs.iter().collect(), |job| -> Result<(), CalibrationError> {
-            let taken = job.lock().unwrap_or_else(PoisonError::into_inner).take();
-            let Some((key, prepared)) = taken else { return Ok(()) };
+        records.extend(share_out_for(waiting, |(_, key, prepared)| -> Result<_, CalibrationError> {
             let record = evaluation::evaluate(prepared, self.store, &Silent)?;
             self.watch.evaluated(&record.case, record.failure.as_deref());
             let file = self.file(&key);
-            record.write(&file).map_err(|error| FileError::unwritable(&file, &error).into())
-        })?;
-        for (answer, question) in answers.iter_mut().zip(questions) {
-            if answer.is_none() {
-                let request = &self.plan.blocks[question.block].request;
-                let prepared = request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits)?;
-                let key = evaluation::key(prepared.as_ref());
-                let file = self.file(&key);
-                *answer = Some(EvaluationRecord::read(&file, &key).ok_or_else(|| {
-                    let lost = std::io::Error::other("an evaluation that was just written cannot be read back");
-                    FileError::unwritable(&file, &lost)
-                })?);
-            }
-        }
-        let answers: Vec<EvaluationRecord> = answers.into_iter().flatten().collect();
+            record.write(&file).map_err(|error| FileError::unwritable(&file, &error))?;
+            Ok((key, record))
+        })?);
+        let answer = |answer: Result<String, EvaluationRecord>| {
+            answer.map_or_else(|refused| refused, |key| records[&key].clone())
+        };
+        let answers: Vec<EvaluationRecord> = answers.into_iter().map(answer).collect();
         if let Some(reason) = answers.iter().rev().find_map(|record| record.failure.clone()) {
             *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
         }
@@ -264,7 +254,7 @@ impl Synthetic {
         }
         let places: Vec<Target> = match &self.target {
             Target::Metric { .. } => vec![self.target.clone()],
-            Target::Profile { table, x, .. } => {
+            Target::Profile(ProfileLocation { table, x, .. }) => {
                 let tables = truth.with_seed(0).map_or(&[][..], |record| &record.tables);
                 let range = tables.iter().find(|other| other.name == *table).and_then(|found| {
                     let column = found.columns.iter().position(|column| column == x)?;

@@ -9,29 +9,9 @@ use crate::inference::UNLIKELY;
 use crate::number::four_digits;
 use crate::output::{FileError, write_whole};
 use crate::page::{self, PageFigure};
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::io;
 use std::path::Path;
-
-/// Errors of a set of data as text.
-#[derive(Debug, Serialize)]
-struct Errors {
-    what: &'static str,
-    data: usize,
-    weighted: String,
-    relative: String,
-}
-
-#[derive(Debug, Serialize)]
-struct CalibrationPage<'a> {
-    outcome: &'a CalibrationResult,
-    errors: Vec<Errors>,
-    parameters: Vec<Vec<String>>,
-    trials: Vec<Vec<String>>,
-    data: Vec<Vec<String>>,
-    summary: Vec<String>,
-    pictures: Vec<PageFigure>,
-}
 
 /// Writes everything into a folder, the result last.
 ///
@@ -109,13 +89,16 @@ fn optional(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), four_digits)
 }
 
-fn errors(what: &'static str, data: &[DatumComparison]) -> Option<Errors> {
-    (!data.is_empty()).then(|| Errors {
-        what,
-        data: data.len(),
-        weighted: optional(weighted_error(data)),
-        relative: relative_error(data)
-            .map_or_else(|| "–".to_owned(), |error| format!("{} %", four_digits(100.0 * error))),
+/// Errors of a set of data as text.
+fn errors(what: &str, data: &[DatumComparison]) -> Option<Value> {
+    let percent = |error: f64| format!("{} %", four_digits(100.0 * error));
+    (!data.is_empty()).then(|| {
+        json!({
+            "what": what,
+            "data": data.len(),
+            "weighted": optional(weighted_error(data)),
+            "relative": relative_error(data).map_or_else(|| "–".to_owned(), percent),
+        })
     })
 }
 
@@ -240,14 +223,15 @@ fn render(outcome: &CalibrationResult, pictures: Vec<PageFigure>) -> Result<Stri
             datum.source.clone(),
         ]
     };
-    let page = CalibrationPage {
-        errors: [errors("fitted", &outcome.fit), errors("held out", &outcome.hold_out)].into_iter().flatten().collect(),
-        parameters: outcome.parameters.iter().map(parameter).collect(),
-        trials: outcome.trials.iter().map(trial).collect(),
-        data: all_data(outcome).into_iter().map(datum).collect(),
-        summary: summary(outcome),
-        pictures,
-        outcome,
-    };
+    let errors = [errors("fitted", &outcome.fit), errors("held out", &outcome.hold_out)];
+    let page = json!({
+        "errors": errors.iter().flatten().collect::<Vec<_>>(),
+        "parameters": outcome.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "trials": outcome.trials.iter().map(trial).collect::<Vec<_>>(),
+        "data": all_data(outcome).into_iter().map(datum).collect::<Vec<_>>(),
+        "summary": summary(outcome),
+        "pictures": pictures,
+        "outcome": outcome,
+    });
     page::fill(&[("index.html", include_str!("template/index.html"))], "index.html", &page)
 }

@@ -32,16 +32,7 @@ pub(super) enum Target {
         variant: Option<String>,
     },
     /// A value interpolated in a table.
-    Profile {
-        /// Name of the table.
-        table: String,
-        /// Column of abscissas, with its unit.
-        x: String,
-        /// Column of ordinates, with its unit.
-        y: String,
-        /// Abscissa.
-        at: f64,
-    },
+    Profile(ProfileLocation),
 }
 
 /// How far a datum may be off, as a standard deviation.
@@ -110,7 +101,7 @@ impl Target {
                     None => Ok((first.value, first.unit.clone())),
                 }
             }
-            Self::Profile { table, x, y, at } => {
+            Self::Profile(ProfileLocation { table, x, y, at }) => {
                 let found = record.tables.iter().find(|other| other.name == *table).ok_or_else(|| {
                     let names: Vec<&str> = record.tables.iter().map(|table| table.name.as_str()).collect();
                     format!("no table `{table}`; it has {}", names.join(", "))
@@ -138,8 +129,8 @@ impl Target {
     #[must_use]
     pub(super) fn at_abscissa(&self, place: f64) -> Self {
         let mut moved = self.clone();
-        if let Self::Profile { at, .. } = &mut moved {
-            *at = place;
+        if let Self::Profile(location) = &mut moved {
+            location.at = place;
         }
         moved
     }
@@ -159,9 +150,7 @@ impl Target {
     pub(super) fn place(&self) -> Option<ProfileLocation> {
         match self {
             Self::Metric { .. } => None,
-            Self::Profile { table, x, y, at } => {
-                Some(ProfileLocation { table: table.clone(), x: x.clone(), y: y.clone(), at: *at })
-            }
+            Self::Profile(location) => Some(location.clone()),
         }
     }
 
@@ -173,7 +162,7 @@ impl Target {
                 Some(variant) if !variant.is_empty() => format!("{name} {variant}"),
                 _ => name.clone(),
             },
-            Self::Profile { table, y, at, .. } => format!("{table}: {y} at {at:.4e}"),
+            Self::Profile(ProfileLocation { table, y, at, .. }) => format!("{table}: {y} at {at:.4e}"),
         }
     }
 }

@@ -11,59 +11,8 @@ use crate::page::{self, PageFigure};
 use crate::report::ReportError;
 use crate::result::{MetricEntry, pretty};
 use crate::store::provenance::short_commit;
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-
-#[derive(Debug, Serialize)]
-struct ComparisonPage {
-    version: &'static str,
-    folders: Vec<Folder>,
-    moved: usize,
-    same: usize,
-    parameters: Vec<ChangedParameter>,
-    rows: Vec<ComparisonRow>,
-    pictures: Vec<PageFigure>,
-}
-
-#[derive(Debug, Serialize)]
-struct Folder {
-    label: String,
-    path: String,
-    tier: String,
-    commit: String,
-    hash: String,
-}
-
-#[derive(Debug, Serialize)]
-struct ComparisonRow {
-    case: String,
-    metric: String,
-    variant: String,
-    unit: String,
-    tolerances: String,
-    is_moved: bool,
-    cells: Vec<ComparisonCell>,
-}
-
-#[derive(Debug, Serialize)]
-struct ComparisonCell {
-    class: &'static str,
-    symbol: &'static str,
-    value: String,
-    change: String,
-}
-
-/// A line of `differences.json`.
-#[derive(Debug, Serialize)]
-struct DifferenceEntry<'a> {
-    case: &'a str,
-    metric: &'a str,
-    variant: String,
-    unit: &'a str,
-    values: Vec<Option<f64>>,
-    /// Largest difference from the first in tolerances of its drift; null where it is not finite or one folder has it only.
-    tolerances: Option<f64>,
-}
 
 /// Writes `index.html`, `differences.json`, `parameters.json` and `figures/` into a folder; the numbers that differ by more than their tolerance
 /// are counted.
@@ -79,8 +28,7 @@ pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
     cases.dedup();
     let figures: Vec<Figure> = cases.into_iter().flat_map(|case| figures::all(all, case)).collect();
     let pictures = page::draw(&figures, &folder.join("figures"))?;
-    let lines: Vec<DifferenceEntry<'_>> = found.iter().map(line).collect();
-    put(folder.join("differences.json"), &pretty(&lines))?;
+    put(folder.join("differences.json"), &pretty(&found.iter().map(line).collect::<Vec<_>>()))?;
     let parameters = changed(all);
     put(folder.join("parameters.json"), &pretty(&parameters))?;
     let moved = found.iter().filter(|one| is_moved(one)).count();
@@ -88,15 +36,17 @@ pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
     Ok(moved)
 }
 
-fn line(one: &Difference) -> DifferenceEntry<'_> {
-    DifferenceEntry {
-        case: &one.case,
-        metric: &one.metric,
-        variant: one.variant.to_string(),
-        unit: &one.unit,
-        values: one.entries.iter().map(|entry| entry.as_ref().and_then(|entry| entry.value)).collect(),
-        tolerances: one.tolerances.filter(|tolerances| tolerances.is_finite()),
-    }
+/// A line of `differences.json`.
+fn line(one: &Difference) -> Value {
+    json!({
+        "case": one.case,
+        "metric": one.metric,
+        "variant": one.variant.to_string(),
+        "unit": one.unit,
+        "values": one.entries.iter().map(|entry| entry.as_ref().and_then(|entry| entry.value)).collect::<Vec<_>>(),
+        // largest difference from the first in tolerances of its drift; null where it is not finite or one folder has it only
+        "tolerances": one.tolerances.filter(|tolerances| tolerances.is_finite()),
+    })
 }
 
 fn is_moved(one: &Difference) -> bool {
@@ -110,62 +60,59 @@ fn render(
     parameters: Vec<ChangedParameter>,
     pictures: Vec<PageFigure>,
 ) -> Result<String, minijinja::Error> {
-    let page = ComparisonPage {
-        version: env!("CARGO_PKG_VERSION"),
-        folders: all.iter().map(folder).collect(),
-        moved,
-        same: found.len() - moved,
-        parameters,
-        rows: found.iter().map(row).collect(),
-        pictures,
-    };
+    let page = json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "folders": all.iter().map(folder).collect::<Vec<_>>(),
+        "moved": moved,
+        "same": found.len() - moved,
+        "parameters": parameters,
+        "rows": found.iter().map(row).collect::<Vec<_>>(),
+        "pictures": pictures,
+    });
     page::fill(&[("compare.html", include_str!("template/compare.html"))], "compare.html", &page)
 }
 
-fn folder(results: &Results) -> Folder {
+fn folder(results: &Results) -> Value {
     let first = results.cases.values().next().map(|case| &case.document);
-    Folder {
-        label: results.label.clone(),
-        path: results.folder.display().to_string(),
-        tier: first.map(|document| document.tier.to_string()).unwrap_or_default(),
-        commit: first.map(|document| short_commit(&document.provenance.commit)).unwrap_or_default(),
-        hash: first.map(|document| document.provenance.source_hash.chars().take(12).collect()).unwrap_or_default(),
-    }
+    let hash = first.map(|document| document.provenance.source_hash.chars().take(12).collect::<String>());
+    json!({
+        "label": results.label,
+        "path": results.folder.display().to_string(),
+        "tier": first.map(|document| document.tier.to_string()).unwrap_or_default(),
+        "commit": first.map(|document| short_commit(&document.provenance.commit)).unwrap_or_default(),
+        "hash": hash.unwrap_or_default(),
+    })
 }
 
-fn row(one: &Difference) -> ComparisonRow {
+fn row(one: &Difference) -> Value {
     let first = one.entries.iter().flatten().find_map(|entry| entry.value);
-    ComparisonRow {
-        case: one.case.clone(),
-        metric: one.metric.clone(),
-        variant: one.variant.to_string(),
-        unit: one.unit.clone(),
-        tolerances: match one.tolerances {
+    json!({
+        "case": one.case,
+        "metric": one.metric,
+        "variant": one.variant.to_string(),
+        "unit": one.unit,
+        "tolerances": match one.tolerances {
             None => "not in all".to_owned(),
             Some(tolerances) if tolerances.is_finite() => two_digits(tolerances),
             Some(_) => "∞".to_owned(),
         },
-        is_moved: is_moved(one),
-        cells: one.entries.iter().map(|entry| cell(entry.as_ref(), first)).collect(),
-    }
+        "is_moved": is_moved(one),
+        "cells": one.entries.iter().map(|entry| cell(entry.as_ref(), first)).collect::<Vec<_>>(),
+    })
 }
 
-fn cell(entry: Option<&MetricEntry>, first: Option<f64>) -> ComparisonCell {
-    let Some(entry) = entry else {
-        return ComparisonCell { class: "observed", symbol: "–", value: String::new(), change: String::new() };
-    };
+fn cell(entry: Option<&MetricEntry>, first: Option<f64>) -> Value {
+    let Some(entry) = entry else { return json!({ "class": "observed", "symbol": "–", "value": "" }) };
     let (class, symbol) = match entry.verdict {
         Verdict::Pass => ("pass", "✓"),
         Verdict::Fail => ("fail", "✗"),
         Verdict::Observed => ("observed", "○"),
     };
     let change = entry.value.zip(first).map(|(value, first)| value - first).filter(|change| *change != 0.0);
-    ComparisonCell {
-        class,
-        symbol,
-        value: entry.value.map_or_else(|| "not a number".to_owned(), four_digits),
-        change: change
-            .map(|change| format!("{}{}", if change > 0.0 { "+" } else { "" }, two_digits(change)))
-            .unwrap_or_default(),
-    }
+    json!({
+        "class": class,
+        "symbol": symbol,
+        "value": entry.value.map_or_else(|| "not a number".to_owned(), four_digits),
+        "change": change.map(|change| format!("{}{}", if change > 0.0 { "+" } else { "" }, two_digits(change))),
+    })
 }

@@ -1,69 +1,14 @@
 //! A judgement for programs: `metrics.json` and JUnit's XML.
 
 use super::{CodeComparison, JudgedCode, MetricComparison};
-use crate::case::Tier;
-use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant, Verdict};
+use crate::metric::{Metric, Verdict};
 use crate::report::scatter::{QuantityBias, quantities_of};
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
-use serde::Serialize;
-
-/// `metrics.json`.
-#[derive(Debug, Serialize)]
-pub(super) struct Document {
-    case: String,
-    tier: Tier,
-    codes: Vec<CodeDocument>,
-}
-
-#[derive(Debug, Serialize)]
-struct CodeDocument {
-    name: String,
-    version: String,
-    holding: usize,
-    failing: usize,
-    not_given: usize,
-    quantities: Vec<BiasEntry>,
-    metrics: Vec<VerdictEntry>,
-}
-
-/// Bias and scatter of a quantity over its comparisons.
-#[derive(Debug, Serialize)]
-struct BiasEntry {
-    quantity: String,
-    comparisons: usize,
-    bias: f64,
-    bias_interval: (f64, f64),
-    scatter: f64,
-    model_deviation: Option<f64>,
-}
-
-#[derive(Debug, Serialize)]
-struct VerdictEntry {
-    name: String,
-    variant: Variant,
-    unit: String,
-    kind: MetricKind,
-    /// The code's value; null where none was given.
-    value: Option<f64>,
-    /// Ours.
-    bagnold: Option<f64>,
-    reference: Option<f64>,
-    source: Option<String>,
-    confidence: Option<Confidence>,
-    limit: Option<Limit>,
-    reason: Option<String>,
-    margin: Option<f64>,
-    verdict: &'static str,
-}
+use serde_json::{Value, json};
 
 /// The word of a verdict in `metrics.json`.
 pub(super) fn word(verdict: Option<Verdict>) -> &'static str {
-    match verdict {
-        Some(Verdict::Pass) => "pass",
-        Some(Verdict::Fail) => "fail",
-        Some(Verdict::Observed) => "observed",
-        None => "not_given",
-    }
+    verdict.map_or("not_given", Verdict::word)
 }
 
 /// Bias and scatter of what a code gives.
@@ -76,51 +21,56 @@ pub(super) fn given(judged: &JudgedCode) -> impl Iterator<Item = &Metric> {
     judged.metrics.iter().filter_map(|one| one.foreign.as_ref())
 }
 
-pub(super) fn document(judgement: &CodeComparison) -> Document {
-    let case = judgement.own.name.clone();
+/// `metrics.json`.
+pub(super) fn document(judgement: &CodeComparison) -> Value {
+    let case = &judgement.own.name;
     let code = |judged: &JudgedCode| {
         let (holding, failing, not_given) = judged.counts();
-        let bias = |bias: QuantityBias| BiasEntry {
-            quantity: bias.quantity,
-            comparisons: bias.found.comparisons,
-            bias: bias.found.bias,
-            bias_interval: bias.found.interval,
-            scatter: bias.found.scatter,
-            model_deviation: bias.found.model_deviation(),
+        let bias = |bias: &QuantityBias| {
+            json!({
+                "quantity": bias.quantity,
+                "comparisons": bias.found.comparisons,
+                "bias": bias.found.bias,
+                "bias_interval": bias.found.interval,
+                "scatter": bias.found.scatter,
+                "model_deviation": bias.found.model_deviation(),
+            })
         };
-        CodeDocument {
-            name: judged.code.name.clone(),
-            version: judged.code.version.clone(),
-            holding,
-            failing,
-            not_given,
-            quantities: biases(&case, given(judged)).into_iter().map(bias).collect(),
-            metrics: judged.metrics.iter().map(entry).collect(),
-        }
+        json!({
+            "name": judged.code.name,
+            "version": judged.code.version,
+            "holding": holding,
+            "failing": failing,
+            "not_given": not_given,
+            "quantities": biases(case, given(judged)).iter().map(bias).collect::<Vec<_>>(),
+            "metrics": judged.metrics.iter().map(entry).collect::<Vec<_>>(),
+        })
     };
-    Document { case: case.clone(), tier: judgement.own.tier, codes: judgement.codes.iter().map(code).collect() }
+    json!({ "case": case, "tier": judgement.own.tier, "codes": judgement.codes.iter().map(code).collect::<Vec<_>>() })
 }
 
-fn entry(one: &MetricComparison) -> VerdictEntry {
+fn entry(one: &MetricComparison) -> Value {
     let finite = |value: f64| Some(value).filter(|value| value.is_finite());
     let metric = one.foreign.as_ref().unwrap_or(&one.own);
     let reference = metric.reference.as_ref();
     let gate = metric.gate.as_ref();
-    VerdictEntry {
-        name: metric.name.clone(),
-        variant: metric.variant.clone(),
-        unit: metric.unit.clone(),
-        kind: metric.kind,
-        value: one.foreign.as_ref().and_then(|foreign| finite(foreign.value)),
-        bagnold: finite(one.own.value),
-        reference: reference.and_then(|reference| reference.value),
-        source: reference.map(|reference| reference.source.clone()),
-        confidence: reference.map(|reference| reference.confidence),
-        limit: gate.map(|gate| gate.limit),
-        reason: gate.map(|gate| gate.reason.clone()),
-        margin: one.foreign.as_ref().zip(gate).and_then(|(foreign, gate)| finite(gate.limit.margin(foreign.value))),
-        verdict: word(one.verdict()),
-    }
+    let margin = one.foreign.as_ref().zip(gate).and_then(|(foreign, gate)| finite(gate.limit.margin(foreign.value)));
+    json!({
+        "name": metric.name,
+        "variant": metric.variant,
+        "unit": metric.unit,
+        "kind": metric.kind,
+        // null where the code gave none
+        "value": one.foreign.as_ref().and_then(|foreign| finite(foreign.value)),
+        "bagnold": finite(one.own.value),
+        "reference": reference.and_then(|reference| reference.value),
+        "source": reference.map(|reference| &reference.source),
+        "confidence": reference.map(|reference| reference.confidence),
+        "limit": gate.map(|gate| gate.limit),
+        "reason": gate.map(|gate| &gate.reason),
+        "margin": margin,
+        "verdict": word(one.verdict()),
+    })
 }
 
 /// A suite for each code, a test for each gate; what was not given is skipped.

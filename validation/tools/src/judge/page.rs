@@ -2,67 +2,13 @@
 
 use super::document::{biases, document, given, junit};
 use super::{CodeComparison, JudgedCode, MetricComparison};
-use crate::metric::{Limit, Metric, Verdict};
+use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
 use crate::page::{self, PageFigure};
 use crate::report::ReportError;
 use crate::result::pretty;
-use serde::Serialize;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-
-#[derive(Debug, Serialize)]
-struct JudgePage {
-    case: String,
-    tier: String,
-    description: String,
-    version: &'static str,
-    codes: Vec<CodeRow>,
-    heads: Vec<String>,
-    rows: Vec<MetricComparisonRow>,
-    quantities: Vec<QuantityScatter>,
-    pictures: Vec<PageFigure>,
-}
-
-#[derive(Debug, Serialize)]
-struct CodeRow {
-    name: String,
-    version: String,
-    file: String,
-    holding: usize,
-    failing: usize,
-    not_given: usize,
-    class: &'static str,
-}
-
-/// A metric with ours and every code's value.
-#[derive(Debug, Serialize)]
-struct MetricComparisonRow {
-    metric: String,
-    variant: String,
-    unit: String,
-    reference: String,
-    source: String,
-    limit: String,
-    reason: String,
-    cells: Vec<CodeValueCell>,
-}
-
-#[derive(Debug, Serialize)]
-struct CodeValueCell {
-    class: &'static str,
-    symbol: &'static str,
-    word: &'static str,
-    value: String,
-    /// Difference from the reference, where it has one.
-    off: String,
-}
-
-/// Bias and scatter of a quantity, ours and every code's.
-#[derive(Debug, Serialize)]
-struct QuantityScatter {
-    name: String,
-    cells: Vec<String>,
-}
 
 /// Writes `index.html`, `metrics.json` and `figures/` into a folder, and JUnit's XML into a file where one is named.
 ///
@@ -88,39 +34,39 @@ pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path
 
 fn render(judgement: &CodeComparison, pictures: Vec<PageFigure>) -> Result<String, minijinja::Error> {
     let own = &judgement.own;
-    let heads = judgement.codes.iter().map(|judged| judged.code.name.clone()).collect();
-    let page = JudgePage {
-        case: own.name.clone(),
-        tier: own.tier.to_string(),
-        description: own.description.clone(),
-        version: env!("CARGO_PKG_VERSION"),
-        codes: judgement.codes.iter().map(code_row).collect(),
-        heads,
-        rows: rows(judgement),
-        quantities: quantities(judgement),
-        pictures,
-    };
+    let page = json!({
+        "case": own.name,
+        "tier": own.tier.to_string(),
+        "description": own.description,
+        "version": env!("CARGO_PKG_VERSION"),
+        "codes": judgement.codes.iter().map(code_row).collect::<Vec<_>>(),
+        "heads": judgement.codes.iter().map(|judged| &judged.code.name).collect::<Vec<_>>(),
+        "rows": rows(judgement),
+        "quantities": quantities(judgement),
+        "pictures": pictures,
+    });
     page::fill(&[("judge.html", include_str!("template/judge.html"))], "judge.html", &page)
 }
 
-fn code_row(judged: &JudgedCode) -> CodeRow {
+fn code_row(judged: &JudgedCode) -> Value {
     let (holding, failing, not_given) = judged.counts();
-    CodeRow {
-        name: judged.code.name.clone(),
-        version: judged.code.version.clone(),
-        file: judged.file.display().to_string(),
-        holding,
-        failing,
-        not_given,
-        class: if failing > 0 { "fail" } else { "pass" },
-    }
+    json!({
+        "name": judged.code.name,
+        "version": judged.code.version,
+        "file": judged.file.display().to_string(),
+        "holding": holding,
+        "failing": failing,
+        "not_given": not_given,
+        "class": if failing > 0 { "fail" } else { "pass" },
+    })
 }
 
 /// Metrics that any code was judged by, or could have been: those with a gate or a reference, and those that were given.
-fn rows(judgement: &CodeComparison) -> Vec<MetricComparisonRow> {
-    let metrics: Vec<&Metric> = judgement.own.metrics.iter().collect();
-    metrics
-        .into_iter()
+fn rows(judgement: &CodeComparison) -> Vec<Value> {
+    judgement
+        .own
+        .metrics
+        .iter()
         .filter_map(|metric| {
             let same = |one: &&MetricComparison| one.own.name == metric.name && one.own.variant == metric.variant;
             let compared: Vec<Option<&MetricComparison>> =
@@ -132,29 +78,21 @@ fn rows(judgement: &CodeComparison) -> Vec<MetricComparisonRow> {
             }
             let theirs = compared.iter().map(|one| cell(one.and_then(|one| one.foreign.as_ref())));
             let reference = metric.reference.as_ref();
-            Some(MetricComparisonRow {
-                metric: metric.name.clone(),
-                variant: metric.variant.to_string(),
-                unit: metric.unit.clone(),
-                reference: reference.and_then(|of| of.value).map(four_digits).unwrap_or_default(),
-                source: reference.map(|of| of.source.clone()).unwrap_or_default(),
-                limit: metric.gate.as_ref().map(|gate| limit(gate.limit)).unwrap_or_default(),
-                reason: metric.gate.as_ref().map(|gate| gate.reason.clone()).unwrap_or_default(),
-                cells: std::iter::once(cell(Some(metric))).chain(theirs).collect(),
-            })
+            Some(json!({
+                "metric": metric.name,
+                "variant": metric.variant.to_string(),
+                "unit": metric.unit,
+                "reference": reference.and_then(|of| of.value).map(four_digits).unwrap_or_default(),
+                "source": reference.map(|of| &of.source),
+                "limit": metric.gate.as_ref().map(|gate| gate.limit.in_words(four_digits)).unwrap_or_default(),
+                "reason": metric.gate.as_ref().map(|gate| &gate.reason),
+                "cells": std::iter::once(cell(Some(metric))).chain(theirs).collect::<Vec<_>>(),
+            }))
         })
         .collect()
 }
 
-fn limit(limit: Limit) -> String {
-    match limit {
-        Limit::AtMost(bound) => format!("≤ {}", four_digits(bound)),
-        Limit::AtLeast(bound) => format!("≥ {}", four_digits(bound)),
-        Limit::Within(lower, upper) => format!("{} … {}", four_digits(lower), four_digits(upper)),
-    }
-}
-
-fn cell(metric: Option<&Metric>) -> CodeValueCell {
+fn cell(metric: Option<&Metric>) -> Value {
     let verdict = metric.map(Metric::verdict);
     let (class, symbol, text) = match verdict {
         Some(Verdict::Pass) => ("pass", "✓", "holds"),
@@ -163,13 +101,14 @@ fn cell(metric: Option<&Metric>) -> CodeValueCell {
         None => ("observed", "–", "not given"),
     };
     let reference = metric.and_then(|metric| metric.reference.as_ref()?.value);
-    CodeValueCell {
-        class,
-        symbol,
-        word: text,
-        value: metric.map(|metric| four_digits(metric.value)).unwrap_or_default(),
-        off: metric.zip(reference).map(|(metric, reference)| signed(metric.value - reference)).unwrap_or_default(),
-    }
+    json!({
+        "class": class,
+        "symbol": symbol,
+        "word": text,
+        "value": metric.map(|metric| four_digits(metric.value)).unwrap_or_default(),
+        // difference from the reference, where it has one
+        "off": metric.zip(reference).map(|(metric, reference)| signed(metric.value - reference)),
+    })
 }
 
 fn signed(number: f64) -> String {
@@ -177,7 +116,7 @@ fn signed(number: f64) -> String {
 }
 
 /// δ, σ_M and the number of comparisons of every quantity with enough comparisons.
-fn quantities(judgement: &CodeComparison) -> Vec<QuantityScatter> {
+fn quantities(judgement: &CodeComparison) -> Vec<Value> {
     let case = &judgement.own.name;
     let all: Vec<_> = std::iter::once(biases(case, &judgement.own.metrics))
         .chain(judgement.codes.iter().map(|judged| biases(case, given(judged))))
@@ -197,9 +136,9 @@ fn quantities(judgement: &CodeComparison) -> Vec<QuantityScatter> {
     };
     names
         .into_iter()
-        .map(|name| QuantityScatter {
-            cells: all.iter().map(|biases| text(biases, &name).unwrap_or_else(|| "–".to_owned())).collect(),
-            name,
+        .map(|name| {
+            let cell = |biases: &Vec<_>| text(biases, &name).unwrap_or_else(|| "–".to_owned());
+            json!({ "name": name, "cells": all.iter().map(cell).collect::<Vec<_>>() })
         })
         .collect()
 }

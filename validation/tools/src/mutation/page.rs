@@ -1,7 +1,6 @@
 //! The findings as a table for the terminal, as CSV and as Markdown.
 
 use super::{Detection, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
-use crate::metric::Limit;
 use crate::number::short_digits;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -23,28 +22,19 @@ fn word(catch: &Detection) -> &'static str {
 fn witness(finding: &MutationOutcome) -> String {
     match &finding.catch {
         Detection::Gate(broken) => {
+            let digits = |value| short_digits(value, 4);
             let Some(first) = broken.first() else { return String::new() };
             let metric = &first.metric;
-            let limit = metric.gate.as_ref().map_or_else(String::new, |gate| rule(gate.limit));
+            let limit = metric.gate.as_ref().map_or_else(String::new, |gate| gate.limit.in_words(digits));
             let others = if broken.len() > 1 { format!(" and {} more", broken.len() - 1) } else { String::new() };
-            let value = short_digits(metric.value, 4);
+            let value = digits(metric.value);
             format!(
                 "{} {} [{}] = {value} {}, must be {limit}{others}",
                 first.case, metric.name, metric.variant, metric.unit
             )
         }
         Detection::Stop(message) | Detection::Test(message) => message.clone(),
-        Detection::Snapshot => finding.first_drift.clone(),
-        Detection::Nothing => finding.first_drift.clone(),
-    }
-}
-
-fn rule(limit: Limit) -> String {
-    let digits = |value| short_digits(value, 4);
-    match limit {
-        Limit::AtMost(bound) => format!("≤ {}", digits(bound)),
-        Limit::AtLeast(bound) => format!("≥ {}", digits(bound)),
-        Limit::Within(lower, upper) => format!("{} … {}", digits(lower), digits(upper)),
+        Detection::Snapshot | Detection::Nothing => finding.first_drift.clone(),
     }
 }
 

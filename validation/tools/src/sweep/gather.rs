@@ -53,17 +53,12 @@ fn results(names: &[String], records: &[(&SweepRun, EvaluationRecord)]) -> std::
     writer.write_record(head.into_iter().chain(names.iter().map(String::as_str)).chain(tail))?;
     for (entry, record) in records.iter().filter(|(_, record)| record.failure.is_none()) {
         for metric in &record.metrics {
-            let verdict = match metric.verdict {
-                Verdict::Pass => "pass",
-                Verdict::Fail => "fail",
-                Verdict::Observed => "observed",
-            };
             writer.write_record(first(entry).into_iter().chain([
                 metric.name.clone(),
                 metric.variant.to_string(),
                 metric.value.to_string(),
                 metric.unit.clone(),
-                verdict.to_owned(),
+                metric.verdict.word().to_owned(),
             ]))?;
         }
     }

@@ -46,6 +46,7 @@ pub(super) fn common(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recor
             .exactly(1.0, "clear water over a fixed bed"),
     );
     metrics.push(channel::velocity_drift(&variant, drift(run, data), "stream's velocity"));
+    metrics.extend(channel::iterations(&variant, &data.channel, [None; 2]));
 }
 
 /// Whether a run is judged: it was watched for long, or it does not change.

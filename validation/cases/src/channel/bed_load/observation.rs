@@ -67,15 +67,7 @@ impl BedLoadObserver {
             window: run.averaging_time,
             grains_lost: 0,
             observation: BedLoadObservation {
-                channel: ChannelObservation {
-                    series: Default::default(),
-                    window: (0.0, 0.0),
-                    profile: BlockProfile::default(),
-                    momentum: Default::default(),
-                    marks: Vec::new(),
-                    stationary_since: None,
-                    particles_lost: 0,
-                },
+                channel: ChannelObservation::default(),
                 transport: Vec::new(),
                 stream_velocity: Vec::new(),
                 carried: vec![vec![Carried::default(); BLOCKS]; bins],

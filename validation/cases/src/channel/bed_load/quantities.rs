@@ -4,7 +4,7 @@ use crate::channel;
 use crate::metric::quantities;
 
 quantities! {
-    [channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::VELOCITY_DRIFT]
+    [channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::VELOCITY_DRIFT]
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
     PREDICTED_TRANSPORT: validated("predicted_transport", "-", "q* of grains that dilate, whose closures are not fitted to transport"),
     TRANSPORT_RATIO:
@@ -21,7 +21,7 @@ quantities! {
     MOVES_ABOVE: verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s"),
     GRAIN_CURVATURE_ABOVE:
         stated("grain_curvature_above", "u_*/d²", "curvature of the grains' profile above the top of the bed"),
-    GRAIN_CURVATURE_BELOW: stated("grain_curvature_below", "u_*/d²", "the same below it"),
+    GRAIN_CURVATURE_BELOW: stated("grain_curvature_below", "u_*/d²", "curvature of the grains' profile below the top of the bed"),
     DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "where the drag on the grains is greatest"),
     DRAG_RATIO: verified("drag_ratio", "-", "force of the water on the grains over the 1-D layer's"),
     FLUID_VELOCITY_RMS:
@@ -40,16 +40,16 @@ quantities! {
         "semi_log_slope", "-",
         "slope of the water's velocity over ln(z + z_0) in a range of heights, over u_*/κ",
     ),
-    LAYER_SLOPE_RATIO: stated("layer_slope_ratio", "-", "that slope next to the bed over that of the outer flow"),
+    LAYER_SLOPE_RATIO: stated("layer_slope_ratio", "-", "slope of the water's velocity over ln z next to the bed, over that of the outer flow"),
     NEAR_BED_DEFICIT:
         stated("near_bed_deficit", "u_*", "velocity of the water less clear water's half a grain above the bed"),
-    RELATIVE_DEFICIT: stated("relative_deficit", "u_*", "the first of these two less the second"),
-    OUTER_DEFICIT: stated("outer_deficit", "u_*", "the same at half the depth"),
+    RELATIVE_DEFICIT: stated("relative_deficit", "u_*", "water's velocity less clear water's, half a grain above the bed, less the same difference at half the depth"),
+    OUTER_DEFICIT: stated("outer_deficit", "u_*", "velocity of the water less clear water's at half the depth"),
     SHEARED_UP_TO: verified("sheared_up_to", "mm", "upper border of the layer that the moving grains shear"),
-    SHEARED_FROM: verified("sheared_from", "mm", "its lower border"),
+    SHEARED_FROM: verified("sheared_from", "mm", "lower border of the layer that the moving grains shear"),
     NUMBER_OF_LAYERS: stated("number_of_layers", "-", "layers of different semi-logarithmic slope"),
     LAYER_SLOPE: verified("layer_slope", "-", "slope of a layer, over u_*/κ"),
     LAYER_BORDER: verified("layer_border", "d", "height between a layer and the next"),
     TRANSPORT_GROWTH: stated("transport_growth", "-", "q* on the steeper slope over that on the gentler"),
-    SHEARED_THICKNESS_GROWTH: stated("sheared_thickness_growth", "-", "thickness of the sheared layer likewise"),
+    SHEARED_THICKNESS_GROWTH: stated("sheared_thickness_growth", "-", "thickness of the sheared layer on the steeper slope over that on the gentler"),
 }

@@ -11,7 +11,7 @@ use crate::statistics::linear_fit;
 
 quantities! {
     [
-        channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR, channel::VELOCITY_DRIFT,
+        channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR, channel::VELOCITY_DRIFT,
         channel::HEIGHT_CHANGE, channel::PRESSURE_L2, printed_laws::LAW_ERROR,
     ]
     STATIONARY_AFTER: verified("stationary_after", "s", "when the depth mean had become stationary by the criterion"),
@@ -40,6 +40,7 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     let (variant, data, law) = (run.variant(), &record.data, run.reference());
     let mut metrics = vec![channel::particles_lost(&variant, record), channel::momentum_residual(&variant, record)];
     let stationary = matches!(run.flow.period, Period::Stationary { .. });
+    metrics.extend(channel::iterations(&variant, data, if stationary { [None; 2] } else { [Some(1.0), Some(2.93)] }));
     if let Period::Stationary { at_most, .. } = run.flow.period {
         let source = "depth mean changes by less than the tolerance over U/(2 g i), times in a row";
         let limit = Limit::AtMost(at_most * law.adjustment_time());

@@ -6,7 +6,7 @@ use crate::channel;
 use crate::metric::{Confidence, Limit, Metric, quantities};
 
 quantities! {
-    [channel::PARTICLES_LOST, channel::HEIGHT_CHANGE, channel::PRESSURE_L2]
+    [channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::HEIGHT_CHANGE, channel::PRESSURE_L2]
     RMS_VERTICAL_VELOCITY: verified("rms_vertical_velocity", "m/s", "root mean square of the vertical velocity"),
     BLOW_UP_TIME:
         verified("blow_up_time", "s", "when a column without stabilisation threw a particle above 1.2 h or diverged"),
@@ -24,7 +24,7 @@ pub(super) fn all(records: &[StillWaterRecord]) -> Vec<Metric> {
     held.into_iter().flat_map(stabilised).chain(failed.into_iter().map(blow_up)).collect()
 }
 
-fn stabilised((run, record): &StillWaterRecord) -> [Metric; 4] {
+fn stabilised((run, record): &StillWaterRecord) -> Vec<Metric> {
     let (variant, data) = (run.variant(), &record.data);
     // what is 0 has no relative drift
     let floored = |metric: Metric, floor: f64| {
@@ -34,7 +34,7 @@ fn stabilised((run, record): &StillWaterRecord) -> [Metric; 4] {
     let height = channel::height_change(&variant, data, "mean height h/2: water keeps its volume");
     let rms = data.average(&data.series.rms_vertical_velocity);
     let velocity = floored(channel::observed(RMS_VERTICAL_VELOCITY, &variant, rms, 1.0), 1e-5).exactly(0.0, "rest");
-    [
+    let mut metrics = vec![
         channel::particles_lost(&variant, record),
         floored(height, 1e-3)
             .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height, averaged over the last window"),
@@ -46,7 +46,11 @@ fn stabilised((run, record): &StillWaterRecord) -> [Metric; 4] {
         },
         floored(channel::pressure_l2(&variant, data), 0.01)
             .gated(Limit::AtMost(1.0), "1 % of the hydrostatic profile, averaged over the last window"),
-    ]
+    ];
+    let known = if run.jitter > 0.2 { 1.95 } else { 1.05 };
+    let short = run.duration < AT_REST_AFTER;
+    metrics.extend(channel::iterations(&variant, data, [None, short.then_some(known)]));
+    metrics
 }
 
 /// When a column without stabilisation has blown up `[s]`: a particle above 1.2 h, or a divergence; else the whole time.

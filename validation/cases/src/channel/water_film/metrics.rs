@@ -9,8 +9,9 @@ use crate::shared::Arrangement;
 use crate::statistics::{FittedValue, log_log_slope};
 
 quantities! {
-    [channel::PARTICLES_LOST, channel::MOMENTUM_RESIDUAL, channel::HEIGHT_CHANGE, channel::BED_SHEAR]
+    [channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::HEIGHT_CHANGE, channel::BED_SHEAR]
     VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
+    LONGEST_WAVE: accounted("longest_wave", "-", "amplitude of the longest wave along the film in the velocity, over its mean"),
     VELOCITY_L2_OWN_DEPTH:
         verified("velocity_l2_own_depth", "%", "the same against the film of the particles' own depth"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of `velocity_l2`"),
@@ -50,14 +51,14 @@ fn source(depth: FilmDepth) -> &'static str {
     }
 }
 
-fn of_run((run, record): &WaterFilmRecord) -> [Metric; 6] {
+fn of_run((run, record): &WaterFilmRecord) -> Vec<Metric> {
     let (variant, data) = (run.variant(), &record.data);
     let error = |quantity, depth| {
         channel::observed(quantity, &variant, velocity_l2(run, data, depth), 100.0).exactly(0.0, source(depth))
     };
     let limit = (run.water.resolution >= 20).then_some(Limit::AtMost(0.8));
     let Water { density, gravity, depth, .. } = run.water;
-    [
+    let mut metrics = vec![
         channel::particles_lost(&variant, record),
         channel::momentum_residual(&variant, record),
         error(VELOCITY_L2, FilmDepth::Nominal)
@@ -65,7 +66,19 @@ fn of_run((run, record): &WaterFilmRecord) -> [Metric; 6] {
         error(VELOCITY_L2_OWN_DEPTH, FilmDepth::Own),
         channel::height_change(&variant, data, "mean height h/2; the velocity goes with the square of the depth"),
         channel::bed_shear(&variant, data, density * gravity * depth * run.film.slope),
-    ]
+        LONGEST_WAVE
+            .of(&variant, data.longest_wave)
+            .exactly(0.0, "nothing tells one place along the film from another")
+            .gated_by(
+                (run.particles == Arrangement::Lattice).then_some(Limit::AtMost(1e-4)),
+                "the solve of the velocities ends at a residual of 1e-6 and meets particles in an order: that leaves 1e-5, and \
+                 particles that start displaced 4e-3",
+            )
+            .with_snapshot_tolerance(0.5, 1e-5),
+    ];
+    let short = run.water.resolution == 20 && run.film.relaxation_times <= 2.0;
+    metrics.extend(channel::iterations(&variant, data, if short { [Some(1.0), Some(1.24)] } else { [None; 2] }));
+    metrics
 }
 
 /// Depth h `[m]` that a run is compared at.

@@ -21,7 +21,7 @@ quantities! {
     VISCOSITY_AND_DEPTH: stated("viscosity_and_depth", "-", "rank correlation of the apparent viscosity and the depth below the surface, at a time"),
     VISCOSITY_LIKE_PRESSURE: stated("viscosity_like_pressure", "-", "rank correlation of the apparent viscosity with the pressure less that with the shear rate, both as sizes, at a time"),
     SURFACE_VISCOSITY: stated("surface_viscosity", "Pa·s", "median apparent viscosity of the uppermost fifth of the thickness, at a time"),
-    BED_VISCOSITY: stated("bed_viscosity", "Pa·s", "the same of the lowest fifth"),
+    BED_VISCOSITY: stated("bed_viscosity", "Pa·s", "median apparent viscosity of the lowest fifth of the thickness, at a time"),
     SHEARED_DEPTH: stated("sheared_depth", "-", "mean depth of the twentieth of the grains that is sheared fastest, over the local thickness, at a time"),
     INERTIA_CONTRAST: stated("inertia_contrast", "-", "range between the quartiles of the inertial number among the faster half of the grains over that among the slower, at a time"),
     UNIFORMITY: stated("uniformity", "-", "least over largest depth mean of the velocity at three places behind the front, at a time"),

@@ -25,9 +25,9 @@ quantities! {
         "transient_mean_error_quarter", "%",
         "depth mean against the 1-D transient, at a quarter of the rise time",
     ),
-    TRANSIENT_MEAN_ERROR_HALF: verified("transient_mean_error_half", "%", "the same at half of it"),
+    TRANSIENT_MEAN_ERROR_HALF: verified("transient_mean_error_half", "%", "depth mean against the 1-D transient, at half of the rise time"),
     TRANSIENT_MEAN_ERROR_THREE_QUARTERS:
-        verified("transient_mean_error_three_quarters", "%", "the same at three quarters of it"),
+        verified("transient_mean_error_three_quarters", "%", "depth mean against the 1-D transient, at three quarters of the rise time"),
     RISE_TIME: verified("rise_time", "s", "time at which the depth mean reaches 99 % of the steady one"),
     ARREST_TIME: verified("arrest_time", "s", "time at which the depth mean has fallen to 1 % of its start"),
     REST_RMS_SPEED: verified("rest_rms_speed", "m/s", "largest root mean square of the speed over the last 0.2 s"),

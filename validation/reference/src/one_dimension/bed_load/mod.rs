@@ -44,7 +44,7 @@ pub use domain::{DIMENSIONLESS_DIAMETERS, OutsideBedLoad, RELATIVE_DEPTHS, SHIEL
 pub use measures::DragPeak;
 pub use profile::{LayerPoint, LayerState};
 pub use solid_fraction::SolidFractionProfile;
-pub use states::{SAME_STATE, SteadyStates, TwoStates};
+pub use states::{SAME_STATE, SteadyStates};
 pub use stream::Stream;
 
 use crate::one_dimension::LayerError;

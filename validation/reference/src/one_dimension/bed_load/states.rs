@@ -10,24 +10,9 @@ pub const SAME_STATE: f64 = 1e-3;
 /// Speed of a fast start over u_* `[-]`: that of clear water a third of the depth above a rough bed.
 const FAST: f64 = 15.0;
 
-/// Where two starts lead.
+/// Where two starts lead: to one state, unless they differ by more than [`SAME_STATE`].
 #[derive(Debug, Clone, PartialEq)]
-#[expect(clippy::large_enum_variant, reason = "made once a layer and taken apart at once")]
-pub enum SteadyStates {
-    /// To one state.
-    One {
-        /// From rest.
-        state: LayerState,
-        /// Difference of that from the fast start `[-]`.
-        difference: f64,
-    },
-    /// To two states, each of them steady.
-    Two(Box<TwoStates>),
-}
-
-/// Two steady states of one layer.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TwoStates {
+pub struct SteadyStates {
     /// From rest.
     pub slow: LayerState,
     /// From a fast start.
@@ -40,54 +25,22 @@ impl SteadyStates {
     /// Of the states from rest and from a fast start.
     #[must_use]
     pub fn of(slow: LayerState, fast: LayerState) -> Self {
-        let difference = slow.start_difference(&fast);
-        if difference <= SAME_STATE {
-            Self::One { state: slow, difference }
-        } else {
-            Self::Two(Box::new(TwoStates { slow, fast, difference }))
-        }
+        Self { difference: slow.start_difference(&fast), slow, fast }
     }
 
-    /// The state from rest.
-    #[must_use]
-    pub fn slow(&self) -> &LayerState {
-        match self {
-            Self::One { state, .. } => state,
-            Self::Two(states) => &states.slow,
-        }
-    }
-
-    /// The state from the fast start, if it is another.
-    #[must_use]
-    pub fn second(&self) -> Option<&LayerState> {
-        match self {
-            Self::One { .. } => None,
-            Self::Two(states) => Some(&states.fast),
-        }
-    }
-
-    /// Difference between the starts `[-]`.
-    #[must_use]
-    pub fn difference(&self) -> f64 {
-        match self {
-            Self::One { difference, .. } => *difference,
-            Self::Two(states) => states.difference,
-        }
-    }
-
-    /// The one state.
+    /// The one state, which is that from rest.
     ///
     /// # Errors
     /// If there are two.
     pub fn single(self) -> Result<LayerState, LayerError> {
-        match self {
-            Self::One { state, .. } => Ok(state),
-            Self::Two(states) => Err(LayerError::TwoStates {
-                slow: states.slow.transport(),
-                fast: states.fast.transport(),
-                difference: states.difference,
-            }),
+        if self.difference <= SAME_STATE {
+            return Ok(self.slow);
         }
+        Err(LayerError::TwoStates {
+            slow: self.slow.transport(),
+            fast: self.fast.transport(),
+            difference: self.difference,
+        })
     }
 }
 
