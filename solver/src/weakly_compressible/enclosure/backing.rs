@@ -18,6 +18,8 @@ use crate::vector::Vector;
 const SAMPLES: usize = 8;
 /// Share of a spacing squared below which a piece of a row is left out `[-]`.
 const SMALLEST: f64 = 0.02;
+/// Difference of two distances in spacings below which they are equal `[-]`.
+const EQUAL: f64 = 1e-6;
 /// Sine of the angle up to which two segments are one straight part `[-]`.
 const STRAIGHT: f64 = 1e-9;
 
@@ -154,10 +156,9 @@ impl Laying<'_> {
                 let share = width * self.spacing / SAMPLES as f64;
                 for sample in 0..SAMPLES {
                     let depth = (row as f64 + (sample as f64 + 0.5) / SAMPLES as f64) * self.spacing;
-                    if self.owns(&near, &(start + direction * along - across * depth), reach) {
-                        strip.area += share;
-                        strip.depth_moment += share * depth;
-                    }
+                    let owned = share * self.owned(&near, &(start + direction * along - across * depth), reach);
+                    strip.area += owned;
+                    strip.depth_moment += owned * depth;
                 }
                 if strip.area > 0.0 {
                     kept.push(strip);
@@ -198,11 +199,21 @@ impl Laying<'_> {
         before.chain(along).chain(after).collect()
     }
 
-    /// Whether a place behind the wall belongs to this part.
-    fn owns(&self, near: &[usize], place: &Vector<2>, reach: f64) -> bool {
-        is_inside(self.domain, place)
-            && facet_side(near.iter().map(|&k| (&self.lines[k], *place)))
-                .is_some_and(|found| found.distance < 0.0 && -found.distance < reach && near[found.facet] == self.own)
+    /// How much of a place behind the wall belongs to this part: on the bisector of a corner it belongs to both, so that mirror images of
+    /// a corner have mirror images of its particles.
+    fn owned(&self, near: &[usize], place: &Vector<2>, reach: f64) -> f64 {
+        if !is_inside(self.domain, place) {
+            return 0.0;
+        }
+        let found = facet_side(near.iter().map(|&k| (&self.lines[k], *place)));
+        let Some(found) = found.filter(|found| found.distance < 0.0 && -found.distance < reach) else { return 0.0 };
+        let owner = near[found.facet];
+        let way = |k: usize| (place - self.lines[k].nearest(place)).norm();
+        let apart = |a: f64, b: f64| (a - b).abs() > EQUAL * self.spacing;
+        let depth = self.lines[owner].height(place);
+        let owns =
+            |k: usize| k == owner || !(apart(self.lines[k].height(place), depth) || apart(way(k), -found.distance));
+        if owns(self.own) { 1.0 / near.iter().filter(|&&k| owns(k)).count() as f64 } else { 0.0 }
     }
 
     /// Strips side by side, divided into equal shares of about a spacing squared: place along the part and depth `[m]`,

@@ -12,7 +12,7 @@ use super::wall_partner::{WallGroup, WallPair};
 use crate::lanes::algebra::{accumulate, difference, dot, load, store_vector, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
-use crate::vector::Vector;
+use crate::vector::{Vector, shear_rate};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::numerics::ViscositySwitch;
@@ -24,6 +24,7 @@ use std::ops::Range;
 /// Records of flow and walls in the layout of [`Momentum`].
 fn fill<P: Precision, const D: usize>(model: &Model<D>, particles: &Particles<D>, records: &mut Records<P>) {
     let inverse_density = 1.0 / model.equation_of_state.reference_density;
+    let grains = model.rheology.is_solid();
     let (count, values) = (particles.position.len(), Momentum::<P, D>::VALUES);
     records.fill(count, values, model.kernel.smoothing_length(), |index, record| {
         let wall = particles.is_wall(index).then(|| index - particles.flow_count());
@@ -34,7 +35,15 @@ fn fill<P: Precision, const D: usize>(model: &Model<D>, particles: &Particles<D>
         }
         record.scalar(wall.map_or(particles.density[index], |wall| walls.depth[wall]));
         record.vector(wall.map_or(&particles.velocity[index], |wall| &walls.velocity[wall]));
-        record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
+        let pressure = particles.pressure[index];
+        record.scalar(match wall {
+            Some(_) => pressure,
+            None => {
+                let speed = hourglass::pressure_speed(pressure, inverse_density);
+                let shear_speed = || shear_rate(&particles.velocity_gradient[index]) * model.spacing;
+                if grains { speed * hourglass::share(shear_speed(), speed) } else { speed }
+            }
+        });
         record.tensor(&particles.corrected_stress[index]);
         match wall {
             Some(wall) => {
