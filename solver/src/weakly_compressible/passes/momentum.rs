@@ -24,7 +24,7 @@ use std::ops::Range;
 /// Records of flow and walls in the layout of [`Momentum`].
 fn fill<P: Precision, const D: usize>(model: &Model<D>, particles: &Particles<D>, records: &mut Records<P>) {
     let inverse_density = 1.0 / model.equation_of_state.reference_density;
-    let grains = model.rheology.is_solid();
+    let grains = model.rheology.strength_is_friction() && model.field_diffusion().is_none();
     let (count, values) = (particles.position.len(), Momentum::<P, D>::VALUES);
     records.fill(count, values, model.kernel.smoothing_length(), |index, record| {
         let wall = particles.is_wall(index).then(|| index - particles.flow_count());

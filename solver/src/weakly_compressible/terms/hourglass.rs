@@ -21,7 +21,7 @@ const LEAST: f64 = 0.375;
 const CALM: f64 = 0.1;
 const FAST: f64 = 0.3;
 
-/// Part of the coefficient that grains get `[-]`, from γ̇ Δ and √(p/ρ0) `[m/s]`: little where they are sheared slowly against their
+/// Part of the coefficient that grains get `[-]` whose law has neither cohesion nor a length of its own, from γ̇ Δ and √(p/ρ0) `[m/s]`: little where they are sheared slowly against their
 /// pressure, all where they are sheared fast. The control makes the direction of the strain rate differ from particle to particle, by
 /// which a layer of 40 rows runs up to 3.7 % too fast; but where the shear is fast against the pressure, little of it lets the layer
 /// sink.

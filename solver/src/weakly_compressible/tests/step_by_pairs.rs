@@ -47,7 +47,7 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
             let own = pressure[f.source];
             let part = (own / (0.5 * row)).clamp(0.0, 1.0);
             let there = own + of.density[f.source] * gravity.dot(&normal) * f.r.dot(&normal) * part;
-            let ratio = if own < 0.0 { 1.0 } else { there / own.max(1e-3 * row) };
+            let ratio = if own < 0.0 || !law.is_solid() { 1.0 } else { there / own.max(1e-3 * row) };
             weights += f.value;
             sum += f.value * there;
             tensor += f.tensor(&of.stress) * (f.value * ratio);
@@ -74,13 +74,18 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
     }
 
     // momentum
-    let speed = |b: usize| (pressure[b].max(0.0) / DENSITY).sqrt();
+    let speed = |b: usize| {
+        let speed = (pressure[b].max(0.0) / DENSITY).sqrt();
+        let of_grains = law.strength_is_friction() && model.field_diffusion().is_none();
+        let fast = (shear_rate(&of.velocity_gradient[b]) * SPACING - 0.1 * speed) / (0.2 * speed).max(1e-30);
+        if of_grains { speed * (0.375 + 0.625 * fast.clamp(0.0, 1.0)) } else { speed }
+    };
     let acceleration = |a: usize| {
         let mut sum = gravity;
         for b in &pairs[a] {
-            let control = numerics.hourglass * h * (speed(a) + speed(b.source));
             let regular = b.r.norm_squared() + 1e-4 * h * h;
             if b.source < flow {
+                let control = numerics.hourglass * h * (speed(a) + speed(b.source));
                 let traction = (flux[a] + b.tensor(&flux)) * b.r;
                 let relief = model.artificial_stress.map_or(0.0, |stress| {
                     let along: f64 = traction.dot(&b.r) / regular;
@@ -93,8 +98,8 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                         0.5 * (of.artificial_viscosity[a] + of.artificial_viscosity[b.source])
                     }
                 };
-                let push = alpha * h * c * slip.dot(&b.r).min(0.0);
                 let strange = slip - (of.velocity_gradient[a] + b.tensor(&of.velocity_gradient)) * b.r * 0.5;
+                let push = alpha * h * c * strange.dot(&b.r).max(slip.dot(&b.r)).min(0.0);
                 let mean = 0.5 * (of.density[a] + of.density[b.source]);
                 let damping = of.density[b.source] * (push + control * strange.dot(&b.r)) / (mean * regular);
                 sum += (traction + b.r * relief) * (b.weight / of.density[a]) + b.r * (b.weight * damping);
@@ -103,8 +108,22 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                 let (normal, depth) = (of.walls.normal[place], of.walls.depth[place]);
                 let factor = (1.0 + depth / (b.r.dot(&normal) - depth).max(1e-6 * h)).min(6.0);
                 let wall = b.tensor(&stress) - identity * pressure[b.source];
-                let strange = (of.velocity[a] - of.walls.velocity[place]) * factor - of.velocity_gradient[a] * b.r;
-                sum += (flux[a] + wall * for_forces(a)) * b.r * (b.weight / of.density[a]);
+                let slip = (of.velocity[a] - of.walls.velocity[place]) * factor;
+                let strange = slip - of.velocity_gradient[a] * b.r;
+                let control = numerics.hourglass * h * 2.0 * speed(a);
+                // what needs no pressure follows from the velocity at the wall, along it
+                let (height, corrected) = (b.r.dot(&normal), for_forces(a) * b.r);
+                let viscosity =
+                    if law.is_plastic() { 0.0 } else { law.viscosity(shear_rate(&of.velocity_gradient[a]), 0.0) };
+                let part = if viscosity > 0.0 { viscosity / of.viscosity[a] } else { 0.0 };
+                let further = slip - of.velocity_gradient[a] * normal * height;
+                let slip = slip + further * (factor - 1.0).min(1.0);
+                let along = slip - normal * slip.dot(&normal);
+                let rub = along * (2.0 * viscosity * normal.dot(&corrected) / height);
+                let replaced = (of.stress[a] + b.tensor(&stress)) * corrected * part;
+                let rough = 1.0 - of.walls.smoothness[place];
+                let traction = (flux[a] + wall * for_forces(a)) * b.r + (rub - replaced) * rough;
+                sum += traction * (b.weight / of.density[a]);
                 sum += normal * (b.weight * control * strange.dot(&normal));
             }
         }
