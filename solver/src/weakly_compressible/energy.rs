@@ -521,8 +521,8 @@ mod tests {
             for tension in [Tension::Cut, Tension::Kept] {
                 let mut missed = f64::NAN;
                 InstructionSet::best().run(Chain(steps, tension, &mut missed));
-                // without the entry a sixth at four steps
-                assert!(missed.abs() < 1e-3 / f64::from(steps), "{steps} steps, {tension:?}: {missed}");
+                // without the entry 3 % at four steps
+                assert!(missed.abs() < 0.02 / f64::from(steps * steps), "{steps} steps, {tension:?}: {missed}");
             }
         }
     }
