@@ -11,7 +11,7 @@ fn the_energy_ledger_closes_in_sound_runs_of_every_kind() {
     let square = (0.1, 0.1);
     let falls = |body: &str, more: &str| {
         let sides = CLOSED.replace("right = \"none\"", "right = { open = 0.3 }");
-        boxed(0.3, (0.05, 0.15), 0.31, "smooth", &format!("{sides}{more}"))
+        boxed(0.3, (0.05, 0.15), 0.31, "smooth", &format!("{more}{sides}"))
             .replace("lower = [0.0, 0.0]", body)
             .replace("spacing = 0.005", "spacing = 0.0025")
     };
@@ -22,8 +22,11 @@ fn the_energy_ledger_closes_in_sound_runs_of_every_kind() {
         .replace("lower = [0.0, 0.0]", "velocity = [-60.0, 0.0]\nlower = [0.002, 0.0]")
         .replace("[[0.0, 0.2], [0.0, 0.0], [0.31, 0.0], [0.31, 0.2]]", "[[0.0, 0.1], [0.0, -0.08]]");
     let runs = [
-        ("water that drops by 10 cm", falls("lower = [0.0, 0.1]", WATER)),
-        ("stiff grains that drop by 10 cm", falls("lower = [0.0, 0.1]", "stiffness = 800.0")),
+        (
+            "stiff water that drops by 10 cm",
+            falls("lower = [0.0, 0.1]", "stiffness = 800.0\n").replace("[sides]", &format!("{WATER}[sides]")),
+        ),
+        ("stiff grains that drop by 10 cm", falls("lower = [0.0, 0.1]", "stiffness = 800.0\n")),
         ("a jet on a plate", jet),
         ("grains at rest", boxed(3.0, square, 0.1, "rough", CLOSED)),
         ("displaced grains at rest", boxed(3.0, square, 0.1, "rough", &format!("jitter = 0.1\n{CLOSED}"))),

@@ -464,7 +464,15 @@ impl<V: Lanes> StressWork<V> {
     #[inline(always)]
     pub(crate) fn new() -> Self {
         let zero = V::splat(0.0);
-        Self { walls: zero, viscous: zero, plastic: zero, density_coupling: zero, correction: zero, cut: zero, ways: zero }
+        Self {
+            walls: zero,
+            viscous: zero,
+            plastic: zero,
+            density_coupling: zero,
+            correction: zero,
+            cut: zero,
+            ways: zero,
+        }
     }
 
     /// Adds the lanes, in their order, to a block's ledger.

@@ -167,7 +167,12 @@ impl<const D: usize> Advance<'_, D> {
             store(switched, &mut out.artificial_viscosity[places.clone()]);
         }
         if self.gradient != GradientUse::None {
-            let start = LawStep { density, pressure, field: field_before, growth: (previous - density) / density.max(V::splat(f64::MIN_POSITIVE)) };
+            let start = LawStep {
+                density,
+                pressure,
+                field: field_before,
+                growth: (previous - density) / density.max(V::splat(f64::MIN_POSITIVE)),
+            };
             compression.pressure.1 = self.stress_of(places, start, sums, out, work, extremes);
         }
         if self.model.dilates {
