@@ -158,6 +158,43 @@ fn an_error_of_one_per_cent_in_any_entry_is_noticed() {
     }
 }
 
+/// A block that comes with its energy and loses a part of it: of what came in, one per cent is noticed in whatever entry it is.
+#[test]
+fn an_error_of_one_per_cent_of_what_moves_at_the_start_is_noticed() {
+    let water = Rheology::Newtonian(Newtonian { viscosity: 1e-6 });
+    let disorder = Disorder { speed: 0.1, ..Disorder::FULL };
+    let mut scene = Scene { rheology: water, numerics: bare(), ..periodic_scene([17, 14], disorder, 11) };
+    scene.flow.velocity.iter_mut().for_each(|velocity| velocity[0] += 1.0);
+    let accounts = accounts(scene, 0.02);
+    let brought = accounts[0].1.kinetic;
+    assert!(open(&accounts, |_| ()) < 0.5 * OPEN);
+    let entries: [fn(&mut EnergyLedger) -> &mut f64; 12] = [
+        |ledger| &mut ledger.gravity,
+        |ledger| &mut ledger.walls,
+        |ledger| &mut ledger.viscous,
+        |ledger| &mut ledger.plastic,
+        |ledger| &mut ledger.artificial,
+        |ledger| &mut ledger.wall_control,
+        |ledger| &mut ledger.density_coupling,
+        |ledger| &mut ledger.contact,
+        |ledger| &mut ledger.side_walls,
+        |ledger| &mut ledger.correction,
+        |ledger| &mut ledger.cut,
+        |ledger| &mut ledger.ways,
+    ];
+    for (number, entry) in entries.into_iter().enumerate() {
+        for sign in [-1.0, 1.0] {
+            let end = accounts[20].1.ledger;
+            let wrong = open(&accounts, |ledger| {
+                if *ledger == end {
+                    *entry(ledger) += sign * 0.01 * brought;
+                }
+            });
+            assert!(wrong > OPEN, "entry {number}: {wrong}");
+        }
+    }
+}
+
 /// Its share of all work stays below a tenth, so that the limit of a run cannot hold it. That of a step without length can.
 #[test]
 fn the_control_at_walls_is_booked_to_one_per_cent_of_itself() {

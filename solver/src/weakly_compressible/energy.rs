@@ -9,7 +9,9 @@
 //!
 //! The stress acts on K as it was before the step, and on the deformation as its mean: over a run the difference is the sum
 //! of Δt ½(Fⁿ⁺¹·vⁿ⁺¹ − Fⁿ·vⁿ) with the force F of the stress, of which only both ends are left. With gravity's, that is
-//! ½ Δt m a·v: nothing where the flow is steady, and half a step's change of K elsewhere.
+//! ½ Δt m a·v: nothing where the flow is steady, and half a step's change of K elsewhere. Two things are left of the sum itself, and
+//! entries of their own: the mean of two pressures is not that of the step where tension is cut within it, and the two sums of a
+//! force are taken at places a step apart. The latter is known as far as the motion around a particle is one gradient.
 //!
 //! Walls: Σ m v̄·a_w Δt of their tractions, plus the part of the stress' work on the velocity gradient that they cause.
 //! In the continuum the two are equal and opposite at a wall at rest, so that W_w is the work of walls that move: what a
@@ -26,6 +28,7 @@ use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::vector::{Tensor, Vector, double_contraction};
 use crate::weakly_compressible::model::{GradientUse, Model};
 use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::terms::continuity::compression;
 use serde::{Deserialize, Serialize};
 
 /// Energies `[J]`, in two dimensions `[J/m]`, since the start of a run.
@@ -52,6 +55,14 @@ pub struct EnergyLedger {
     /// InletMass in by the kernel corrections: the work that the stress does on the gradients as they are taken, less that of
     /// the same stress as the forces take it. Negative where they take energy out.
     pub correction: f64,
+    /// Fed in where a step crosses the density without pressure and tension is cut: what compression stores of the part under
+    /// pressure, less the work that the mean pressure does over all of the step.
+    #[serde(default)]
+    pub cut: f64,
+    /// Fed in by the ways that particles go within a step: half the work of the law's stress on the change of what its forces are the
+    /// transpose of, from V G to V′ G (1 − Δt L). Compression is booked with V′ and takes twice that of V from it.
+    #[serde(default)]
+    pub ways: f64,
 }
 
 impl EnergyLedger {
@@ -68,12 +79,20 @@ impl EnergyLedger {
             contact: f(self.contact, other.contact),
             side_walls: f(self.side_walls, other.side_walls),
             correction: f(self.correction, other.correction),
+            cut: f(self.cut, other.cut),
+            ways: f(self.ways, other.ways),
         }
     }
 
     /// Adds the entries of another.
     pub(crate) fn add(&mut self, other: Self) {
         *self = self.combined(other, |a, b| a + b);
+    }
+
+    /// All that was fed in beside the work of gravity `[J]`.
+    #[must_use]
+    pub fn given(&self) -> f64 {
+        self.walls + self.correction + self.cut + self.ways
     }
 
     /// All that was dissipated `[J]`.
@@ -126,8 +145,7 @@ impl EnergyAccount {
     #[must_use]
     pub fn residual_since(&self, before: &Self) -> f64 {
         let (now, then) = (&self.ledger, &before.ledger);
-        let given = (now.walls - then.walls) + (now.correction - then.correction);
-        self.total() - before.total() - given + (now.dissipated() - then.dissipated())
+        self.total() - before.total() - (now.given() - then.given()) + (now.dissipated() - then.dissipated())
     }
 }
 
@@ -296,12 +314,18 @@ pub(crate) struct DeformationStep<'a, V, const D: usize> {
     pub(crate) pressure: (V, V),
     /// ∇·v of the flow among itself as continuity takes it `[1/s]`.
     pub(crate) divergence: V,
+    /// Share by which the volume grows in the step `[-]`.
+    pub(crate) growth: V,
     /// Velocity gradient of the flow among itself before any correction `[1/s]`, and the correction E of the forces `[-]`.
     pub(crate) raw_gradient: &'a [[V; D]; D],
+    /// Velocity gradient L with that of walls before any correction `[1/s]`.
+    pub(crate) gradient: &'a [[V; D]; D],
     pub(crate) force_correction: &'a [[V; D]; D],
     /// ε′ after the step, and the part of it that walls cause `[1/s]`.
     pub(crate) rate: &'a [[V; D]; D],
     pub(crate) rate_by_walls: &'a [[V; D]; D],
+    /// ε′ before the step, at which the added stress is taken `[1/s]`.
+    pub(crate) rate_before: &'a [[V; D]; D],
     /// s before and after the step `[Pa]`.
     pub(crate) stress_before: &'a [[V; D]; D],
     pub(crate) stress: &'a [[V; D]; D],
@@ -313,13 +337,10 @@ impl<V: Lanes, const D: usize> DeformationStep<'_, V, D> {
     pub(crate) fn add_to(&self, sum: &mut StressWork<V>) {
         let (volume, time_step) = (self.volume, V::splat(self.time_step));
         let work = volume * time_step;
-        sum.viscous = sum.viscous + work * contraction(self.added_stress, self.rate);
         let half = V::splat(0.5);
-        let mut law = zero_tensor::<V, D>();
-        for i in 0..D {
-            accumulate(&mut law[i], half, &self.stress_before[i]);
-            accumulate(&mut law[i], half, &self.stress[i]);
-        }
+        let mean_rate = scaled_sum(half, self.rate_before, self.rate);
+        sum.viscous = sum.viscous + work * contraction(self.added_stress, &mean_rate);
+        let law = scaled_sum(half, self.stress_before, self.stress);
         let mut acting = law;
         for i in 0..D {
             accumulate(&mut acting[i], V::splat(1.0), &self.added_stress[i]);
@@ -333,6 +354,12 @@ impl<V: Lanes, const D: usize> DeformationStep<'_, V, D> {
         let taken = contraction(&acting, self.rate) - by_walls - pressure * self.divergence;
         let given = contraction(&matrix_product(&whole, self.force_correction), self.raw_gradient);
         sum.correction = sum.correction + work * (taken - given);
+        let flow = matrix_product(self.raw_gradient, self.force_correction);
+        // the added stress acts once, at the start
+        let turned = matrix_product(&flow, self.gradient);
+        let turned = time_step * (contraction(&law, &turned) + pressure * compression(&turned));
+        let pressed = pressure * (compression(&flow) + self.divergence + self.divergence);
+        sum.ways = sum.ways + half * work * (turned - self.growth * (contraction(&law, &flow) + pressed));
         sum.walls = sum.walls + work * by_walls;
         match self.shear_modulus {
             None => sum.viscous = sum.viscous + work * contraction(&law, self.rate),
@@ -340,11 +367,23 @@ impl<V: Lanes, const D: usize> DeformationStep<'_, V, D> {
                 // what the acting stress has done and elastic shear has not kept; what a trial has beyond the yield is no
                 // work, since no force ever had it
                 let compliance = V::splat(0.25 / shear_modulus);
-                let lost = contraction(self.stress_before, self.stress_before) - contraction(self.stress, self.stress);
+                let kept = (V::splat(1.0) + self.growth) * contraction(self.stress, self.stress);
+                let lost = contraction(self.stress_before, self.stress_before) - kept;
                 sum.plastic = sum.plastic + volume * compliance * lost + work * contraction(&law, self.rate);
             }
         }
     }
+}
+
+/// c (a + b).
+#[inline(always)]
+fn scaled_sum<V: Lanes, const D: usize>(factor: V, a: &[[V; D]; D], b: &[[V; D]; D]) -> [[V; D]; D] {
+    let mut sum = zero_tensor::<V, D>();
+    for i in 0..D {
+        accumulate(&mut sum[i], factor, &a[i]);
+        accumulate(&mut sum[i], factor, &b[i]);
+    }
+    sum
 }
 
 /// What the compression of eight particles adds to the ledger.
@@ -359,6 +398,8 @@ pub(crate) struct CompressionStep<V> {
     /// Changes of the density by walls and by the coupling `[kg/m³]`.
     pub(crate) by_walls: V,
     pub(crate) by_coupling: V,
+    /// Density without pressure `[kg/m³]`, below which tension is cut; zero where it is kept.
+    pub(crate) free: V,
 }
 
 impl<V: Lanes> CompressionStep<V> {
@@ -370,6 +411,9 @@ impl<V: Lanes> CompressionStep<V> {
         let mean = V::splat(0.5) * (self.pressure.0 + self.pressure.1);
         sum.walls = sum.walls + factor * mean * self.by_walls;
         sum.density_coupling = sum.density_coupling - factor * mean * self.by_coupling;
+        let (before, after) = self.density;
+        let pressed = after.max(self.free) - before.max(self.free);
+        sum.cut = sum.cut + factor * mean * (pressed - (after - before));
     }
 }
 
@@ -411,6 +455,8 @@ pub(crate) struct StressWork<V> {
     plastic: V,
     density_coupling: V,
     correction: V,
+    cut: V,
+    ways: V,
 }
 
 impl<V: Lanes> StressWork<V> {
@@ -418,7 +464,15 @@ impl<V: Lanes> StressWork<V> {
     #[inline(always)]
     pub(crate) fn new() -> Self {
         let zero = V::splat(0.0);
-        Self { walls: zero, viscous: zero, plastic: zero, density_coupling: zero, correction: zero }
+        Self {
+            walls: zero,
+            viscous: zero,
+            plastic: zero,
+            density_coupling: zero,
+            correction: zero,
+            cut: zero,
+            ways: zero,
+        }
     }
 
     /// Adds the lanes, in their order, to a block's ledger.
@@ -429,5 +483,55 @@ impl<V: Lanes> StressWork<V> {
         ledger.plastic += sum_of_lanes(self.plastic);
         ledger.density_coupling += sum_of_lanes(self.density_coupling);
         ledger.correction += sum_of_lanes(self.correction);
+        ledger.cut += sum_of_lanes(self.cut);
+        ledger.ways += sum_of_lanes(self.ways);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lanes::{InstructionSet, LANES, LanePass};
+
+    /// Steps of compression from a density below ρ0 to one above, and the share of the energy that they miss.
+    struct Chain<'a>(u32, Tension, &'a mut f64);
+
+    impl LanePass for Chain<'_> {
+        fn run<V: Lanes>(self) {
+            let Self(steps, tension, missed) = self;
+            let law = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e5, tension };
+            let (mut sum, mut worked) = (StressWork::<V>::new(), 0.0);
+            let density = |step: u32| 995.0 + 15.0 * f64::from(step) / f64::from(steps);
+            for step in 0..steps {
+                let (before, after) = (density(step), density(step + 1));
+                let pressure = (law.pressure(before), law.pressure(after));
+                worked += 0.5 * (pressure.0 + pressure.1) * (after - before) / (before * after);
+                CompressionStep {
+                    mass: V::splat(1.0),
+                    density: (V::splat(before), V::splat(after)),
+                    pressure: (V::splat(pressure.0), V::splat(pressure.1)),
+                    by_walls: V::splat(0.0),
+                    by_coupling: V::splat(0.0),
+                    free: V::splat(if tension == Tension::Cut { law.reference_density } else { 0.0 }),
+                }
+                .add_to(&mut sum);
+            }
+            let stored = compression_energy(&law, 1010.0) - compression_energy(&law, 995.0);
+            let cut = sum_of_lanes(sum.cut) / LANES as f64;
+            assert!(tension == Tension::Cut || cut == 0.0, "nothing is cut");
+            *missed = (stored - worked - cut) / stored;
+        }
+    }
+
+    #[test]
+    fn compression_across_the_cut_is_booked_to_second_order() {
+        for steps in [2, 4, 7, 10, 40] {
+            for tension in [Tension::Cut, Tension::Kept] {
+                let mut missed = f64::NAN;
+                InstructionSet::best().run(Chain(steps, tension, &mut missed));
+                // without the entry 3 % at four steps
+                assert!(missed.abs() < 0.02 / f64::from(steps * steps), "{steps} steps, {tension:?}: {missed}");
+            }
+        }
     }
 }

@@ -3,7 +3,7 @@
 use crate::kernel::Kernel;
 use crate::lanes::algebra::{deviatoric_rate, invariant};
 use crate::lanes::{InstructionSet, Lanes, Real};
-use crate::material::equation_of_state::EquationOfState;
+use crate::material::equation_of_state::{EquationOfState, Tension};
 use crate::material::rheology::field::{FieldBoundary, FieldDiffusion, FieldStep, LawField};
 use crate::material::rheology::{ElasticModuli, Rheology};
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
@@ -117,6 +117,17 @@ impl<const D: usize> Model<D> {
         }
     }
 
+    /// Density `[kg/m³]` below which tension is cut, at a field of the law; zero where it is kept.
+    #[inline(always)]
+    pub(crate) fn free_density<R: Real>(&self, field: R) -> R {
+        let reference = R::splat(self.equation_of_state.reference_density);
+        match self.equation_of_state.tension {
+            Tension::Kept => R::splat(0.0),
+            Tension::Cut if self.dilates => reference / self.rheology.loosening(field),
+            Tension::Cut => reference,
+        }
+    }
+
     /// ζ ρ0 c_s h `[Pa·s]`: viscosity that damps elastic waves below the yield. Without it an arrested layer
     /// swings for ever; a flowing one does not feel it.
     pub(crate) fn elastic_viscosity(&self) -> f64 {
@@ -219,7 +230,6 @@ impl<const D: usize> Model<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::equation_of_state::Tension;
     use crate::material::rheology::SofteningDruckerPrager;
     use crate::weakly_compressible::scene::{Flow, Scene};
     use crate::weakly_compressible::state::State;

@@ -104,6 +104,8 @@ struct LawStep<V> {
     /// `[Pa]`
     pressure: V,
     field: V,
+    /// Share by which the volume grows `[-]`.
+    growth: V,
 }
 
 /// A block of particles on its way to the next step.
@@ -145,6 +147,7 @@ impl<const D: usize> Advance<'_, D> {
             pressure: (pressure_before, pressure),
             by_walls: time_step * previous * sums.wall_compression,
             by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
+            free: self.model.free_density(field_before),
         };
         if !self.model.dilates {
             compression.add_to(work);
@@ -164,7 +167,12 @@ impl<const D: usize> Advance<'_, D> {
             store(switched, &mut out.artificial_viscosity[places.clone()]);
         }
         if self.gradient != GradientUse::None {
-            let start = LawStep { density, pressure, field: field_before };
+            let start = LawStep {
+                density,
+                pressure,
+                field: field_before,
+                growth: (previous - density) / density.max(V::splat(f64::MIN_POSITIVE)),
+            };
             compression.pressure.1 = self.stress_of(places, start, sums, out, work, extremes);
         }
         if self.model.dilates {
@@ -183,7 +191,7 @@ impl<const D: usize> Advance<'_, D> {
         work: &mut StressWork<V>,
         extremes: &mut Extremes,
     ) -> V {
-        let LawStep { density, mut pressure, field: field_before } = start;
+        let LawStep { density, mut pressure, field: field_before, .. } = start;
         let law = &self.model.rheology;
         let particles_here = self.block_start + places.start..self.block_start + places.end;
         let correction = self.particles.correction.load::<V>(particles_here.start / LANES);
@@ -225,11 +233,17 @@ impl<const D: usize> Advance<'_, D> {
             let mut added = zero_tensor::<V, D>();
             let added_viscosity =
                 self.model.added_viscosity(&gradient_before, &before, pressure_before, density, &kept);
+            let rate_before = deviatoric_rate(&gradient_before);
             if let Some(viscosity) = added_viscosity {
-                let rate = deviatoric_rate(&gradient_before);
                 for i in 0..D {
-                    accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate[i]);
+                    accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate_before[i]);
                 }
+            }
+            // as these velocities have it where the particles are now
+            let mut gradient_then = gradient_before;
+            let turned = matrix_product(&gradient_before, &gradient_before);
+            for i in 0..D {
+                accumulate(&mut gradient_then[i], V::splat(-self.time_step), &turned[i]);
             }
             let mut flow_gradient = sums.gradient;
             for i in 0..D {
@@ -241,11 +255,14 @@ impl<const D: usize> Advance<'_, D> {
                 shear_modulus: law.is_plastic().then_some(moduli.shear),
                 added_stress: &added,
                 pressure: (pressure_before, pressure),
+                growth: start.growth,
                 divergence: sums.wall_compression - sums.compression,
                 raw_gradient: &flow_gradient,
+                gradient: &sums.gradient,
                 force_correction: &self.particles.force_correction.load::<V>(particles_here.start / LANES),
                 rate: &deviatoric_rate(&gradient),
                 rate_by_walls: &deviatoric_rate(&matrix_product(&sums.wall_gradient, &correction)),
+                rate_before: &deviatoric_rate(&gradient_then),
                 stress_before: &before,
                 stress: &stress,
             }

@@ -18,6 +18,8 @@ pub struct EnergyBook {
     pub correction: f64,
     /// What was dissipated up to the last sample, by cause.
     pub dissipated: Vec<(String, f64)>,
+    /// Kinetic energy at the start, and energy that inlets have brought up to the last sample.
+    pub entered: (f64, f64),
     /// Work of gravity and of walls from sample to sample, whichever way it went.
     pub exchanged: (f64, f64),
     /// Kinetic energy times the time it was there `[J s]`, in two dimensions `[J s/m]`.
@@ -34,10 +36,12 @@ impl EnergyBook {
             self.exchanged.0 += (ledger.gravity - self.gravity).abs();
             self.exchanged.1 += (ledger.walls - self.walls).abs();
             self.motion += 0.5 * (account.kinetic + self.last.1) * (time - self.last.0);
+        } else {
+            self.entered.0 = account.kinetic;
         }
         self.last = (time, account.kinetic);
         self.total.push(account.total() + left);
-        self.explained.push(ledger.walls + ledger.correction - ledger.dissipated());
+        self.explained.push(ledger.given() - ledger.dissipated());
         (self.gravity, self.walls, self.correction) = (ledger.gravity, ledger.walls, ledger.correction);
         let causes = [
             ("viscosity", ledger.viscous),
@@ -62,12 +66,12 @@ impl EnergyBook {
         open.iter().fold(if start.is_nan() { f64::NAN } else { 0.0 }, |most, open| most.max((open - start).abs()))
     }
 
-    /// The work that a run is about: the largest of gravity's, of walls', and of what was dissipated. What swings to and
-    /// fro counts each time.
+    /// The work that a run is about: the largest of gravity's, of walls', of what was dissipated, and of what came in with the
+    /// motion of the start and through inlets. What swings to and fro counts each time.
     #[must_use]
     pub fn turnover(&self) -> f64 {
         let dissipated: f64 = self.dissipated.iter().map(|(_, energy)| energy.abs()).sum();
-        self.exchanged.0.max(self.exchanged.1).max(dissipated)
+        self.exchanged.0.max(self.exchanged.1).max(dissipated).max(self.entered.0 + self.entered.1)
     }
 
     /// Largest rise of the total energy above its least value before.
@@ -107,5 +111,8 @@ mod tests {
         }
         assert_eq!((book.exchanged, book.motion), ((5.0, 1.5), 1.0 + 3.0));
         assert_eq!(book.turnover(), 5.0);
+        // what was in motion at the start, and what an inlet brought
+        book.entered = (4.0, 2.0);
+        assert_eq!(book.turnover(), 6.0);
     }
 }

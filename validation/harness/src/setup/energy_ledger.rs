@@ -55,9 +55,9 @@ impl EnergyScale {
 const OPEN: f64 = 0.5;
 const OPEN_AT_REST: f64 = 1e-3;
 
-const WORK: &str = "of the largest work done: by gravity, by walls, or dissipated";
+const WORK: &str = "of the largest work done: by gravity, by walls, dissipated, or brought in by what moves";
 
-const WORK_OR_WEIGHT: &str = "of the largest work done, by gravity, by walls, or dissipated; at least of a tenth of the \
+const WORK_OR_WEIGHT: &str = "of the largest work done, by gravity, by walls, dissipated, or brought in by what moves; at least of a tenth of the \
      weight times the scene's height";
 
 /// Least work that counts, over the weight times the height `[-]`.

@@ -20,9 +20,9 @@ const FARTHEST: f64 = 0.7;
 quantities! { shared pub(super)
     MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start and of what came in"),
     MOMENTUM_RESIDUAL:
-        accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity"),
+        accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity or of what comes"),
     FORCE_RESIDUAL:
-        accounted("force_residual", "%", "impulse of all walls, wall by wall, less that of all particles, over that of gravity"),
+        accounted("force_residual", "%", "impulse of all walls, wall by wall, less that of all particles, over that of gravity or of what comes"),
     UNSOLVED: accounted("unsolved", "%", "impulse that implicit viscous steps leave out, over that of gravity"),
     VISCOUS_ITERATIONS: accounted("viscous_iterations", "-", "iterations of an implicit viscous step, mean over all steps"),
     THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
@@ -141,7 +141,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
             )
             .with_snapshot_tolerance(1.0, 1e-9),
         MOMENTUM_RESIDUAL
-            .of(variant, 100.0 * data.missing_impulse / data.gravity_impulse)
+            .of(variant, 100.0 * data.missing_impulse / data.impulse())
             .exactly(0.0, "what gravity, walls and sides give is the change of the momentum")
             .gated(Limit::AtMost(1e-4), closed)
             .with_snapshot_tolerance(1.0, 1e-7),
@@ -158,7 +158,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
     if !has_mirror {
         metrics.push(
             FORCE_RESIDUAL
-                .of(variant, 100.0 * data.unassigned_impulse / data.gravity_impulse)
+                .of(variant, 100.0 * data.unassigned_impulse / data.impulse())
                 .exactly(0.0, "the forces on the walls are all that the particles feel of them")
                 .gated(Limit::AtMost(1e-4), closed)
                 .with_snapshot_tolerance(1.0, 1e-7),
@@ -204,7 +204,7 @@ fn energy<S: Dimension<D>, const D: usize>(
     let (fall, height) = (parameters.fall(), parameters.height());
     let numerics = &parameters.numerics;
     let smoothing_length = numerics.smoothing_ratio * parameters.spacing;
-    let sound_speed = (parameters.stiffness * fall).sqrt();
+    let sound_speed = parameters.equation_of_state().sound_speed();
     let scale = EnergyScale::WorkOver {
         fall_time: height / fall.sqrt(),
         weight_by_height: data.whole_mass() * fall,

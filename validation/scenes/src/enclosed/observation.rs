@@ -24,6 +24,9 @@ pub struct FedMass {
     pub mass: f64,
     /// Largest difference of the mass that was fed from the integral of the rate, at any sample, over the mass of a row `[-]`.
     pub farthest: f64,
+    /// Size of their momentum as they came `[kg m/s]`.
+    #[serde(default)]
+    pub impulse: f64,
 }
 
 /// Series and balances; every series has the shape `[samples]`.
@@ -58,6 +61,9 @@ pub struct SceneObservation<const D: usize> {
     pub gravity_impulse: f64,
     /// Momentum at the start `[kg m/s]`.
     pub momentum_at_start: Vector<D>,
+    /// The same without directions, Σ m |v| `[kg m/s]`.
+    #[serde(default)]
+    pub motion_at_start: f64,
     /// Particles that are behind a wall at the end.
     pub behind: u64,
     /// Share of the sites of bodies that are behind walls or nearer to them than particles start `[-]`.
@@ -81,6 +87,7 @@ impl<const D: usize> Default for SceneObservation<D> {
             unassigned_impulse: 0.0,
             gravity_impulse: 0.0,
             momentum_at_start: Vector::zeros(),
+            motion_at_start: 0.0,
             behind: 0,
             cut_off: 0.0,
         }
@@ -113,6 +120,7 @@ impl<const D: usize> SceneObservation<D> {
         let given = gravity * over_time;
         if self.time.is_empty() {
             self.momentum_at_start = held;
+            self.motion_at_start = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm() * m).sum();
             self.gauges = vec![Vec::new(); gauges.len()];
         }
         let unsolved = simulation.unsolved_impulse();
@@ -130,7 +138,8 @@ impl<const D: usize> SceneObservation<D> {
         self.fed.resize(inlets.len(), FedMass::default());
         for ((entry, fed), inlet) in self.fed.iter_mut().zip(inlets).zip(simulation.inlets()) {
             let off = (fed.mass - inlet.rate.mass(snapshot.time)).abs() / inlet.row_mass();
-            *entry = FedMass { particles: fed.particles, mass: fed.mass, farthest: entry.farthest.max(off) };
+            let (farthest, impulse) = (entry.farthest.max(off), fed.momentum.norm());
+            *entry = FedMass { particles: fed.particles, mass: fed.mass, farthest, impulse };
         }
         self.missing_mass = self.missing_mass.max((inside + outside - self.mass[0] - brought).abs());
         self.missing_impulse = self.missing_impulse.max(missing.norm());
@@ -141,8 +150,14 @@ impl<const D: usize> SceneObservation<D> {
         if let Some(account) = &snapshot.energy {
             let kept: f64 = sides.iter().map(|side| side.energy).sum();
             let given: f64 = inlets.iter().map(|fed| fed.energy).sum();
+            self.energy.entered.1 = given;
             self.energy.enter(snapshot.time, account, kept - given);
         }
+    }
+
+    /// The largest impulse that enters: that of gravity, or that with which material started and came in `[kg m/s]`.
+    pub(super) fn impulse(&self) -> f64 {
+        self.gravity_impulse.max(self.motion_at_start + self.fed.iter().map(|fed| fed.impulse).sum::<f64>())
     }
 
     /// All the mass that there has been, at the start or by inlets up to the last sample `[kg]`.
