@@ -243,7 +243,8 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 // all of it acts along the pair: one factor of r
                 let explained = hourglass::explained_along(&own.velocity_gradient, &other.velocity_gradient, &r);
                 let unexplained = approach - explained;
-                let push = artificial_viscosity::pair_factor(alpha, approach, unexplained, inverse);
+                let felt = if constants.limits_viscosity { unexplained } else { approach };
+                let push = artificial_viscosity::pair_factor(alpha, approach, felt, inverse);
                 let along = unexplained * (half * inverse * density_sum);
                 let mut pull = mass_weight * (push + drag * along);
                 if let Some(relief) = relief {
@@ -252,7 +253,8 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 part.damp(mirrored, pull, &r);
             } else {
                 let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
-                let push = artificial_viscosity::pair_factor(alpha, approach, dot(&r, &unexplained), inverse);
+                let felt = if constants.limits_viscosity { dot(&r, &unexplained) } else { approach };
+                let push = artificial_viscosity::pair_factor(alpha, approach, felt, inverse);
                 let unexplained = hourglass::along_pair(&unexplained, &r, regular);
                 part.damp(mirrored, mass_weight * push, &r);
                 part.damp(mirrored, mass_weight * drag, &unexplained);
@@ -271,7 +273,7 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
     if group.wall.is_empty() {
         return forces;
     }
-    let seen = WallGroup::of::<V, P>(&model.rheology, particles, own, here);
+    let seen = WallGroup::of::<V, P>(model, particles, own, here);
     let mut walls = weighing.pairs(group.wall, wall_weights);
     while let Some(walls) = walls.next() {
         for (w, weight) in walls {

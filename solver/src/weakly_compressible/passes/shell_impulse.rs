@@ -94,7 +94,7 @@ impl<const D: usize> Pass<'_, D> {
         let quads = const { Momentum::<P, D>::QUADS };
         let own = FlowPartner::of::<P>(&records.load::<V>(quads, &group.own));
         let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: own.position };
-        let seen = WallGroup::of::<V, P>(&model.rheology, particles, own, places);
+        let seen = WallGroup::of::<V, P>(model, particles, own, places);
         let mut walls = weighing.pairs(group.wall, weights);
         while let Some(walls) = walls.next() {
             for (w, weight) in walls {

@@ -7,7 +7,7 @@ use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{difference, dot, load_tensor, matrix_product, product, scaled};
 use crate::lanes::{LANES, LaneIndices, Lanes, Real};
-use crate::material::rheology::Rheology;
+use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{hourglass, no_slip, stress_divergence, wall_slip};
 use std::ops::Range;
@@ -74,14 +74,19 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
     /// Of the particles at `places`, whose velocity gradient is whole, unlike in a record.
     #[inline(always)]
     pub(super) fn of<V: Lanes, P: Precision<Lanes<V> = S>>(
-        law: &Rheology,
+        model: &Model<D>,
         particles: &Particles<D>,
         mut own: FlowPartner<S, D>,
         places: Range<usize>,
     ) -> Self {
         let whole = particles.force_correction.load::<V>(places.start / LANES);
         let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]);
-        let (viscosity, share) = law.viscosity_without_pressure(&gradient, &particles.viscosity[places.clone()]);
+        let viscosities = &particles.viscosity[places.clone()];
+        let (viscosity, share) = if model.binds_by_velocity() {
+            model.rheology.viscosity_without_pressure(&gradient, viscosities)
+        } else {
+            (V::splat(0.0), V::splat(0.0))
+        };
         let stress = matrix_product(&load_tensor::<V, D>(&particles.stress[places]), &whole);
         let mut viscous = ViscousPart {
             share: P::narrow(share),
