@@ -47,8 +47,7 @@ pub(super) struct Constants {
     /// k h `[m]` of the hourglass control.
     pub(super) hourglass_strength: f64,
     pub(super) artificial_viscosity: f64,
-    /// Whether it acts on what no gradient explains alone: in grains. A liquid at rest needs all of it against its noise.
-    pub(super) limits_viscosity: bool,
+    pub(super) reference_density: f64,
     pub(super) viscosity_switch: ViscositySwitch,
     pub(super) artificial_stress: Option<ArtificialStress>,
 }
@@ -62,7 +61,7 @@ impl Constants {
             speed_length: smoothing_length * model.equation_of_state.sound_speed(),
             hourglass_strength: model.numerics.hourglass * smoothing_length,
             artificial_viscosity: model.numerics.artificial_viscosity,
-            limits_viscosity: model.rheology.is_solid(),
+            reference_density: model.equation_of_state.reference_density,
             viscosity_switch: model.numerics.viscosity_switch,
             artificial_stress: model.artificial_stress,
         }

@@ -19,8 +19,8 @@ pub(super) struct WallPartner<V, const D: usize> {
     pub(super) velocity: [V; D],
     /// Depth behind the surface `[m]`.
     pub(super) depth: V,
-    /// p `[Pa]`.
-    pub(super) pressure: V,
+    /// √(p/ρ0) `[m/s]`.
+    pub(super) pressure_speed: V,
     /// σ `[Pa]`.
     pub(super) stress: [[V; D]; D],
     pub(super) normal: [V; D],
@@ -35,7 +35,7 @@ impl<V: Real, const D: usize> WallPartner<V, D> {
             position: records::vector(record, 0),
             velocity: records::vector(record, Momentum::<P, D>::VELOCITY),
             depth: records::scalar(record, Momentum::<P, D>::DENSITY),
-            pressure: records::scalar(record, Momentum::<P, D>::SPEED),
+            pressure_speed: records::scalar(record, Momentum::<P, D>::SPEED),
             stress: records::tensor(record, Momentum::<P, D>::STRESS),
             normal: records::vector(record, Momentum::<P, D>::LAST),
             smoothness: records::scalar(record, Momentum::<P, D>::LAST + D),
@@ -120,15 +120,15 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
         let mut traction = stress_divergence::wall_traction(&own.corrected_stress, &wall.stress, correction, &r);
         let corrected = product(correction, &r);
         let rough = S::splat(1.0) - wall.smoothness;
+        let wall_pressure = S::splat(constants.reference_density) * wall.pressure_speed * wall.pressure_speed;
         let shear = no_slip::slip_at_middle(&slip, beta, &own.velocity_gradient, &wall.normal, &r);
         let rub = no_slip::traction(viscous.twice_viscosity, &shear, &wall.normal, &r, &corrected);
         for i in 0..D {
-            let extrapolated = dot(&wall.stress[i], &corrected) + wall.pressure * corrected[i];
+            let extrapolated = dot(&wall.stress[i], &corrected) + wall_pressure * corrected[i];
             let replaced = dot(&viscous.stress[i], &r) + viscous.share * extrapolated;
             traction[i] = traction[i] + rough * (rub[i] - replaced);
         }
-        // the wall takes the pressure of the flow
-        let speed_sum = own.pressure_speed + own.pressure_speed;
+        let speed_sum = own.pressure_speed + wall.pressure_speed;
         let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum);
         let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal);
         WallPair { traction, drag, unexplained }

@@ -19,9 +19,9 @@ pub fn mean_strength<V: Real>(alpha_a: V, alpha_b: V, speed_length: f64) -> V {
 ///
 /// `strength` is α h c `[m²/s]`, `approach` r_ab·v_ab `[m²/s]`, `inverse` 1/(ρ̄ (r² + δ²)) `[m/kg]`.
 #[inline(always)]
-pub fn pair_factor<V: Real>(strength: V, approach: V, unexplained: V, inverse: V) -> V {
+pub fn pair_factor<V: Real>(strength: V, approach: V, inverse: V) -> V {
     let none = V::splat(0.0);
-    strength * unexplained.max(approach).min(none) * inverse
+    strength * approach.min(none) * inverse
 }
 
 /// One explicit step of (16): dα/dt = −(α − α_min)/ς + S, S = max(0, −∇·v), ς = h/(σ c).

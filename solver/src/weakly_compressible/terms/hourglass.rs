@@ -2,8 +2,7 @@
 //! does not explain, so that linear velocity fields feel nothing.
 //!
 //! a_a = Σ_b 2 ν_ab [2 m_b/(ρ_a + ρ_b)] F [v_ab − ½(∇v_a + ∇v_b) r_ab], ν_ab = k h ½(√(p_a/ρ0) + √(p_b/ρ0)):
-//! it vanishes with the pressure, so that a loose particle flies freely. Grains get a part of it ([`share`]). Not in the paper;
-//! antisymmetric in a and b.
+//! it vanishes with the pressure, so that a loose particle flies freely. Not in the paper; antisymmetric in a and b.
 
 use crate::lanes::Real;
 use crate::lanes::algebra::{difference, dot, product, scaled, sum_of};
@@ -13,23 +12,6 @@ use crate::lanes::algebra::{difference, dot, product, scaled, sum_of};
 #[must_use]
 pub fn pressure_speed(pressure: f64, inverse_density: f64) -> f64 {
     (pressure.max(0.0) * inverse_density).sqrt()
-}
-
-/// Least part of the coefficient that grains get `[-]`.
-const LEAST: f64 = 0.375;
-/// γ̇ Δ/√(p/ρ0) up to which grains get the least part, and that from which on they get all `[-]`.
-const CALM: f64 = 0.1;
-const FAST: f64 = 0.3;
-
-/// Part of the coefficient that grains get `[-]` whose law has neither cohesion nor a length of its own, from γ̇ Δ and √(p/ρ0) `[m/s]`: little where they are sheared slowly against their
-/// pressure, all where they are sheared fast. The control makes the direction of the strain rate differ from particle to particle, by
-/// which a layer of 40 rows runs up to 3.7 % too fast; but where the shear is fast against the pressure, little of it lets the layer
-/// sink.
-#[inline(always)]
-#[must_use]
-pub fn share(shear_speed: f64, pressure_speed: f64) -> f64 {
-    let between = (shear_speed - CALM * pressure_speed) / ((FAST - CALM) * pressure_speed).max(f64::MIN_POSITIVE);
-    LEAST + (1.0 - LEAST) * between.clamp(0.0, 1.0)
 }
 
 /// 2 ν_ab `[m²/s]`: `strength` is k h `[m]`, `speed_sum` √(p_a/ρ0) + √(p_b/ρ0) `[m/s]`.

@@ -74,12 +74,7 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
     }
 
     // momentum
-    let speed = |b: usize| {
-        let speed = (pressure[b].max(0.0) / DENSITY).sqrt();
-        let of_grains = law.strength_is_friction() && model.field_diffusion().is_none();
-        let fast = (shear_rate(&of.velocity_gradient[b]) * SPACING - 0.1 * speed) / (0.2 * speed).max(1e-30);
-        if of_grains { speed * (0.375 + 0.625 * fast.clamp(0.0, 1.0)) } else { speed }
-    };
+    let speed = |b: usize| (pressure[b].max(0.0) / DENSITY).sqrt();
     let acceleration = |a: usize| {
         let mut sum = gravity;
         for b in &pairs[a] {
@@ -99,9 +94,7 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                     }
                 };
                 let strange = slip - (of.velocity_gradient[a] + b.tensor(&of.velocity_gradient)) * b.r * 0.5;
-                let approach: f64 = slip.dot(&b.r);
-                let felt: f64 = if law.is_solid() { strange.dot(&b.r) } else { approach };
-                let push = alpha * h * c * felt.max(approach).min(0.0);
+                let push = alpha * h * c * slip.dot(&b.r).min(0.0);
                 let mean = 0.5 * (of.density[a] + of.density[b.source]);
                 let damping = of.density[b.source] * (push + control * strange.dot(&b.r)) / (mean * regular);
                 sum += (traction + b.r * relief) * (b.weight / of.density[a]) + b.r * (b.weight * damping);
@@ -112,7 +105,7 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                 let wall = b.tensor(&stress) - identity * pressure[b.source];
                 let slip = (of.velocity[a] - of.walls.velocity[place]) * factor;
                 let strange = slip - of.velocity_gradient[a] * b.r;
-                let control = numerics.hourglass * h * 2.0 * speed(a);
+                let control = numerics.hourglass * h * (speed(a) + speed(b.source));
                 // what needs no pressure follows from the velocity at the wall, along it
                 let (height, corrected) = (b.r.dot(&normal), for_forces(a) * b.r);
                 let viscosity =
