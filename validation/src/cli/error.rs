@@ -74,7 +74,7 @@ pub enum ProgramError {
     TestFails {
         /// The test.
         test: String,
-        /// What it said.
+        /// Its message.
         reason: String,
     },
     /// A case that does not even run without an error.
@@ -82,7 +82,7 @@ pub enum ProgramError {
     Trial {
         /// Name of the case.
         case: String,
-        /// What it said.
+        /// Its message.
         reason: String,
     },
     /// The committed baseline or list of known failures cannot be used.

@@ -11,16 +11,16 @@ use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 
 quantities! {
     shared pub(super)
-    FRACTION_DIFFERENCE: validated("fraction_difference", "-", "root mean square of φ less theirs over their heights"),
+    FRACTION_DIFFERENCE: validated("fraction_difference", "-", "root mean square of the solid fraction less the published one, over its heights"),
     GRAIN_VELOCITY_DIFFERENCE: validated(
         "grain_velocity_difference", "%",
-        "root mean square of the grains' velocity less theirs, over their largest",
+        "root mean square of the grains' velocity less the published one, over its largest",
     ),
     FLUID_VELOCITY_DIFFERENCE:
-        validated("fluid_velocity_difference", "%", "the same of the water's velocity"),
+        validated("fluid_velocity_difference", "%", "root mean square of the water's velocity less the published one, over its largest"),
     TURBULENT_STRESS_DIFFERENCE: validated(
         "turbulent_stress_difference", "%",
-        "root mean square of the water's stress less theirs over their heights, over that on the bed",
+        "root mean square of the water's stress less the published one, over that on the bed",
     ),
 }
 

@@ -26,7 +26,7 @@ quantities! {
         stated("fastest_height", "-", "height of the fastest row of particles at the column's edge in mid-collapse, over that of the surface"),
     LINEAR_MISFIT_RATIO: stated(
         "linear_misfit_ratio", "-",
-        "rms misfit of this line over that of the better of Bagnold's profile and a parabola, of two constants each",
+        "rms misfit of a straight line through the flowing layer's velocity over that of the better of Bagnold's profile and a parabola, of two constants each",
     ),
     TAIL_DECAY_LENGTH_OVER_DIAMETER: validated(
         "tail_decay_length_over_diameter", "-",
@@ -38,9 +38,9 @@ quantities! {
     SURFACE_DISTANCE:
         validated("surface_distance", "%", "root mean square of the deposit's thickness less the measured one, over the initial height"),
     FAILURE_LINE_DISTANCE:
-        validated("failure_line_distance", "%", "the same of the length that did not move, row by row, over r_0"),
+        validated("failure_line_distance", "%", "root mean square of the length that did not move less the measured one, row by row, over r_0"),
     RUN_OUT_RATIO: validated("run_out_ratio", "-", "run-out over the measured one of the same aspect ratio"),
-    MEDIAN_RUN_OUT_RATIO: validated("median_run_out_ratio", "-", "median of these over the aspect ratios"),
+    MEDIAN_RUN_OUT_RATIO: validated("median_run_out_ratio", "-", "run-out over the measured one, median over the aspect ratios"),
     UNDISTURBED_SHARE: validated("undisturbed_share", "%", "part of the grains that stays in its place"),
     FAILURE_SURFACE_ANGLE: validated("failure_surface_angle", "°", "slope of the surface of what stays in its place"),
     ENSEMBLE_RUN_OUT: validated("ensemble_run_out", "-", "mean run-out over the seeds against the law of the same grains"),

@@ -12,7 +12,7 @@ quantities! {
     SLIP_ERROR: verified("slip_error", "%", "slip of a suspension over the root, less 1"),
     SINKING_ERROR: verified("sinking_error", "%", "velocity at which a suspension sinks over the root's, less 1"),
     SINKING_OVER_RICHARDSON_ZAKI:
-        validated("sinking_over_richardson_zaki", "-", "that velocity over Richardson and Zaki's"),
+        validated("sinking_over_richardson_zaki", "-", "velocity at which a suspension sinks over Richardson and Zaki's"),
     SINKING_OVER_MEASURED:
         validated("sinking_over_measured", "-", "velocity at which a law lets a dense suspension of beads sink over the measured one"),
     DEPOSIT_RISE_OVER_MEASURED:

@@ -129,7 +129,7 @@ pub fn share_out<J: Send, E: From<ParameterError> + Send>(
     }
 }
 
-/// What each job gives, in the order of the jobs; else as [`share_out`].
+/// The results of jobs, in the order of the jobs; else as [`share_out`].
 ///
 /// # Errors
 /// The first job that fails; jobs that have not begun are then left.

@@ -55,7 +55,7 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<Value> {
     items.into_iter().map(|(.., item)| item).collect()
 }
 
-/// What a case's line says is simulated, without its details and what it is judged against.
+/// The flow that a case's line names, without its details and its reference.
 fn title(summary: &str) -> &str {
     // a list may begin with a single word
     let ends = [": ", ", ", " against "].into_iter().filter_map(|end| summary.find(end));
@@ -63,7 +63,7 @@ fn title(summary: &str) -> &str {
     &summary[..ends.min().unwrap_or(summary.len())]
 }
 
-/// What a quantity is: as its case declares it, or else its name.
+/// The description of a quantity that its case declares, or else its name.
 fn in_words(quantities: &[Quantity], name: &str) -> String {
     let declared = quantities.iter().find(|quantity| quantity.name == name);
     declared.map_or_else(|| name.replace('_', " "), |quantity| quantity.description.to_owned())

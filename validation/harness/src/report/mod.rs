@@ -138,7 +138,7 @@ pub struct CaseReport {
     pub command: String,
     /// Judged and observed numbers.
     pub metrics: Vec<Metric>,
-    /// What they are in words, as far as the case declares it.
+    /// Their descriptions, as far as the case declares them.
     pub quantities: &'static [Quantity],
     /// Accepted gates that do not judge it, with what took each away.
     pub not_judged: Vec<(MetricKey, String)>,

@@ -110,10 +110,12 @@ impl StudyCheck {
         }
     }
 
-    /// What a value may drift by. What columns leave of each other is rounding where they are equal: a tenth of the limit.
+    /// Drift of a value that is not told: of columns that cancel, whose rest is rounding, a tenth of the limit.
     fn drift(&self) -> f64 {
         match (&self.read, self.limit) {
-            (CheckedQuantity::Value(column, _), Some(Limit::Within(lower, upper))) if column.is_combined() => {
+            (CheckedQuantity::Value(column, _), Some(Limit::Within(lower, upper)))
+                if column.is_combined() && lower < 0.0 && upper > 0.0 =>
+            {
                 0.05 * (upper - lower)
             }
             _ => 0.0,

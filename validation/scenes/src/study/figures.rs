@@ -12,10 +12,12 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
         return Ok(());
     };
     let Some(first) = readings.iter().find_map(|reading| reading.curve.as_ref()) else { return Ok(()) };
-    let name = name_of(&format!("{}-{}", column.table, column.column));
+    let heading = column.heading();
+    let signs = heading.replace('+', "plus").replace('−', "minus");
+    let name = name_of(&format!("{}-{signs}", column.table));
     let place = figures.iter().position(|figure| figure.name == name).unwrap_or_else(|| {
-        let panel = Panel::new("", Axis::linear(&first.over), Axis::linear(&column.column));
-        let caption = format!("{} over {}, as simulated", column.column, first.over);
+        let panel = Panel::new("", Axis::linear(&first.over), Axis::linear(&heading));
+        let caption = format!("{heading} over {}, as simulated", first.over);
         figures.push(Figure::new(&name, &caption, vec![panel]));
         figures.len() - 1
     });

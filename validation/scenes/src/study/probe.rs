@@ -42,9 +42,20 @@ pub(super) fn unit_of(heading: &str) -> &str {
 }
 
 impl ColumnWindow {
-    /// Whether another column is added to it or taken from it.
+    /// True where another column is added to it or taken from it.
     pub(super) fn is_combined(&self) -> bool {
         self.others.iter().any(|(_, heading, _)| heading.is_some())
+    }
+
+    /// Heading of its values: that of the column, or of the columns that are added and taken away, with the unit of all.
+    pub(super) fn heading(&self) -> String {
+        let unit = unit_of(&self.column);
+        let bare = |heading: &str| heading.trim_end_matches(&format!("[{unit}]")).trim().to_owned();
+        let others = self.others.iter().filter_map(|(_, heading, sign)| Some((heading.as_ref()?, sign)));
+        let sum = others.fold(bare(&self.column), |sum, (heading, sign)| {
+            format!("{sum} {} {}", if *sign < 0.0 { '−' } else { '+' }, bare(heading))
+        });
+        if self.is_combined() { format!("{sum} [{unit}]") } else { self.column.clone() }
     }
 
     /// The column in every table of that name: one a run.
@@ -201,6 +212,18 @@ mod tests {
 
     fn curve(points: &[(f64, f64)]) -> RunCurve {
         RunCurve { run: Variant::default(), over: "t [s]".to_owned(), points: points.to_vec() }
+    }
+
+    #[test]
+    fn the_heading_of_combined_columns_names_all_of_them() {
+        let of = |plus: Option<&str>, minus: Option<&str>| {
+            let others = [("plus", plus.map(str::to_owned), 1.0), ("minus", minus.map(str::to_owned), -1.0)];
+            let (table, column) = ("gauges".to_owned(), "bed: force along x [N/m]".to_owned());
+            ColumnWindow { table, column, others, over: None, window: (0.0, 1.0) }.heading()
+        };
+        assert_eq!(of(None, None), "bed: force along x [N/m]");
+        assert_eq!(of(Some("wall: force along x [N/m]"), None), "bed: force along x + wall: force along x [N/m]");
+        assert_eq!(of(None, Some("wall: force along y [N/m]")), "bed: force along x − wall: force along y [N/m]");
     }
 
     #[test]

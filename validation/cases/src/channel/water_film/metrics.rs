@@ -13,7 +13,7 @@ quantities! {
     VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
     LONGEST_WAVE: accounted("longest_wave", "-", "amplitude of the longest wave along the film in the velocity, over its mean"),
     VELOCITY_L2_OWN_DEPTH:
-        verified("velocity_l2_own_depth", "%", "the same against the film of the particles' own depth"),
+        verified("velocity_l2_own_depth", "%", "relative L2 of the velocity profile against the film of the particles' own depth"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of `velocity_l2`"),
     OBSERVED_ORDER_OWN_DEPTH:
         verified("observed_order_own_depth", "-", "order of convergence of `velocity_l2_own_depth`"),

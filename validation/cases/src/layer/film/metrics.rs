@@ -17,7 +17,7 @@ quantities! {
     VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
     FLUX_ERROR: verified("flux_error", "%", "error of the depth-integrated velocity"),
     VELOCITY_L2_COMPRESSIBLE:
-        verified("velocity_l2_compressible", "%", "the same L2 against the weakly compressible Newtonian film"),
+        verified("velocity_l2_compressible", "%", "relative L2 of the velocity profile against the weakly compressible Newtonian film"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of the Newtonian film"),
     DISPLACEMENT_FLOOR: verified(
         "displacement_floor", "%",

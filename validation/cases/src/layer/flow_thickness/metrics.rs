@@ -27,7 +27,7 @@ quantities! {
     PROFILE_L2: verified("profile_l2", "%", "relative L2 error of the velocity profile of a steady flow under the nonlocal law"),
     FLUIDITY_FROUDE: verified("froude_number", "-", "depth mean of the velocity over √(gh) of a steady flow under the nonlocal law"),
     FLOW_COEFFICIENT_PUBLISHED:
-        verified("flow_coefficient_published", "-", "the same β, against the published one that the I_0 of the beads was made of by (41)"),
+        verified("flow_coefficient_published", "-", "β of (42) from the steady flows, against the published one that the I_0 of the beads was made of by (41)"),
 }
 
 /// Slope below which the flow's thickness is judged `[°]`: above the grains' limiting angle nothing is steady.

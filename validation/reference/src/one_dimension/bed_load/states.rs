@@ -10,7 +10,7 @@ pub const SAME_STATE: f64 = 1e-3;
 /// Speed of a fast start over u_* `[-]`: that of clear water a third of the depth above a rough bed.
 const FAST: f64 = 15.0;
 
-/// Where two starts lead: to one state, unless they differ by more than [`SAME_STATE`].
+/// The steady states from two starts: one, unless they differ by more than [`SAME_STATE`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteadyStates {
     /// From rest.
