@@ -9,7 +9,7 @@ use crate::material::rheology::{ElasticModuli, Rheology};
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
 use crate::vector::Vector;
 use crate::weakly_compressible::neighbours::VerletList;
-use crate::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscositySwitch, ViscousStep};
+use crate::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscositySwitch};
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 
@@ -176,12 +176,6 @@ impl<const D: usize> Model<D> {
     #[inline(always)]
     pub(crate) fn density_coupling(&self) -> f64 {
         if self.rheology.is_cohesive() { 0.0 } else { self.numerics.density_coupling }
-    }
-
-    /// Whether a rough wall binds a liquid by the velocity that vanishes at its surface. The matrix of an implicit viscous step knows the
-    /// stress of walls alone: there walls take the stress of the flow, scaled by the pressure.
-    pub(crate) fn binds_by_velocity(&self) -> bool {
-        self.numerics.viscous_step == ViscousStep::Explicit
     }
 
     /// Whether the terms of pairs are single precision.

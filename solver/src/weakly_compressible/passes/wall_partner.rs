@@ -82,11 +82,7 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
         let whole = particles.force_correction.load::<V>(places.start / LANES);
         let gradient = load_tensor::<V, D>(&particles.velocity_gradient[places.clone()]);
         let viscosities = &particles.viscosity[places.clone()];
-        let (viscosity, share) = if model.binds_by_velocity() {
-            model.rheology.viscosity_without_pressure(&gradient, viscosities)
-        } else {
-            (V::splat(0.0), V::splat(0.0))
-        };
+        let (viscosity, share) = model.rheology.viscosity_without_pressure(&gradient, viscosities);
         let stress = matrix_product(&load_tensor::<V, D>(&particles.stress[places]), &whole);
         let mut viscous = ViscousPart {
             share: P::narrow(share),

@@ -88,7 +88,7 @@ fn sums<V: Lanes, const D: usize>(
     let weight_of_gravity = model.equation_of_state.reference_density * model.gravity.norm() * model.spacing;
     let full_increment = V::splat((0.5 * weight_of_gravity).max(f64::MIN_POSITIVE));
     let smallest_pressure = V::splat((1e-3 * weight_of_gravity).max(f64::MIN_POSITIVE));
-    let grows = model.rheology.is_solid() || !model.binds_by_velocity();
+    let grows = model.rheology.is_solid();
     let gravity = splat_vector::<V, D>(&model.gravity);
     let gravity_along_normal = dot(&gravity, normal);
     let place = gather_vectors::<V, D>(&particles.position, &group.own);

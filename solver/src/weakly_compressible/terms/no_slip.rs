@@ -30,6 +30,13 @@ pub fn slip_at_middle<V: Real, const D: usize>(
     lanes
 }
 
+/// (n·E r)/(n·r) `[-]`. Beside an edge a wall particle may stand in front of its own surface: there the correction does not matter.
+#[inline(always)]
+pub fn stretch<V: Real, const D: usize>(normal: &[V; D], r: &[V; D], corrected: &[V; D]) -> V {
+    let height = dot(normal, r);
+    (dot(normal, corrected) / height).if_less(V::splat(0.0), height, V::splat(1.0))
+}
+
 /// 2 η (v_t/d_a) (n·E r) `[Pa m]`, along the wall: `slip` is β (v_a − v_wall) `[m/s]`, which is v_t (n·r)/d_a, `normal` n that of the wall into
 /// the flow, `r` r_aw `[m]` and `corrected` E r `[m]`.
 #[inline(always)]
@@ -40,13 +47,11 @@ pub fn traction<V: Real, const D: usize>(
     r: &[V; D],
     corrected: &[V; D],
 ) -> [V; D] {
-    let height = dot(normal, r);
-    // beside an edge a wall particle may stand in front of its own surface: there the correction does not matter
-    let share = (dot(normal, corrected) / height).if_less(V::splat(0.0), height, V::splat(1.0));
+    let stretch = stretch(normal, r, corrected);
     let across = dot(slip, normal);
     let mut lanes = *slip;
     for i in 0..D {
-        lanes[i] = twice_viscosity * share * (slip[i] - across * normal[i]);
+        lanes[i] = twice_viscosity * stretch * (slip[i] - across * normal[i]);
     }
     lanes
 }

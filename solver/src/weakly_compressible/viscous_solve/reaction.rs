@@ -7,7 +7,7 @@
 use super::ViscousSolve;
 use super::system::{GROUPS, LaneVector, ViscousSystem};
 use super::update::load_columns;
-use crate::lanes::algebra::{accumulate, difference, product, scaled, store_vector, zero_vector};
+use crate::lanes::algebra::{accumulate, difference, product, scaled, store_vector, zero_tensor, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, gather, gather_vectors};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
@@ -16,7 +16,7 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
 use crate::weakly_compressible::passes::shell_impulse::{Booking, NO_OWNER};
-use crate::weakly_compressible::terms::wall_slip;
+use crate::weakly_compressible::terms::{no_slip, wall_slip};
 use crate::weakly_compressible::wall_fields::mirrored_lanes;
 use crate::weakly_compressible::walls::Images;
 
@@ -85,6 +85,12 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
             let coefficients = &volumes.coefficients[block * GROUPS + offset];
             let impulse_volume = V::load(&coefficients.impulse_volume);
             let own = records::tensor::<V, D>(&stresses.load::<V>(quads, &group.own), 0);
+            let increment = records::vector::<V, D>(&volumes.velocities.load::<V>(1, &group.own), 0);
+            let mut correction = zero_tensor::<V, D>();
+            for i in 0..D {
+                correction[i] = load_columns(&coefficients.correction[i]);
+            }
+            let (shared, hold) = (V::load(&coefficients.shared), V::load(&coefficients.hold));
             let mut all = zero_vector::<V, D>();
             if group.has_images {
                 for (b, pair) in group.flow.zip(&pair_vectors[group.first_pair..]) {
@@ -108,8 +114,10 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
                 let r = difference(&place, &records::vector::<V, D>(&record, 0));
                 let factor = wall_slip::factor(&r, &normal, depth, smoothing_length, wall_slip::LIMIT);
                 let smoothness: V = gather(&particles.walls.smoothness, &w);
-                let rough = V::load(weight) * factor * (V::splat(1.0) - smoothness);
-                let given = product(&own, &scaled(rough, &r));
+                let rough = V::load(weight) * (V::splat(1.0) - smoothness);
+                let mut given = product(&own, &scaled(shared * rough * factor, &r));
+                let stretch = no_slip::stretch(&normal, &r, &product(&correction, &r)).max(V::splat(0.0));
+                accumulate(&mut given, rough * hold * factor * stretch, &increment);
                 accumulate(&mut all, V::splat(1.0), &given);
                 let mut impulses = [Vector::zeros(); LANES];
                 store_vector(&scaled(impulse_volume, &given), &mut impulses);

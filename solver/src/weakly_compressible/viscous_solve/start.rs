@@ -14,7 +14,7 @@ use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::layout;
 use crate::weakly_compressible::passes::records::{self, Records};
-use crate::weakly_compressible::terms::wall_slip;
+use crate::weakly_compressible::terms::{no_slip, wall_slip};
 
 impl<const D: usize> ViscousSolve<'_, D> {
     /// Pair vectors, coefficients, and what the diagonal needs of a neighbour in the place of its stress.
@@ -99,6 +99,15 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
                 }
                 accumulate(&mut closure, V::splat(1.0), &pair);
             }
+            let first = block * BLOCK + offset * LANES;
+            let last = (first + LANES).min(particles.flow_count());
+            let gradient = load_tensor::<V, D>(&particles.velocity_gradient[first..last]);
+            let law = &constants.model.rheology;
+            let (held, held_share) = law.viscosity_without_pressure(&gradient, &particles.viscosity[first..last]);
+            let correction = particles.correction.load::<V>(first / LANES);
+            let half_share = V::splat(0.5) * held_share;
+            let shared = V::splat(1.0) - half_share;
+            let (mut by_walls, mut resistance) = (zero_vector::<V, D>(), V::splat(0.0));
             for (w, weight) in group.wall.zip(wall_weights) {
                 let record = constants.pairs.geometry.load_start::<V>(places, const { D.div_ceil(4) }, &w);
                 let position = records::vector::<V, D>(&record, 0);
@@ -110,19 +119,26 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
                 let factor = wall_slip::factor(&r, &normal, depth, smoothing_length, wall_slip::LIMIT);
                 // a smooth wall has no traction along it, and across it the pressure alone
                 let smoothness: V = gather(&particles.walls.smoothness, &w);
-                accumulate(&mut closure, V::load(weight) * factor * (V::splat(1.0) - smoothness), &r);
+                let rough = V::load(weight) * (V::splat(1.0) - smoothness);
+                accumulate(&mut closure, shared * rough * factor, &r);
+                accumulate(&mut by_walls, half_share * rough * factor, &r);
+                let stretch = no_slip::stretch(&normal, &r, &product(&correction, &r));
+                resistance = resistance - rough * factor * stretch.max(V::splat(0.0));
             }
-            let first = block * BLOCK + offset * LANES;
-            let last = (first + LANES).min(particles.flow_count());
-            let correction = particles.correction.load::<V>(first / LANES);
             let mut viscosity = load::<V>(&particles.viscosity[first..last]);
             if mixing_area > 0.0 {
-                let rate = deviatoric_rate(&load_tensor::<V, D>(&particles.velocity_gradient[first..last]));
+                let rate = deviatoric_rate(&gradient);
                 let density = load::<V>(&particles.density[first..last]);
                 viscosity = viscosity + dynamic_eddy_viscosity(density, mixing_area, invariant(2.0, &rate));
             }
             let stiffness = (viscosity / volume).sqrt();
             store_record(&scaled_tensor(stiffness, &correction), stiffnesses);
+            let stretched = product(&correction, &by_walls);
+            let counted = V::splat(mean_of_block::<D>()) * viscosity * dot(&stretched, &stretched);
+            let none = V::splat(0.0);
+            let hold = ((held + held) - (counted / resistance).if_less(none, resistance, none)).max(none);
+            coefficients.shared = shared.to_array();
+            coefficients.hold = hold.to_array();
             coefficients.closure = store_columns(&closure);
             for i in 0..D {
                 coefficients.correction[i] = store_columns(&correction[i]);
@@ -130,9 +146,16 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
             coefficients.twice_viscosity = (V::splat(2.0) * viscosity).to_array();
             coefficients.mass = [1.0; LANES];
             coefficients.mass[..last - first].copy_from_slice(&particles.mass[first..last]);
-            coefficients.impulse_volume = (V::splat(constants.time_step) * volume).to_array();
+            let impulse_volume = V::splat(constants.time_step) * volume;
+            coefficients.impulse_volume = impulse_volume.to_array();
+            coefficients.inertia = (V::load(&coefficients.mass) + impulse_volume * hold * resistance).to_array();
         }
     }
+}
+
+/// Mean over the diagonal of |dev sym (e_i ⊗ g)|² in parts of ½ g² `[-]`: its block is ½ g² I + (½ − 1/D) g ⊗ g, in the plane a number.
+const fn mean_of_block<const D: usize>() -> f64 {
+    1.0 + (1.0 - 2.0 / D as f64) / D as f64
 }
 
 struct ResidualPass<'a, const D: usize> {
@@ -160,9 +183,7 @@ impl<const D: usize> LanePass for ResidualPass<'_, D> {
                 let stretched = product(&stiffness, &load_columns(pair));
                 stiffness_sum = stiffness_sum + dot(&stretched, &stretched);
             }
-            // The diagonal block of |dev sym (e_i ⊗ g)|² is ½ g² I + (½ − 1/D) g ⊗ g: in the plane a number, in space
-            // taken for its mean.
-            let share = 1.0 + (1.0 - 2.0 / D as f64) / D as f64;
+            let share = mean_of_block::<D>();
             let mut own = zero_vector::<V, D>();
             for i in 0..D {
                 for j in 0..D {
@@ -171,10 +192,10 @@ impl<const D: usize> LanePass for ResidualPass<'_, D> {
             }
             let impulse_volume = V::load(&coefficients.impulse_volume);
             let volume = impulse_volume / V::splat(constants.time_step);
-            let mass = V::load(&coefficients.mass);
+            let (mass, inertia) = (V::load(&coefficients.mass), V::load(&coefficients.inertia));
             let stiffness =
                 V::splat(0.5) * V::load(&coefficients.twice_viscosity) * dot(&own, &own) + volume * stiffness_sum;
-            let inverse_diagonal = V::splat(1.0) / (mass + V::splat(share) * impulse_volume * stiffness);
+            let inverse_diagonal = V::splat(1.0) / (inertia + V::splat(share) * impulse_volume * stiffness);
             coefficients.inverse_diagonal = inverse_diagonal.to_array();
             let first = block * BLOCK + offset * LANES;
             let last = (first + LANES).min(particles.flow_count());

@@ -18,7 +18,7 @@ pub(super) type LaneVector<const D: usize> = [[f64; LANES]; D];
 /// Coefficients of eight particles.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Coefficients<const D: usize> {
-    /// Σ_b w r + Σ_w w β r `[1/m]`, the factor of the particle's own velocity in its gradient.
+    /// Σ_b w r + (1 − ½ χ) Σ_w w β r `[1/m]`, the factor of the particle's own velocity in its gradient.
     pub(super) closure: LaneVector<D>,
     /// L `[-]`.
     pub(super) correction: [LaneVector<D>; D],
@@ -26,6 +26,12 @@ pub(super) struct Coefficients<const D: usize> {
     pub(super) twice_viscosity: [f64; LANES],
     /// Masses `[kg]`; 1 where there is no particle.
     pub(super) mass: [f64; LANES],
+    /// 1 − ½ χ, with the share χ of the viscosity that holds to a wall by the velocity `[-]`.
+    pub(super) shared: [f64; LANES],
+    /// 2 η of what holds to a wall by the velocity, less what the first line has of it `[Pa·s]`.
+    pub(super) hold: [f64; LANES],
+    /// Mass and the resistance of the walls, Δt V Σ_w (−w) 2 η β (n·L r)/(n·r) `[kg]`.
+    pub(super) inertia: [f64; LANES],
     /// Δt V `[s m^D]`.
     pub(super) impulse_volume: [f64; LANES],
     /// One over the diagonal of M + Δt K `[1/kg]`.
@@ -121,6 +127,9 @@ impl<const D: usize> ViscousSystem<D> {
             correction: [zero; D],
             twice_viscosity: [0.0; LANES],
             mass: [1.0; LANES],
+            shared: [1.0; LANES],
+            hold: [0.0; LANES],
+            inertia: [1.0; LANES],
             impulse_volume: [0.0; LANES],
             inverse_diagonal: [1.0; LANES],
         };

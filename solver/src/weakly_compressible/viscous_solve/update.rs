@@ -237,10 +237,10 @@ impl<const D: usize> LanePass for DivergencePass<'_, D> {
                 let stress = records::tensor::<V, D>(&stresses.load::<V>(const { (D * D).div_ceil(4) }, &b), 0);
                 accumulate(&mut force, V::splat(1.0), &product(&stress, &load_columns(pair)));
             }
-            let (mass, volume) = (V::load(&coefficients.mass), V::load(&coefficients.impulse_volume));
+            let (inertia, volume) = (V::load(&coefficients.inertia), V::load(&coefficients.impulse_volume));
             for i in 0..D {
                 let direction = V::load(&unknowns.direction[i]);
-                let product = mass * direction - volume * force[i];
+                let product = inertia * direction - volume * force[i];
                 curvature = curvature + direction * product;
                 unknowns.product[i] = product.to_array();
             }
