@@ -8,7 +8,7 @@
 //! Couette flow this is the traction of the exact stress to rounding.
 
 use crate::lanes::Real;
-use crate::lanes::algebra::dot;
+use crate::lanes::algebra::{dot, scaled};
 
 /// What takes the place of the slip β (v_a − v_wall) `[m/s]` where the shear rate changes with the distance: β (v_a − v_wall) is right in
 /// the middle between a and the surface, a's own gradient at a, and the line through both gives the shear rate in the middle between a
@@ -37,7 +37,7 @@ pub fn stretch<V: Real, const D: usize>(normal: &[V; D], r: &[V; D], corrected: 
     (dot(normal, corrected) / height).if_less(V::splat(0.0), height, V::splat(1.0))
 }
 
-/// 2 η (v_t/d_a) (n·E r) `[Pa m]`, along the wall: `slip` is β (v_a − v_wall) `[m/s]`, which is v_t (n·r)/d_a, `normal` n that of the wall into
+/// 2 η (v_t/d_a) (n·E r) `[Pa m]`: `slip` is β (v_a − v_wall) `[m/s]`, which is v_t (n·r)/d_a, `normal` n that of the wall into
 /// the flow, `r` r_aw `[m]` and `corrected` E r `[m]`.
 #[inline(always)]
 pub fn traction<V: Real, const D: usize>(
@@ -48,10 +48,5 @@ pub fn traction<V: Real, const D: usize>(
     corrected: &[V; D],
 ) -> [V; D] {
     let stretch = stretch(normal, r, corrected);
-    let across = dot(slip, normal);
-    let mut lanes = *slip;
-    for i in 0..D {
-        lanes[i] = twice_viscosity * stretch * (slip[i] - across * normal[i]);
-    }
-    lanes
+    scaled(twice_viscosity * stretch, slip)
 }
