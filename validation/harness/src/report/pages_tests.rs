@@ -145,9 +145,14 @@ fn the_first_page_opens_with_a_panel_for_each_flow_that_the_report_has() {
     assert_eq!(page.matches("<section class=\"flow\"").count(), 4);
     assert!(page.find("<section class=\"flow\"") < page.find("<table"));
     assert!(page.contains("Velocity profiles differ by 0.25 % (L2) from"));
-    assert!(page.contains("Columns on a plane run out 1.1 times as far") && page.contains("(columns: 1)"));
     assert!(
-        page.contains("2 of 2 comparisons with measurements agree within their uncertainty, 25 % of the reference")
+        page.contains("Columns on a plane run out 1.10 times as far as by the fits of an experiment")
+            && page.contains("(columns: 1)")
+    );
+    assert!(
+        page.contains(
+            "2 of 2 comparisons with published results agree within their uncertainty, 25 % of the reference"
+        )
     );
     assert!(page.contains("href=\"figures/column-planar/scaling.csv\""), "the figure that stands for the flow");
     assert_eq!(page.matches("class=\"small\"><a").count(), cases.len(), "a picture a case");
