@@ -121,7 +121,7 @@ impl Series {
     /// A series without error bars.
     #[must_use]
     pub fn new(label: &str, mark: Mark, colour: usize, points: Vec<(f64, f64)>) -> Self {
-        Self { label: label.to_owned(), mark, colour, points, error: Vec::new(), raised: 0.0 }
+        Self { label: label.to_owned(), mark, colour, points, error: Vec::new() }
     }
 }
 

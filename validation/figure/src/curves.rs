@@ -110,7 +110,7 @@ fn draw_points(canvas: &mut Canvas<'_>, plot: &Plot, series: &Series) -> Result<
         if let Some(&half) = series.error.get(index).filter(|half| half.is_finite() && **half > 0.0) {
             draw_error_bar(canvas, plot, (x, y), half, ink)?;
         }
-        draw_marker(canvas, (centre.0, centre.1 - series.raised * radius), radius, series)?;
+        draw_marker(canvas, centre, radius, series)?;
     }
     Ok(())
 }
@@ -157,6 +157,14 @@ fn draw_marker(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, series: &Ser
         MarkerShape::TriangleDown => &[(0.0, 1.25), (1.1, -0.75), (-1.1, -0.75)],
         MarkerShape::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
     };
+    let scaled = |radius: f64| corners.iter().map(move |&(dx, dy)| (x + radius * dx, y + radius * dy));
+    if series.mark == Mark::OpenPoints && !corners.is_empty() {
+        // Around the outer border and back around the inner one: what lies below is seen through the opening.
+        let (outer, inner) = (scaled(radius), scaled(0.6 * radius));
+        let ring: Vec<Point> =
+            outer.clone().chain(outer.take(1)).chain(inner.clone().take(1)).chain(inner.rev()).collect();
+        return canvas.polygon(&ring, Ink::solid(colour(series.colour), 0.0));
+    }
     // A white rim keeps neighbours apart; on a line of its own it would only cut the line.
     let rim = (series.mark != Mark::LinePoints).then_some((radius + 1.5, WHITE));
     let hollow = (series.mark == Mark::OpenPoints).then_some((0.6 * radius, WHITE));
@@ -165,8 +173,7 @@ fn draw_marker(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, series: &Ser
         if corners.is_empty() {
             canvas.disc((x, y), radius, ink)?;
         }
-        let outline: Vec<Point> = corners.iter().map(|&(dx, dy)| (x + radius * dx, y + radius * dy)).collect();
-        canvas.polygon(&outline, ink)?;
+        canvas.polygon(&scaled(radius).collect::<Vec<_>>(), ink)?;
     }
     Ok(())
 }

@@ -121,8 +121,6 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
     /// Half height of the error bar of each point, or empty.
     pub error: Vec<f64>,
-    /// Shift of the marks upwards, in their radii `[-]`, so that marks of several series at one place are all seen.
-    pub raised: f64,
 }
 
 /// A shaded band, such as a reference's uncertainty or a gate: (x, lower, upper).

@@ -159,15 +159,9 @@ fn a_legend_under_a_narrow_plot_is_on_the_sheet() {
 }
 
 #[test]
-fn open_marks_are_hollow_and_raised_ones_are_not_hidden() {
-    let blue = |mark: Mark, raised: f64| {
-        // slots 0 and 5 have the same shape
-        let mut below = series("", mark, 0, &[(0.5, 0.5)]);
-        below.raised = raised;
-        share(&raster(&figure(vec![panel(vec![below, series("", Mark::Points, 5, &[(0.5, 0.5)])])])), 0, 114, 178)
-    };
-    assert_eq!(blue(Mark::Points, 0.0), 0.0);
-    assert!(blue(Mark::OpenPoints, 2.2) > 0.0 && blue(Mark::OpenPoints, 2.2) < 0.8 * blue(Mark::Points, 2.2));
+fn open_marks_are_hollow() {
+    let blue = |mark: Mark| share(&raster(&figure(vec![panel(vec![series("", mark, 0, &[(0.5, 0.5)])])])), 0, 114, 178);
+    assert!(blue(Mark::OpenPoints) > 0.0 && blue(Mark::OpenPoints) < 0.8 * blue(Mark::Points));
 }
 
 #[test]

@@ -20,7 +20,7 @@ quantities! {
         regimes::POWER_LAW_MISFIT,
         regimes::LOWEST_LAYER_EXPONENT, regimes::TRANSPORT_OVER_MEASURED, printed_laws::LAW_ERROR,
     ]
-    TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over that of the formula"),
+    TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over that of the formula, or of a published layer"),
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
     MEAN_FLUID_VELOCITY: verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity"),
     STRESS_BALANCE_ERROR: verified("stress_balance_error", "-", "what both stresses do not carry of the weight above"),

@@ -17,7 +17,8 @@ struct Flow {
     claims: &'static [Claim],
 }
 
-/// A sentence with the `{range}` and the `{number}` of the values of a metric.
+/// A sentence with the `{range}` and the `{number}` of the values of a metric, `{half}` of the widest bracket that they are the middle of,
+/// and the `{works}` that they are compared with.
 struct Claim {
     case: &'static str,
     metric: &'static str,
@@ -50,7 +51,7 @@ const FLOWS: [Flow; 4] = [
         }],
     },
     Flow {
-        title: "Thickness of flow",
+        title: "Slopes at which layers stop",
         figures: &[("flow-thickness", "start-stop")],
         claims: &[
             Claim {
@@ -58,36 +59,27 @@ const FLOWS: [Flow; 4] = [
                 metric: "experimental_excess",
                 of: |variant| variant.get("surface").is_none(),
                 value: |metric| metric.value,
-                says: "Layers of the local law stop on slopes {range}° flatter than measured (layers: {number}).",
+                says: "Layers of the local law stop on slopes {range}° flatter (± {half}°, half the bracket) than by the fit of {works} to experiments (layers: {number}).",
             },
             Claim {
                 case: "flow-thickness",
                 metric: "experimental_excess",
                 of: |variant| variant.get("surface").is_some(),
                 value: |metric| metric.value,
-                says: "Those of the nonlocal law stop on slopes {range}° flatter (layers: {number}, two conditions at the surface).",
+                says: "Those of the nonlocal law stop on slopes {range}° flatter (± {half}°, layers: {number}).",
             },
         ],
     },
     Flow {
         title: "Collapses",
         figures: &[("column-planar", "scaling"), ("column-round", "scaling"), ("incline-collapse", "run-out")],
-        claims: &[
-            Claim {
-                case: "column-planar",
-                metric: "run_out",
-                of: |variant| has(variant, "material=sand") || has(variant, "material=lagree"),
-                value: over_reference,
-                says: "Columns on a plane run out {range} times as far as the work that each is compared with says (columns: {number}).",
-            },
-            Claim {
-                case: "incline-collapse",
-                metric: "front_displacement",
-                of: |_| true,
-                value: over_reference,
-                says: "Fronts on slopes come {range} times as far as measured (fronts: {number}).",
-            },
-        ],
+        claims: &[Claim {
+            case: "column-planar",
+            metric: "run_out",
+            of: |variant| has(variant, "material=sand") || has(variant, "material=lagree"),
+            value: over_reference,
+            says: "Columns on a plane run out {range} times as far as by the fits of {works} (columns: {number}).",
+        }],
     },
     Flow {
         title: "Bed load",
@@ -98,21 +90,14 @@ const FLOWS: [Flow; 4] = [
                 metric: "predicted_transport",
                 of: |_| true,
                 value: over_reference,
-                says: "Grains that dilate are carried at {range} times the rate of a fit to measured runs (slopes: {number}).",
+                says: "Grains that dilate are carried at {range} times the rate by the dashed fit of {works} (slopes: {number}).",
             },
             Claim {
                 case: "bed-load",
                 metric: "transport_ratio",
                 of: |variant| has(variant, "formulation=stabilised"),
                 value: |metric| metric.value,
-                says: "Bingham grains, fitted on two other slopes, reach {range} of that rate.",
-            },
-            Claim {
-                case: "bed-load-1d",
-                metric: "transport_ratio",
-                of: |variant| has(variant, "layer=sheet-flow"),
-                value: |metric| metric.value,
-                says: "The 1-D layer reaches {range} of the transport in a measured sheet flow.",
+                says: "Bingham grains, fitted on other slopes, reach {range} of that rate.",
             },
         ],
     },
@@ -159,15 +144,32 @@ fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[Draw
 }
 
 fn sentence(claim: &Claim, cases: &[&CaseReport]) -> Option<String> {
-    let own = cases.iter().filter(|case| case.name == claim.case).flat_map(|case| &case.metrics);
-    let own = own.filter(|metric| metric.name == claim.metric && (claim.of)(&metric.variant));
-    let values: Vec<f64> = own.map(claim.value).filter(|value| value.is_finite()).collect();
-    let [least, most] = range(values.iter().copied()).map(|(least, most)| [least, most].map(two_digits))?;
-    let range = if least == most { most } else { format!("{least} to {most}") };
-    Some(claim.says.replace("{range}", &range).replace("{number}", &values.len().to_string()))
+    let all = cases.iter().filter(|case| case.name == claim.case).flat_map(|case| &case.metrics);
+    let named = all.filter(|metric| metric.name == claim.metric && (claim.of)(&metric.variant));
+    let own: Vec<&Metric> = named.filter(|metric| (claim.value)(metric).is_finite()).collect();
+    let range = span(own.iter().map(|metric| (claim.value)(metric)), decimals)?;
+    // the middle of a bracket is known as an even spread of its width
+    let known = own.iter().filter_map(|metric| metric.uncertainty.of_spacing()).fold(0.0, f64::max);
+    let mut works: Vec<&str> =
+        own.iter().filter_map(|metric| metric.reference.as_ref()?.source.split(',').next()).collect();
+    works.dedup();
+    let says = claim.says.replace("{range}", &range).replace("{half}", &decimals(3.0_f64.sqrt() * known));
+    Some(says.replace("{works}", &works.join(" and ")).replace("{number}", &own.len().to_string()))
 }
 
-/// Verdict on the model by comparisons with measurements, and the number of gates that hold.
+/// Two decimals; two digits of what is smaller than a tenth.
+fn decimals(value: f64) -> String {
+    if value.abs() < 0.1 { two_digits(value) } else { format!("{value:.2}").replace('-', "−") }
+}
+
+/// The least and the greatest of some values; none of none.
+fn span(values: impl Iterator<Item = f64>, digits: fn(f64) -> String) -> Option<String> {
+    let (least, most) = values.map(|value| (value, value)).reduce(|all, own| (all.0.min(own.0), all.1.max(own.1)))?;
+    let [least, most] = [least, most].map(digits);
+    Some(if least == most { most } else { format!("{least} to {most}") })
+}
+
+/// Verdict on the model by comparisons with published results, and the number of gates that hold.
 fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
     let mut lines = Vec::new();
     let mut add = |mark: VerdictMark, text: String| lines.push(json!({ "mark": mark, "text": text }));
@@ -176,11 +178,8 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
         let own: Vec<(f64, f64)> =
             compared.iter().filter_map(|own| Some((part(own.model_error())?, own.measured().abs()))).collect();
         let shares = own.iter().map(|(part, reference)| part / reference).filter(|share| share.is_finite());
-        let of_reference = range(shares).map_or_else(String::new, |(least, most)| {
-            let [least, most] = [least, most].map(|share| two_digits(100.0 * share));
-            let span = if least == most { most } else { format!("{least} to {most}") };
-            format!("{span} % of the reference")
-        });
+        let of_reference = span(shares, |share| two_digits(100.0 * share));
+        let of_reference = of_reference.map_or_else(String::new, |span| format!("{span} % of the reference"));
         Some((own.len(), of_reference)).filter(|(number, _)| *number > 0)
     };
     let all = compared.len();
@@ -188,7 +187,7 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
     {
         add(
             VerdictMark::PASS,
-            format!("{number} of {all} comparisons with measurements agree within their uncertainty, {level}"),
+            format!("{number} of {all} comparisons with published results agree within their uncertainty, {level}"),
         );
     }
     if let Some((number, least)) =
@@ -227,8 +226,4 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
         add(VerdictMark::KNOWN, format!("{blind} of the gates that hold reject none of the deliberate errors"));
     }
     lines
-}
-
-fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
-    values.into_iter().map(|value| (value, value)).reduce(|all, own| (all.0.min(own.0), all.1.max(own.1)))
 }

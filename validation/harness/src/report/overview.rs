@@ -11,8 +11,15 @@ use serde_json::{Value, json};
 /// Folder of the small pictures.
 pub(super) const FOLDER: &str = "overview";
 
-/// A case's line in the list of cases.
-pub(super) fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> Value {
+/// The list of cases, the least margin first.
+pub(super) fn case_lines(judged: &[JudgedCase<'_>], small: &[DrawnFigure]) -> Vec<Value> {
+    let mut lines: Vec<(f64, Value)> = judged.iter().map(|case| case_line(case, small)).collect();
+    lines.sort_by(|one, other| one.0.total_cmp(&other.0));
+    lines.into_iter().map(|(_, line)| line).collect()
+}
+
+/// A case's least margin, infinite without gates, and its line.
+fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> (f64, Value) {
     let case = judged.case;
     // what is exact holds by nothing
     let counts = |judged: &&JudgedMetric<'_>| {
@@ -20,7 +27,7 @@ pub(super) fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> Value
     };
     let gates = judged.metrics.iter().filter(counts);
     let least = gates.filter_map(|judged| margin_share(judged.metric)).min_by(f64::total_cmp);
-    json!({
+    let line = json!({
         "mark": if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
         "picture": small.iter().find(|drawn| drawn.name == case.name && drawn.failure.is_none()),
         "name": case.name,
@@ -30,7 +37,8 @@ pub(super) fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> Value
             Some(share) if share.is_finite() => format!("{} %", whole(100.0 * share)),
             _ => "–".to_owned(),
         },
-    })
+    });
+    (least.unwrap_or(f64::INFINITY), line)
 }
 
 /// Every metric that is judged or has drifted; what is only observed stands on its case's page.

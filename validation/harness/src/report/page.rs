@@ -26,8 +26,7 @@ pub(super) fn render(
         "banner": banner(judgement),
         "counts": counts(judgement),
         "flows": flows::panels(report, drawn, small),
-        // gates that fail, then those that hold by least
-        "cases": judgement.cases.iter().map(|case| overview::case_line(case, small)).collect::<Vec<_>>(),
+        "cases": overview::case_lines(&judgement.cases, small),
         "gates": overview::gates(judgement),
         "drift": drift::table(report, judgement),
         "scatter": scatter,

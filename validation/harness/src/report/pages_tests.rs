@@ -60,7 +60,7 @@ fn the_first_page_leads_with_what_is_furthest_off_and_the_farthest_moves() {
     let names = |places: &[usize]| places.iter().map(|&place| failing[place]["metric"].clone()).collect::<Vec<_>>();
     assert_eq!(names(&[0, 1, 2]), ["far", "broken", "near"], "twelve times the limit before 1.3 and 1.1 times");
     assert_eq!(names(&super::failures::weakest(&failing)), ["far", "near"], "one of each case");
-    assert!(place(&page, "Furthest off by factor:") < place(&page, "id=\"moved\""));
+    assert!(place(&page, "Furthest from the reference, the worst check of each case:") < place(&page, "id=\"moved\""));
     let moved: Vec<&str> = page.split("id=\"moved\"").nth(1).expect("a list").split("<b>").skip(1).take(2).collect();
     assert!(moved[0].starts_with("broken") && moved[1].starts_with("thin"), "{moved:?}");
     let thin = overview::gates(&judgement).into_iter().find(|gate| gate["row"]["metric"] == "thin").expect("a gate");
@@ -145,9 +145,14 @@ fn the_first_page_opens_with_a_panel_for_each_flow_that_the_report_has() {
     assert_eq!(page.matches("<section class=\"flow\"").count(), 4);
     assert!(page.find("<section class=\"flow\"") < page.find("<table"));
     assert!(page.contains("Velocity profiles differ by 0.25 % (L2) from"));
-    assert!(page.contains("Columns on a plane run out 1.1 times as far") && page.contains("(columns: 1)"));
     assert!(
-        page.contains("2 of 2 comparisons with measurements agree within their uncertainty, 25 % of the reference")
+        page.contains("Columns on a plane run out 1.10 times as far as by the fits of an experiment")
+            && page.contains("(columns: 1)")
+    );
+    assert!(
+        page.contains(
+            "2 of 2 comparisons with published results agree within their uncertainty, 25 % of the reference"
+        )
     );
     assert!(page.contains("href=\"figures/column-planar/scaling.csv\""), "the figure that stands for the flow");
     assert_eq!(page.matches("class=\"small\"><a").count(), cases.len(), "a picture a case");

@@ -122,15 +122,22 @@ fn sizes(case: &CaseReport, series: &[&ErrorSeries], sized: &[&ControlTrial]) ->
     metrics.filter_map(row).collect()
 }
 
-/// Number of wrong inputs that the gates of a case reject, for its panel on the first page; none where no control was tried.
+/// Most deliberate errors that a panel names.
+const MOST_NAMED: usize = 3;
+
+/// Number of wrong inputs that the gates of a case reject, and the names of a few that they do not, for its panel on the first page; none
+/// where no control was tried.
 pub(super) fn rejected_inputs(case: &CaseReport) -> Option<String> {
     let is_rejected = |trial: &&ControlTrial| {
         let answers = case.metrics.iter().filter_map(|metric| trial.answer(metric));
         answers.into_iter().any(|answer| matches!(answer, Answer::Rejects | Answer::NotJudged))
     };
-    let named = || case.controls.iter().filter(|trial| trial.control.size().is_none());
-    let (all, rejected) = (named().count(), named().filter(is_rejected).count());
-    (all > 0).then(|| format!("{}: {rejected} of {all} deliberate errors are rejected", case.name))
+    let named: Vec<&ControlTrial> = case.controls.iter().filter(|trial| trial.control.size().is_none()).collect();
+    let escaped = named.iter().filter(|trial| !is_rejected(trial)).map(|trial| trial.control.name.as_str());
+    let escaped: Vec<&str> = escaped.collect();
+    let names = (1..=MOST_NAMED).contains(&escaped.len()).then(|| format!("; not rejected: {}", escaped.join(", ")));
+    let (rejected, all, names) = (named.len() - escaped.len(), named.len(), names.unwrap_or_default());
+    (all > 0).then(|| format!("{}: {rejected} of {all} deliberate errors are rejected{names}", case.name))
 }
 
 /// Cell of a gate and a control.

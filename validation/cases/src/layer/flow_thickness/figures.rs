@@ -49,29 +49,28 @@ fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, recor
     .in_columns(2)
 }
 
-/// Colour slot of each law, and the shift of its marks upwards in their radii `[-]`: the local law stops layers of any thickness
-/// at one slope, so that its marks may stand higher.
-const LAWS: [(usize, f64); 3] = [(0, 2.2), (3, 0.0), (4, -1.6)];
+/// Colour slot of each law, which has a mark of its own shape.
+const LAWS: [usize; 3] = [0, 3, 4];
+/// Thinnest and thickest layer of a curve `[m]`.
+const DRAWN: (f64, f64) = (2.5e-3, 40e-3);
 
 /// Which layers stop: the local law and the experiments.
 fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
-    let title = "marks of one thickness stand apart";
-    let mut panel = Panel::new(title, Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
+    let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
     let experiment = thicknesses().map(|h| (incline.stopping_angle(h).to_degrees(), 1e3 * h)).collect::<Vec<_>>();
     let local = libm::atan(incline.static_friction).to_degrees();
-    panel.line("experiments: h_stop(θ)", 2, experiment);
-    panel.reference("local law: tanθ = μ_s", [(local, 1.0), (local, 40.0)]);
+    panel.line("fit to experiments: h_stop(θ)", 2, experiment);
+    panel.reference("local law, exact: tanθ = μ_s", [(local, 1e3 * DRAWN.0), (local, 1e3 * DRAWN.1)]);
     draw_searches(&mut panel, searches(records));
     // for the legend alone
     panel.points("kept flowing", 6, []);
     panel.draw("stopped", Mark::OpenPoints, 6, []);
     Figure::new(
         "start-stop",
-        "Layers that stopped (open marks) and layers that kept flowing (filled marks), over slope and thickness. Curves are \
-         the h_stop of each nonlocal law, in the colour of its marks. Marks of the local law are drawn slightly above their \
-         thickness and marks of the no-flux law slightly below, so that no mark hides another. \
+        "Runs whose layer stopped (open marks) or kept flowing (filled marks), over slope and thickness. Curves in the colours of the marks \
+         are the exact h_stop of each nonlocal law. \
          The local μ(I) law stops them all at one slope; in experiments thin layers stop on steeper slopes, and so they do under the nonlocal law, whose own \
-         h_stop depends on what its fluidity is at the surface. Left of the curve of h_stop the \
+         h_stop depends on its fluidity at the surface: it vanishes there, or has no flux. Left of the curve of h_stop the \
          experiments have no flow, right of the dashed line the law has no deposit.",
         vec![panel],
     )
@@ -79,20 +78,21 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Flow
 
 /// Thicknesses of curves `[m]`.
 fn thicknesses() -> impl Iterator<Item = f64> {
-    (0..=60).map(|step| 1.0e-3 * libm::pow(40.0, f64::from(step) / 60.0))
+    (0..=60).map(|step| DRAWN.0 * libm::pow(DRAWN.1 / DRAWN.0, f64::from(step) / 60.0))
 }
 
 /// Marks of each law, filled where a layer kept flowing and open where it stopped, and the curve of its own h_stop.
 fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a StartStopRun, &'a StartStop)>) {
     let mut laws: Vec<String> = Vec::new();
     for (run, found) in searches {
-        let nonlocal = run.layer.nonlocal.map(|choice| format!("nonlocal law: {}", choice.surface_name()));
+        let nonlocal = run.layer.nonlocal.map(|choice| format!("nonlocal law, {}", choice.surface_name()));
         let law = nonlocal.unwrap_or("local law".to_owned());
         let place = laws.iter().position(|known| *known == law).unwrap_or(laws.len());
-        let (slot, raised) = LAWS[place % LAWS.len()];
+        let slot = LAWS[place % LAWS.len()];
+        let runs = format!("{law}: runs");
         let ends = [
-            (law.as_str(), LayerFate::Flows, Mark::Points, slot),
-            (law.as_str(), LayerFate::Stops, Mark::OpenPoints, slot),
+            (runs.as_str(), LayerFate::Flows, Mark::Points, slot),
+            (runs.as_str(), LayerFate::Stops, Mark::OpenPoints, slot),
             ("undecided", LayerFate::Undecided, Mark::Points, 1),
         ];
         for (label, fate, mark, slot) in ends {
@@ -100,7 +100,7 @@ fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a Star
             let points: Vec<_> = ended.map(|angle| (angle, 1e3 * run.layer.layer.layer_height)).collect();
             // most searches leave nothing open, and then the legend need not speak of it
             if !points.is_empty() {
-                panel.draw(label, mark, slot, points).raised = raised;
+                panel.draw(label, mark, slot, points);
             }
         }
         if place == laws.len() {
@@ -109,7 +109,9 @@ fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a Star
                 layer.layer.layer_height = h;
                 layer.exact(0.0).map(|layer| (layer.stopping_angle().to_degrees(), 1e3 * h))
             };
-            panel.line(&law, slot, thicknesses().filter_map(angle).collect::<Vec<_>>());
+            let curve: Vec<_> = thicknesses().filter_map(angle).collect();
+            let entry = if curve.is_empty() { String::new() } else { format!("{law}: exact") };
+            panel.line(&entry, slot, curve);
             laws.push(law);
         }
     }
@@ -202,11 +204,11 @@ mod tests {
             _ => None,
         });
         draw_searches(&mut panel, searches);
-        let laws = ["local law", "nonlocal law: vanishing", "nonlocal law: no-flux"];
-        for (law, (slot, raised)) in laws.into_iter().zip(LAWS) {
+        let laws = ["local law: runs", "nonlocal law, vanishing: runs", "nonlocal law, no-flux: runs"];
+        for (law, slot) in laws.into_iter().zip(LAWS) {
             for (mark, angle) in [(Mark::Points, 24.0), (Mark::OpenPoints, 20.0)] {
                 let own = panel.series.iter().find(|series| series.label == law && series.mark == mark).expect(law);
-                assert_eq!((own.colour, own.raised, own.points[0].0), (slot, raised, angle));
+                assert_eq!((own.colour, own.points[0].0), (slot, angle));
             }
         }
     }

@@ -9,7 +9,7 @@ use crate::case::Run;
 use crate::collapse::metrics::conservation;
 use crate::collapse::quantities::{MOMENTUM_RESIDUAL, PARTICLES_LOST};
 use crate::layer::LayerObservation;
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant, quantities};
 use crate::reference::collapse::RoughIncline;
 use crate::reference::grains::GLASS_BEADS_FLOW_RULE;
 use crate::setup::energy_ledger;
@@ -109,7 +109,8 @@ fn stopping(incline: &RoughIncline, run: &StartStopRun, found: &StartStop) -> [M
     };
     // which condition holds at a free surface experiments say, not the model: they favour that under which the fluidity vanishes
     let judged = run.layer.nonlocal.is_none_or(|choice| choice.surface == FieldBoundary::Vanishing);
-    let measured = found.bracket().map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
+    let bracket = found.bracket();
+    let measured = bracket.map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
     let experiment = incline.stopping_angle(run.layer.layer.layer_height).to_degrees();
     [
         PARTICLES_LOST
@@ -123,9 +124,14 @@ fn stopping(incline: &RoughIncline, run: &StartStopRun, found: &StartStop) -> [M
             .gated(Limit::Within(exact - limit, exact + limit), reason),
         EXPERIMENTAL_EXCESS.of(&variant, experiment - measured).with_snapshot_tolerance(0.0, 1e-6).against(
             None,
-            "slope at which h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s) equals the thickness, less the angle found: what a \
-             local law does not know, and the nonlocal one knows but for the exponent of its h_stop",
+            "Forterre & Pouliquen 2003, the slope at which h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s), a fit to experiments, equals the \
+             thickness, less the angle found: what a local law does not know, and the nonlocal one knows but for the exponent of its h_stop",
             GLASS_BEADS_FLOW_RULE.confidence,
+        )
+        .known_to(
+            Origin::Numerical,
+            bracket.map(|(stops, flows)| (flows - stops) / 12.0_f64.sqrt()),
+            "the angle found is the middle of a bracket: an even spread of its width",
         )
         .gated_by(
             judged.then_some(Limit::Within(-0.5, 0.5)),
