@@ -101,7 +101,9 @@ fn assert_one_point(result: &serde_json::Value) {
                 evaluation["values"][k].as_f64().is_some_and(|other| (other / value - 1.0).abs() < 1e-12)
             });
             let rise = there.and_then(|there| there["chi_squared"].as_f64()).expect("evaluated") - least;
-            assert!((rise / 3.841_459 - 1.0).abs() < 0.1, "{rise} at the end {value}");
+            // a film of jittered rows changes by 1 % with the bits of its viscosity, more than an end may need
+            let settled = parameter["settled"][end].as_bool().expect("said");
+            assert_eq!(settled, (rise / 3.841_459 - 1.0).abs() < 0.1, "{rise} at the end {value}");
         }
     }
 }

@@ -88,14 +88,23 @@ fn nothing_rubs_along_a_smooth_wall() {
     assert!(rising(Surface::Rough) > 0.05);
 }
 
+/// Moments that a mean is taken over.
+const MOMENTS: usize = 30;
+
 #[test]
 fn a_closed_gate_holds_a_liquid_as_a_mirror_does() {
     let settled = |scene: Scene<2>| {
         let mut simulation = simulation(Scene { rheology: SYRUP, gravity: Vector::<2>::new(0.0, -9.0), ..scene });
         crate::patches::advance(&mut simulation, 3000);
+        // the fastest particle changes from moment to moment
+        let mut fastest = 0.0;
+        for _ in 0..MOMENTS {
+            crate::patches::advance(&mut simulation, 100);
+            let velocity = simulation.snapshot().velocity;
+            fastest += velocity.iter().map(|v| v.norm()).fold(0.0, f64::max) / MOMENTS as f64;
+        }
         let state = simulation.snapshot();
         let total: f64 = state.mass.iter().sum();
-        let fastest = state.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max);
         let mean = |axis: usize| state.position.iter().zip(&state.mass).map(|(x, m)| x[axis] * m).sum::<f64>() / total;
         (fastest, mean(0), mean(1))
     };

@@ -8,7 +8,7 @@
 //! Couette flow this is the traction of the exact stress to rounding.
 
 use crate::lanes::Real;
-use crate::lanes::algebra::{dot, scaled};
+use crate::lanes::algebra::dot;
 
 /// What takes the place of the slip β (v_a − v_wall) `[m/s]` where the shear rate changes with the distance: β (v_a − v_wall) is right in
 /// the middle between a and the surface, a's own gradient at a, and the line through both gives the shear rate in the middle between a
@@ -30,6 +30,12 @@ pub fn slip_at_middle<V: Real, const D: usize>(
     lanes
 }
 
+/// By how much what [`slip_at_middle`] gives changes with the velocity of a particle whose gradient stays `[-]`.
+#[inline(always)]
+pub fn response<V: Real>(beta: V) -> V {
+    beta * beta.min(V::splat(2.0))
+}
+
 /// (n·E r)/(n·r) `[-]`. Beside an edge a wall particle may stand in front of its own surface: there the correction does not matter.
 #[inline(always)]
 pub fn stretch<V: Real, const D: usize>(normal: &[V; D], r: &[V; D], corrected: &[V; D]) -> V {
@@ -37,7 +43,7 @@ pub fn stretch<V: Real, const D: usize>(normal: &[V; D], r: &[V; D], corrected: 
     (dot(normal, corrected) / height).if_less(V::splat(0.0), height, V::splat(1.0))
 }
 
-/// 2 η (v_t/d_a) (n·E r) `[Pa m]`: `slip` is β (v_a − v_wall) `[m/s]`, which is v_t (n·r)/d_a, `normal` n that of the wall into
+/// 2 η (v_t/d_a) (n·E r) `[Pa m]`, along the wall: `slip` is β (v_a − v_wall) `[m/s]`, which is v_t (n·r)/d_a, `normal` n that of the wall into
 /// the flow, `r` r_aw `[m]` and `corrected` E r `[m]`.
 #[inline(always)]
 pub fn traction<V: Real, const D: usize>(
@@ -47,6 +53,10 @@ pub fn traction<V: Real, const D: usize>(
     r: &[V; D],
     corrected: &[V; D],
 ) -> [V; D] {
-    let stretch = stretch(normal, r, corrected);
-    scaled(twice_viscosity * stretch, slip)
+    let (factor, across) = (twice_viscosity * stretch(normal, r, corrected), dot(slip, normal));
+    let mut lanes = *slip;
+    for i in 0..D {
+        lanes[i] = factor * (slip[i] - across * normal[i]);
+    }
+    lanes
 }

@@ -106,14 +106,15 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                 let slip = (of.velocity[a] - of.walls.velocity[place]) * factor;
                 let strange = slip - of.velocity_gradient[a] * b.r;
                 let control = numerics.hourglass * h * (speed(a) + speed(b.source));
-                // what needs no pressure follows from the velocity at the wall
+                // what needs no pressure follows from the velocity at the wall, along it
                 let (height, corrected) = (b.r.dot(&normal), for_forces(a) * b.r);
                 let viscosity =
                     if law.is_plastic() { 0.0 } else { law.viscosity(shear_rate(&of.velocity_gradient[a]), 0.0) };
                 let part = if viscosity > 0.0 { viscosity / of.viscosity[a] } else { 0.0 };
                 let further = slip - of.velocity_gradient[a] * normal * height;
                 let slip = slip + further * (factor - 1.0).min(1.0);
-                let rub = slip * (2.0 * viscosity * normal.dot(&corrected) / height);
+                let along = slip - normal * slip.dot(&normal);
+                let rub = along * (2.0 * viscosity * normal.dot(&corrected) / height);
                 let replaced = (of.stress[a] + b.tensor(&stress)) * corrected * part;
                 let rough = 1.0 - of.walls.smoothness[place];
                 let traction = (flux[a] + wall * for_forces(a)) * b.r + (rub - replaced) * rough;

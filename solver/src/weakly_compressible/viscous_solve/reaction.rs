@@ -117,7 +117,7 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
                 let rough = V::load(weight) * (V::splat(1.0) - smoothness);
                 let mut given = product(&own, &scaled(shared * rough * factor, &r));
                 let stretch = no_slip::stretch(&normal, &r, &product(&correction, &r)).max(V::splat(0.0));
-                accumulate(&mut given, rough * hold * factor * stretch, &increment);
+                accumulate(&mut given, rough * hold * no_slip::response(factor) * stretch, &increment);
                 accumulate(&mut all, V::splat(1.0), &given);
                 let mut impulses = [Vector::zeros(); LANES];
                 store_vector(&scaled(impulse_volume, &given), &mut impulses);

@@ -173,7 +173,7 @@ fn product_by_pairs<const D: usize>(patch: &State<D>, u: &[Vector<D>]) -> Vec<Ve
             let height = normal.dot(&b.r);
             if height > 0.0 { (normal.dot(&(correction * b.r)) / height).max(0.0) } else { 1.0 }
         };
-        let resistance = walls().map(|b| -2.0 * b.weight * factor(b) * stretch(b)).sum::<f64>();
+        let resistance = walls().map(|b| -2.0 * b.weight * factor(b) * factor(b).min(2.0) * stretch(b)).sum::<f64>();
         let by_walls = walls().fold(Vector::<D>::zeros(), |sum, b| sum + b.r * (b.weight * factor(b) * half_share));
         let mean = 1.0 + (1.0 - 2.0 / D as f64) / D as f64;
         let counted = mean * of.viscosity[a] * (correction * by_walls).norm_squared();
