@@ -48,6 +48,8 @@ pub(super) struct Constants {
     pub(super) hourglass_strength: f64,
     pub(super) artificial_viscosity: f64,
     pub(super) reference_density: f64,
+    /// C h² `[m²]` of the viscous bound.
+    pub(super) viscous_step: f64,
     pub(super) viscosity_switch: ViscositySwitch,
     pub(super) artificial_stress: Option<ArtificialStress>,
 }
@@ -62,6 +64,7 @@ impl Constants {
             hourglass_strength: model.numerics.hourglass * smoothing_length,
             artificial_viscosity: model.numerics.artificial_viscosity,
             reference_density: model.equation_of_state.reference_density,
+            viscous_step: model.numerics.viscous_courant * smoothing_length * smoothing_length,
             viscosity_switch: model.numerics.viscosity_switch,
             artificial_stress: model.artificial_stress,
         }

@@ -261,6 +261,7 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
         return forces;
     }
     let seen = WallGroup::of::<V, P>(model, particles, own, here);
+    let seen = seen.bounded::<V, P>(constants, records, weighing.pairs(group.wall, wall_weights));
     let mut walls = weighing.pairs(group.wall, wall_weights);
     while let Some(walls) = walls.next() {
         for (w, weight) in walls {

@@ -95,6 +95,7 @@ impl<const D: usize> Pass<'_, D> {
         let own = FlowPartner::of::<P>(&records.load::<V>(quads, &group.own));
         let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: own.position };
         let seen = WallGroup::of::<V, P>(model, particles, own, places);
+        let seen = seen.bounded::<V, P>(&constants, records, weighing.pairs(group.wall, weights));
         let mut walls = weighing.pairs(group.wall, weights);
         while let Some(walls) = walls.next() {
             for (w, weight) in walls {

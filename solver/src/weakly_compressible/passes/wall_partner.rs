@@ -3,6 +3,7 @@
 
 use super::flow_partner::{Constants, FlowPartner};
 use super::layout::Momentum;
+use super::pair_weights::PairParts;
 use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{difference, dot, load_tensor, matrix_product, product, scaled};
@@ -98,6 +99,34 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
             }
         }
         Self { own, correction, viscous }
+    }
+
+    /// With no more resistance along the walls than an explicit step bears, all wall partners together.
+    #[inline(always)]
+    pub(super) fn bounded<V: Lanes, P: Precision<Lanes<V> = S>>(
+        mut self,
+        constants: &Constants,
+        records: &Records<P>,
+        mut pairs: PairParts<'_, P, V, D>,
+    ) -> Self {
+        let none = S::splat(0.0);
+        if !none.any_less(self.viscous.twice_viscosity) {
+            return self;
+        }
+        let mut resistance = none;
+        while let Some(pairs) = pairs.next() {
+            for (w, weight) in pairs {
+                let wall = WallPartner::of::<P>(&records.load::<V>(const { Momentum::<P, D>::QUADS }, &w));
+                let r = records.apart::<V, D>(&self.own.position, &wall.position);
+                let beta =
+                    wall_slip::factor(&r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
+                let rough = S::splat(1.0) - wall.smoothness;
+                resistance = resistance - P::load::<V>(weight) * rough * no_slip::response(beta);
+            }
+        }
+        let borne = no_slip::borne(resistance, constants.viscous_step);
+        self.viscous.twice_viscosity = self.viscous.twice_viscosity * borne;
+        self
     }
 
     /// Parts of the forces of eight wall particles.

@@ -8,7 +8,7 @@
 //! Couette flow this is the traction of the exact stress to rounding.
 
 use crate::lanes::Real;
-use crate::lanes::algebra::dot;
+use crate::lanes::algebra::{difference, dot, product, scaled};
 
 /// What takes the place of the slip β (v_a − v_wall) `[m/s]` where the shear rate changes with the distance: β (v_a − v_wall) is right in
 /// the middle between a and the surface, a's own gradient at a, and the line through both gives the shear rate in the middle between a
@@ -23,9 +23,11 @@ pub fn slip_at_middle<V: Real, const D: usize>(
 ) -> [V; D] {
     let height = dot(normal, r);
     let further = (beta - V::splat(1.0)).min(V::splat(1.0));
+    let change = difference(slip, &scaled(height, &product(velocity_gradient, normal)));
+    let across = dot(&change, normal);
     let mut lanes = *slip;
     for i in 0..D {
-        lanes[i] = slip[i] + further * (slip[i] - height * dot(&velocity_gradient[i], normal));
+        lanes[i] = slip[i] + further * (change[i] - across * normal[i]);
     }
     lanes
 }
@@ -36,14 +38,26 @@ pub fn response<V: Real>(beta: V) -> V {
     beta * beta.min(V::splat(2.0))
 }
 
-/// (n·E r)/(n·r) `[-]`. Beside an edge a wall particle may stand in front of its own surface: there the correction does not matter.
+/// Δt 2 (η/ρ) Σ_w (−V F) β min(β, 2) up to which all of the resistance is left to an explicit step `[-]`; beyond 2 it would overshoot.
+const MOST: f64 = 1.6;
+
+/// Part of the resistance Σ_w (−V F) β min(β, 2) `[1/m²]` of all wall partners that an explicit step of the viscous bound bears, `bound` its
+/// C h² `[m²]` `[-]`: all of it on a lattice before a plane, less in edges and close to the surface, where nearly nothing flows.
+#[inline(always)]
+pub fn borne<V: Real>(resistance: V, bound: f64) -> V {
+    let taken = V::splat(2.0 * bound) * resistance;
+    (V::splat(MOST) / taken).if_less(V::splat(MOST), taken, V::splat(1.0))
+}
+
+/// (n·E r)/(n·r) `[-]`, between 0 and 2: where few neighbours make E large a wall would push otherwise. Beside an edge a wall particle may stand in front of its own surface: there the correction does not matter.
 #[inline(always)]
 pub fn stretch<V: Real, const D: usize>(normal: &[V; D], r: &[V; D], corrected: &[V; D]) -> V {
     let height = dot(normal, r);
-    (dot(normal, corrected) / height).if_less(V::splat(0.0), height, V::splat(1.0))
+    let within = (dot(normal, corrected) / height).max(V::splat(0.0)).min(V::splat(2.0));
+    within.if_less(V::splat(0.0), height, V::splat(1.0))
 }
 
-/// 2 η (v_t/d_a) (n·E r) `[Pa m]`, along the wall: `slip` is β (v_a − v_wall) `[m/s]`, which is v_t (n·r)/d_a, `normal` n that of the wall into
+/// 2 η (v_t/d_a) (n·E r) `[Pa m]`: `slip` is β (v_a − v_wall) `[m/s]`, which is v_t (n·r)/d_a, `normal` n that of the wall into
 /// the flow, `r` r_aw `[m]` and `corrected` E r `[m]`.
 #[inline(always)]
 pub fn traction<V: Real, const D: usize>(
@@ -53,10 +67,5 @@ pub fn traction<V: Real, const D: usize>(
     r: &[V; D],
     corrected: &[V; D],
 ) -> [V; D] {
-    let (factor, across) = (twice_viscosity * stretch(normal, r, corrected), dot(slip, normal));
-    let mut lanes = *slip;
-    for i in 0..D {
-        lanes[i] = factor * (slip[i] - across * normal[i]);
-    }
-    lanes
+    scaled(twice_viscosity * stretch(normal, r, corrected), slip)
 }

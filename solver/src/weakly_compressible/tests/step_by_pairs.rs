@@ -75,8 +75,16 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
 
     // momentum
     let speed = |b: usize| (pressure[b].max(0.0) / DENSITY).sqrt();
+    let wall_factor = |b: &Pair<D>| {
+        let (normal, depth) = (of.walls.normal[b.index - flow], of.walls.depth[b.index - flow]);
+        (1.0 + depth / (b.r.dot(&normal) - depth).max(1e-6 * h)).min(6.0)
+    };
+    let roughness = |b: &Pair<D>| 1.0 - of.walls.smoothness[b.index - flow];
     let acceleration = |a: usize| {
         let mut sum = gravity;
+        let resistance = |b: &Pair<D>| -b.weight * roughness(b) * wall_factor(b) * wall_factor(b).min(2.0);
+        let resistance: f64 = pairs[a].iter().filter(|b| b.source >= flow).map(resistance).sum();
+        let borne = (0.8 / (numerics.viscous_courant * h * h * resistance)).min(1.0);
         for b in &pairs[a] {
             let regular = b.r.norm_squared() + 1e-4 * h * h;
             if b.source < flow {
@@ -100,24 +108,23 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                 sum += (traction + b.r * relief) * (b.weight / of.density[a]) + b.r * (b.weight * damping);
             } else {
                 let place = b.index - flow;
-                let (normal, depth) = (of.walls.normal[place], of.walls.depth[place]);
-                let factor = (1.0 + depth / (b.r.dot(&normal) - depth).max(1e-6 * h)).min(6.0);
+                let (normal, factor) = (of.walls.normal[place], wall_factor(b));
                 let wall = b.tensor(&stress) - identity * pressure[b.source];
                 let slip = (of.velocity[a] - of.walls.velocity[place]) * factor;
                 let strange = slip - of.velocity_gradient[a] * b.r;
                 let control = numerics.hourglass * h * (speed(a) + speed(b.source));
-                // what needs no pressure follows from the velocity at the wall, along it
+                // what needs no pressure follows from the velocity at the wall
                 let (height, corrected) = (b.r.dot(&normal), for_forces(a) * b.r);
                 let viscosity =
                     if law.is_plastic() { 0.0 } else { law.viscosity(shear_rate(&of.velocity_gradient[a]), 0.0) };
                 let part = if viscosity > 0.0 { viscosity / of.viscosity[a] } else { 0.0 };
                 let further = slip - of.velocity_gradient[a] * normal * height;
+                let further = further - normal * further.dot(&normal);
                 let slip = slip + further * (factor - 1.0).min(1.0);
-                let along = slip - normal * slip.dot(&normal);
-                let rub = along * (2.0 * viscosity * normal.dot(&corrected) / height);
+                let stretch = (normal.dot(&corrected) / height).clamp(0.0, 2.0);
+                let rub = slip * (2.0 * borne * viscosity * stretch);
                 let replaced = (of.stress[a] + b.tensor(&stress)) * corrected * part;
-                let rough = 1.0 - of.walls.smoothness[place];
-                let traction = (flux[a] + wall * for_forces(a)) * b.r + (rub - replaced) * rough;
+                let traction = (flux[a] + wall * for_forces(a)) * b.r + (rub - replaced) * roughness(b);
                 sum += traction * (b.weight / of.density[a]);
                 sum += normal * (b.weight * control * strange.dot(&normal));
             }

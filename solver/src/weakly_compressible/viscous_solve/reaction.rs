@@ -116,7 +116,7 @@ impl<const D: usize> LanePass for ReactionPass<'_, D> {
                 let smoothness: V = gather(&particles.walls.smoothness, &w);
                 let rough = V::load(weight) * (V::splat(1.0) - smoothness);
                 let mut given = product(&own, &scaled(shared * rough * factor, &r));
-                let stretch = no_slip::stretch(&normal, &r, &product(&correction, &r)).max(V::splat(0.0));
+                let stretch = no_slip::stretch(&normal, &r, &product(&correction, &r));
                 accumulate(&mut given, rough * hold * no_slip::response(factor) * stretch, &increment);
                 accumulate(&mut all, V::splat(1.0), &given);
                 let mut impulses = [Vector::zeros(); LANES];

@@ -123,7 +123,7 @@ impl<const D: usize> LanePass for CoefficientPass<'_, D> {
                 accumulate(&mut closure, shared * rough * factor, &r);
                 accumulate(&mut by_walls, half_share * rough * factor, &r);
                 let stretch = no_slip::stretch(&normal, &r, &product(&correction, &r));
-                resistance = resistance - rough * no_slip::response(factor) * stretch.max(V::splat(0.0));
+                resistance = resistance - rough * no_slip::response(factor) * stretch;
             }
             let mut viscosity = load::<V>(&particles.viscosity[first..last]);
             if mixing_area > 0.0 {
