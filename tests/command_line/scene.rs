@@ -186,6 +186,35 @@ fn a_syrup_by_implicit_steps_collapses_as_by_explicit_ones_in_fewer() {
     assert!(4 * implicit.2 < explicit.2, "{implicit:?} of {explicit:?}");
 }
 
+/// Edges and corners hold with all of their walls, whose kernels lack most neighbours.
+#[test]
+fn thick_liquids_bear_explicit_steps_in_the_edges_of_tanks() {
+    let place = Place::new();
+    let head = |case: &str| {
+        format!(
+            "case = \"{case}\"\nname = \"thick\"\nspacing = 0.01\nduration = 0.02\ninterval = 0.004\njitter = 0.3\n\
+             [numerics]\nviscous_step = \"explicit\"\n[bulk]\nsolid_fraction = 1.0\nbulk_density = 1000.0\n"
+        )
+    };
+    let law = |viscosity: f64| format!("[material]\nlaw = \"newtonian\"\nviscosity = {viscosity}\n");
+    let plane = "[[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.1, 0.05]\n\
+        [[walls]]\nname = \"tank\"\npoints = [[0.0, 0.2], [0.0, 0.0], [0.1, 0.0], [0.1, 0.2]]\n";
+    let side = |a: &str, b: &str| format!("[[{a}, 0.0], [{b}, 0.0], [{b}, 0.1], [{a}, 0.1]], ");
+    let [a, b, c, d] = ["0.0, 0.0", "0.05, 0.0", "0.05, 0.05", "0.0, 0.05"];
+    let space = format!(
+        "[[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0, 0.0]\nupper = [0.05, 0.05, 0.05]\n[[walls]]\nname = \"tank\"\n\
+         quads = [{}{}{}{}[[{a}, 0.0], [{b}, 0.0], [{c}, 0.0], [{d}, 0.0]]]\n",
+        side(b, a),
+        side(c, b),
+        side(d, c),
+        side(a, d)
+    );
+    place.file("plane.toml", &format!("{}{}{plane}", head("scene"), law(500.0)));
+    place.file("space.toml", &format!("{}{}{space}", head("scene-space"), law(5.0)));
+    place.run(&["plane.toml", "--quiet"]).code(0);
+    place.run(&["space.toml", "--quiet"]).code(0);
+}
+
 #[test]
 fn a_table_that_show_documents_can_be_added_to_a_scene() {
     let place = Place::new();
