@@ -122,6 +122,7 @@ fn uncertainties_that_are_stated_wrongly_are_told() {
 
 #[test]
 fn data_far_from_all_others_are_named() {
+    // around the exact film they lie 5.3 and 4.8 robust standard deviations off; 1.3 times the velocity lies 3.9 off, for a rule of 4
     let findings = of_exact_data(1.0, 1.0, |k, velocity| match k {
         3 => 1.4 * velocity,
         8 => 0.7 * velocity,

@@ -4,7 +4,8 @@ use crate::killed::{Finished, assert_same_files, kill_and_resume, written};
 use crate::program::Place;
 use std::path::{Path, PathBuf};
 
-/// The viscosity of a film from three velocities that someone has measured, with 3 % of uncertainty each.
+/// The viscosity of a film from three velocities that someone has measured, with 3 % of uncertainty each. Displaced particles would make the
+/// velocity scatter by 1 % with the last bits of the viscosity.
 const PLAN: &str = r#"
 title = "viscosity of a film"
 evaluations = 14
@@ -19,13 +20,13 @@ scale = "log"
 
 [[fit]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+with = { fluids = ["newtonian"], resolution = 10, jitter = 0.0, convergence_resolutions = [], comparison_resolution = 0 }
 data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]", file = "mine.csv" }]
 
 [[hold_out]]
 case = "film"
 conditions = ["slope_angle"]
-with = { fluids = ["newtonian"], resolution = 10, slope_angle = 12.0, convergence_resolutions = [], comparison_resolution = 0 }
+with = { fluids = ["newtonian"], resolution = 10, jitter = 0.0, slope_angle = 12.0, convergence_resolutions = [], comparison_resolution = 0 }
 data = [{ metric = "particles_lost", value = 0.0, unit = "-", uncertainty = 1.0, source = "own" }]
 "#;
 
@@ -101,9 +102,7 @@ fn assert_one_point(result: &serde_json::Value) {
                 evaluation["values"][k].as_f64().is_some_and(|other| (other / value - 1.0).abs() < 1e-12)
             });
             let rise = there.and_then(|there| there["chi_squared"].as_f64()).expect("evaluated") - least;
-            // a film of jittered rows changes by 1 % with the bits of its viscosity, more than an end may need
-            let settled = parameter["settled"][end].as_bool().expect("said");
-            assert_eq!(settled, (rise / 3.841_459 - 1.0).abs() < 0.1, "{rise} at the end {value}");
+            assert!((rise / 3.841_459 - 1.0).abs() < 0.1, "{rise} at the end {value}");
         }
     }
 }
@@ -201,7 +200,7 @@ fn what_is_held_out_must_differ_in_its_physics() {
     };
     assert_eq!(plan("slope_angle = 10.000001"), same("10.000001"));
     assert_eq!(
-        refusal(|text| text.replace("resolution = 10, slope_angle = 12.0", "resolution = 12"), str::to_owned),
+        refusal(|text| text.replace("10, jitter = 0.0, slope_angle = 12.0", "12, jitter = 0.0"), str::to_owned),
         same("10")
     );
     assert_eq!(

@@ -101,7 +101,7 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
         Self { own, correction, viscous }
     }
 
-    /// With no more resistance along the walls than an explicit step bears, all wall partners together.
+    /// With no more resistance of all wall partners together than an explicit step bears.
     #[inline(always)]
     pub(super) fn bounded<V: Lanes, P: Precision<Lanes<V> = S>>(
         mut self,

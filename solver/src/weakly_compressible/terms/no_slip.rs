@@ -12,7 +12,7 @@ use crate::lanes::algebra::{difference, dot, product, scaled};
 
 /// What takes the place of the slip β (v_a − v_wall) `[m/s]` where the shear rate changes with the distance: β (v_a − v_wall) is right in
 /// the middle between a and the surface, a's own gradient at a, and the line through both gives the shear rate in the middle between a
-/// and w, min(1, d_w/d_a) times their difference further on. Without it the surface of a curved profile lies 0.05 Δ too far back.
+/// and w, min(1, d_w/d_a) times their difference further on, along the wall: across it the velocity has no slope at the surface. Without it the surface of a curved profile lies 0.05 Δ too far back.
 #[inline(always)]
 pub fn slip_at_middle<V: Real, const D: usize>(
     slip: &[V; D],
@@ -49,7 +49,8 @@ pub fn borne<V: Real>(resistance: V, bound: f64) -> V {
     (V::splat(MOST) / taken).if_less(V::splat(MOST), taken, V::splat(1.0))
 }
 
-/// (n·E r)/(n·r) `[-]`, between 0 and 2: where few neighbours make E large a wall would push otherwise. Beside an edge a wall particle may stand in front of its own surface: there the correction does not matter.
+/// (n·E r)/(n·r) `[-]`, kept between 0 and 2: where few neighbours make E large, a wall would push a particle on otherwise. Beside an edge a
+/// wall particle may stand in front of its own surface: there the correction does not matter.
 #[inline(always)]
 pub fn stretch<V: Real, const D: usize>(normal: &[V; D], r: &[V; D], corrected: &[V; D]) -> V {
     let height = dot(normal, r);

@@ -24,8 +24,9 @@
 //! A wall partner's velocity is that of (18)–(20), v_a − v_w = β (v_a − v_wall) with β = 1 + d_w/d_a up to a limit:
 //! linear in v_a alone, so that the walls join the sums that are made once a step.
 //! Of a liquid the walls hold by the velocity itself (`terms/no_slip.rs`), whatever the strain is: for the share χ of the viscosity
-//! that needs no pressure the second line has no wall in it, but −Σ_w w 2 χη β (n·L r)/(n·r) v_a. The two lines are then no
-//! transposes; K is their mean, with 1 − χ/2 before both sums over walls, and what that counts of the resistance is taken from it.
+//! that needs no pressure the second line has no wall in it, but −Σ_w w 2 χη β min(β, 2) (n·L r)/(n·r) v_a, as much as a zigzag
+//! feels: a straight shear feels half, and with that half a zigzag would not be damped. The two lines are then no transposes; K is
+//! their mean, with 1 − χ/2 before both sums over walls, and what that counts of the resistance is taken from it.
 //!
 //! Conjugate gradients, preconditioned with the diagonal, end when the residual has fallen to a share of its start,
 //! ‖r‖ ≤ ε ‖M Δt a‖ with ‖x‖² = Σ x_a²/m_a: the net force, not the forces that balance each other, is the scale. The

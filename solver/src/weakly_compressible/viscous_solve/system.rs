@@ -30,7 +30,7 @@ pub(super) struct Coefficients<const D: usize> {
     pub(super) shared: [f64; LANES],
     /// 2 η of what holds to a wall by the velocity, less what the first line has of it `[Pa·s]`.
     pub(super) hold: [f64; LANES],
-    /// Mass and the resistance of the walls, Δt V Σ_w (−w) 2 η β (n·L r)/(n·r) `[kg]`.
+    /// Mass and the resistance of the walls, Δt V Σ_w (−w) 2 η β min(β, 2) (n·L r)/(n·r) `[kg]`.
     pub(super) inertia: [f64; LANES],
     /// Δt V `[s m^D]`.
     pub(super) impulse_volume: [f64; LANES],
