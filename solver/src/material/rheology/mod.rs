@@ -549,6 +549,15 @@ impl Rheology {
 }
 
 impl Rheology {
+    /// Shear stress `[Pa]` that material which has not yet flowed bears at a pressure `[Pa]`; none of a law that carries no stress along.
+    #[must_use]
+    pub fn strength_at_rest(&self, pressure: f64) -> Option<f64> {
+        match self {
+            Self::SofteningDruckerPrager(law) => Some(law.strength(pressure, 0.0)),
+            law => law.is_plastic().then(|| law.contact_friction() * pressure),
+        }
+    }
+
     /// Density ρ_s `[kg/m³]` of the grains, where the law has such a parameter; one of a user's own crate has it as
     /// `grain_density`.
     #[must_use]

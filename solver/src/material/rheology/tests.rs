@@ -1,6 +1,8 @@
 //! Ranges of the laws' parameters.
 
-use crate::material::rheology::{Bingham, HerschelBulkley, MuI, Newtonian, RegularisedMuI, Rheology};
+use crate::material::rheology::{
+    Bingham, HerschelBulkley, MuI, Newtonian, NonlocalMuI, RegularisedMuI, Rheology, SofteningDruckerPrager,
+};
 use serde::{Deserialize, de::value::MapDeserializer};
 
 const GLASS: MuI = MuI {
@@ -99,4 +101,17 @@ fn a_misspelt_parameter_is_not_read() {
     assert_eq!(read(&[("viscosity", 1.5)]), Ok(Newtonian { viscosity: 1.5 }));
     assert!(read(&[("viscosity", 1.5), ("viscocity", 2.0)]).is_err());
     assert!(read(&[]).is_err());
+}
+
+#[test]
+fn only_laws_that_carry_their_stress_along_have_a_strength_at_rest() {
+    let soil = SofteningDruckerPrager { peak_friction: 0.6, peak_cohesion: 20.0, ..GLASS.into() };
+    assert_eq!(Rheology::SofteningDruckerPrager(soil).strength_at_rest(100.0), Some(80.0));
+    for law in [Rheology::MuI(GLASS), Rheology::NonlocalMuI(NonlocalMuI::of(GLASS))] {
+        assert_eq!(law.strength_at_rest(100.0), Some(38.2), "{law:?}");
+    }
+    let regularised = Rheology::RegularisedMuI(GLASS.regularised(0.01));
+    for law in [regularised, Rheology::Newtonian(Newtonian { viscosity: 1.0 })] {
+        assert_eq!(law.strength_at_rest(100.0), None, "{law:?}");
+    }
 }

@@ -1,5 +1,6 @@
 //! Rules between the fields of a scene.
 
+use super::geostatic::rankine_ratios;
 use super::parameters::Dimension;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector};
@@ -32,6 +33,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
         }
         self.check_scales()?;
+        self.check_lateral_pressure()?;
         self.check_inlets()?;
         self.check_gauges()?;
         self.check_numerics()
@@ -98,6 +100,30 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             return within(ParameterError::field("direction", shown(direction.iter()), rule, remedy));
         }
         Ok(())
+    }
+
+    /// A ratio of horizontal to vertical stress that the material bears at rest.
+    fn check_lateral_pressure(&self) -> Result<(), ParameterError> {
+        let (field, ratio) = ("lateral_pressure_ratio", self.lateral_pressure_ratio);
+        if ratio == 1.0 {
+            return Ok(());
+        }
+        let law = self.material.name();
+        let Some(cohesion) = self.material.strength_at_rest(0.0) else {
+            let rule = format!("1 for the law \"{law}\", whose stress follows from the rate of strain");
+            let remedy = "leave it out, or give a law that carries its stress along, such as \"mu-i\"";
+            return Err(ParameterError::field(field, ratio, &rule, remedy));
+        };
+        let weight = self.bulk.density(&self.material) * vector::<D>(&self.gravity).norm() * self.height();
+        if weight == 0.0 {
+            return Err(ParameterError::field(field, ratio, "1 without gravity", "leave it out: no weight presses"));
+        }
+        let friction = (self.material.strength_at_rest(weight).unwrap_or(cohesion) - cohesion) / weight;
+        let (active, passive) = rankine_ratios::<D>(friction, cohesion / weight);
+        // rounded outwards, so that the bounds that a message shows are allowed
+        let (active, passive) = ((1e4 * active).floor() / 1e4, (1e4 * passive).ceil() / 1e4);
+        let remedy = format!("beyond Rankine's active and passive ratios \"{law}\" yields; 1 − sin φ is usual at rest");
+        rules::between(field, ratio, active, passive, &remedy)
     }
 
     /// Times and lengths that fit to each other.

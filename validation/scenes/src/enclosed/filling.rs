@@ -1,6 +1,7 @@
 //! Where particles start: on the sites of lattices that bodies hold, as dense as the material above them makes them.
 
 use super::behind_walls::{Permissions, Site};
+use super::geostatic::GeostaticStress;
 use super::lattice::{LatticeGroup, SiteLattice, groups};
 use super::parameters::Dimension;
 use super::setting::{SceneBody, SceneInlet, SceneWall, vector};
@@ -44,12 +45,17 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             free.extend(pairs.filter(|(site, behind)| !behind && is_free(site)).map(|(site, _)| (site, *lattice)));
         }
         let share = if all == 0 { 0.0 } else { (all - free.len()) as f64 / all as f64 };
+        let start = GeostaticStress { lateral_ratio: self.lateral_pressure_ratio, up };
+        let overburden = |site: &Vector<D>| weight * depth(bodies, site, &up, spacing);
         let mut flow = displaced_flow(
             free.iter().map(|(site, _)| site.place),
             (jitter * spacing, self.seed),
-            |site| equation_of_state.density(self.pressure + weight * depth(bodies, site, &up, spacing)),
+            |site| equation_of_state.density(self.pressure + start.pressure(overburden(site))),
             |_| 0.0,
         );
+        if self.lateral_pressure_ratio != 1.0 {
+            flow.stress = free.iter().map(|(site, _)| start.deviator(overburden(&site.place))).collect();
+        }
         flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();
         flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();
         Ok((flow, share))

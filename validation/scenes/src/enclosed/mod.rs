@@ -8,6 +8,7 @@ pub(super) mod figures;
 pub(super) mod filling;
 pub(super) mod foreign;
 pub(super) mod gauges;
+mod geostatic;
 mod given;
 mod given_rate;
 mod inflow;

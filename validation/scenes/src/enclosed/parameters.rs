@@ -111,6 +111,11 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     #[serde(default, skip_serializing_if = "is_none")]
     #[schemars(transform = at_least(0.0, "a pressure pushes: leave it out for material under its weight alone"))]
     pub pressure: f64,
+    /// Ratio K_0 of horizontal to vertical stress at the start, of the weight of the material above `[-]`; vertical is along gravity. 1 is
+    /// hydrostatic, 1 − sin φ is Jaky's (1944) for deposited grains. A ratio unlike 1 requires a law that carries its stress along.
+    #[serde(default = "hydrostatic", skip_serializing_if = "is_hydrostatic")]
+    #[schemars(transform = positive("give 1 for a hydrostatic start, 1 − sin φ for deposited grains"))]
+    pub lateral_pressure_ratio: f64,
     /// Walls; what is not held by one falls.
     pub walls: Vec<S::Wall>,
     /// Openings by which material comes in.
@@ -128,6 +133,14 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
 
 fn is_none(pressure: &f64) -> bool {
     *pressure == 0.0
+}
+
+fn hydrostatic() -> f64 {
+    1.0
+}
+
+fn is_hydrostatic(ratio: &f64) -> bool {
+    *ratio == hydrostatic()
 }
 
 impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
@@ -162,6 +175,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             walls: Vec::new(),
             inlets: Vec::new(),
             pressure: 0.0,
+            lateral_pressure_ratio: hydrostatic(),
             side_walls: None,
             gauges: Vec::new(),
             measured: Vec::new(),

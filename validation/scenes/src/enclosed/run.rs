@@ -220,7 +220,7 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
     ///
     /// # Errors
     /// A body of which walls take more than they may.
-    fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
+    pub(super) fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
         let SceneParameters { spacing, numerics, material, .. } = self.scene;
         let (equation_of_state, enclosure) = (self.scene.equation_of_state(), self.scene.enclosure());
         let surfaces = Surfaces::of(&enclosure, self.scene.depth_of_walls());
