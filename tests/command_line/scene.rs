@@ -95,6 +95,38 @@ fn water_in_a_tank_comes_to_rest_straight_and_turned() {
 }
 
 #[test]
+fn grains_in_a_box_push_its_sides_with_the_given_part_of_their_weight() {
+    let place = Place::new();
+    let mut text = "case = \"scene\"\nname = \"box\"\nspacing = 0.005\nduration = 0.2\ninterval = 0.01\n\
+        sides = { left = \"none\", right = \"none\", bottom = \"none\", top = \"none\" }\n\
+        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.2, 0.1]\n"
+        .to_owned();
+    let walls = [
+        ("left", "[0.0, 0.15], [0.0, 0.0]"),
+        ("floor", "[0.0, 0.0], [0.2, 0.0]"),
+        ("right", "[0.2, 0.0], [0.2, 0.15]"),
+    ];
+    for (name, points) in walls {
+        text += &format!("[[walls]]\nname = \"{name}\"\nsurface = \"smooth\"\npoints = [{points}]\n");
+        text += &format!("[[gauges]]\nkind = \"force\"\nname = \"{name}\"\nwall = \"{name}\"\n");
+    }
+    place.file("box.toml", &text);
+    // without the field K_0 is 1
+    for (setting, ratio) in [(None, 1.0), (Some("lateral_pressure_ratio=0.618"), 0.618)] {
+        let set = setting.map_or(Vec::new(), |setting| vec!["--set", setting]);
+        place.run(&[&["box.toml", "--quiet"], &set[..]].concat()).code(0);
+        let hydrostatic = 0.5 * 1500.0 * 9.81 * 0.1 * 0.1;
+        for wall in ["left", "right"] {
+            let force = metric(&place, "mean_force", &format!("gauge={wall}")) / hydrostatic;
+            // half a spacing of the height, of which the force is the square
+            assert!((force / ratio - 1.0).abs() < 0.05, "{setting:?}: {force} of ρ g H²/2 on {wall}");
+        }
+        assert!((metric(&place, "mean_force", "gauge=floor") / (4.0 * hydrostatic) - 1.0).abs() < 0.02);
+        assert!(metric(&place, "final_rms_speed", "scene=box") < 1e-3);
+    }
+}
+
+#[test]
 fn what_walls_take_of_the_bodies_is_told() {
     let place = Place::new();
     let text = |lower: f64| {
