@@ -59,7 +59,7 @@ fn a_law_of_ones_own_that_remembers_runs_a_scene() {
     let path = |name: &str| folder.path().join(name).display().to_string();
     let front = |peak: f64, residual: f64| {
         let scene = format!(
-            "case = \"scene\"\nname = \"block\"\nspacing = 0.01\nduration = 0.5\ninterval = 0.05\npictures = 1\nmeasured = []\n\
+            "case = \"scene\"\nname = \"block\"\nspacing = 0.005\nduration = 0.5\ninterval = 0.05\npictures = 1\nmeasured = []\n\
              sides = {{ left = {{ mirror = 0.0 }}, right = {{ open = 0.6 }}, bottom = \"none\", top = \"none\" }}\n\
              bulk = {{ bulk_density = 1500.0 }}\nmaterial = {{ law = \"softening\", peak_friction = {peak}, \
              residual_friction = {residual}, softening_strain = 0.1 }}\n\

@@ -47,6 +47,9 @@ pub(super) struct Constants {
     /// k h `[m]` of the hourglass control.
     pub(super) hourglass_strength: f64,
     pub(super) artificial_viscosity: f64,
+    /// Whether the body is of grains: the artificial viscosity then acts on what no gradient explains alone. A liquid at rest needs all
+    /// of it against its noise.
+    pub(super) of_grains: bool,
     pub(super) reference_density: f64,
     /// C h² `[m²]` of the viscous bound.
     pub(super) viscous_step: f64,
@@ -63,6 +66,7 @@ impl Constants {
             speed_length: smoothing_length * model.equation_of_state.sound_speed(),
             hourglass_strength: model.numerics.hourglass * smoothing_length,
             artificial_viscosity: model.numerics.artificial_viscosity,
+            of_grains: model.rheology.is_solid(),
             reference_density: model.equation_of_state.reference_density,
             viscous_step: model.numerics.viscous_courant * smoothing_length * smoothing_length,
             viscosity_switch: model.numerics.viscosity_switch,

@@ -15,7 +15,7 @@ impl<P: Precision, const D: usize> Momentum<P, D> {
     /// Density of the flow, depth of a wall.
     pub(super) const DENSITY: usize = D + P::VOLUMES;
     pub(super) const VELOCITY: usize = Self::DENSITY + 1;
-    /// √(p/ρ0).
+    /// √(p/ρ0), of grains the share of it that the hourglass control takes.
     pub(super) const SPEED: usize = Self::VELOCITY + D;
     /// σE of the flow, σ of a wall.
     pub(super) const STRESS: usize = Self::SPEED + 1;

@@ -12,7 +12,7 @@ use super::wall_partner::{WallGroup, WallPair};
 use crate::lanes::algebra::{accumulate, difference, dot, load, store_vector, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
-use crate::vector::Vector;
+use crate::vector::{Vector, shear_rate};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::numerics::ViscositySwitch;
@@ -24,6 +24,7 @@ use std::ops::Range;
 /// Records of flow and walls in the layout of [`Momentum`].
 fn fill<P: Precision, const D: usize>(model: &Model<D>, particles: &Particles<D>, records: &mut Records<P>) {
     let inverse_density = 1.0 / model.equation_of_state.reference_density;
+    let grains = model.rheology.strength_is_friction() && model.field_diffusion().is_none();
     let (count, values) = (particles.position.len(), Momentum::<P, D>::VALUES);
     records.fill(count, values, model.kernel.smoothing_length(), |index, record| {
         let wall = particles.is_wall(index).then(|| index - particles.flow_count());
@@ -34,7 +35,12 @@ fn fill<P: Precision, const D: usize>(model: &Model<D>, particles: &Particles<D>
         }
         record.scalar(wall.map_or(particles.density[index], |wall| walls.depth[wall]));
         record.vector(wall.map_or(&particles.velocity[index], |wall| &walls.velocity[wall]));
-        record.scalar(hourglass::pressure_speed(particles.pressure[index], inverse_density));
+        let speed = hourglass::pressure_speed(particles.pressure[index], inverse_density);
+        record.scalar(if grains && wall.is_none() {
+            speed * hourglass::share(shear_rate(&particles.velocity_gradient[index]) * model.spacing, speed)
+        } else {
+            speed
+        });
         record.tensor(&particles.corrected_stress[index]);
         match wall {
             Some(wall) => {
@@ -216,7 +222,6 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 _ => P::Lanes::<V>::splat(constants.artificial_viscosity * constants.speed_length),
             };
             let traction = stress_divergence::traction(&own.corrected_stress, &other.corrected_stress, &r);
-            let push = artificial_viscosity::pair_factor(alpha, approach, inverse);
             let speed_sum = own.pressure_speed + other.pressure_speed;
             let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
             let mass_weight = weight * other.density;
@@ -234,7 +239,10 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
             if P::SINGLE {
                 // all of it acts along the pair: one factor of r
                 let explained = hourglass::explained_along(&own.velocity_gradient, &other.velocity_gradient, &r);
-                let along = (approach - explained) * (half * inverse * density_sum);
+                let unexplained = approach - explained;
+                let felt = if constants.of_grains { unexplained } else { approach };
+                let push = artificial_viscosity::pair_factor(alpha, approach, felt, inverse);
+                let along = unexplained * (half * inverse * density_sum);
                 let mut pull = mass_weight * (push + drag * along);
                 if let Some(relief) = relief {
                     pull = pull + relief;
@@ -242,6 +250,8 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 part.damp(mirrored, pull, &r);
             } else {
                 let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
+                let felt = if constants.of_grains { dot(&r, &unexplained) } else { approach };
+                let push = artificial_viscosity::pair_factor(alpha, approach, felt, inverse);
                 let unexplained = hourglass::along_pair(&unexplained, &r, regular);
                 part.damp(mirrored, mass_weight * push, &r);
                 part.damp(mirrored, mass_weight * drag, &unexplained);

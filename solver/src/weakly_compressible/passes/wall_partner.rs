@@ -153,7 +153,8 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
             let replaced = dot(&viscous.stress[i], &r) + viscous.share * extrapolated;
             traction[i] = traction[i] + rough * (rub[i] - replaced);
         }
-        let speed_sum = own.pressure_speed + wall.pressure_speed;
+        // a wall of grains takes the share of the flow
+        let speed_sum = own.pressure_speed + if constants.of_grains { own.pressure_speed } else { wall.pressure_speed };
         let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum);
         let unexplained = hourglass::unexplained_at_wall(&slip, &own.velocity_gradient, &r, &wall.normal);
         WallPair { traction, drag, unexplained }

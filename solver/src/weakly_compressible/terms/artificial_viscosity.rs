@@ -17,11 +17,11 @@ pub fn mean_strength<V: Real>(alpha_a: V, alpha_b: V, speed_length: f64) -> V {
 
 /// −Π_ab F-free part of (15): α h c (r·v)⁻ / (ρ̄ r²) `[m⁵/(kg s²)]`, to be multiplied by m_b ∇W.
 ///
-/// `strength` is α h c `[m²/s]`, `approach` r_ab·v_ab `[m²/s]`, `inverse` 1/(ρ̄ (r² + δ²)) `[m/kg]`.
+/// `strength` is α h c `[m²/s]`, `approach` r_ab·v_ab `[m²/s]`, `felt` the part of it that is damped `[m²/s]`: of grains what no
+/// gradient explains, but never more than the approach. `inverse` is 1/(ρ̄ (r² + δ²)) `[m/kg]`.
 #[inline(always)]
-pub fn pair_factor<V: Real>(strength: V, approach: V, inverse: V) -> V {
-    let none = V::splat(0.0);
-    strength * approach.min(none) * inverse
+pub fn pair_factor<V: Real>(strength: V, approach: V, felt: V, inverse: V) -> V {
+    strength * felt.max(approach).min(V::splat(0.0)) * inverse
 }
 
 /// One explicit step of (16): dα/dt = −(α − α_min)/ς + S, S = max(0, −∇·v), ς = h/(σ c).

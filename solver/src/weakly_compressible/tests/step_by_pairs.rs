@@ -74,7 +74,13 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
     }
 
     // momentum
-    let speed = |b: usize| (pressure[b].max(0.0) / DENSITY).sqrt();
+    let speed = |b: usize| {
+        let speed = (pressure[b].max(0.0) / DENSITY).sqrt();
+        let number = shear_rate(&of.velocity_gradient[b]) * SPACING / speed.max(1e-30);
+        let (fast, still) = ((number - 0.1) / 0.2, 1.0 - (number - 0.005) / 0.015);
+        let of_grains = law.strength_is_friction() && model.field_diffusion().is_none();
+        if of_grains { speed * (0.375 + 0.625 * fast.max(still).clamp(0.0, 1.0)) } else { speed }
+    };
     let wall_factor = |b: &Pair<D>| {
         let (normal, depth) = (of.walls.normal[b.index - flow], of.walls.depth[b.index - flow]);
         (1.0 + depth / (b.r.dot(&normal) - depth).max(1e-6 * h)).min(6.0)
@@ -102,7 +108,9 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                     }
                 };
                 let strange = slip - (of.velocity_gradient[a] + b.tensor(&of.velocity_gradient)) * b.r * 0.5;
-                let push = alpha * h * c * slip.dot(&b.r).min(0.0);
+                let approach: f64 = slip.dot(&b.r);
+                let felt: f64 = if law.is_solid() { strange.dot(&b.r) } else { approach };
+                let push = alpha * h * c * felt.max(approach).min(0.0);
                 let mean = 0.5 * (of.density[a] + of.density[b.source]);
                 let damping = of.density[b.source] * (push + control * strange.dot(&b.r)) / (mean * regular);
                 sum += (traction + b.r * relief) * (b.weight / of.density[a]) + b.r * (b.weight * damping);
@@ -112,7 +120,8 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                 let wall = b.tensor(&stress) - identity * pressure[b.source];
                 let slip = (of.velocity[a] - of.walls.velocity[place]) * factor;
                 let strange = slip - of.velocity_gradient[a] * b.r;
-                let control = numerics.hourglass * h * (speed(a) + speed(b.source));
+                let whole = (pressure[b.source].max(0.0) / DENSITY).sqrt();
+                let control = numerics.hourglass * h * (speed(a) + if law.is_solid() { speed(a) } else { whole });
                 // what needs no pressure follows from the velocity at the wall
                 let (height, corrected) = (b.r.dot(&normal), for_forces(a) * b.r);
                 let viscosity =

@@ -29,7 +29,7 @@ const AT_THE_SURFACE: &str = "statement of the collapse paper: the velocity is l
 /// Aspect ratio up to which a column is shallow, and part of it has to stay where it was `[-]`.
 const SHALLOW: f64 = 1.0;
 /// Time of the velocity profiles over √(h_0/g) `[-]`: in mid-collapse.
-const PROFILE_TIME: f64 = 1.5;
+pub(super) const PROFILE_TIME: f64 = 1.5;
 
 /// Energies of a run.
 pub(super) fn energies(collapse: &Collapse) -> Energies<'_> {

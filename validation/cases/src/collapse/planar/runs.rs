@@ -1,6 +1,7 @@
 //! The columns that the case asks for, in report order.
 
 use super::parameters::{ColumnPlanarParameters, PlanarColumns, SHOWN};
+use crate::collapse::flow_metrics::PROFILE_TIME;
 use crate::collapse::{Alteration, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material, Release};
 use crate::reference::grains::LAGREE_GRAINS;
 use bagnold_solver::material::rheology::{MuI, Rheology};
@@ -12,6 +13,8 @@ const FINEST_SEEDS: usize = 3;
 const SINGLE_SEED_RESOLUTION: usize = 80;
 /// Longest time of a regularised column over √(h_0/g) `[-]`: it never rests.
 const REGULARISED_DURATION: f64 = 5.0;
+/// Time of a further seed of a profile over √(h_0/g) `[-]`: just beyond that of the profile.
+const PROFILE_SEED_DURATION: f64 = PROFILE_TIME + 0.1;
 
 pub(super) fn all(parameters: &ColumnPlanarParameters) -> Vec<ColumnRun> {
     let published = parameters.materials().into_iter().flat_map(|(grains, columns)| {
@@ -175,7 +178,8 @@ impl ColumnPlanarParameters {
                     continue;
                 }
                 runs.extend(study.profile_seeds.iter().filter(|&&seed| seed != self.release.seed).map(|&seed| {
-                    let release = Release { seed, ..self.release };
+                    let release =
+                        Release { seed, duration: PROFILE_SEED_DURATION.min(self.release.duration), ..self.release };
                     ColumnRun { purpose: ColumnPurpose::ProfileSeed, release, ..own.clone() }
                 }));
             }

@@ -62,6 +62,9 @@ impl Parameters for ColumnPlanarParameters {
                 aspect_ratios: vec![1.0],
                 resolutions: vec![20],
                 seeds: vec![1, 2, 3, 4, 5],
+                // rows of a few particles at one instant scatter by 0.1
+                profile_aspect_ratios: vec![3.0],
+                profile_seeds: vec![2, 3, 4, 5],
                 ..Sensitivity::default()
             },
             regularised: Regularised { aspect_ratios: vec![0.9], rate: 0.01 },
