@@ -1,5 +1,6 @@
 //! Contact with facet walls: a particle within half a spacing may not approach further, wherever it is on the wall. A particle behind
-//! a wall has passed it.
+//! a wall has passed it. A particle that passes an edge of a wall is stopped only if its straight way would meet the wall: an edge that
+//! kept every particle half a spacing away would narrow an opening by a spacing.
 
 use super::facet::Facet;
 use super::facet_grid::FacetGrid;
@@ -49,6 +50,15 @@ pub(super) struct Passed {
     pub(super) distance: f64,
 }
 
+/// Facets that are nearest to a particle.
+#[derive(Debug, Clone, Copy)]
+struct Rim {
+    /// Distance up to which a facet is one of them `[m]`.
+    least: f64,
+    /// Largest height over any of them `[m]`: negative where a wall ends and the particle is behind it.
+    height: f64,
+}
+
 /// A facet that is touched.
 struct Contact<const D: usize> {
     wall: usize,
@@ -94,11 +104,15 @@ impl<'a, const D: usize> Touch<'a, D> {
         if distance.abs() >= self.range {
             return Ok(change);
         }
+        let least = distance * (1.0 + TIE);
+        let nearest = near.clone().filter(|(_, facet, place)| (place - facet.nearest(place)).norm() <= least);
+        let height = nearest.map(|(_, facet, place)| facet.height(&place)).fold(f64::NEG_INFINITY, f64::max);
+        let rim = Rim { least, height };
         for sweep in 0..=SWEEPS {
             let mut approached = false;
             for (wall, facet, place) in near.clone() {
-                let Some(contact) = self.contact(wall, facet, &place, distance) else { continue };
                 let relative = velocity + change - self.velocities[wall];
+                let Some(contact) = self.contact(wall, facet, (&place, &relative), rim) else { continue };
                 let approach = relative.dot(&contact.normal);
                 if approach < 0.0 && (sweep == 0 || -approach > ROUNDING * velocity.norm()) {
                     approached = true;
@@ -115,8 +129,15 @@ impl<'a, const D: usize> Touch<'a, D> {
         Ok(change)
     }
 
-    /// The contact with a facet: on its face along its normal, at its rim only where nothing is nearer.
-    fn contact(self, wall: usize, facet: &Facet<D>, place: &Vector<D>, least: f64) -> Option<Contact<D>> {
+    /// The contact with a facet of a particle at a place with a velocity relative to it: on its face along its normal, at its rim only where
+    /// nothing is nearer, and unless the particle is behind all facets there only where it moves onto the face.
+    fn contact(
+        self,
+        wall: usize,
+        facet: &Facet<D>,
+        (place, relative): (&Vector<D>, &Vector<D>),
+        rim: Rim,
+    ) -> Option<Contact<D>> {
         let way = place - facet.nearest(place);
         let (distance, height) = (way.norm(), facet.height(place));
         if distance >= self.range {
@@ -126,7 +147,18 @@ impl<'a, const D: usize> Touch<'a, D> {
         if on_its_face {
             return (height >= 0.0).then_some(Contact { wall, normal: facet.normal });
         }
-        (distance <= least * (1.0 + TIE)).then(|| Contact { wall, normal: way / distance })
+        let touched = distance <= rim.least && (rim.height < 0.0 || self.meets(facet, place, relative));
+        touched.then(|| Contact { wall, normal: way / distance })
+    }
+
+    /// Whether a particle in front of a facet meets its face on a straight way within the range.
+    fn meets(self, facet: &Facet<D>, place: &Vector<D>, relative: &Vector<D>) -> bool {
+        let (height, approach) = (facet.height(place), -relative.dot(&facet.normal));
+        if height < 0.0 || approach <= 0.0 {
+            return false;
+        }
+        let met = place + relative * (height / approach);
+        (met - place).norm() < self.range && (met - facet.nearest(&met)).norm() <= TIE * self.range
     }
 
     /// Change of velocity that ends an approach `[m/s]` and rubs along the wall.
@@ -280,5 +312,16 @@ mod tests {
         let found = after(&polyline(&edge), [0.3, 0.0], [-10.0, 0.0]).expect("before the edge");
         assert!(found.norm() < 1e-12, "{found}");
         assert!(after(&polyline(&edge), [-0.3, 0.0], [0.0, 0.0]).is_err());
+    }
+
+    #[test]
+    fn a_particle_that_passes_the_edge_of_an_opening_is_not_stopped() {
+        // a floor whose edge falls off to the left
+        let lip = polyline(&[[0.0, -2.0], [0.0, 0.0], [2.0, 0.0]]);
+        let passing = [[-1.0, -1.0], [0.1, -1.0], [1.0, 0.1]].map(|velocity| (velocity, false));
+        for (velocity, stopped) in passing.into_iter().chain([([1.0, -1.0], true), ([1.0, -0.3], true)]) {
+            let found = after(&lip, [-0.1, 0.05], velocity).expect("in front");
+            assert_eq!(found != Vector::from(velocity), stopped, "{found} from {velocity:?}");
+        }
     }
 }

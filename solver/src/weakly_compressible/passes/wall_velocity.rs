@@ -5,6 +5,9 @@
 //! over ice would then be torn apart by the wall's opposite velocity, which the pressure answers with work: 3 % of what
 //! gravity gave a collapsing column of water. So continuity takes for a liquid the line that fits the velocity along the
 //! surface best, whatever it is there: for a resolved profile the same line, for a sliding flow its velocity.
+//!
+//! Grains that come round an edge leave the wall behind it: nothing presses them on it, but a kernel that reaches over the edge would shear
+//! them. So a wall particle moves along with grains that cross its plane from behind, as one of a smooth wall does.
 
 use super::PairData;
 use super::wall_stress::BLOCK;
@@ -45,7 +48,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
         let Self { model, particles, first_group, out } = self;
-        let slides = model.slides();
+        let (slides, solid) = (model.slides(), model.rheology.is_solid());
         let nearest = V::splat(terms::NEAREST * model.spacing);
         let smallest = V::splat(terms::DRY * model.spacing * model.spacing);
         for (offset, out) in out.chunks_mut(LANES).enumerate() {
@@ -58,13 +61,16 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             let depth: V = gather(&particles.walls.depth, &places);
             let smoothness: V = gather(&particles.walls.smoothness, &places);
             let (mut moment, mut first_moment, mut weights) = (V::splat(0.0), V::splat(0.0), V::splat(0.0));
+            // flow from behind the plane to its front
+            let mut crossing = V::splat(0.0);
             let (mut sums, mut means) = (zero_vector::<V, D>(), zero_vector::<V, D>());
             for f in group.flow {
                 let position = gather_vectors::<V, D>(&particles.position, &f);
                 let velocity = gather_vectors::<V, D>(&particles.velocity, &f);
                 let volume: V = gather(&particles.volume, &f);
                 let r = difference(&position, &place);
-                let distance = (dot(&r, &normal) - depth).max(nearest);
+                let height = dot(&r, &normal) - depth;
+                let distance = height.max(nearest);
                 let weight = volume * model.kernel.value(dot(&r, &r));
                 let lever = weight * distance;
                 moment = moment + lever * distance;
@@ -74,8 +80,12 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                     let slip = velocity[axis] - wall_velocity[axis];
                     sums[axis] = sums[axis] + lever * slip;
                     means[axis] = means[axis] + weight * slip;
+                    let behind = weight.if_less(height, V::splat(0.0), V::splat(0.0));
+                    crossing = crossing + behind * slip * normal[axis];
                 }
             }
+            let smoothness =
+                if solid { V::splat(1.0).if_less(V::splat(0.0), crossing, smoothness) } else { smoothness };
             // a dry wall moves at the prescribed velocity
             let slope = (depth / moment.max(smallest)).where_less(smallest, moment);
             let wet = terms::wet_inverse(weights);
