@@ -56,6 +56,8 @@ pub struct Layer<'a> {
     pub bulk_modulus: f64,
     /// What is above it.
     pub top: Top,
+    /// Whether it starts as compressed as its weight makes it at rest, or without pressure.
+    pub compressed: bool,
     /// Constitutive law.
     pub rheology: Rheology,
     /// Initial velocity along the slope `[m/s]` at a height `[m]`.
@@ -184,7 +186,7 @@ impl Layer<'_> {
         let flow = displaced_flow(
             lattice.sites(),
             (jitter * spacing, seed),
-            |site| equation_of_state.density(self.hydrostatic_pressure(site[1])),
+            |site| equation_of_state.density(if self.compressed { self.hydrostatic_pressure(site[1]) } else { 0.0 }),
             |density| density * spacing * spacing,
         );
         Scene {

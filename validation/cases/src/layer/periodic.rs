@@ -70,6 +70,7 @@ impl PeriodicLayer {
             reference_density,
             bulk_modulus: bulk_modulus(reference_density, self.gravity, self.layer_height, 0.0),
             top: Top::Free,
+            compressed: true,
             rheology,
             velocity: &|_| 0.0,
             shear_stress: &|_| 0.0,

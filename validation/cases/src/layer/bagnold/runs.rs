@@ -26,6 +26,8 @@ pub enum BagnoldPurpose {
     ConvergenceSeed,
     /// Slope below the static friction angle.
     Arrest,
+    /// A level layer without pressure at first, which its weight compresses.
+    Compression,
     /// Slope above the limiting friction angle.
     Runaway,
     /// Bagnold's steady profile with the regularised viscosity (35) and an implicit step.
@@ -154,6 +156,12 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
     }
     let arrest = |&angle: &f64| jittered(BagnoldPurpose::Arrest, angle, LayerStart::Profile, ARREST_DURATION * scale);
     runs.extend(parameters.arrest_slope_angles.iter().map(arrest));
+    // displaced particles come closer as they order themselves, too
+    let level = new(BagnoldPurpose::Compression, 0.0, LayerStart::Rest, Arrangement::Lattice, own_rows, 0.0);
+    // a load that comes at once: half of the step, or its first steps cost the balance of energy more than its limit
+    let numerics = Numerics { acoustic_courant: 0.5 * own_numerics.acoustic_courant, ..own_numerics };
+    let layer = PeriodicLayer { preparation: Preparation::None, numerics, ..level.layer };
+    runs.push(BagnoldRun { duration: level.sinking_time(), layer, ..level });
     let runaway = |&angle: &f64| jittered(BagnoldPurpose::Runaway, angle, LayerStart::Rest, 20.0 * scale);
     runs.extend(parameters.runaway_slope_angles.iter().map(runaway));
     runs
@@ -168,6 +176,7 @@ impl Run for BagnoldRun {
 
     fn variant(&self) -> Variant {
         let start = match self.start {
+            LayerStart::Rest if self.purpose == BagnoldPurpose::Compression => Value::from("uncompressed"),
             LayerStart::Rest => Value::from("rest"),
             LayerStart::Profile if self.start_angle != self.slope_angle => {
                 Value::from(format!("profile_{}", self.start_angle))
@@ -275,6 +284,11 @@ impl BagnoldRun {
         (self.bulk_modulus() / self.density()).sqrt()
     }
 
+    /// Time 2 h/c `[s]` in which a liquid layer without pressure would sink as far as it does; grains are a little faster.
+    fn sinking_time(&self) -> f64 {
+        2.0 * self.layer.layer_height / self.sound_speed()
+    }
+
     fn bulk_modulus(&self) -> f64 {
         let density = self.density();
         match self.purpose {
@@ -298,8 +312,9 @@ impl BagnoldRun {
             velocity,
             shear_stress,
             duration: self.duration,
-            window: self.averaging_time,
+            window: self.averaging_time.min(self.duration),
             interval: 2e-3,
+            compressed: self.purpose != BagnoldPurpose::Compression,
             may_diverge: self.purpose == BagnoldPurpose::Printed,
             stop_above: if self.purpose == BagnoldPurpose::Runaway { 0.5 * self.sound_speed() } else { f64::INFINITY },
             ..self.layer.of(self.law(), self.density(), self.slope_angle)
