@@ -105,7 +105,7 @@ fn flattest(run: &ColumnRun) -> Option<f64> {
     let value =
         |laws: &[CollapseLaw]| CollapseLawSource::Lajeunesse.law(laws).value(run.initial_height()).filter(|_| of_sand);
     let (height, run_out) = (value(&PLANAR_COLLAPSE.height)?, value(&PLANAR_COLLAPSE.run_out)?);
-    Some((1.0 - bands::HEIGHT) * libm::atan(height / (1.0 + run_out)).to_degrees())
+    Some((1.0 - bands::WIDEST) * libm::atan(height / (1.0 + run_out)).to_degrees())
 }
 
 /// The grains come to rest before the longest time of a run `[s]`: gated where the law has a yield, for a liquid never
@@ -203,7 +203,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
                 .gated(
                     flattest(run).map_or(Limit::AtMost(steepest), |flattest| Limit::Within(flattest, steepest)),
                     "grains without cohesion rest on no slope steeper than their angle of friction; a planar heap of the sand is no flatter \
-                     than one from the height to the front of Lajeunesse's laws, the longer of both experiments, less 15 % as its height",
+                     than one from the height to the front of Lajeunesse's laws, the longer of both experiments, less 15 %",
                 )
         } else {
             slope
