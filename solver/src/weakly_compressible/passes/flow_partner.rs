@@ -47,6 +47,8 @@ pub(super) struct Constants {
     /// k h `[m]` of the hourglass control.
     pub(super) hourglass_strength: f64,
     pub(super) artificial_viscosity: f64,
+    /// Whether it acts on what the velocity gradient does not explain only.
+    pub(super) limits_viscosity: bool,
     pub(super) reference_density: f64,
     /// C h² `[m²]` of the viscous bound.
     pub(super) viscous_step: f64,
@@ -63,6 +65,7 @@ impl Constants {
             speed_length: smoothing_length * model.equation_of_state.sound_speed(),
             hourglass_strength: model.numerics.hourglass * smoothing_length,
             artificial_viscosity: model.numerics.artificial_viscosity,
+            limits_viscosity: model.numerics.limits_viscosity(&model.rheology),
             reference_density: model.equation_of_state.reference_density,
             viscous_step: model.numerics.viscous_courant * smoothing_length * smoothing_length,
             viscosity_switch: model.numerics.viscosity_switch,
