@@ -9,7 +9,7 @@
 
 use crate::orders;
 use bagnold_solver::domain::{AxisBoundary, Domain};
-use bagnold_solver::kernel::{Kernel, KernelShape};
+use bagnold_solver::kernel::Kernel;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
@@ -190,7 +190,7 @@ const FORCES: [Field; 3] = [Field::Pressure, Field::Viscous, Field::Stress];
 /// −Σ V F x² over a lattice: what an uncorrected sum makes of the slope of a linear field, 1 in the continuum.
 fn lattice_slope<const D: usize>() -> f64 {
     let ratio = Numerics::default().smoothing_ratio;
-    let kernel = Kernel::<D>::new(KernelShape::WendlandC2, ratio);
+    let kernel = Kernel::<D>::new(Numerics::default().kernel, ratio);
     let reach = (2.0 * ratio).ceil() as i32;
     let width = 2 * reach + 1;
     let mut sum = 0.0;

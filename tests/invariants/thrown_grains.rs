@@ -53,8 +53,8 @@ where
     let reach = Vector::<D>::from_fn(|axis, _| heap[axis] as f64 * SPACING);
     scene.wall_particles =
         wall::fill(&scene.walls, &Domain { axes: scene.domain.axes }, (Vector::zeros(), reach), SPACING, 4);
-    let (numerics, shape) = (scene.numerics, scene.numerics.kernel_shape(&scene.rheology));
-    let kernel = Kernel::<D>::new(shape, numerics.smoothing_ratio * SPACING);
+    let numerics = scene.numerics;
+    let kernel = Kernel::<D>::new(numerics.kernel, numerics.smoothing_ratio * SPACING);
     let alone = DENSITY * SPACING.powi(D as i32) * kernel.value_at(0.0);
     let mut simulation = simulation(scene);
     let (mut thinnest, mut highest) = (f64::INFINITY, 0.0_f64);

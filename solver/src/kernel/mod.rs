@@ -3,7 +3,6 @@
 //! The pair sums use W itself and the factor F = (1/r) dW/dr, so that ∇_aW_ab = F r_ab needs no division by r.
 
 mod cubic_spline;
-mod quintic_spline;
 mod wendland;
 
 use crate::lanes::{Lanes, Real};
@@ -18,8 +17,6 @@ pub enum KernelShape {
     CubicSpline,
     /// Wendland C2, free of the pairing instability.
     WendlandC2,
-    /// Quintic B-spline.
-    QuinticSpline,
 }
 
 /// A kernel with its smoothing length.
@@ -42,7 +39,6 @@ impl<const D: usize> Kernel<D> {
         let normalisation = match shape {
             KernelShape::CubicSpline => cubic_spline::normalisation(D),
             KernelShape::WendlandC2 => wendland::normalisation(D),
-            KernelShape::QuinticSpline => quintic_spline::normalisation(D),
         };
         let value_scale = normalisation / smoothing_length.powi(D as i32);
         Self {
@@ -80,7 +76,6 @@ impl<const D: usize> Kernel<D> {
         let shape = match self.shape {
             KernelShape::CubicSpline => cubic_spline::value(q),
             KernelShape::WendlandC2 => wendland::value(q),
-            KernelShape::QuinticSpline => quintic_spline::value(q),
         };
         shape * V::splat(self.value_scale)
     }
@@ -97,7 +92,6 @@ impl<const D: usize> Kernel<D> {
         match self.shape {
             KernelShape::CubicSpline => cubic_spline::gradient_factor(distance * V::splat(inverse)) * scaled,
             KernelShape::WendlandC2 => wendland::gradient_weight(distance * V::splat(0.5 * inverse), scaled),
-            KernelShape::QuinticSpline => quintic_spline::gradient_factor(distance * V::splat(inverse)) * scaled,
         }
     }
 
@@ -135,7 +129,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    const SHAPES: [KernelShape; 3] = [KernelShape::CubicSpline, KernelShape::WendlandC2, KernelShape::QuinticSpline];
+    const SHAPES: [KernelShape; 2] = [KernelShape::CubicSpline, KernelShape::WendlandC2];
 
     fn integral<const D: usize>(kernel: &Kernel<D>) -> f64 {
         let n = 20_000;

@@ -7,21 +7,6 @@ use crate::weakly_compressible::walls::{Surface, WallTreatment};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Which smoothing kernel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum KernelChoice {
-    /// Cubic B-spline, the papers' kernel.
-    CubicSpline,
-    /// Wendland C2, free of the pairing instability (default).
-    WendlandC2,
-    /// Quintic B-spline of the same support.
-    QuinticSpline,
-    /// The quintic spline for liquids, whose waves lose a third of what they lose with Wendland C2; Wendland C2 for all laws with a
-    /// friction.
-    ByLaw,
-}
-
 /// Which discrete momentum equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -31,8 +16,7 @@ pub enum MomentumOperator {
     /// The same divergence without kernel correction.
     UncorrectedDivergence,
     /// The single divergence without kernel correction for liquids, whose forces then do no work that the density does not
-    /// answer, so that they come to rest, and with artificial viscosity on what the velocity gradient does not explain only; with
-    /// kernel correction for all laws with a friction.
+    /// answer, so that they come to rest; with it for all laws with a friction.
     ByLaw,
     /// Pressure (10) and pairwise viscosity (11).
     Pairwise,
@@ -89,7 +73,7 @@ const DEFAULTS: &str = "see the default numerics with `bagnold show`";
 #[serde(deny_unknown_fields)]
 pub struct Numerics {
     /// Smoothing kernel.
-    pub kernel: KernelChoice,
+    pub kernel: KernelShape,
     /// Smoothing length over particle spacing h/Δ `[-]`.
     #[schemars(transform = between(1.0, 2.5, DEFAULTS))]
     pub smoothing_ratio: f64,
@@ -147,7 +131,7 @@ pub struct Numerics {
 impl Default for Numerics {
     fn default() -> Self {
         Self {
-            kernel: KernelChoice::WendlandC2,
+            kernel: KernelShape::WendlandC2,
             smoothing_ratio: 1.5,
             momentum_operator: MomentumOperator::SingleDivergence,
             wall_treatment: WallTreatment::Extrapolated,
@@ -176,7 +160,7 @@ impl Numerics {
     #[must_use]
     pub fn paper() -> Self {
         Self {
-            kernel: KernelChoice::CubicSpline,
+            kernel: KernelShape::CubicSpline,
             smoothing_ratio: 1.3,
             momentum_operator: MomentumOperator::PairwiseCorrected,
             wall_treatment: WallTreatment::Paper,
@@ -191,17 +175,6 @@ impl Numerics {
         }
     }
 
-    /// The kernel with a law.
-    #[must_use]
-    pub fn kernel_shape(&self, law: &Rheology) -> KernelShape {
-        match self.kernel {
-            KernelChoice::CubicSpline => KernelShape::CubicSpline,
-            KernelChoice::QuinticSpline => KernelShape::QuinticSpline,
-            KernelChoice::ByLaw if !law.is_solid() => KernelShape::QuinticSpline,
-            KernelChoice::WendlandC2 | KernelChoice::ByLaw => KernelShape::WendlandC2,
-        }
-    }
-
     /// Whether each particle's kernel correction enters its momentum equation, with a law.
     #[must_use]
     pub fn corrects_forces(&self, law: &Rheology) -> bool {
@@ -212,12 +185,6 @@ impl Numerics {
             | MomentumOperator::Pairwise
             | MomentumOperator::PairwiseCorrected => false,
         }
-    }
-
-    /// Whether the artificial viscosity acts only on what the velocity gradient does not explain, with a law.
-    #[must_use]
-    pub fn limits_viscosity(&self, law: &Rheology) -> bool {
-        law.is_solid() || self.momentum_operator == MomentumOperator::ByLaw
     }
 
     /// Whether the terms of pairs are single precision: asked for, and served by these numerics.
@@ -299,29 +266,5 @@ impl Numerics {
     #[must_use]
     pub fn parameter_problem(&self) -> Option<ParameterProblem> {
         range_problem(self)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::material::rheology::{MuI, Newtonian};
-
-    #[test]
-    fn liquids_by_law_take_the_quintic_spline_and_limit_the_viscosity() {
-        let water = Rheology::Newtonian(Newtonian { viscosity: 1e-3 });
-        let grains = Rheology::MuI(MuI {
-            static_friction: 0.4,
-            limiting_friction: 0.6,
-            reference_inertia: 0.3,
-            grain_diameter: 1e-3,
-            grain_density: 2500.0,
-        });
-        let (kernel, momentum_operator) = (KernelChoice::ByLaw, MomentumOperator::ByLaw);
-        let by_law = Numerics { kernel, momentum_operator, ..Numerics::default() };
-        let chosen = |law| (by_law.kernel_shape(law), by_law.limits_viscosity(law));
-        assert_eq!(chosen(&water), (KernelShape::QuinticSpline, true));
-        assert_eq!(chosen(&grains), (KernelShape::WendlandC2, true));
-        assert!(!Numerics::default().limits_viscosity(&water));
     }
 }

@@ -11,6 +11,7 @@ use crate::weakly_compressible::enclosure::facet_wall::BackingParticle;
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{LARGEST_ROW, VerletList};
+use crate::weakly_compressible::numerics::Numerics;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::scene::Scene;
@@ -51,8 +52,7 @@ impl<const D: usize> State<D> {
     /// The state of a checked scene with the dummy particles of each facet wall, before its first neighbour search.
     pub(crate) fn new(mut scene: Scene<D>, backing: &[Vec<BackingParticle<D>>]) -> Self {
         let numerics = scene.numerics;
-        let shape = numerics.kernel_shape(&scene.rheology);
-        let kernel = Kernel::new(shape, numerics.smoothing_ratio * scene.spacing);
+        let kernel = Kernel::new(numerics.kernel, numerics.smoothing_ratio * scene.spacing);
         let planes = (scene.walls.len(), scene.wall_particles.len());
         let (enclosure, flow) = (std::mem::take(&mut scene.enclosure), scene.flow.position.len());
         let enclosure = BoundaryState::new(enclosure, scene.spacing, planes, flow, backing);
@@ -70,7 +70,7 @@ impl<const D: usize> State<D> {
             instruction_set: InstructionSet::best(),
             field: scene.rheology.field(),
             keeps_memory: !scene.rheology.memories().is_empty(),
-            full_weight: lattice_weight(&kernel, scene.spacing),
+            full_weight: lattice_weight::<D>(&numerics, scene.spacing),
             lone_density_per_mass: match scene.equation_of_state.tension {
                 Tension::Cut => kernel.value_at(0.0),
                 Tension::Kept => 0.0,
@@ -165,7 +165,8 @@ impl<const D: usize> State<D> {
 }
 
 /// Σ −2 V F over the neighbours of a particle of a lattice `[1/m²]`.
-fn lattice_weight<const D: usize>(kernel: &Kernel<D>, spacing: f64) -> f64 {
+fn lattice_weight<const D: usize>(numerics: &Numerics, spacing: f64) -> f64 {
+    let kernel = Kernel::<D>::new(numerics.kernel, numerics.smoothing_ratio * spacing);
     let volume = spacing.powi(D as i32);
     let reach = (kernel.support() / spacing) as i32;
     let side = 2 * reach as usize + 1;
@@ -186,13 +187,12 @@ fn lattice_weight<const D: usize>(kernel: &Kernel<D>, spacing: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::KernelShape;
 
     #[test]
     fn the_weight_of_a_lattice_is_that_of_all_its_sites_within_reach() {
         // two diagonals of two spacings are just within reach
-        let (shape, spacing) = (KernelShape::WendlandC2, 0.02);
-        let (plane, space) = (Kernel::<2>::new(shape, 0.0298), Kernel::<3>::new(shape, 0.0298));
+        let (numerics, spacing) = (Numerics { smoothing_ratio: 1.49, ..Numerics::default() }, 0.02);
+        let (plane, space) = (Kernel::<2>::new(numerics.kernel, 0.0298), Kernel::<3>::new(numerics.kernel, 0.0298));
         let (mut in_plane, mut in_space) = (0.0, 0.0);
         let sites = || (-4..=4).map(|site| f64::from(site) * spacing);
         for (x, y) in sites().flat_map(|x| sites().map(move |y| (x, y))).filter(|site| *site != (0.0, 0.0)) {
@@ -202,7 +202,7 @@ mod tests {
             let distance = x.hypot(y).hypot(z);
             in_space -= if distance > 0.0 { 2.0 * spacing.powi(3) * space.gradient_factor_at(distance) } else { 0.0 };
         }
-        assert!((lattice_weight(&plane, spacing) / in_plane - 1.0).abs() < 1e-13);
-        assert!((lattice_weight(&space, spacing) / in_space - 1.0).abs() < 1e-13);
+        assert!((lattice_weight::<2>(&numerics, spacing) / in_plane - 1.0).abs() < 1e-13);
+        assert!((lattice_weight::<3>(&numerics, spacing) / in_space - 1.0).abs() < 1e-13);
     }
 }

@@ -46,11 +46,10 @@ pub(super) struct Constants {
     pub(super) speed_length: f64,
     /// k h `[m]` of the hourglass control.
     pub(super) hourglass_strength: f64,
-    /// Whether the body is of grains, whose hourglass control at walls takes the share of the flow.
-    pub(super) of_grains: bool,
     pub(super) artificial_viscosity: f64,
-    /// Whether it acts on what the velocity gradient does not explain only.
-    pub(super) limits_viscosity: bool,
+    /// Whether the body is of grains: the artificial viscosity then acts on what no gradient explains alone. A liquid at rest needs all
+    /// of it against its noise.
+    pub(super) of_grains: bool,
     pub(super) reference_density: f64,
     /// C h² `[m²]` of the viscous bound.
     pub(super) viscous_step: f64,
@@ -68,7 +67,6 @@ impl Constants {
             hourglass_strength: model.numerics.hourglass * smoothing_length,
             artificial_viscosity: model.numerics.artificial_viscosity,
             of_grains: model.rheology.is_solid(),
-            limits_viscosity: model.numerics.limits_viscosity(&model.rheology),
             reference_density: model.equation_of_state.reference_density,
             viscous_step: model.numerics.viscous_courant * smoothing_length * smoothing_length,
             viscosity_switch: model.numerics.viscosity_switch,

@@ -222,10 +222,6 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 _ => P::Lanes::<V>::splat(constants.artificial_viscosity * constants.speed_length),
             };
             let traction = stress_divergence::traction(&own.corrected_stress, &other.corrected_stress, &r);
-            let braked = |unexplained| {
-                let limits = constants.limits_viscosity;
-                if limits { artificial_viscosity::unexplained_approach(approach, unexplained) } else { approach }
-            };
             let speed_sum = own.pressure_speed + other.pressure_speed;
             let drag = hourglass::twice_viscosity(constants.hourglass_strength, speed_sum) * (inverse * regular);
             let mass_weight = weight * other.density;
@@ -244,8 +240,9 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 // all of it acts along the pair: one factor of r
                 let explained = hourglass::explained_along(&own.velocity_gradient, &other.velocity_gradient, &r);
                 let unexplained = approach - explained;
+                let felt = if constants.of_grains { unexplained } else { approach };
+                let push = artificial_viscosity::pair_factor(alpha, approach, felt, inverse);
                 let along = unexplained * (half * inverse * density_sum);
-                let push = artificial_viscosity::pair_factor(alpha, braked(unexplained), inverse);
                 let mut pull = mass_weight * (push + drag * along);
                 if let Some(relief) = relief {
                     pull = pull + relief;
@@ -253,7 +250,8 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
                 part.damp(mirrored, pull, &r);
             } else {
                 let unexplained = hourglass::unexplained(&slip, &own.velocity_gradient, &other.velocity_gradient, &r);
-                let push = artificial_viscosity::pair_factor(alpha, braked(dot(&unexplained, &r)), inverse);
+                let felt = if constants.of_grains { dot(&r, &unexplained) } else { approach };
+                let push = artificial_viscosity::pair_factor(alpha, approach, felt, inverse);
                 let unexplained = hourglass::along_pair(&unexplained, &r, regular);
                 part.damp(mirrored, mass_weight * push, &r);
                 part.damp(mirrored, mass_weight * drag, &unexplained);

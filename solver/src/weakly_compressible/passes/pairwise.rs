@@ -166,7 +166,7 @@ fn flow_forces<V: Lanes, const D: usize>(
                 artificial_viscosity::mean_strength(alpha_a, alpha, speed_length)
             }
         };
-        let push = artificial_viscosity::pair_factor(alpha, approach, inverse_regular_density);
+        let push = artificial_viscosity::pair_factor(alpha, approach, approach, inverse_regular_density);
         let bracket = pressure_force::bracket(own.specific_pressure, other.specific_pressure);
         let rub = pair_viscosity::pair_factor::<V, D>(weight, harmonic, approach);
         accumulate(&mut forces.pressure, weight * other.density * (push - bracket), &r);

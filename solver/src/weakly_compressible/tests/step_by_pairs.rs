@@ -108,8 +108,9 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                     }
                 };
                 let strange = slip - (of.velocity_gradient[a] + b.tensor(&of.velocity_gradient)) * b.r * 0.5;
-                let unexplained = if numerics.limits_viscosity(law) { strange } else { slip }.dot(&b.r).min(0.0);
-                let push = alpha * h * c * unexplained.max(slip.dot(&b.r)).min(0.0);
+                let approach: f64 = slip.dot(&b.r);
+                let felt: f64 = if law.is_solid() { strange.dot(&b.r) } else { approach };
+                let push = alpha * h * c * felt.max(approach).min(0.0);
                 let mean = 0.5 * (of.density[a] + of.density[b.source]);
                 let damping = of.density[b.source] * (push + control * strange.dot(&b.r)) / (mean * regular);
                 sum += (traction + b.r * relief) * (b.weight / of.density[a]) + b.r * (b.weight * damping);

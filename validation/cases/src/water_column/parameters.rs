@@ -13,7 +13,7 @@ use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::numerics::{KernelChoice, MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use bagnold_solver::weakly_compressible::walls::gate::Gate;
@@ -106,7 +106,7 @@ impl Parameters for WaterColumnParameters {
     type Run = WaterColumnRun;
 
     fn of_tier(tier: Tier) -> Self {
-        let (kernel, momentum_operator) = (KernelChoice::ByLaw, MomentumOperator::ByLaw);
+        let momentum_operator = MomentumOperator::UncorrectedDivergence;
         let quick = Self {
             width: 0.05715,
             aspect_ratio: 2.0,
@@ -121,7 +121,7 @@ impl Parameters for WaterColumnParameters {
             jitter: 0.05,
             seed: 1,
             duration: 2.8,
-            numerics: Numerics { kernel, momentum_operator, ..Numerics::default() },
+            numerics: Numerics { momentum_operator, ..Numerics::default() },
         };
         match tier {
             Tier::Quick => quick,

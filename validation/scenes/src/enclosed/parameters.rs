@@ -16,7 +16,7 @@ use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{at_least, between, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
-use bagnold_solver::weakly_compressible::numerics::{KernelChoice, MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::walls::SideWalls;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -179,12 +179,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             side_walls: None,
             gauges: Vec::new(),
             measured: Vec::new(),
-            // a liquid comes to rest and keeps its waves, grains keep what they are verified with
-            numerics: Numerics {
-                kernel: KernelChoice::ByLaw,
-                momentum_operator: MomentumOperator::ByLaw,
-                ..Numerics::default()
-            },
+            // a liquid comes to rest, grains keep the operator that they are verified with
+            numerics: Numerics { momentum_operator: MomentumOperator::ByLaw, ..Numerics::default() },
         }
     }
 

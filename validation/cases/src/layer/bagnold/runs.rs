@@ -156,12 +156,14 @@ pub(super) fn all(parameters: &BagnoldParameters) -> Vec<BagnoldRun> {
     }
     let arrest = |&angle: &f64| jittered(BagnoldPurpose::Arrest, angle, LayerStart::Profile, ARREST_DURATION * scale);
     runs.extend(parameters.arrest_slope_angles.iter().map(arrest));
-    // displaced particles come closer as they order themselves, too
-    let level = new(BagnoldPurpose::Compression, 0.0, LayerStart::Rest, Arrangement::Lattice, own_rows, 0.0);
-    // a load that comes at once: half of the step, or its first steps cost the balance of energy more than its limit
-    let numerics = Numerics { acoustic_courant: 0.5 * own_numerics.acoustic_courant, ..own_numerics };
-    let layer = PeriodicLayer { preparation: Preparation::None, numerics, ..level.layer };
-    runs.push(BagnoldRun { duration: level.sinking_time(), layer, ..level });
+    // beside the layers that arrest, of which none needs a steady flow; displaced particles come closer as they order themselves, too
+    if !parameters.arrest_slope_angles.is_empty() {
+        let level = new(BagnoldPurpose::Compression, 0.0, LayerStart::Rest, Arrangement::Lattice, own_rows, 0.0);
+        // a load that comes at once: half of the step, or its first steps cost the balance of energy more than its limit
+        let numerics = Numerics { acoustic_courant: 0.5 * own_numerics.acoustic_courant, ..own_numerics };
+        let layer = PeriodicLayer { preparation: Preparation::None, numerics, ..level.layer };
+        runs.push(BagnoldRun { duration: level.sinking_time(), layer, ..level });
+    }
     let runaway = |&angle: &f64| jittered(BagnoldPurpose::Runaway, angle, LayerStart::Rest, 20.0 * scale);
     runs.extend(parameters.runaway_slope_angles.iter().map(runaway));
     runs

@@ -4,6 +4,7 @@
 use super::metrics::{KERNEL_INTEGRAL_ERROR, KERNEL_MOMENT_ERROR};
 use crate::metric::{Limit, Metric, Variant};
 use bagnold_solver::kernel::{Kernel, KernelShape};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
 use std::f64::consts::PI;
 
 /// Cells of the midpoint rule over the support.
@@ -25,11 +26,10 @@ fn sums<const D: usize>(shape: KernelShape) -> [f64; 2] {
     ]
 }
 
-pub(super) fn all(shape: KernelShape) -> Vec<Metric> {
-    let name = match shape {
+pub(super) fn all(numerics: &Numerics) -> Vec<Metric> {
+    let name = match numerics.kernel {
         KernelShape::CubicSpline => "cubic_spline",
         KernelShape::WendlandC2 => "wendland_c2",
-        KernelShape::QuinticSpline => "quintic_spline",
     };
     let of_dimension = |dimension: usize, [value, moment]: [f64; 2]| {
         let variant = Variant::of("kernel", name).and("dimension", dimension);
@@ -45,6 +45,6 @@ pub(super) fn all(shape: KernelShape) -> Vec<Metric> {
             unity(KERNEL_MOMENT_ERROR, moment, "−∫ F r²/D dV = 1: the gradient of a linear field is its slope"),
         ]
     };
-    let planar = of_dimension(2, sums::<2>(shape));
-    planar.into_iter().chain(of_dimension(3, sums::<3>(shape))).collect()
+    let planar = of_dimension(2, sums::<2>(numerics.kernel));
+    planar.into_iter().chain(of_dimension(3, sums::<3>(numerics.kernel))).collect()
 }

@@ -39,7 +39,7 @@ impl Case for Hydrostatic {
 
     fn metrics(parameters: &HydrostaticParameters, records: &[HydrostaticRecord]) -> Vec<Metric> {
         let mut metrics = metrics::all(records);
-        metrics.extend(kernel::all(parameters.layer.numerics.kernel_shape(&parameters.grains)));
+        metrics.extend(kernel::all(&parameters.layer.numerics));
         metrics.extend(elasticity::all(&parameters.grains));
         metrics
     }
