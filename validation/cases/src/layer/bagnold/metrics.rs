@@ -168,7 +168,7 @@ fn regularised((run, record): &BagnoldRecord) -> Vec<Metric> {
 }
 
 /// A level layer without pressure sinks under its weight, the one flow here that compresses: by parts of the strain over the depth,
-/// the mean height falls by h times the mean of (ρ/ρ0 − 1)(1 − y/h), whatever the grains bear.
+/// the mean height falls by h times the mean of (1 − ρ0/ρ)(1 − y/h), whatever the grains bear.
 fn compression((run, record): &BagnoldRecord) -> Option<Metric> {
     let (start, end) = (record.frames.first()?, record.frames.last()?);
     let (height, count) = (run.layer.layer_height, end.position.len() as f64);
