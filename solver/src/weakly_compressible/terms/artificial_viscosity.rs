@@ -24,6 +24,13 @@ pub fn pair_factor<V: Real>(strength: V, approach: V, felt: V, inverse: V) -> V 
     strength * felt.max(approach).min(V::splat(0.0)) * inverse
 }
 
+/// Kinematic viscosity ν = α h c/(4 (D + 2)) `[m²/s]` that (15) adds to a flow that does not change its volume, `strength` being
+/// α h c `[m²/s]`: the continuum limit α h c/(2 (D + 2)) of a sum over all pairs (Monaghan 2005), of which the approaching half counts.
+#[must_use]
+pub fn shear_viscosity(strength: f64, dimensions: usize) -> f64 {
+    strength / (4.0 * (dimensions as f64 + 2.0))
+}
+
 /// One explicit step of (16): dα/dt = −(α − α_min)/ς + S, S = max(0, −∇·v), ς = h/(σ c).
 ///
 /// `divergence` is ∇·v `[1/s]`, `decay_rate` c/h `[1/s]`.
@@ -38,6 +45,27 @@ pub fn switched<R: Real>(coefficient: R, divergence: R, decay_rate: f64, time_st
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::{Kernel, KernelShape};
+
+    #[test]
+    fn pairs_of_a_shear_flow_dissipate_what_the_viscosity_says() {
+        const STRENGTH: f64 = 3e-4;
+        let kernel = Kernel::<3>::new(KernelShape::WendlandC2, 3.0);
+        let reach = -6..=6_i32;
+        let rates = reach.clone().flat_map(|x| reach.clone().map(move |y| (x, y))).flat_map(|(x, y)| {
+            let kernel = &kernel;
+            reach.clone().map(move |z| {
+                let [x, y, z] = [x, y, z].map(f64::from);
+                let squared = x * x + y * y + z * z;
+                // v = (y, 0, 0), so that v_ab · r_ab = x y
+                let factor = pair_factor(STRENGTH, x * y, x * y, 1.0 / squared.max(0.5));
+                let weight = kernel.gradient_factor_at(squared.sqrt());
+                if squared < 36.0 { 0.5 * factor * x * y * weight } else { 0.0 }
+            })
+        });
+        let (dissipation, expected) = (rates.sum::<f64>().abs(), shear_viscosity(STRENGTH, 3));
+        assert!((dissipation / expected - 1.0).abs() < 0.01, "{dissipation} instead of {expected}");
+    }
 
     #[test]
     fn the_switch_rises_in_compression_and_decays_at_rest() {

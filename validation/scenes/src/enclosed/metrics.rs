@@ -9,7 +9,8 @@ use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameter
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::statistics::{Extrapolation, interpolated};
-use bagnold_solver::weakly_compressible::numerics::ViscousStep;
+use bagnold_solver::weakly_compressible::numerics::{ViscositySwitch, ViscousStep};
+use bagnold_solver::weakly_compressible::terms::artificial_viscosity::shear_viscosity;
 
 /// Impulse that implicit viscous steps may leave out, over that of gravity `[%]`.
 const MOST_UNSOLVED: f64 = 0.5;
@@ -32,6 +33,8 @@ quantities! { shared pub(super)
         accounted("feed_error", "-", "largest difference of the mass that an inlet has fed from the integral of its rate, over a row"),
     FINAL_RMS_SPEED:
         accounted("final_rms_speed", "m/s", "root mean square of the speed in the scene, mean over the last tenth of the run"),
+    ARTIFICIAL_VISCOSITY:
+        accounted("artificial_viscosity", "Pa s", "viscosity that the artificial viscosity adds to that of a liquid or of cohesive soil"),
     FRONT: accounted("front", "m", "how far the material reaches along a gauge's line at the end"),
     DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
     GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
@@ -39,7 +42,7 @@ quantities! { shared pub(super)
 
 /// All quantities of a case of scenes, of which three have units of its own: [`Dimension::MEAN_FORCE`],
 /// [`Dimension::MASS_CROSSED`] and [`Dimension::MASS_FED`].
-pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 20] {
+pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 21] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -55,6 +58,7 @@ pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantit
         CUT_OFF,
         FEED_ERROR,
         FINAL_RMS_SPEED,
+        ARTIFICIAL_VISCOSITY,
         FRONT,
         DEPTH,
         GAUGE_ERROR,
@@ -95,6 +99,7 @@ fn of_run<S: Dimension<D>, const D: usize>(
     metrics.extend(feeds(&variant, data, parameters));
     metrics.extend(energy(&variant, data, parameters));
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
+    metrics.extend(artificial_viscosity(&variant, data, parameters));
     let all = series::of_run(parameters, data);
     let front = all.iter().find_map(|series| match &series.measure {
         Measurand::Front(line) => Some((line.clone(), series.values.first()?.clone())),
@@ -217,6 +222,32 @@ fn energy<S: Dimension<D>, const D: usize>(
         WALL_WORK.of(variant, share(book.walls)).with_snapshot_tolerance(0.2, 0.5),
         CORRECTION_WORK.of(variant, share(book.correction)).with_snapshot_tolerance(0.2, 0.5),
     ]
+}
+
+/// Viscosity that the artificial viscosity comes to, beside the material's own; in smooth flows of grains it acts on nothing.
+fn artificial_viscosity<S: Dimension<D>, const D: usize>(
+    variant: &Variant,
+    data: &SceneObservation<D>,
+    parameters: &SceneParameters<S, D>,
+) -> Option<Metric> {
+    let (law, numerics) = (&parameters.material, &parameters.numerics);
+    if law.strength_is_friction() || numerics.viscosity_switch != ViscositySwitch::Constant {
+        return None;
+    }
+    let sound_speed = parameters.equation_of_state().sound_speed();
+    let strength = numerics.artificial_viscosity * sound_speed * numerics.smoothing_ratio * parameters.spacing;
+    let density = parameters.bulk.density(law);
+    let height = parameters.height();
+    let rate = data.rms_speed.iter().copied().fold(0.0, f64::max) / height;
+    let own = law.viscosity(rate, density * parameters.fall());
+    let metric =
+        ARTIFICIAL_VISCOSITY.of(variant, density * shear_viscosity(strength, D)).with_snapshot_tolerance(1e-6, 0.0);
+    Some(metric.against(
+        Some(own).filter(|own| own.is_finite()),
+        "the material's own viscosity, at the largest root mean square of the speed over its height; the other is α ρ c h/(4 (D + 2)), and \
+         the pressure's operator damps waves beside it",
+        Confidence::Exact,
+    ))
 }
 
 /// A gauge's series beside what was measured.
