@@ -183,7 +183,7 @@ fn a_channel_without_a_slope() {
     refused(
         &place,
         &["clear-water", "--set", "slopes=[0.03, 0.03]"],
-        "`slopes[1]` is 0.03, but must be unlike the others; name every slope once",
+        "`slopes[1]` is 0.03, but must be unique; name every slope once",
     );
 }
 

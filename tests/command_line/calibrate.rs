@@ -332,7 +332,7 @@ fn choices_that_set_nothing_are_refused() {
     );
     assert_eq!(
         refusal("name = \"thick\"", "name = \"thin\""),
-        "error: plan.toml: `choices[1].name` is thin, but must be unlike the others; rename it"
+        "error: plan.toml: `choices[1].name` is thin, but must be unique; rename it"
     );
 }
 

@@ -154,7 +154,7 @@ fn a_figure_of_checks_stands_on_the_page_and_slips_in_it_are_named() {
         assert!(said.contains(words), "{from} -> {to}: {said}");
     }
     let said = refused(&place, &format!("{STUDY}{figure}{figure}"));
-    assert!(said.contains("figures[1].name") && said.contains("unlike the others"), "{said}");
+    assert!(said.contains("figures[1].name") && said.contains("unique"), "{said}");
 }
 
 #[test]
@@ -238,7 +238,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         ("table = \"gauges\"", "table = \"gaugs\"", "`checks[0].table` is \"gaugs\", but must be a table of scene"),
         ("front: front [m]", "front [m]", "did you mean \"front: front [m]\"?"),
         ("path = \"spacing\"", "path = \"spacin\"", "bad.toml: `path` is `spacin`, but `scene` has no such field"),
-        ("0.0125]", "0.02]", "`vary[0].values[1]` is 0.02, but must be unlike the others"),
+        ("0.0125]", "0.02]", "`vary[0].values[1]` is 0.02, but must be unique"),
         ("0.0125]", "-1.0]", "bad.toml: `spacing` is -1"),
         ("study = \"my-flume\"", "study = \"film\"", "unlike the name of a case"),
         ("study = \"my-flume\"", "study = \"../x\"", "a name that a folder can have"),

@@ -1,4 +1,4 @@
-//! Lists that follow from the registry: README's table of cases, the folders of reference data.
+//! Lists that follow from the registry: the folders of reference data, the contents of packages.
 
 use crate::source::workspace;
 use bagnold_harness::evidence::shipped_tables;
@@ -10,21 +10,6 @@ fn registered() -> Vec<&'static str> {
 
 fn text(path: &str) -> String {
     std::fs::read_to_string(workspace().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
-
-/// First cells of the rows of the table whose heading begins with these cells.
-fn first_cells(document: &str, heading: &str) -> Vec<String> {
-    let rows = document.lines().skip_while(|line| !line.starts_with(heading)).skip(2);
-    let rows = rows.take_while(|line| line.starts_with('|'));
-    rows.filter_map(|row| Some(row.split('|').nth(1)?.trim().trim_matches('`').to_owned())).collect()
-}
-
-#[test]
-fn readmes_tables_of_cases_and_studies_are_the_registry() {
-    let readme = text("README.md");
-    assert_eq!(first_cells(&readme, "| case | what |"), registered());
-    let studies: Vec<&str> = REGISTRY.studies().map(|study| study.name()).collect();
-    assert_eq!(first_cells(&readme, "| study | what |"), studies);
 }
 
 #[test]

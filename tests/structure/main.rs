@@ -14,5 +14,7 @@ mod order;
 mod papers;
 mod printing;
 mod python;
+mod readme;
 mod references;
 mod source;
+mod words;

@@ -225,7 +225,7 @@ fn broken_list(rule: &Schema, values: &[Value]) -> Option<(Option<usize>, String
     }
     let unique = rule.get("uniqueItems").is_some_and(|unique| unique == true);
     let twin = (0..values.len()).find(|&index| unique && values[..index].contains(&values[index]))?;
-    Some((Some(twin), "unlike the others".to_owned()))
+    Some((Some(twin), "unique".to_owned()))
 }
 
 /// What a value of a shape is called, without the words of Rust's type system.

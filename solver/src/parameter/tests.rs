@@ -95,7 +95,7 @@ fn values_outside_their_range_are_named_with_rule_and_remedy() {
     assert_eq!(said("depth = 0.25"), "`depth` is 0.25, but must be between 0 and 0.2; that is deep");
     assert_eq!(said("rows = 3"), "`rows` is 3, but must be between 4 and 1000; 20 is quick");
     assert_eq!(said("slopes = [0.1, nan]"), "`slopes[1]` is NaN, but must be above 0 and at most 0.2; a slope");
-    assert_eq!(said("slopes = [0.1, 0.2, 0.1]"), "`slopes[2]` is 0.1, but must be unlike the others; once");
+    assert_eq!(said("slopes = [0.1, 0.2, 0.1]"), "`slopes[2]` is 0.1, but must be unique; once");
     assert_eq!(said("slopes = []"), "`slopes` is [], but must be a slope; add one");
     assert_eq!(
         said("material = { law = \"newtonian\", viscosity = -1.0 }"),

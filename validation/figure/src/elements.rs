@@ -130,7 +130,7 @@ fn number(node: Node<'_, '_>, name: &str) -> Result<f32, FigureError> {
     text.parse().map_err(|_| FigureError::Svg(format!("`{name}` is {text}, no number")))
 }
 
-/// Numbers parted by commas or spaces.
+/// Numbers separated by commas or spaces.
 fn numbers(text: &str) -> Result<Vec<f32>, FigureError> {
     let parts = text.split([',', ' ', '\n']).filter(|part| !part.is_empty());
     parts.map(|part| part.parse().map_err(|_| FigureError::Svg(format!("{part} is no number")))).collect()

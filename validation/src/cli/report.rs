@@ -216,7 +216,7 @@ fn prepare(command: &ReportArguments, registry: Registry) -> Result<Vec<Box<dyn 
     for (place, name) in command.cases.iter().enumerate() {
         if command.cases[..place].iter().any(|other| other.trim() == name.trim()) {
             let remedy = "name each case once: every case has one page";
-            return Err(ParameterError::field("--cases", name.trim(), "unlike the others", remedy));
+            return Err(ParameterError::field("--cases", name.trim(), "unique", remedy));
         }
     }
     let wanted = if command.cases.is_empty() {

@@ -49,11 +49,7 @@ impl FeedRate {
             }
             if !time.is_finite() || row > 0 && *time <= rows[row - 1].0 {
                 let rule = format!("later than the row before it, {} s", rows[row.max(1) - 1].0);
-                return refused(
-                    row,
-                    &rule,
-                    "sort the rows by their times; a rate that jumps takes two rows a moment apart",
-                );
+                return refused(row, &rule, "sort the rows by their times");
             }
         }
         let (times, rates): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();

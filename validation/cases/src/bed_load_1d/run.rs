@@ -299,8 +299,7 @@ fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFractionPro
 pub(super) fn check_sliding(field: &str, value: f64, run: &BedLoad1dRun) -> Result<(), ParameterError> {
     match run.layer().and_then(|layer| layer.check()) {
         Err(LayerError::BedSlides { slope, limit, remedy }) => {
-            let rule =
-                format!("such that the slope, {slope:.5}, is below {limit:.5}, where the bed slides on its base");
+            let rule = format!("below {limit:.5}, where the bed slides on its base");
             Err(ParameterError::field(field, value, &rule, &remedy))
         }
         _ => Ok(()),

@@ -18,6 +18,7 @@ mod known;
 mod material;
 mod measured;
 pub(super) mod metrics;
+mod other_codes;
 mod other_numerics;
 mod pile;
 pub mod planar;
@@ -82,7 +83,7 @@ const MOST_PARTICLES: f64 = 5e6;
 /// Refuses columns of more than [`MOST_PARTICLES`] particles; `field` names the parameter that a run's resolution comes from.
 pub(super) fn check_size(runs: &[&ColumnRun], field: impl Fn(&ColumnRun) -> String) -> Result<(), ParameterError> {
     let Some(run) = runs.iter().find(|run| run.particles() > MOST_PARTICLES) else { return Ok(()) };
-    let rule = format!("such that no column has more than {MOST_PARTICLES:.0e} particles");
+    let rule = format!("chosen for at most {MOST_PARTICLES:.0e} particles per column");
     let remedy = format!(
         "the column of aspect ratio {} would have {:.1e}: choose a smaller resolution",
         run.aspect_ratio,

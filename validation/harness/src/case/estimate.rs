@@ -93,18 +93,18 @@ impl Estimate {
         Some(if self.memory(1) > limits.memory || !self.memory(1).is_finite() {
             let most = limits.memory / GIBIBYTE;
             (
-                format!("such that the runs fit into {} GiB of memory", rounded(most)),
+                format!("less demanding (limit {} GiB of memory)", rounded(most)),
                 format!(
-                    "{} particles would take {} GiB: ask for fewer, or allow more with --most-memory",
+                    "{} particles need {} GiB: reduce it or raise --most-memory",
                     rounded(self.all_particles),
                     rounded(self.memory(1) / GIBIBYTE)
                 ),
             )
         } else {
             (
-                format!("such that the runs take at most {} hours of one core", rounded(limits.core_hours)),
+                format!("less demanding (limit {} core hours)", rounded(limits.core_hours)),
                 format!(
-                    "{} particle-steps would take {} hours: ask for less, or allow more with --most-hours",
+                    "{} particle-steps need {} core hours: reduce it or raise --most-hours",
                     rounded(self.particle_steps),
                     rounded(hours)
                 ),
@@ -228,10 +228,10 @@ mod tests {
     fn what_fits_passes_and_what_does_not_is_said_with_its_size() {
         assert_eq!(of(1e5, 3600.0).problem(&LIMITS), None);
         let (rule, remedy) = of(1e8, 1.0).problem(&LIMITS).expect("too large");
-        assert_eq!(rule, "such that the runs fit into 16 GiB of memory");
+        assert_eq!(rule, "less demanding (limit 16 GiB of memory)");
         assert!(remedy.starts_with("1.0e8 particles would take 340 GiB"), "{remedy}");
         let (rule, remedy) = of(1.0, 1e9).problem(&LIMITS).expect("too long");
-        assert_eq!(rule, "such that the runs take at most 100 hours of one core");
+        assert_eq!(rule, "less demanding (limit 100 core hours)");
         assert!(remedy.starts_with("1.0e15 particle-steps would take 2.8e5 hours"), "{remedy}");
         for cost in [f64::NAN, f64::INFINITY] {
             assert!(of(cost, 1.0).problem(&LIMITS).is_some() && of(1.0, cost).problem(&LIMITS).is_some());

@@ -129,7 +129,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
         let changed = self.changed();
         let cause = lists.chain(changed.iter().cloned()).find(is_cause).or_else(|| changed.first().cloned());
         let (field, value) = cause.unwrap_or_else(|| ("tier".to_owned(), self.tier.name().to_owned()));
-        Err(ParameterError::field(&field, value, "unlike the others", &remedy))
+        Err(ParameterError::field(&field, value, "unique", &remedy))
     }
 
     /// The name that two runs of other parameters share.
@@ -214,7 +214,7 @@ mod tests {
     fn two_runs_of_one_name_are_refused_with_the_list_that_makes_them() {
         assert_eq!(
             refused(&["steps=[5, 7, 5]"], LIMITS),
-            "`steps[2]` is 5, but must be unlike the others; two runs would both be called `steps=5`: name it once"
+            "`steps[2]` is 5, but must be unique; two runs would both be called `steps=5`: name it once"
         );
     }
 
@@ -223,7 +223,7 @@ mod tests {
         let message = refused(&["grain.damping=2.0", "steps=[900000, 10]"], Limits { core_hours: 1e-5, ..LIMITS });
         assert_eq!(
             message,
-            "`steps` is [900000, 10], but must be such that the runs take at most 0.00001 hours of one core; 9.0e5 \
+            "`steps` is [900000, 10], but must be less demanding (limit 0.00001 core hours); 9.0e5 \
              particle-steps would take 0.00018 hours: ask for less, or allow more with --most-hours"
         );
         assert_eq!(refused(&["steps=[900000, 10]"], LIMITS), "taken");
@@ -239,7 +239,7 @@ mod tests {
         };
         // two of one name, and one that takes too long
         let small = of(&[Variant::of("steps", 10)]).expect_err("both of that name are chosen");
-        assert!(small.starts_with("`steps[2]` is 10, but must be unlike the others"), "{small}");
+        assert!(small.starts_with("`steps[2]` is 10, but must be unique"), "{small}");
         let large = of(&[Variant::of("steps", 900_000)]).expect_err("the long one is chosen");
         assert!(large.contains("such that the runs take at most"), "{large}");
         let settings = ["steps=[900000, 10]".to_owned()];

@@ -18,8 +18,9 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
         let field = format!("walls[{index}].mesh");
         let refused =
             |rule: &str, remedy: &str| ParameterError::field(&field, format!("\"{name}\""), rule, remedy).in_file(path);
-        let mesh = read_mesh(&beside.join(name))
-            .map_err(|error| refused(&format!("the path of an STL file, and that file {error}"), error.remedy()))?;
+        let mesh = read_mesh(&beside.join(name)).map_err(|error| {
+            ParameterError::field(&field, format!("\"{name}\" {error}"), "", error.remedy()).in_file(path)
+        })?;
         count += mesh.triangles.len();
         if count > MOST_TRIANGLES {
             let rule = format!("at most {MOST_TRIANGLES} triangles together with the meshes before it");
@@ -62,7 +63,7 @@ mod tests {
         assert!(read(own, &path).is_ok(), "a wall that has triangles needs no file");
         assert_eq!(
             read("[[walls]]\nmesh = \"gone.stl\"", Path::new("mine/case.toml")).expect_err("no file"),
-            "mine/case.toml: `walls[0].mesh` is \"gone.stl\", but must be the path of an STL file, and that file cannot be \
+            "mine/case.toml: `walls[0].mesh`: \"gone.stl\" cannot be \
              read (No such file or directory (os error 2)); check the path, which begins at this file, and its permissions"
         );
     }

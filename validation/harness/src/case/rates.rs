@@ -22,8 +22,8 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
         let refused =
             |rule: &str, remedy: &str| ParameterError::field(&field, format!("\"{name}\""), rule, remedy).in_file(path);
         let text = read_text(&beside.join(name), DOCUMENT).map_err(|error| {
-            let rule = format!("the path of a CSV file, and that file cannot be read ({error})");
-            refused(&rule, "check the path, which begins at this file, and its permissions")
+            let remedy = "check the path, which begins at this file, and its permissions";
+            ParameterError::field(&field, format!("\"{name}\" cannot be read ({error})"), "", remedy).in_file(path)
         })?;
         let rows = rows(&text)
             .map_err(|(line, rule, remedy)| refused(&format!("a table whose line {line} is {rule}"), &remedy))?;

@@ -5,9 +5,9 @@ use crate::sampling::BoundsError;
 use bagnold_solver::parameter::shortened;
 use std::path::{Path, PathBuf};
 
-/// "`field` is `value`, but must be `rule`; `remedy`".
+/// "`field` is `value`, but must be `rule`; `remedy`", or "`field`: `value`; `remedy`" where no rule has to be told.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{}`{field}` is {value}, but must be {rule}; {remedy}", origin(.file))]
+#[error("{}`{field}`{}; {remedy}", origin(.file), defect(value, rule))]
 pub struct FieldError {
     /// File it stands in, where known; whoever reads the file adds it.
     pub file: Option<PathBuf>,
@@ -25,8 +25,15 @@ impl FieldError {
     /// The error of a field whose file is not known yet.
     #[must_use]
     pub fn new(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
-        let value = escaped(&shortened(value.to_string())).into_owned();
+        let value = value.to_string();
+        let value = escaped(&if rule.is_empty() { value } else { shortened(value) }).into_owned();
         Self { file: None, field: escaped(field).into_owned(), value, rule: rule.into(), remedy: remedy.into() }
+    }
+
+    /// The error of a field whose defect needs no rule, such as an unclosed quote.
+    #[must_use]
+    pub fn finding(field: &str, defect: impl std::fmt::Display, remedy: &str) -> Self {
+        Self::new(field, defect, "", remedy)
     }
 
     /// The error of a range that stands in a table of a file.
@@ -48,4 +55,9 @@ impl FieldError {
         self.file.get_or_insert_with(|| path.to_owned());
         self
     }
+}
+
+/// Value and rule of a message, or the value alone.
+fn defect(value: &str, rule: &str) -> String {
+    if rule.is_empty() { format!(": {value}") } else { format!(" is {value}, but must be {rule}") }
 }

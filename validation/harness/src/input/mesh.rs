@@ -30,7 +30,7 @@ pub(crate) struct Mesh {
     pub(crate) left_out: usize,
 }
 
-/// Why a file gives no mesh; each completes "must be the path of an STL file, but it …".
+/// Why a file gives no mesh; each completes "FILE …".
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MeshError {
     /// It cannot be read.
@@ -40,7 +40,7 @@ pub(crate) enum MeshError {
     #[error("is no sound STL file ({0})")]
     Malformed(std::io::Error),
     /// A binary file whose length is not that of its triangles.
-    #[error("is cut short or no STL file: its head announces {announced} triangles, and {found} are there")]
+    #[error("is truncated or not STL: its head announces {announced} triangles, it has {found}")]
     Truncated {
         /// Triangles that the head announces.
         announced: usize,
@@ -178,10 +178,7 @@ mod tests {
 
     #[test]
     fn what_is_wrong_with_a_file_is_said() {
-        assert_eq!(
-            refused(&binary()[..150]),
-            "is cut short or no STL file: its head announces 2 triangles, and 1 are there"
-        );
+        assert_eq!(refused(&binary()[..150]), "is truncated or not STL: its head announces 2 triangles, it has 1");
         assert_eq!(refused(&TEXT.as_bytes()[..78]), "is no sound STL file (EOF while expecting vertex)");
         assert!(refused(b"").starts_with("is no sound STL file"));
         assert_eq!(refused(b"solid nothing\nendsolid nothing\n"), "has no triangle with an area (0 without)");

@@ -29,8 +29,8 @@ pub fn check_name(field: &str, name: &str) -> Result<(), FieldError> {
 /// The field that holds the text.
 pub fn check_text(field: &str, text: &str) -> Result<(), FieldError> {
     if text.chars().any(is_control) {
-        let rule = "free of control characters and changes of the direction of writing";
-        let remedy = "remove them: a terminal would obey them instead of showing them";
+        let rule = "free of control characters";
+        let remedy = "remove them: a terminal would obey them";
         return Err(FieldError::new(field, format!("\"{text}\""), rule, remedy));
     }
     Ok(())

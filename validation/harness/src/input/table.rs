@@ -10,22 +10,20 @@ pub struct TableFault {
     pub line: usize,
     /// Column of the table, from 1, as far as commas tell.
     pub column: usize,
-    /// What the line is: "`line 3` is …".
-    value: String,
-    /// The rule, completing "must be …".
-    rule: &'static str,
+    /// Defect of the line.
+    defect: String,
     remedy: &'static str,
 }
 
 impl TableFault {
     /// As the error of a field of which the line is one.
     pub(crate) fn field_error(&self) -> FieldError {
-        FieldError::new(&format!("line {}", self.line), &self.value, self.rule, self.remedy)
+        FieldError::finding(&format!("line {}", self.line), &self.defect, self.remedy)
     }
 
-    /// After the line was named: what it is, must be, and what to do.
+    /// Defect and remedy, behind the name of the line.
     pub fn in_words(&self) -> String {
-        format!("the line is {}, but must be {}; {}", self.value, self.rule, self.remedy)
+        format!("{}; {}", self.defect, self.remedy)
     }
 }
 
@@ -33,21 +31,17 @@ impl TableFault {
 /// goes over several.
 pub fn text_fault(text: &str) -> Option<TableFault> {
     text.split('\n').enumerate().find_map(|(index, line)| {
-        let fault = |before: &str, value, rule, remedy| {
-            Some(TableFault { line: index + 1, column: before.matches(',').count() + 1, value, rule, remedy })
+        let fault = |before: &str, defect, remedy| {
+            Some(TableFault { line: index + 1, column: before.matches(',').count() + 1, defect, remedy })
         };
         // a byte that is no text, as in files of two bytes a letter
         if let Some(place) = line.find(|letter: char| is_control(letter) && !matches!(letter, '\t' | '\r')) {
             let letter = line[place..].chars().next().map_or(0, u32::from);
-            let rule = "free of control characters and changes of the direction of writing";
             let remedy = "remove it, or write the file as plain text in UTF-8";
-            return fault(&line[..place], format!("with the character U+{letter:04X}"), rule, remedy);
+            return fault(&line[..place], format!("control character U+{letter:04X}"), remedy);
         }
         let open = if is_comment(line) { None } else { open_quote(line) };
-        open.and_then(|place| {
-            let rule = "one in which every quote that opens is closed";
-            fault(&line[..place], "with a quote that is not closed".to_owned(), rule, "close the quote, or remove it")
-        })
+        open.and_then(|place| fault(&line[..place], "unclosed quote".to_owned(), "close the quote, or remove it"))
     })
 }
 
@@ -70,9 +64,8 @@ fn open_quote(line: &str) -> Option<usize> {
 
 /// A heading whose columns are parted otherwise than by commas; `line` is its number, from 1.
 pub fn comma_fault(heading: &str, line: usize) -> Option<TableFault> {
-    const RULE: &str = "of columns that are parted by commas";
-    const REMEDY: &str = "part the columns by commas, and write decimals with a point";
-    let parted_by = if heading.contains(',') {
+    const REMEDY: &str = "separate the columns by commas, and write decimals with a point";
+    let separator = if heading.contains(',') {
         return None;
     } else if heading.contains(';') {
         "semicolons"
@@ -83,7 +76,7 @@ pub fn comma_fault(heading: &str, line: usize) -> Option<TableFault> {
     } else {
         return None;
     };
-    Some(TableFault { line, column: 1, value: format!("parted by {parted_by}"), rule: RULE, remedy: REMEDY })
+    Some(TableFault { line, column: 1, defect: format!("columns separated by {separator}"), remedy: REMEDY })
 }
 
 /// What to do about a word where a number should be.
@@ -94,9 +87,9 @@ pub fn number_remedy(word: &str) -> &'static str {
     if is_missing(word) {
         "leave out rows in which a value is missing"
     } else if are_numbers(';') {
-        "these are values that semicolons part: part all columns by one kind of separator, and write decimals with a point"
+        "several values separated by semicolons: use one separator for all columns, and write decimals with a point"
     } else if are_numbers('\t') || (word.contains(' ') && word.split_whitespace().all(is_number)) {
-        "these are values that blanks or tabs part: part all columns by one kind of separator"
+        "several values separated by blanks or tabs: use one separator for all columns"
     } else {
         "write decimals with a point"
     }
@@ -105,9 +98,9 @@ pub fn number_remedy(word: &str) -> &'static str {
 /// What to do about a row of so many values where the table has so many columns.
 pub fn row_remedy(row: &str, values: usize, columns: usize) -> &'static str {
     if [';', '\t'].iter().any(|separator| row.matches(*separator).count() + 1 == columns) {
-        "its values are parted by another separator than the heading: part all columns by one kind of separator"
+        "use one separator for the whole table"
     } else if columns > 0 && values == 2 * columns {
-        "if commas are decimal here, write decimals with a point; otherwise complete or shorten the row"
+        "write decimals with a point, or complete or shorten the row"
     } else {
         "complete or shorten the row"
     }
@@ -153,10 +146,7 @@ mod tests {
             assert_eq!((fault.line, fault.column), (line, column), "{text}");
             assert_eq!(
                 fault.field_error().to_string(),
-                format!(
-                    "`line {line}` is with a quote that is not closed, but must be one in which every quote that opens is \
-                     closed; close the quote, or remove it"
-                )
+                format!("`line {line}`: unclosed quote; close the quote, or remove it")
             );
         }
     }
@@ -165,11 +155,7 @@ mod tests {
     fn control_characters_are_named_by_their_number() {
         let fault = text_fault("x,u\r\n1\t,\u{1b}[2J2\n").expect("an escape");
         assert_eq!((fault.line, fault.column), (2, 2));
-        assert!(
-            fault
-                .in_words()
-                .starts_with("the line is with the character U+001B, but must be free of control characters")
-        );
+        assert!(fault.in_words().starts_with("control character U+001B; "));
         assert!(text_fault("# source: a\u{202e}b\n").is_some());
         // two bytes a letter
         assert_eq!(text_fault("x\0,\0u\0\n\0").map(|fault| fault.line), Some(1));
@@ -182,19 +168,17 @@ mod tests {
         for (heading, by) in [("y [m];u [m/s]", "semicolons"), ("y [m]\tu [m/s]", "tabs"), ("y [m]  u [m/s]", "blanks")]
         {
             let words = comma_fault(heading, 8).expect("no commas").in_words();
-            let expected = format!(
-                "the line is parted by {by}, but must be of columns that are parted by commas; part the columns by commas, \
-                 and write decimals with a point"
-            );
+            let expected =
+                format!("columns separated by {by}; separate the columns by commas, and write decimals with a point");
             assert_eq!(words, expected);
         }
-        assert!(number_remedy("1;2").starts_with("these are values that semicolons part"));
-        assert!(number_remedy("1,5;2").starts_with("these are values that semicolons part"));
-        assert!(number_remedy("1 2").starts_with("these are values that blanks or tabs part"));
+        assert!(number_remedy("1;2").starts_with("several values separated by semicolons"));
+        assert!(number_remedy("1,5;2").starts_with("several values separated by semicolons"));
+        assert!(number_remedy("1 2").starts_with("several values separated by blanks or tabs"));
         assert_eq!(number_remedy("1,5"), "write decimals with a point");
         assert_eq!(number_remedy("N/A"), "leave out rows in which a value is missing");
-        assert!(row_remedy("1,5,2,5", 4, 2).starts_with("if commas are decimal here"));
-        assert!(row_remedy("1;2", 1, 2).starts_with("its values are parted by another separator"));
+        assert!(row_remedy("1,5,2,5", 4, 2).starts_with("write decimals with a point, or"));
+        assert!(row_remedy("1;2", 1, 2).starts_with("use one separator"));
         assert_eq!(row_remedy("1,2,3", 3, 2), "complete or shorten the row");
     }
 }

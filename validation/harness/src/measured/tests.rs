@@ -206,7 +206,7 @@ fn what_is_no_table_of_measurements_is_refused() {
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,1\n",
-            "mine.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; complete or shorten the row",
+            "mine.csv: `line 2`: 2 columns, and the heading has 3; complete or shorten the row",
         ),
     ] {
         assert_eq!(refused(text), message);

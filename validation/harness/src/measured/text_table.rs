@@ -53,24 +53,14 @@ impl TextTable {
                 }
                 // blanks also part the words of a heading
                 if let Some(heading) = heading.as_ref().filter(|own| separator.is_some() && own.len() != words.len()) {
-                    let rule = format!("of {} columns, as the heading", heading.len());
-                    return Err(wrong(
-                        number,
-                        &format!("of {} columns", words.len()),
-                        &rule,
-                        row_remedy(line, words.len(), heading.len()),
-                    ));
+                    let defect = format!("{} columns, and the heading has {}", words.len(), heading.len());
+                    return Err(wrong(number, &defect, "", row_remedy(line, words.len(), heading.len())));
                 }
                 columns = vec![Vec::new(); words.len()];
             }
             if words.len() != columns.len() {
-                let rule = format!("of {} columns, as the lines before", columns.len());
-                return Err(wrong(
-                    number,
-                    &format!("of {} columns", words.len()),
-                    &rule,
-                    row_remedy(line, words.len(), columns.len()),
-                ));
+                let defect = format!("{} columns, and the lines before have {}", words.len(), columns.len());
+                return Err(wrong(number, &defect, "", row_remedy(line, words.len(), columns.len())));
             }
             for (place, (column, word)) in columns.iter_mut().zip(words).enumerate() {
                 let value = word.parse::<f64>().map_err(|_| {
@@ -160,7 +150,7 @@ mod tests {
         );
         assert_eq!(
             message("x,y\n1,2\n3\n"),
-            "a.csv: `line 3` is of 1 columns, but must be of 2 columns, as the lines before; complete or shorten the row"
+            "a.csv: `line 3`: 1 columns, and the lines before have 2; complete or shorten the row"
         );
         assert_eq!(
             message("x,y\n1,2\n3,b\n"),
@@ -172,15 +162,10 @@ mod tests {
         );
         assert_eq!(
             message("x,y,z\n1,2\n"),
-            "a.csv: `line 2` is of 2 columns, but must be of 3 columns, as the heading; complete or shorten the row"
+            "a.csv: `line 2`: 2 columns, and the heading has 3; complete or shorten the row"
         );
-        assert_eq!(
-            message("x,y\n1,2\n\"3,4\n"),
-            "a.csv: `line 3` is with a quote that is not closed, but must be one in which every quote that opens is closed; close the quote, or remove it"
-        );
-        assert!(message("x,y\n1,5,2,5\n").ends_with(
-            "if commas are decimal here, write decimals with a point; otherwise complete or shorten the row"
-        ));
+        assert_eq!(message("x,y\n1,2\n\"3,4\n"), "a.csv: `line 3`: unclosed quote; close the quote, or remove it");
+        assert!(message("x,y\n1,5,2,5\n").ends_with("write decimals with a point, or complete or shorten the row"));
         assert!(message("x,y\n1,\u{202e}2\n").contains("U+202E"));
         assert_eq!(parse("\u{feff}x,y\n1,2\n").expect("a table").headings, ["x", "y"]);
         let table = parse("x,velocity\n1,2\n").expect("a table");

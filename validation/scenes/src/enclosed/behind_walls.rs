@@ -6,7 +6,7 @@ use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
 
 /// How one gets to see it.
-const DRAW: &str = "`bagnold show FILE.toml --picture setup.png` draws what is where";
+const DRAW: &str = "see `bagnold show FILE.toml --picture setup.png`";
 
 /// A site of the lattice that a body holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,33 +101,21 @@ impl Permissions<'_> {
 
     fn too_much(&self, body: usize, wall: usize, share: f64) -> ParameterError {
         let name = self.walls[wall].0;
-        let value = format!("{:.1} % behind walls, most of that behind `{name}`", 100.0 * share);
-        let most = 100.0 * self.most;
-        let rule = format!("at most {most:.1} % behind walls (`cut_at_most`), where material is left out");
+        let defect = format!("walls remove {:.1} %, mostly `{name}` (limit {:.1} %)", 100.0 * share, 100.0 * self.most);
         let meant = (100.0 * share).ceil() / 100.0;
         let turn = if wall < self.inlets.0 { self.turn } else { self.inlets.1 };
         let remedy = if meant < 1.0 {
-            format!(
-                "{turn}, make the body end at the wall, or set `cut_at_most = {meant:.2}` if the wall is meant to cut it"
-            )
+            format!("{turn}, shorten the body, or set `cut_at_most = {meant:.2}`")
         } else {
-            format!("{turn}, or put the body in front of it")
+            format!("{turn}, or move the body")
         };
-        ParameterError::field(&format!("bodies[{body}]"), value, &rule, &format!("{remedy}; {DRAW}"))
+        ParameterError::field(&format!("bodies[{body}]"), defect, "", &format!("{remedy}; {DRAW}"))
     }
 
     fn both_sides(&self, OnBothSides { body, wall }: OnBothSides) -> ParameterError {
-        let value = format!("on both sides of the wall `{}`", self.walls[wall].0);
-        let remedy = format!(
-            "{}, make the body end at the wall, or give the wall `both_sides = true` if material behind it is meant",
-            self.turn
-        );
-        ParameterError::field(
-            &format!("bodies[{body}]"),
-            value,
-            "on the side of the flow",
-            &format!("{remedy}; {DRAW}"),
-        )
+        let defect = format!("material on both sides of the wall `{}`", self.walls[wall].0);
+        let remedy = format!("{}, shorten the body, or set the wall's `both_sides = true`; {DRAW}", self.turn);
+        ParameterError::field(&format!("bodies[{body}]"), defect, "", &remedy)
     }
 }
 
@@ -166,9 +154,8 @@ mod tests {
         let error = permissions(false, 0.05).behind(&sites).expect_err("too much").to_string();
         assert_eq!(
             error,
-            "`bodies[0]` is 50.0 % behind walls, most of that behind `bed`, but must be at most 5.0 % behind walls \
-             (`cut_at_most`), where material is left out; turn the wall round, make the body end at the wall, or set \
-             `cut_at_most = 0.50` if the wall is meant to cut it; `bagnold show FILE.toml --picture setup.png` draws what is where"
+            "`bodies[0]`: walls remove 50.0 %, mostly `bed` (limit 5.0 %); turn the wall round, shorten the body, or set `cut_at_most = 0.50`; \
+             see `bagnold show FILE.toml --picture setup.png`"
         );
     }
 
@@ -176,7 +163,7 @@ mod tests {
     fn a_body_around_the_end_of_a_wall_is_on_both_sides() {
         let around = sites(-8..8, 6, Some(4));
         let error = permissions(false, 1.0).behind(&around).expect_err("both sides").to_string();
-        assert!(error.starts_with("`bodies[0]` is on both sides of the wall `bed`, but must be"), "{error}");
+        assert!(error.starts_with("`bodies[0]`: material on both sides of the wall `bed`; "), "{error}");
         // where that is meant, only what is near to the wall makes room for it
         let behind = permissions(true, 1.0).behind(&around).expect("meant");
         let near = |site: &Site<2>| site.nearest.is_some() && site.place[0] < 0.0;

@@ -95,8 +95,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         let direction = self.direction_of(gauge);
         let is_depth = matches!(gauge.measure(&direction), Measurand::Depth(_));
         if is_depth && !Periods::of(&self.sides.axes()).are_crossed_by(&direction) {
-            let rule = "a direction that crosses the layer between the periodic sides";
-            let remedy = "along periodic sides the material never ends: give another direction, or `normal_to` a wall";
+            let rule = "one that crosses the layer";
+            let remedy = "along periodic sides the material has no end: give another direction, or `normal_to` a wall";
             return within(ParameterError::field("direction", shown(direction.iter()), rule, remedy));
         }
         Ok(())
@@ -110,8 +110,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         }
         let law = self.material.name();
         let Some(cohesion) = self.material.strength_at_rest(0.0) else {
-            let rule = format!("1 for the law \"{law}\", whose stress follows from the rate of strain");
-            let remedy = "leave it out, or give a law that carries its stress along, such as \"mu-i\"";
+            let rule = format!("1 for the law \"{law}\"");
+            let remedy = "leave it out, or give a law with a stress at rest, such as \"mu-i\"";
             return Err(ParameterError::field(field, ratio, &rule, remedy));
         };
         let weight = self.bulk.density(&self.material) * vector::<D>(&self.gravity).norm() * self.height();

@@ -34,15 +34,15 @@ impl GivenRate<'_> {
         }
         if self.rates.is_empty() {
             if self.rate == 0.0 {
-                let remedy = "give `rate`, or `rates` with rows of time and rate, or `table` with a CSV file of them";
-                return refused("rate", "0".to_owned(), "positive, unless a table gives it", remedy);
+                let remedy = "give `rate`, `rates` (rows of time and rate) or `table` (a CSV file)";
+                return refused("rate", "0".to_owned(), "positive", remedy);
             }
             return FeedRate::constant(self.rate).map_err(|_| {
                 ParameterError::field("rate", self.rate, "positive", "what flows out leaves by an open side")
             });
         }
         if self.rate != 0.0 {
-            return refused("rate", self.rate.to_string(), "absent beside a table", "one of the two says it");
+            return refused("rate", self.rate.to_string(), "absent beside a table", "give one of the two");
         }
         FeedRate::table(self.rates).map_err(|mut problem| {
             problem.field = format!("rates{}", problem.field);

@@ -67,21 +67,18 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         if let Some(problem) = feed.problem(self.spacing, sound_speed) {
             let most = LARGEST_MACH_NUMBER * sound_speed;
             let speed = feed.largest_speed();
-            let rule = format!(
-                "at most {:.4}, which comes in at {most:.4} m/s, {LARGEST_MACH_NUMBER} of the speed of sound",
-                feed.rate.largest() * most / speed
-            );
+            let rule =
+                format!("at most {:.4}, {LARGEST_MACH_NUMBER} of the sound speed", feed.rate.largest() * most / speed);
             let stiffness = (self.stiffness * (speed / most).powi(2)).ceil();
             let stiffer =
                 if stiffness <= STIFFEST { format!(", or raise `stiffness` to {stiffness}") } else { String::new() };
-            let remedy =
-                format!("at this rate the material comes in at {speed:.4} m/s: make the opening wider{stiffer}");
+            let remedy = format!("{speed:.4} m/s is too fast: widen the opening{stiffer}");
             return Err(ParameterError::field(given.field(), &problem.value, &rule, &remedy));
         }
         let first = feed.direction() * (0.5 * self.spacing);
         if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.hold(&(*cell + first))) {
             let rule = "between the sides of the domain";
-            let remedy = "what comes in beyond an open side has left at once: move the opening or the side";
+            let remedy = "material would leave at once: move the opening or the side";
             return Err(ParameterError::field(S::Inlet::GIVEN_BY, place(cell), rule, remedy));
         }
         let rows = wall_rows(self.numerics.smoothing_ratio);
@@ -105,10 +102,9 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             });
             if let Some((cell, nearest)) = closing {
                 let side = if nearest.distance < 0.0 { "behind" } else { "too near to" };
-                let value = format!("with its part at {} {side} `{}`", place(cell), names[nearest.wall]);
-                let rule = "in front of all walls and of the rows of other inlets";
+                let defect = format!("its part at {} is {side} `{}`", place(cell), names[nearest.wall]);
                 let remedy = format!("{}, or end the opening at the wall", S::Inlet::TURN);
-                return Err(ParameterError::field(&format!("inlets[{k}]"), value, rule, &remedy));
+                return Err(ParameterError::field(&format!("inlets[{k}]"), defect, "", &remedy));
             }
         }
         Ok(())

@@ -53,7 +53,7 @@ pub(super) fn check<'a>(
         }
         check_name(&field, name)?;
         if !seen.insert((kind, name)) {
-            return refused("unlike the others", "name each once");
+            return refused("unique", "name each once");
         }
     }
     Ok(())

@@ -82,10 +82,12 @@ where
         let (made, cut_off) = self.scene()?;
         let begun = made.flow.position.len();
         if begun == 0 && scene.inlets.is_empty() {
-            let value = format!("{} of them without room for a particle", scene.bodies.len());
-            let rule = format!("wider than two spacings, {}, somewhere in front of all walls", 2.0 * scene.spacing);
-            let remedy = "make a body wider or the spacing smaller, or give a wall that is seen from its back the other way round";
-            return Err(ParameterError::field("bodies", value, &rule, remedy));
+            let defect = format!(
+                "no room for a particle in front of the walls (a body needs two spacings, {})",
+                2.0 * scene.spacing
+            );
+            let remedy = "widen a body, reduce the spacing, or reverse a wall";
+            return Err(ParameterError::field("bodies", defect, "", remedy));
         }
         let (gravity, measures) = (vector(&scene.gravity), scene.measures());
         let pull = scene.fall() / scene.height();

@@ -127,7 +127,7 @@ fn check_held<const D: usize>(scene: &Scene<D>, places: &[Vector<D>]) -> Result<
     let starts = &scene.flow.position;
     if places.len() < starts.len() {
         let left = starts.len() - places.len();
-        return Err(not_held(&format!("settled, while {left} particles leave by open sides")));
+        return Err(not_held(&format!("{left} particles leave by open sides before the bodies rest")));
     }
     let periods = Periods::of(&scene.domain.axes);
     // what has wrapped at periodic sides is near its start beyond them
@@ -143,26 +143,22 @@ fn check_held<const D: usize>(scene: &Scene<D>, places: &[Vector<D>]) -> Result<
     }
     let parts: Vec<String> = starts[index].iter().map(|part| format!("{part:.4}")).collect();
     let place = parts.join(", ");
-    Err(not_held(&format!(
-        "settled, while the particle from ({place}) m goes farther than a spacing, {} m",
-        scene.spacing
-    )))
+    Err(not_held(&format!("the particle from ({place}) m moves by more than a spacing, {} m", scene.spacing)))
 }
 
 fn not_held(value: &str) -> ParameterError {
-    refused_for(
-        value,
-        "\"none\" for bodies that neither walls nor their friction hold",
-        "bodies that fall or flow cannot come to rest: hold them by walls (one with `motion` stays where it is at the start meanwhile), or leave \
-         the preparation out",
-    )
+    refused_for(value, "", "support the bodies with walls, or remove `preparation`")
 }
 
 fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
-    let value = format!("settled, while the bodies still move at {speed:.1e} m/s after {:.2} s", rest.longest());
-    let rule = format!("such that they rest, at {:.1e} m/s (`rest_speed` times √(g H))", rest.speed);
+    let value = format!(
+        "the bodies still move at {speed:.1e} m/s after {:.2} s (rest is {:.1e} m/s, `rest_speed` √(g H))",
+        rest.longest(),
+        rest.speed
+    );
+    let rule = "";
     let enough = 1.1 * speed / rest.fall;
-    refused_for(&value, &rule, &format!("raise `rest_speed` to {enough:.0e}, or leave the preparation out"))
+    refused_for(&value, rule, &format!("raise `rest_speed` to {enough:.0e}, or remove `preparation`"))
 }
 
 fn refused(divergence: &str) -> ParameterError {

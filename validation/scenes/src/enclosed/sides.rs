@@ -128,7 +128,7 @@ pub trait SceneSides<const D: usize>: PlainData {
             if lower.is_periodic() != upper.is_periodic() {
                 let (field, other) = if lower.is_periodic() { (high, low) } else { (low, high) };
                 let rule = format!("periodic as `{other}` is");
-                return Err(ParameterError::field(&field, "not periodic", &rule, "a period has two ends"));
+                return Err(ParameterError::field(&field, "not periodic", &rule, "make both ends periodic"));
             }
             if let (Some(below), Some(above)) = (lower.coordinate(), upper.coordinate())
                 && below >= above

@@ -53,7 +53,7 @@ fn left() -> FlowSide {
 impl setting::SceneWall<2> for WallLine {
     const FACETS: &'static str = "segments";
     const GIVEN_BY: &'static str = "points";
-    const TURN: &'static str = "turn the wall round by `flow`, if it is seen from its back";
+    const TURN: &'static str = "reverse the wall (`flow`)";
 
     fn name(&self) -> &str {
         &self.name

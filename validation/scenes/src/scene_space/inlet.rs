@@ -45,7 +45,7 @@ impl SpaceInlet {
 
 impl setting::SceneInlet<3> for SpaceInlet {
     const GIVEN_BY: &'static str = "corners";
-    const TURN: &'static str = "exchange the last two corners, if material is to come in the other way";
+    const TURN: &'static str = "reverse the inlet (its last two corners)";
 
     fn name(&self) -> &str {
         &self.name
@@ -71,9 +71,9 @@ impl setting::SceneInlet<3> for SpaceInlet {
         if cosine.abs() <= RIGHT {
             return Ok(());
         }
-        let value = format!("edges at an angle of {:.1}°", libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees());
-        let rule = "those of a rectangle, whose edges from the first are at right angles";
-        Err(ParameterError::field("corners", value, rule, "give a corner and the two next to it"))
+        let angle = libm::acos(cosine.clamp(-1.0, 1.0)).to_degrees();
+        let defect = format!("edges at an angle of {angle:.1}° instead of 90°");
+        Err(ParameterError::field("corners", defect, "", "give a corner of a rectangle and the two next to it"))
     }
 
     fn feed(&self, supply: Supply) -> Option<Inlet<3>> {
@@ -99,8 +99,7 @@ mod tests {
         assert!(inlet((0.0, 0.0, 0.1)).check().is_ok());
         assert_eq!(
             inlet((0.0, 0.05, 0.1)).check().expect_err("slanted").to_string(),
-            "`corners` is edges at an angle of 63.4°, but must be those of a rectangle, whose edges from the first are at right angles; \
-             give a corner and the two next to it"
+            "`corners`: edges at an angle of 63.4° instead of 90°; give a corner of a rectangle and the two next to it"
         );
     }
 }

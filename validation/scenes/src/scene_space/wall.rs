@@ -68,8 +68,7 @@ impl SpaceWall {
 impl setting::SceneWall<3> for SpaceWall {
     const FACETS: &'static str = "triangles";
     const GIVEN_BY: &'static str = "corners";
-    const TURN: &'static str =
-        "give all its corners, or the triangles of its file, in the opposite order, if it is seen from its back";
+    const TURN: &'static str = "reverse the wall (the order of corners)";
 
     fn name(&self) -> &str {
         &self.name

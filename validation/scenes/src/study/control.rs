@@ -45,7 +45,7 @@ pub(super) fn check(controls: &[ControlText], judged: &[&str]) -> Result<(), Fie
         check_name(&field("name"), name)?;
         check_text(&field("error"), &control.error)?;
         if controls[..place].iter().any(|other| other.name == *name) {
-            return Err(FieldError::new(&field("name"), name, "unlike the others", "give each a name of its own"));
+            return Err(FieldError::new(&field("name"), name, "unique", "give each a name of its own"));
         }
         if control.set.is_empty() {
             let remedy = "name a parameter and its wrong value, such as { \"material.viscosity\" = 2.0 }";

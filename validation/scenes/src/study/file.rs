@@ -277,7 +277,7 @@ impl StudyText {
             figure.check(&names).map_err(|error| error.within(&field))?;
             if self.figures[..place].iter().any(|other| other.name == figure.name) {
                 let field = format!("{field}.name");
-                return Err(FieldError::new(&field, &figure.name, "unlike the others", "give each a name of its own"));
+                return Err(FieldError::new(&field, &figure.name, "unique", "give each a name of its own"));
             }
         }
         let judged: Vec<&str> =
@@ -292,7 +292,7 @@ impl StudyText {
             let field = format!("variants[{place}].name");
             check_name(&field, &named.name)?;
             if self.variants[..place].iter().any(|other| other.name == named.name) {
-                return Err(FieldError::new(&field, &named.name, "unlike the others", "give each a name of its own"));
+                return Err(FieldError::new(&field, &named.name, "unique", "give each a name of its own"));
             }
         }
         for (place, varied) in self.vary.iter().enumerate() {
@@ -300,7 +300,7 @@ impl StudyText {
             check_name(&format!("{field}.name"), varied.label())?;
             if varied.label() == "variant" || self.vary[..place].iter().any(|other| other.label() == varied.label()) {
                 let remedy = "give each a `name` of its own; \"variant\" is that of [[variants]]";
-                return Err(FieldError::new(&format!("{field}.name"), varied.label(), "unlike the others", remedy));
+                return Err(FieldError::new(&format!("{field}.name"), varied.label(), "unique", remedy));
             }
             if varied.values.is_empty() {
                 let remedy = "list the values, such as [0.01, 0.005]";
@@ -315,7 +315,7 @@ impl StudyText {
                 })?;
                 if seen.contains(&named) {
                     let remedy = "list every value once: equal ones are the same run";
-                    return Err(FieldError::new(&field, value, "unlike the others", remedy));
+                    return Err(FieldError::new(&field, value, "unique", remedy));
                 }
                 seen.push(named);
             }

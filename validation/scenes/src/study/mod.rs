@@ -116,7 +116,7 @@ impl Study {
             let check = StudyCheck::of(own, beside).map_err(within)?;
             if checks.iter().any(|other| other.name == check.name && other.only == check.only) {
                 let remedy = "give each a name of its own, or other variants by `only`";
-                return Err(within(FieldError::new("name", &check.name, "unlike the others", remedy)).into());
+                return Err(within(FieldError::new("name", &check.name, "unique", remedy)).into());
             }
             if let CheckedQuantity::Order { of, in_parameter } = &check.read {
                 if !checks.iter().any(|other| other.name == *of) {

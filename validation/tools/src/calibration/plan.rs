@@ -195,7 +195,7 @@ impl CalibrationPlan {
             }
             if self.parameters[..index].iter().any(|other| other.path == parameter.path) {
                 let field = format!("parameters[{index}].path");
-                return Err(FieldError::new(&field, "given twice", "unlike the others", "vary a path once"));
+                return Err(FieldError::new(&field, "given twice", "unique", "vary a path once"));
             }
         }
         if let Paths::ByCase(paths) = &self.repeats.path {
@@ -219,7 +219,7 @@ impl CalibrationPlan {
                 ));
             }
             if self.choices[..index].iter().any(|other| other.name == choice.name) {
-                return Err(FieldError::new(&format!("{field}.name"), &choice.name, "unlike the others", "rename it"));
+                return Err(FieldError::new(&format!("{field}.name"), &choice.name, "unique", "rename it"));
             }
         }
         Ok(())

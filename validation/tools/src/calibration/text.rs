@@ -151,7 +151,7 @@ impl CalibrationText {
             let parameter = text.checked(&format!("parameters[{index}]"))?;
             if parameters.iter().any(|other| other.name == parameter.name) {
                 let field = format!("parameters[{index}].name");
-                return Err(FieldError::new(&field, &parameter.name, "unlike the others", "give each its own"));
+                return Err(FieldError::new(&field, &parameter.name, "unique", "give each its own"));
             }
             parameters.push(parameter);
         }

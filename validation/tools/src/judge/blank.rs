@@ -48,7 +48,7 @@ fn files(form: &ExternalSchema) -> String {
         let _ = write!(text, "\n# {line}");
     }
     text.push_str(
-        "\n\n# Files stand beside this one. Tables of numbers may be parted by commas, semicolons, tabs or blanks, with a heading;\n\
+        "\n\n# Files stand beside this one. Tables of numbers may be separated by commas, semicolons, tabs or blanks, with a heading;\n\
          # a column is named by its heading and its unit in brackets, such as \"x_cm [cm]\"; in files of VTK places are\n\
          # \"Points:0 [m]\", parts of a vector \"velocity:0 [m/s]\". What is the same for all is { value = 0.25, unit = \"cm^2\" }.\n",
     );

@@ -81,7 +81,7 @@ impl Mutations {
         let all: Self = read_plan(&file, "dev mutate")?;
         let mut names = BTreeSet::new();
         if let Some(twin) = all.list.iter().find(|mutation| !names.insert(&mutation.name)) {
-            let error = FieldError::new("mutation.name", &twin.name, "unlike the others", "rename one of them");
+            let error = FieldError::new("mutation.name", &twin.name, "unique", "rename one of them");
             return Err(error.in_file(&file).into());
         }
         Ok(all)

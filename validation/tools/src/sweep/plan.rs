@@ -115,11 +115,11 @@ impl SweepPlan {
             }
             if !names.insert(name.clone()) || TAKEN.contains(&name.as_str()) {
                 let remedy = "give each a `name` of its own that is no column of the results";
-                return Err(FieldError::new(&format!("{field}.name"), name, "unlike the others", remedy));
+                return Err(FieldError::new(&format!("{field}.name"), name, "unique", remedy));
             }
             if self.text.parameters[..index].iter().any(|other| other.path == parameter.path) {
                 let field = format!("{field}.path");
-                return Err(FieldError::new(&field, "given twice", "unlike the others", "vary a path once"));
+                return Err(FieldError::new(&field, "given twice", "unique", "vary a path once"));
             }
             for request in &self.text.cases {
                 if parameter.path.in_case(&request.case).is_none() {
@@ -133,7 +133,7 @@ impl SweepPlan {
                 check_name(&format!("cases[{index}].name"), name)?;
             }
             if self.text.cases[..index].iter().any(|other| other.label() == request.label()) {
-                let (rule, remedy) = ("unlike the others", "give a case that stands twice a `name` each time");
+                let (rule, remedy) = ("unique", "give a case that stands twice a `name` each time");
                 return Err(FieldError::new(&format!("cases[{index}].name"), request.label(), rule, remedy));
             }
         }

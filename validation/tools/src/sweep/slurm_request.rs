@@ -59,7 +59,7 @@ impl SlurmRequest {
 }
 
 const PARTITION: (&str, &str) =
-    ("one or more names of letters, digits, `_`, `-` and `.`, parted by commas", "`sinfo` lists the partitions");
+    ("one or more names of letters, digits, `_`, `-` and `.`, separated by commas", "`sinfo` lists the partitions");
 
 const TIME: (&str, &str) =
     ("minutes, MM:SS, HH:MM:SS, D-HH, D-HH:MM, D-HH:MM:SS or UNLIMITED", "give it as Slurm reads it, such as 01:30:00");
@@ -132,7 +132,7 @@ mod tests {
         assert_eq!(
             refusal(&request, "/shared").expect("refused"),
             "`--partition` is \"short\\n#SBATCH --wrap=evil\", but must be one or more names of letters, digits, `_`, `-` \
-             and `.`, parted by commas; `sinfo` lists the partitions"
+             and `.`, separated by commas; `sinfo` lists the partitions"
         );
         for folder in ["/shared/a\nrm -rf x", "/shared/a\"b", "/shared/`id`", "/shared/$HOME", "/shared/a\\"] {
             assert!(

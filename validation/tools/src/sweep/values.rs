@@ -15,7 +15,7 @@ pub(super) fn check_values(values: &[Value], field: &str) -> Result<(), FieldErr
         if let Some(earlier) = seen.insert(canonical(value), place) {
             let value = format!("{value}, equal to `{field}[{earlier}]`");
             let remedy = "list every value once: equal ones are the same run";
-            return Err(FieldError::new(&format!("{field}[{place}]"), value, "unlike the others", remedy));
+            return Err(FieldError::new(&format!("{field}[{place}]"), value, "unique", remedy));
         }
     }
     Ok(())
@@ -80,11 +80,11 @@ mod tests {
         }
         assert_eq!(
             message("[0.5, 1.0, 1]"),
-            "`parameters[0].values[2]` is 1, equal to `parameters[0].values[1]`, but must be unlike the others; list every \
+            "`parameters[0].values[2]` is 1, equal to `parameters[0].values[1]`, but must be unique; list every \
              value once: equal ones are the same run"
         );
         for equal in ["[0.0, -0.0]", "[\"a\", \"a\"]", "[[1, 2.0], [1.0, 2]]", "[{ a = 1 }, { a = 1.0 }]"] {
-            assert!(message(equal).contains("unlike the others"), "{equal}");
+            assert!(message(equal).contains("unique"), "{equal}");
         }
         assert_eq!(
             message("[1.0, nan]"),

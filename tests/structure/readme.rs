@@ -1,0 +1,166 @@
+//! Results in README.md: the table that follows from the baseline values of the quick tier.
+
+use crate::source::workspace;
+use bagnold_validation::REGISTRY;
+
+/// Row of the table: a case, the comparison in words, and the metric whose range over the chosen variants is shown.
+struct Row {
+    case: &'static str,
+    compared: &'static str,
+    metric: &'static str,
+    /// Part that a variant must have, and part that it must not have.
+    with: &'static str,
+    without: &'static str,
+}
+
+const fn row(
+    case: &'static str,
+    compared: &'static str,
+    metric: &'static str,
+    with: &'static str,
+    without: &'static str,
+) -> Row {
+    Row { case, compared, metric, with, without }
+}
+
+const ROWS: [Row; 17] = [
+    row("hydrostatic", "pressure of a layer at rest; error against the exact one", "pressure_l2", "", ""),
+    row(
+        "film",
+        "velocity of Newtonian, Bingham, Herschel–Bulkley films; error, exact",
+        "velocity_l2",
+        "particles=jittered,resolution=20",
+        "numerics",
+    ),
+    row("bagnold", "velocity of a μ(I) layer on 22–25°; error, exact", "velocity_l2", "start=rest", "material"),
+    row(
+        "column-planar",
+        "surface of a collapsed pile; distance over its height, measured",
+        "surface_distance",
+        "material=bars,",
+        "",
+    ),
+    row(
+        "column-round",
+        "run-out of a round column of sand; simulated over measured",
+        "run_out_ratio",
+        "material=sand",
+        "",
+    ),
+    row(
+        "incline-collapse",
+        "run-out on 10° and 16°; fits to experiments: 0.54–0.68 and 1.2–1.5 m",
+        "front_displacement",
+        "gate=1.3",
+        "",
+    ),
+    row("flow-thickness", "slope at which thin layers stop; too flat by, measured", "experimental_excess", "", ""),
+    row("nonlocal-shear", "velocity of creep beside a flow; error, exact", "velocity_l2", "", ""),
+    row(
+        "water-column",
+        "height of a collapsing water column; error, measured",
+        "height_error",
+        "bed=smooth,tension=cut",
+        "",
+    ),
+    row("still-water", "pressure of incompressible water at rest; error, exact", "pressure_l2", "", ""),
+    row("water-film", "velocity of a laminar film; error, exact", "velocity_l2", "", ""),
+    row("clear-water", "mean velocity over a rough bed; simulated over logarithmic law", "mean_velocity", "", ""),
+    row("settling", "settling velocity of one grain, all drag laws; error, exact", "terminal_velocity_error", "", ""),
+    row(
+        "bed-load-1d",
+        "transport on 2, 3 and 5 %; simulated over Wong & Parker's fit",
+        "transport_ratio",
+        "start=rest",
+        "",
+    ),
+    row(
+        "bed-load",
+        "transport of dilating grains; particles over 1-D solution",
+        "transport_ratio",
+        "formulation=dilating",
+        "",
+    ),
+    row("scene", "your 2-D geometry; balances of mass, momentum and energy", "", "", ""),
+    row("scene-space", "your 3-D geometry; the balances", "", "", ""),
+];
+
+/// (name, variant, value, unit, verdict) of all metrics of a case.
+fn baseline(case: &str) -> Vec<[String; 5]> {
+    let path = workspace().join(format!("tests/snapshots/quick/{case}.snap"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let cells = |line: &str| -> Option<[String; 5]> {
+        line.split(" | ").map(str::to_owned).collect::<Vec<_>>().try_into().ok()
+    };
+    text.lines().filter_map(cells).collect()
+}
+
+/// Gates that hold, and all gates.
+fn gates(metrics: &[[String; 5]]) -> (usize, usize) {
+    let of = |verdict: &str| metrics.iter().filter(|metric| metric[4] == verdict).count();
+    (of("pass"), of("pass") + of("fail"))
+}
+
+/// Two significant digits.
+fn short(value: f64) -> String {
+    let digits = (1.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
+    format!("{value:.digits$}")
+}
+
+fn results() -> String {
+    let mut lines = vec!["| case | compared | result | gates passed |".to_owned(), "|---|---|---|---|".to_owned()];
+    for Row { case, compared, metric, with, without } in &ROWS {
+        let metrics = baseline(case);
+        let is_shown = |own: &&[String; 5]| {
+            let has = |part: &str| part.split(',').all(|part| own[1].contains(part));
+            own[0] == *metric && own[4] != "observed" && has(with) && (without.is_empty() || !own[1].contains(without))
+        };
+        let shown: Vec<&[String; 5]> = metrics.iter().filter(is_shown).collect();
+        let values: Vec<f64> = shown.iter().map(|own| own[2].parse::<f64>().expect("a number").abs()).collect();
+        let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &value| (a.min(value), b.max(value)));
+        let unit = shown.first().map_or("", |own| own[3].as_str()).replace('-', "");
+        let range =
+            if short(least) == short(most) { short(most) } else { format!("{}–{}", short(least), short(most)) };
+        let result = if values.is_empty() { "balances hold".to_owned() } else { format!("{range} {unit}") };
+        let (held, all) = gates(&metrics);
+        lines.push(format!("| `{case}` | {compared} | {} | {held}/{all} |", result.trim()));
+    }
+    let studies: Vec<(usize, usize)> = REGISTRY.studies().map(|study| gates(&baseline(study.name()))).collect();
+    let (held, all) = studies.iter().fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
+    lines.push(format!(
+        "| {} studies | flows with exact solutions, in scene files | [list](docs/src/cases.md) | {held}/{all} |",
+        studies.len()
+    ));
+    lines.join("\n")
+}
+
+#[test]
+fn results_are_those_of_the_baseline() {
+    let readme = std::fs::read_to_string(workspace().join("README.md")).expect("README.md");
+    let table = results();
+    assert!(readme.contains(&table), "README.md needs this table:\n{table}");
+    let names: Vec<&str> = REGISTRY.cases().map(|case| case.name()).collect();
+    assert_eq!(ROWS.map(|row| row.case).to_vec(), names);
+}
+
+#[test]
+fn counts_of_gates_are_those_of_the_baseline() {
+    let readme = std::fs::read_to_string(workspace().join("README.md")).expect("README.md");
+    let cases = REGISTRY.cases().map(|case| case.name()).chain(REGISTRY.studies().map(|study| study.name()));
+    let (held, all) = cases.map(|case| gates(&baseline(case))).fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
+    let sentence = format!("Of {all} gates, {} fail", all - held);
+    assert!(readme.contains(&sentence), "README.md needs the sentence: {sentence}");
+}
+
+#[test]
+fn catalogue_is_that_of_the_registry() {
+    let rows = |named: Vec<(&str, &str)>| -> String {
+        named.iter().map(|(name, summary)| format!("| `{name}` | {summary} |\n")).collect()
+    };
+    let cases = rows(REGISTRY.cases().map(|case| (case.name(), case.summary())).collect());
+    let studies = rows(REGISTRY.studies().map(|study| (study.name(), study.summary())).collect());
+    let book = std::fs::read_to_string(workspace().join("docs/src/cases.md")).expect("docs/src/cases.md");
+    for table in [cases, studies] {
+        assert!(book.contains(&table), "docs/src/cases.md needs these rows:\n{table}");
+    }
+}

@@ -1,0 +1,210 @@
+//! Wording of documents, doc comments and messages: lengths of sentences and lines, banned words, first words.
+
+use crate::source::workspace;
+use std::path::{Path, PathBuf};
+
+/// Words that open a question `[-]`.
+const QUESTIONS: [&str; 7] = ["What", "How", "Where", "When", "Which", "Who", "Why"];
+/// House words that have a standard word.
+const BANNED: [&str; 6] = ["nobody", "somebody", "likewise", "of one's own", "told apart", " is no "];
+/// Words of a sentence at most.
+const LONGEST_SENTENCE: usize = 35;
+/// Characters of a line of prose at most.
+const LONGEST_LINE: usize = 100;
+/// Words of a message at most.
+const LONGEST_MESSAGE: usize = 30;
+/// Documents and their largest number of words; a folder stands for all its documents.
+const LENGTHS: [(&str, usize); 4] =
+    [("README.md", 1_000), ("ARCHITECTURE.md", 2_200), ("CHANGELOG.md", 700), ("docs/src", 18_000)];
+/// Doc comments that may begin with a question word, mostly because they are printed by `--help` and `show`; only fewer are allowed.
+const QUESTIONS_LEFT: usize = 300;
+
+fn text(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Files of a folder and below with an ending.
+fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
+    let (mut found, mut open) = (Vec::new(), vec![workspace().join(folder)]);
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            let entries = std::fs::read_dir(&path).expect("a folder").flatten().map(|entry| entry.path());
+            open.extend(entries.filter(|path| !path.ends_with("target")));
+        } else if path.extension().is_some_and(|own| own == ending) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Documents for users and for developers.
+fn documents() -> Vec<PathBuf> {
+    let single = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/src", "docs/dev"];
+    single.iter().flat_map(|path| files(path, "md")).collect()
+}
+
+/// (number, text) of the lines of a document that are prose: no code, no table.
+fn prose(document: &str) -> Vec<(usize, &str)> {
+    let mut is_code = false;
+    let mut lines = Vec::new();
+    for (index, line) in document.lines().enumerate() {
+        if line.trim_start().starts_with("```") {
+            is_code = !is_code;
+        } else if !is_code && !line.trim_start().starts_with('|') {
+            lines.push((index + 1, line));
+        }
+    }
+    lines
+}
+
+/// (line, words) of the sentences of a document. A blank line, a heading and an item of a list begin a new one.
+fn sentences(document: &str) -> Vec<(usize, String)> {
+    let mut found: Vec<(usize, String)> = vec![(1, String::new())];
+    for (number, line) in prose(document) {
+        let trimmed = line.trim_start();
+        let is_item = trimmed.starts_with(['-', '*', '#', '!'])
+            || trimmed.split('.').next().is_some_and(|first| first.parse::<u32>().is_ok());
+        if trimmed.is_empty() || is_item {
+            found.push((number, String::new()));
+        }
+        for word in trimmed.split_whitespace() {
+            if let Some(last) = found.last_mut() {
+                last.1.push_str(word);
+                last.1.push(' ');
+            }
+            let ends = word.trim_end_matches(['*', ')', '"', '`', '_']).ends_with(['.', '?', '!', ':']);
+            if ends && !["al.", "e.g.", "i.e.", "vs.", "Fig.", "Eq."].contains(&word) {
+                found.push((number, String::new()));
+            }
+        }
+    }
+    found.retain(|(_, sentence)| sentence.split_whitespace().nth(2).is_some());
+    found
+}
+
+fn place(path: &Path, line: usize) -> String {
+    format!("{}:{line}", path.strip_prefix(workspace()).unwrap_or(path).display())
+}
+
+#[track_caller]
+fn assert_none(found: &[String]) {
+    assert!(found.is_empty(), "{} places:\n{}", found.len(), found.join("\n"));
+}
+
+#[test]
+fn sentences_of_documents_are_short() {
+    let mut long = Vec::new();
+    for path in documents() {
+        for (line, sentence) in sentences(&text(&path)) {
+            let words = sentence.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count();
+            if words > LONGEST_SENTENCE {
+                long.push(format!("{}: {words} words: {sentence}", place(&path, line)));
+            }
+        }
+    }
+    assert_none(&long);
+}
+
+#[test]
+fn readme_and_limits_have_sentences_of_twenty_words() {
+    for name in ["README.md", "docs/src/limits.md"] {
+        let all = sentences(&text(&workspace().join(name)));
+        let words: usize = all.iter().map(|(_, sentence)| sentence.split_whitespace().count()).sum();
+        let mean = words as f64 / all.len() as f64;
+        assert!(mean <= 20.0, "{name}: {mean:.1} words in the mean of {} sentences", all.len());
+    }
+}
+
+#[test]
+fn lines_of_documents_are_short() {
+    let mut long = Vec::new();
+    for path in documents() {
+        let document = text(&path);
+        let lines = prose(&document).into_iter().filter(|(_, line)| !line.contains("]("));
+        long.extend(
+            lines.filter(|(_, line)| line.chars().count() > LONGEST_LINE).map(|(number, _)| place(&path, number)),
+        );
+    }
+    assert_none(&long);
+}
+
+#[test]
+fn documents_use_standard_words() {
+    let mut found = Vec::new();
+    for path in documents().into_iter().filter(|path| !path.ends_with("writing.md")) {
+        for (number, line) in text(&path).lines().enumerate() {
+            let lower = line.to_lowercase();
+            let banned = BANNED.iter().filter(|word| lower.contains(**word)).map(|word| word.trim().to_owned());
+            found.extend(banned.chain(per(line)).map(|word| format!("{}: {word}", place(&path, number + 1))));
+        }
+    }
+    assert_none(&found);
+}
+
+/// A unit with "a" in the sense of "per", such as "µs a particle".
+fn per(line: &str) -> Option<String> {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let units = ["µs", "ns", "ms", "s", "B", "kB", "MB", "division", "pass"];
+    let things = ["particle", "pair", "step", "row", "case", "run", "particle-step"];
+    let is_per = |three: &&[&str]| {
+        units.contains(&three[0]) && three[1] == "a" && things.iter().any(|thing| three[2].starts_with(thing))
+    };
+    words.windows(3).find(is_per).map(|three| three.join(" "))
+}
+
+#[test]
+fn headings_are_no_questions() {
+    let mut found = Vec::new();
+    for path in documents() {
+        let document = text(&path);
+        let is_question = |line: &str| {
+            let words = line.strip_prefix('#').map(|rest| rest.trim_start_matches('#').trim_start());
+            words.is_some_and(|words| QUESTIONS.iter().any(|question| words.starts_with(&format!("{question} "))))
+        };
+        let lines = prose(&document).into_iter().filter(|(_, line)| is_question(line));
+        found.extend(lines.map(|(number, line)| format!("{}: {line}", place(&path, number))));
+    }
+    assert_none(&found);
+}
+
+#[test]
+fn doc_comments_begin_with_nouns() {
+    let mut count = 0;
+    for path in ["solver", "validation", "tests", "python"].iter().flat_map(|folder| files(folder, "rs")) {
+        let source = text(&path);
+        let comments = source.lines().filter_map(|line| {
+            let line = line.trim_start();
+            line.strip_prefix("/// ").or_else(|| line.strip_prefix("//! "))
+        });
+        count += comments
+            .filter(|words| QUESTIONS.iter().any(|question| words.starts_with(&format!("{question} "))))
+            .count();
+    }
+    assert!(count <= QUESTIONS_LEFT, "{count} doc comments begin with a question word, {QUESTIONS_LEFT} may");
+}
+
+#[test]
+fn messages_are_short() {
+    let mut long = Vec::new();
+    for path in files("tests/bad", "message") {
+        let message = text(&path);
+        let words = message.split_whitespace().count();
+        let is_odd = ["is with ", "such that", " unlike ", "parted"].iter().any(|words| message.contains(words));
+        if words > LONGEST_MESSAGE || is_odd {
+            long.push(format!("{}: {words} words: {message}", place(&path, 1)));
+        }
+    }
+    assert_none(&long);
+}
+
+#[test]
+fn documents_keep_their_lengths() {
+    for (name, most) in LENGTHS {
+        let words: usize = files(name, "md").iter().map(|path| text(path).split_whitespace().count()).sum();
+        assert!(words <= most, "{name} has {words} words, {most} at most");
+    }
+    let readme = text(&workspace().join("README.md"));
+    let before = readme.split("cargo run").next().unwrap_or_default();
+    assert!(before.split_whitespace().count() <= 250, "README's first command comes within 250 words");
+}
