@@ -50,7 +50,7 @@ pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
         return None;
     }
     match (run.geometry, run.material) {
-        (Geometry::Round, _) if run.is_resolved() => Some((
+        (Geometry::Round, Material::SAND) if run.is_resolved() => Some((
             band(law.value(a)?, WIDEST),
             "within 15 % of Lube's law for round columns: it tells no scatter of its points, no second experiment is at hand, and 15 % is the \
              widest band of planar columns",

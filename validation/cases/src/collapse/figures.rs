@@ -1,13 +1,16 @@
 //! The case's figures.
 
 use super::CollapseRecord;
+use super::bands;
 use super::column::{ColumnPurpose, ColumnRun, Geometry, PICTURES};
 use super::deposit::Collapse;
 use super::flow_metrics::{self, energies, stations};
 use super::material::{ExperimentGrains, Material};
+use super::other_codes::Beside;
 use super::{convergence, measured, scaling, stress_updates, velocity_profile, wedge};
 use crate::case::Run;
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
+use crate::metric::Limit;
 use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
@@ -90,6 +93,14 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
             panel.points("measured, with twice their scatter", 1, measured.points.iter().copied()).error = bars;
             panel.points("measured, doubtful", 2, measured.doubtful.iter().copied());
         }
+        for (run, _) in records {
+            let (run_out_law, height_law) = bands::laws_of(run);
+            let gate = if legend { bands::run_out(run, run_out_law) } else { bands::height(run, height_law) };
+            if let Some((Limit::Within(low, high), _)) = gate {
+                let entry = if legend && panel.bands.is_empty() { "where a result must lie" } else { "" };
+                panel.band(entry, [0.93, 1.07].map(|part| (part * run.initial_height(), low, high)));
+            }
+        }
         for (slot, material) in materials(records).into_iter().enumerate() {
             let points: Vec<(f64, f64)> = records
                 .iter()
@@ -159,11 +170,15 @@ fn histories(records: &[&CollapseRecord]) -> Figure {
         let share = time().zip(data.kinetic_energy.iter().map(|kinetic| kinetic / initial));
         front.line(&label(run), slot, way);
         energy.line("", slot, share);
+        if let Some(beside) = Beside::of_column(run, data) {
+            beside.draw(&mut front, false, slot, |(time, front)| (time, (front - 1.0) / a));
+            beside.draw(&mut energy, true, slot, |point| point);
+        }
     }
     Figure::new(
         &of_material("histories", records),
         "The front's way over the aspect ratio and the kinetic energy over the initial potential energy, in times of \
-         free fall √(h0/g). Deposits come to rest.",
+         free fall √(h0/g). Deposits come to rest. Points are other codes under the same law.",
         vec![front, energy],
     )
 }

@@ -8,6 +8,7 @@ use super::deposit::Collapse;
 use super::known::{ColumnUncertainty, EnsembleSpread, with_uncertainty};
 use super::material::Material;
 use super::measured;
+use super::other_codes::{Beside, MID_COLLAPSE};
 use super::pile::pile_of;
 use super::quantities::{
     DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
@@ -35,7 +36,13 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
     let mut round = Vec::new();
     for column in records {
         let (run, record) = column;
-        if run.purpose == ColumnPurpose::Law {
+        let beside = Beside::of_column(run, &record.data).filter(|_| run.purpose == ColumnPurpose::Law);
+        if let Some(beside) = beside {
+            metrics.extend(beside.metrics(&run.variant(), MID_COLLAPSE, run.has_published_law()));
+        }
+        // no experiment has round columns of these grains
+        let is_compared = (run.geometry, run.material) != (Geometry::Round, Material::LAGREE);
+        if run.purpose == ColumnPurpose::Law && is_compared {
             let numerical = |measure| numerical_uncertainty(records, run, measure);
             let known = ColumnUncertainty {
                 run_out: numerical(Collapse::run_out),

@@ -18,6 +18,7 @@ mod known;
 mod material;
 mod measured;
 pub(super) mod metrics;
+mod other_codes;
 mod other_numerics;
 mod pile;
 pub mod planar;

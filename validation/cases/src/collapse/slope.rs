@@ -146,12 +146,6 @@ impl SlopeRun {
         (self.reservoir.resolution * self.rows()) as f64
     }
 
-    /// When the gate's edge has passed the height of the grains `[s]`; 0 without a gate.
-    #[must_use]
-    pub fn gate_clearance(&self) -> f64 {
-        if self.gate_speed > 0.0 { self.reservoir.initial_height / self.gate_speed } else { 0.0 }
-    }
-
     /// Whether there are enough rows over the height for a gate.
     #[must_use]
     pub fn is_resolved(&self) -> bool {

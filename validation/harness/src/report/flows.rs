@@ -210,7 +210,7 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
     for (kind, what) in [
         (MetricKind::Validation, "experiments"),
         (MetricKind::Statement, "statements of the papers"),
-        (MetricKind::Verification, "exact solutions"),
+        (MetricKind::Verification, "exact solutions and other codes"),
     ] {
         let judged = cases.iter().flat_map(|case| &case.metrics).filter(|metric| metric.kind == kind);
         let verdicts: Vec<Verdict> = judged.map(Metric::verdict).filter(|own| *own != Verdict::Observed).collect();

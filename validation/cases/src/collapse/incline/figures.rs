@@ -1,6 +1,7 @@
 //! The case's figures.
 
 use super::InclineCollapseRecord;
+use crate::collapse::other_codes::Beside;
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
 use crate::figure::{Animation, Axis, Field, Figure, Panel};
 use crate::observation::pictures::{View, animation};
@@ -64,11 +65,16 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
         front.line(&label(run), slot, points);
         let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied());
         energy.line("", slot, points);
+        if let Some(beside) = Beside::of_slope(run, data) {
+            let (time_scale, length, scale) = (beside.time_scale, run.reservoir.reservoir_length, beside.energy_scale);
+            beside.draw(&mut front, false, slot, |(time, front)| (time * time_scale, (front - 1.0) * length));
+            beside.draw(&mut energy, true, slot, |(time, energy)| (time * time_scale, energy * scale));
+        }
     }
     Figure::new(
         "fronts",
         "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
-         rest; above it they run until the channel ends.",
+         rest; above it they run until the channel ends. Points are another code under the same law.",
         vec![front, energy],
     )
 }

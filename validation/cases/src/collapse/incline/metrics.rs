@@ -1,12 +1,14 @@
 //! How a collapse on a slope is judged.
 
 use super::InclineCollapseRecord;
-use super::inside::{self, Inside};
+use super::inside::Inside;
 use crate::case::Run;
 use crate::collapse::fronts::with_resolution;
 use crate::collapse::metrics::{at_rest, conservation};
+use crate::collapse::other_codes::Beside;
 use crate::collapse::quantities::{
-    DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
+    DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, KINETIC_ENERGY, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL,
+    PARTICLES_LOST, REST_TIME,
 };
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun, Station, linear_misfit_ratio};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
@@ -16,7 +18,7 @@ use crate::setup::energy_ledger;
 use crate::statistics::mean;
 
 quantities! {
-    [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK, FRONT_DISPLACEMENT, FRONT, LINEAR_MISFIT_RATIO]
+    [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK, FRONT_DISPLACEMENT, FRONT, KINETIC_ENERGY, LINEAR_MISFIT_RATIO]
     FASTEST_DEPTH: stated("fastest_depth", "-", "mean depth of the fastest twentieth of the grains along the slope, over the local thickness, at a time"),
     VISCOSITY_AND_DEPTH: stated("viscosity_and_depth", "-", "rank correlation of the apparent viscosity and the depth below the surface, at a time"),
     VISCOSITY_LIKE_PRESSURE: stated("viscosity_like_pressure", "-", "rank correlation of the apparent viscosity with the pressure less that with the shear rate, both as sizes, at a time"),
@@ -39,6 +41,8 @@ const NEAR_SURFACE: f64 = 1.0 / 3.0;
 
 /// What the gate allows beyond the band of the law's two quotations `[-]`.
 const MARGIN: f64 = 0.15;
+/// Time at which the flow is compared with other codes, over √(h_0/g) `[-]`: the grains have left the reservoir.
+const WELL_DOWN_THE_SLOPE: f64 = 5.0;
 /// Times at which the front is reported `[s]`.
 const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
 
@@ -83,6 +87,9 @@ pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
             metrics.push(observed(FRONT, &variant, data.front[index]));
         }
     }
+    if let Some(beside) = Beside::of_slope(run, data) {
+        metrics.extend(beside.metrics(&variant, WELL_DOWN_THE_SLOPE, true));
+    }
     if is_of_the_figures(run) {
         metrics.extend(FIELD_TIMES.iter().filter_map(|&time| of_fields(time, run, record)).flatten());
     }
@@ -120,14 +127,13 @@ fn of_fields(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Opt
     let variant = Variant::of("time", time).followed_by(&run.variant());
     let is_judged = run.is_resolved() && run.law.is_plastic();
     let of = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-2, 1e-2);
-    let since_clearance = time - run.gate_clearance();
     let mut metrics = vec![
         of(FASTEST_DEPTH, inside.fastest_depth)
             .against(None, "statement: from 0.11 s on the largest velocity is near the surface, in a shallow region", Confidence::Medium)
             .gated_by(
-                (is_judged && since_clearance >= EARLIEST_STATED - inside::NEAR).then_some(Limit::AtMost(NEAR_SURFACE)),
+                (is_judged && time >= EARLIEST_STATED).then_some(Limit::AtMost(NEAR_SURFACE)),
                 "near the surface means in the upper third of the local thickness, and grains that are as fast at every depth have 1/2; \
-                 the times count from where the gate has cleared the grains, for until then it holds the upper ones back",
+                 the gate of the paper has cleared the grains at 0.108 s",
             ),
     ];
     let rises = "statement: the viscosity grows with the distance from the free surface, mainly through the pressure";

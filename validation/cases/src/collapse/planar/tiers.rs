@@ -30,11 +30,12 @@ impl Parameters for ColumnPlanarParameters {
         let pile_ratio = ALUMINIUM_BAR_PILE.height / ALUMINIUM_BAR_PILE.length;
         let quick = Self {
             resolution: 20,
-            tall_resolution: 20,
+            // enough for the exponents of tall columns, not for a run-out alone
+            tall_resolution: 10,
             release: Release::with(Numerics::default()),
             // Table 2; figures 7–10
             sand: PlanarColumns {
-                aspect_ratios: vec![0.7, 0.9, 1.5, 3.0],
+                aspect_ratios: vec![0.7, 0.9, 1.5, 3.0, 5.0, 7.0, 10.0, 14.0],
                 half_width: collapse::SAND_HALF_WIDTH,
                 tall_half_width: 0.0292,
                 ..PlanarColumns::of(&TABLE_2_SAND)
@@ -45,7 +46,7 @@ impl Parameters for ColumnPlanarParameters {
                 tall_half_width: 0.0292,
                 ..PlanarColumns::of(&GLASS_BEADS)
             },
-            lagree: PlanarColumns { aspect_ratios: vec![1.0], ..PlanarColumns::of(&LAGREE_GRAINS) },
+            lagree: PlanarColumns { aspect_ratios: vec![1.0, 3.0], ..PlanarColumns::of(&LAGREE_GRAINS) },
             bars: PlanarColumns {
                 aspect_ratios: vec![pile_ratio],
                 half_width: ALUMINIUM_BAR_PILE.length,
@@ -96,6 +97,7 @@ impl Parameters for ColumnPlanarParameters {
             regularised: Regularised { aspect_ratios: vec![1.0, 3.0], rate: 0.01 },
             other_numerics: OtherNumerics { eddy_aspect_ratios: vec![3.0, 7.0, 14.0], ..quick.other_numerics.clone() },
             resolution: 40,
+            tall_resolution: 20,
             sand: PlanarColumns {
                 aspect_ratios: vec![0.5, 0.7, 0.9, 1.0, 1.5, 2.0, 2.75, 3.0, 4.8, 5.0, 7.0, 10.0, 14.0, 20.0],
                 ..quick.sand.clone()

@@ -2,7 +2,7 @@
 
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::collapse::{self, ColumnPurpose, ColumnRun, Geometry, Material, Release};
-use crate::reference::grains::TABLE_2_SAND;
+use crate::reference::grains::{LAGREE_GRAINS, TABLE_2_SAND};
 use crate::setup::{Bulk, rules};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{between, positive};
@@ -33,8 +33,10 @@ pub struct ColumnRoundParameters {
     /// How columns are released and simulated.
     #[serde(flatten)]
     pub release: Release,
-    /// Columns to run.
+    /// Columns of the grains to run.
     pub columns: Vec<RoundColumn>,
+    /// Columns of Lagrée's grains to run, r_0 = 0.1 m: their friction rises with the rate by enough to be told.
+    pub lagree: Vec<RoundColumn>,
     /// Grains.
     pub sand: Rheology,
 }
@@ -57,6 +59,10 @@ impl Parameters for ColumnRoundParameters {
                 Tier::Paper => columns(&paper),
                 Tier::Fine => columns(&paper.map(|(aspect_ratio, resolution)| (aspect_ratio, resolution * 3 / 2))),
             },
+            lagree: match tier {
+                Tier::Quick => columns(&[(0.9, 12)]),
+                Tier::Paper | Tier::Fine => columns(&[(0.9, 12), (0.9, 24), (3.0, 14)]),
+            },
             sand: Rheology::MuI(TABLE_2_SAND.law),
         }
     }
@@ -71,24 +77,28 @@ impl Parameters for ColumnRoundParameters {
         collapse::check_size(runs, |run| {
             let is_it =
                 |column: &RoundColumn| column.aspect_ratio == run.aspect_ratio && column.resolution == run.resolution;
-            format!("columns[{}].resolution", self.columns.iter().position(is_it).unwrap_or(0))
+            let (list, columns) =
+                if run.material == Material::LAGREE { ("lagree", &self.lagree) } else { ("columns", &self.columns) };
+            format!("{list}[{}].resolution", columns.iter().position(is_it).unwrap_or(0))
         })
     }
 
     fn runs(&self) -> Vec<ColumnRun> {
-        let run = |column: &RoundColumn| ColumnRun {
+        let run = |column: &RoundColumn, material, half_width, law: Rheology, bulk: &Bulk| ColumnRun {
             purpose: ColumnPurpose::Law,
             geometry: Geometry::Round,
-            material: Material::SAND,
+            material,
             aspect_ratio: column.aspect_ratio,
             resolution: column.resolution,
-            half_width: self.radius,
-            law: self.sand,
-            bulk_density: self.bulk.density(&self.sand),
+            half_width,
+            law,
+            bulk_density: bulk.density(&law),
             regularisation_rate: None,
             shown_times: Vec::new(),
             release: self.release,
         };
-        self.columns.iter().map(run).collect()
+        let (law, bulk) = (Rheology::MuI(LAGREE_GRAINS.law), Bulk::of_grains(LAGREE_GRAINS.solid_fraction));
+        let own = self.columns.iter().map(|column| run(column, Material::SAND, self.radius, self.sand, &self.bulk));
+        own.chain(self.lagree.iter().map(|column| run(column, Material::LAGREE, 0.1, law, &bulk))).collect()
     }
 }

@@ -1,0 +1,116 @@
+//! Collapses beside the same law by other codes, over time: the kinetic energy tells how much friction rises with the rate, which fronts at rest do not.
+
+use super::column::{ColumnRun, Geometry};
+use super::deposit::Collapse;
+use super::material::Material;
+use super::quantities::{FRONT, KINETIC_ENERGY};
+use super::reservoir::Reservoir;
+use super::slope::SlopeRun;
+use crate::figure::Panel;
+use crate::metric::{Limit, Metric, Origin, Variant};
+use crate::reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
+use crate::reference::grains::GLASS_BEADS;
+use crate::statistics::{Extrapolation, interpolated};
+use bagnold_solver::material::rheology::Rheology;
+
+/// How far the same law by another method may lie `[-]`.
+const SAME_LAW: f64 = 0.15;
+const REASON: &str =
+    "15 %, twice the standard deviation of the run-outs that four methods give of one column of these grains (7.5 %)";
+
+/// Time at which columns are compared, over √(h_0/g) `[-]`: a third of the energy is dissipated, and the front has two thirds of its way.
+pub(super) const MID_COLLAPSE: f64 = 2.0;
+/// Speed of the gate in the table `[m/s]`.
+const GATE_SPEED: f64 = 1.3;
+
+/// A collapse, and how its times and energies are measured.
+pub(super) struct Beside<'a> {
+    codes: &'a OtherCodes,
+    /// Aspect ratio `[-]` or slope `[°]`, as the table has it.
+    flow: f64,
+    /// √(h_0/g) `[s]`.
+    pub(super) time_scale: f64,
+    /// ½ M g h_0, in the unit of the energies.
+    pub(super) energy_scale: f64,
+    collapse: &'a Collapse,
+}
+
+impl<'a> Beside<'a> {
+    /// A column of Lagrée's grains; none of other grains.
+    pub(super) fn of_column(run: &ColumnRun, collapse: &'a Collapse) -> Option<Self> {
+        let codes = match run.geometry {
+            Geometry::Planar => &*PLANAR_CODES,
+            Geometry::Round => &*ROUND_CODES,
+        };
+        let energy_scale = *collapse.potential_energy.first()?;
+        let is_of_them = run.material == Material::LAGREE;
+        is_of_them.then_some(Self {
+            codes,
+            flow: run.aspect_ratio,
+            time_scale: run.time_scale(),
+            energy_scale,
+            collapse,
+        })
+    }
+
+    /// Glass beads behind the gate of the table, with the law itself; none of others.
+    pub(super) fn of_slope(run: &SlopeRun, collapse: &'a Collapse) -> Option<Self> {
+        let Reservoir { initial_height, reservoir_length, gravity, .. } = run.reservoir;
+        let is_of_them = run.gate_speed == GATE_SPEED
+            && run.regularisation_rate.is_none()
+            && run.law == Rheology::MuI(GLASS_BEADS.law);
+        is_of_them.then_some(Self {
+            codes: &SLOPE_CODES,
+            flow: run.slope_angle,
+            time_scale: (initial_height / gravity).sqrt(),
+            energy_scale: 0.5 * run.bulk_density * gravity * reservoir_length * initial_height * initial_height,
+            collapse,
+        })
+    }
+
+    /// A series of the collapse at a time over √(h_0/g).
+    fn own(&self, values: &[f64], time: f64) -> f64 {
+        let points: Vec<(f64, f64)> = self.collapse.time.iter().copied().zip(values.iter().copied()).collect();
+        interpolated(&points, time * self.time_scale, (Extrapolation::EndValue, Extrapolation::EndValue))
+            .unwrap_or(f64::NAN)
+    }
+
+    /// Kinetic energy and front at a time over √(h_0/g), beside those of the codes that tell them.
+    pub(super) fn metrics(&self, variant: &Variant, time: f64, is_judged: bool) -> Vec<Metric> {
+        let variant = Variant::of("free_fall_times", time).followed_by(variant);
+        let energy = self.own(&self.collapse.kinetic_energy, time) / self.energy_scale;
+        let front = self.own(&self.collapse.front, time);
+        let of = |metric: Metric, is_energy: bool, start: f64| {
+            let (mean, uncertainty) = self.codes.at(self.flow, is_energy, time)?;
+            let width = SAME_LAW * (mean - start);
+            let metric = metric
+                .against(Some(mean), &self.codes.source, self.codes.confidence)
+                .known_to(
+                    Origin::Numerical,
+                    Some(uncertainty * (mean - start)),
+                    "half of the spacing and of the step of the other codes, and how far they are apart",
+                )
+                .with_snapshot_tolerance(1e-2, 1e-3);
+            Some(metric.gated_by(is_judged.then_some(Limit::Within(mean - width, mean + width)), REASON))
+        };
+        [of(KINETIC_ENERGY.of(&variant, energy), true, 0.0), of(FRONT.of(&variant, front), false, 1.0)]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+
+    /// The codes' points in a panel over t/√(h_0/g), each changed by a function; an error bar is twice the code's uncertainty.
+    pub(super) fn draw(
+        &self,
+        panel: &mut Panel,
+        is_energy: bool,
+        slot: usize,
+        change: impl Fn((f64, f64)) -> (f64, f64),
+    ) {
+        for (place, series) in self.codes.of(self.flow, is_energy).enumerate() {
+            let points: Vec<(f64, f64)> = series.points.iter().map(|&point| change(point)).collect();
+            let bars = points.iter().map(|point| 2.0 * series.uncertainty * point.1).collect();
+            panel.points(&series.code, slot + 4 * place, points).error = bars;
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Collapses under μ(I) as other codes compute them, over time: tables `other-codes.csv` of `reference-data/column-planar`, `column-round` and
+//! `incline-collapse`.
+
+use crate::evidence::{MeasuredData, ReferenceError, read_shipped};
+use crate::metric::Confidence;
+use std::sync::LazyLock;
+
+/// A quantity over time by one code.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CodeSeries {
+    /// Name of the code.
+    pub code: String,
+    /// Whether it is the kinetic energy over ½ M g h_0, else the front over r_0.
+    pub is_energy: bool,
+    /// Aspect ratio `[-]` or slope `[°]`.
+    pub flow: f64,
+    /// (t/√(h_0/g), value) `[-]`.
+    pub points: Vec<(f64, f64)>,
+    /// Relative standard uncertainty, from runs with half of the spacing and of the step `[-]`.
+    pub uncertainty: f64,
+}
+
+/// The series of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OtherCodes {
+    /// Series by series.
+    pub series: Vec<CodeSeries>,
+    /// Origin of the values.
+    pub source: String,
+    /// How sure the project is of them.
+    pub confidence: Confidence,
+}
+
+/// Planar columns of Lagrée's grains, by aspect ratio.
+pub static PLANAR_CODES: LazyLock<OtherCodes> =
+    LazyLock::new(|| read_shipped("column-planar/other-codes.csv", OtherCodes::read));
+/// Round columns of Lagrée's grains, by aspect ratio.
+pub static ROUND_CODES: LazyLock<OtherCodes> =
+    LazyLock::new(|| read_shipped("column-round/other-codes.csv", OtherCodes::read));
+/// Glass beads behind a gate of 1.3 m/s, by slope.
+pub static SLOPE_CODES: LazyLock<OtherCodes> =
+    LazyLock::new(|| read_shipped("incline-collapse/other-codes.csv", OtherCodes::read));
+
+impl OtherCodes {
+    fn read(table: &MeasuredData) -> Result<Self, ReferenceError> {
+        let (codes, quantities) = (table.labels("code")?, table.labels("quantity")?);
+        let (flows, times) = (table.numbers("flow")?, table.numbers("time")?);
+        let (values, uncertainties) = (table.numbers("value")?, table.numbers("uncertainty")?);
+        let mut series: Vec<CodeSeries> = Vec::new();
+        for row in 0..codes.len() {
+            let (is_energy, flow, point) = (quantities[row] == "kinetic energy", flows[row], (times[row], values[row]));
+            match series.last_mut() {
+                Some(last) if last.code == codes[row] && (last.is_energy, last.flow) == (is_energy, flow) => {
+                    last.points.push(point)
+                }
+                _ => series.push(CodeSeries {
+                    code: codes[row].clone(),
+                    is_energy,
+                    flow,
+                    points: vec![point],
+                    uncertainty: uncertainties[row],
+                }),
+            }
+        }
+        Ok(Self { series, source: table.metadata.source.clone(), confidence: table.metadata.confidence })
+    }
+
+    /// The series of a flow.
+    pub fn of(&self, flow: f64, is_energy: bool) -> impl Iterator<Item = &CodeSeries> {
+        self.series.iter().filter(move |series| (series.flow, series.is_energy) == (flow, is_energy))
+    }
+
+    /// Mean over the codes at a time over √(h_0/g), and the relative standard uncertainty of it: the codes' own, or how far they are apart
+    /// where that is more `[-]`. None where no code tells.
+    #[must_use]
+    pub fn at(&self, flow: f64, is_energy: bool, time: f64) -> Option<(f64, f64)> {
+        let values: Vec<(f64, f64)> = self
+            .of(flow, is_energy)
+            .filter_map(|series| Some((series.points.iter().find(|point| point.0 == time)?.1, series.uncertainty)))
+            .collect();
+        let count = values.len() as f64;
+        let mean = values.iter().map(|value| value.0).sum::<f64>() / count;
+        let own = values.iter().map(|value| value.1).fold(0.0, f64::max);
+        let apart = values.iter().map(|value| (value.0 / mean - 1.0).abs()).fold(0.0, f64::max);
+        (!values.is_empty()).then_some((mean, own.max(apart)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn codes_are_read_by_flow_and_told_apart() {
+        for codes in [&PLANAR_CODES, &ROUND_CODES, &SLOPE_CODES] {
+            for series in &codes.series {
+                assert!(series.points.is_sorted_by(|one, other| one.0 < other.0), "{series:?}");
+                assert!((0.005..0.1).contains(&series.uncertainty), "{series:?}");
+            }
+        }
+        let fronts: Vec<&CodeSeries> = PLANAR_CODES.of(1.0, false).collect();
+        let at = |series: &CodeSeries| series.points.iter().find(|point| point.0 == 2.0).expect("a point").1;
+        let (gerris, points) = (at(fronts[1]), at(fronts[0]));
+        let (mean, uncertainty) = PLANAR_CODES.at(1.0, false, 2.0).expect("two codes");
+        assert!((mean - 0.5 * (gerris + points)).abs() < 1e-12);
+        assert!(uncertainty * mean >= 0.5 * (gerris - points).abs() - 1e-12);
+        assert_eq!(PLANAR_CODES.at(2.0, true, 2.0), None);
+    }
+}
