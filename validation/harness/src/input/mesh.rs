@@ -30,7 +30,7 @@ pub(crate) struct Mesh {
     pub(crate) left_out: usize,
 }
 
-/// Why a file gives no mesh; each completes "must be the path of an STL file, but it …".
+/// Reason why a file gives no mesh; each completes "must be the path of an STL file, but it …".
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MeshError {
     /// It cannot be read.
@@ -62,7 +62,7 @@ pub(crate) enum MeshError {
 }
 
 impl MeshError {
-    /// What to do about it.
+    /// Remedy.
     pub(crate) fn remedy(&self) -> &'static str {
         match self {
             Self::Unreadable(_) => "check the path, which begins at this file, and its permissions",

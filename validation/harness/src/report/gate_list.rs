@@ -9,8 +9,8 @@ use crate::metric::Variant;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// What a bullet of the CHANGELOG that names gates begins with; the gates follow in backquotes, as `CASE METRIC` for all of a
-/// metric's or `CASE METRIC [VARIANT]` for those of some runs.
+/// Beginning of a bullet of the CHANGELOG that names gates. The gates follow in backquotes, as `CASE METRIC` for all of
+/// a metric's or `CASE METRIC [VARIANT]` for those of some runs.
 const REMOVED: &str = "- Gates removed:";
 
 const HEAD: &str = "# Every gate that this tier has ever had: case | metric | variant. `bagnold report --accept` adds to it. No line is taken\n\
@@ -66,8 +66,8 @@ impl GateList {
         write().map_err(|source| BaselineError::Write { path: path.clone(), source })
     }
 
-    /// What is wrong between the list, the gates among all accepted values of the tier and the CHANGELOG, a line each: gates that
-    /// went without a word, and gates that are not in the list.
+    /// Contradictions between the list, the gates among all accepted values of the tier and the CHANGELOG, a line each:
+    /// gates that went without a word, and gates that are not in the list.
     #[must_use]
     pub fn differences(&self, accepted: &Baseline, changelog: &str) -> Vec<String> {
         let now: BTreeSet<&MetricKey> = accepted.gates().collect();
@@ -99,7 +99,7 @@ fn gate(line: &str) -> Option<MetricKey> {
 struct RemovedGates {
     case: String,
     metric: String,
-    /// What the variants of all of them have.
+    /// Keys and values that the variants of all these gates contain.
     variant: Variant,
 }
 
