@@ -25,7 +25,7 @@ const CODE: [&str; 9] = [
     "validation/tools/src",
 ];
 
-/// What else they depend on.
+/// Other files and folders on which results depend.
 const REST: [&str; 3] = ["reference-data", "Cargo.lock", "Cargo.toml"];
 
 /// Folders of shipped plans.
@@ -81,7 +81,7 @@ fn main() {
     println!("cargo::rerun-if-changed=build");
 }
 
-/// What the solver's build script tells of its package.
+/// Variable by which the solver's build script reports the optimisation level of its package.
 const SOLVER_OPT_LEVEL: &str = "DEP_BAGNOLD_SOLVER_OPT_LEVEL";
 
 fn digits(hash: Sha256) -> String {

@@ -100,7 +100,7 @@ where
     )
 }
 
-/// What a step took `[s]`.
+/// Times of one step `[s]`, and whether it searched neighbours.
 struct Sample {
     cpu: f64,
     wall: f64,

@@ -1,4 +1,5 @@
-//! What a run of millions costs: `cargo bench -p bagnold-benches --bench scale -- 50000 500000 5000000`, on all cores.
+//! Cost of runs with millions of particles, on all cores:
+//! `cargo bench -p bagnold-benches --bench scale -- 50000 500000 5000000`.
 //!
 //! For each size a column of grains in space: set-up, memory, steps with and without a search by wall clock and CPU time, and
 //! the bytes of a saved state.

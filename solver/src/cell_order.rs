@@ -11,7 +11,7 @@ const BLOCK: usize = 1024;
 /// Parts of the cells that threads share.
 const PARTS: usize = 64;
 
-/// Where the entries of each cell stand in the order. The sort is stable.
+/// Ranges of the entries of each cell in the sorted order. The sort is stable.
 #[derive(Debug, Default)]
 pub(crate) struct CellOrder {
     start: Vec<u32>,

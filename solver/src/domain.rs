@@ -3,7 +3,7 @@
 use crate::vector::{Tensor, Vector};
 use serde::{Deserialize, Serialize};
 
-/// What bounds the domain along one axis.
+/// Boundary of the domain along one axis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum AxisBoundary {

@@ -9,10 +9,10 @@ use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
-/// How often a driver is started that finds no port.
+/// Largest number of starts of a driver that finds no port.
 const STARTS: u32 = 10;
 
-/// How long a driver may take to end.
+/// Longest time that a driver may take to end.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 /// A window of a browser without a screen. The driver ends when this is dropped, and the browser with it.
@@ -121,19 +121,19 @@ impl Browser {
         self.client.issue_cmd(Own { path: "goog/cdp/execute", body }).await.expect(command)
     }
 
-    /// What the console has been told since the last time.
+    /// Entries of the console since the last call.
     pub(crate) async fn console(&self) -> Vec<String> {
         let entries = self.client.issue_cmd(Own { path: "se/log", body: json!({ "type": "browser" }) }).await;
         let entries = entries.expect("the log of the browser");
         entries.as_array().into_iter().flatten().map(Value::to_string).collect()
     }
 
-    /// What a script returns.
+    /// Result of a script.
     pub(crate) async fn ask(&self, script: &str) -> Value {
         self.client.execute(script, Vec::new()).await.expect("a script without an error")
     }
 
-    /// What a script returns that waits; its arguments end in the function that takes the answer.
+    /// Result of a script that waits; its arguments end in the function that takes the answer.
     pub(crate) async fn wait_for(&self, script: &str, arguments: Vec<Value>) -> Value {
         self.client.execute_async(script, arguments).await.expect("a script without an error")
     }

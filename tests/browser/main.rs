@@ -11,7 +11,7 @@ use pages::{address, addresses, folder};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How often a document is asked for again that the driver did not get in its time.
+/// Largest number of repeated requests for a document that the driver did not get in its time.
 const PRINTING_RETRIES: u32 = 5;
 /// Pages that an overview of two dozen cases may take on paper.
 const MOST_PRINTED: usize = 24;

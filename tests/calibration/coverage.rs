@@ -12,7 +12,7 @@ use std::convert::Infallible;
 pub(crate) struct Problem<F> {
     /// Weighted residuals `[-]` at a point of the unit cube.
     pub(crate) residuals: F,
-    /// Where the data come from, in the unit cube.
+    /// Parameters behind the data, in the unit cube.
     pub(crate) truth: Vec<f64>,
 }
 
@@ -24,7 +24,7 @@ impl<F: Fn(&[f64]) -> Option<Vec<f64>>> Evaluate for Problem<F> {
     }
 }
 
-/// What a calibration does unless a plan says otherwise.
+/// Default settings of a calibration.
 pub(crate) fn usual(start: Vec<f64>) -> SolvePlan {
     let dimensions = start.len();
     SolvePlan {

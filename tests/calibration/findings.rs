@@ -51,7 +51,7 @@ impl CalibrationMonitor for Unseen {
     fn evaluated(&self, _: &str, _: Option<&str>) {}
 }
 
-/// What a plan in a folder comes to.
+/// Result of a plan in a folder.
 pub(crate) fn outcome(folder: &Path, text: &str) -> CalibrationResult {
     let file = folder.join("plan.toml");
     std::fs::write(&file, text).expect("a folder to write in");

@@ -47,7 +47,7 @@ other_numerics.eddy_aspect_ratios = []
 other_numerics.uncoupled_aspect_ratios = []
 "#;
 
-/// What the experiments of a problem came to.
+/// Outcomes of the experiments of a problem.
 #[derive(Debug, Default)]
 struct Tally {
     experiments: usize,
@@ -56,7 +56,7 @@ struct Tally {
     settled: usize,
     raised: usize,
     evaluations: Vec<usize>,
-    /// How often a finding was made, by its first words.
+    /// Number of occurrences of each finding, by its first words.
     findings: BTreeMap<String, usize>,
 }
 

@@ -14,21 +14,21 @@ use std::path::Path;
 /// A case with one parameter, and the data that are taken from it.
 struct Simulated {
     case: &'static str,
-    /// What differs from the quick tier.
+    /// Changes to the quick tier.
     with: &'static str,
     /// The parameter's path and its value at a point.
     setting: fn(f64) -> String,
     /// The data of a record.
     predict: fn(&EvaluationRecord) -> Vec<f64>,
-    /// How many they are.
+    /// Number of data.
     data: usize,
     /// Their relative standard uncertainty.
     noise: f64,
-    /// Where they come from, in the unit cube.
+    /// Parameter behind the data, in the unit cube.
     truth: f64,
     /// Step of differences in the unit cube, above the scatter of runs.
     difference: f64,
-    /// What was simulated, by the bits of the coordinate: many seeds ask for the same points.
+    /// Results already simulated, by the bits of the coordinate: many seeds ask for the same points.
     known: RefCell<BTreeMap<u64, Option<Vec<f64>>>>,
 }
 

@@ -51,7 +51,7 @@ fn place() -> (Place, String) {
     (place, plan)
 }
 
-/// When each evaluation was written.
+/// Times at which the evaluations were written.
 fn evaluations(folder: &Path) -> Finished {
     let entries = std::fs::read_dir(folder.join("evaluations")).into_iter().flatten().flatten();
     let files: Vec<PathBuf> = entries
@@ -143,7 +143,7 @@ fn a_calibration_that_was_killed_gives_the_same_result_and_repeats_nothing() {
     assert_same_files(&place, "whole", &names);
 }
 
-/// What `bagnold calibrate` says to a plan or data that it refuses, with exit code 2.
+/// Message of `bagnold calibrate` for a plan or data that it refuses, with exit code 2.
 fn refusal(change: impl Fn(&str) -> String, data: impl Fn(&str) -> String) -> String {
     let place = Place::new();
     place.file("mine.csv", &data(MINE));

@@ -1,4 +1,4 @@
-//! What a run and a report write, and that nothing is lost.
+//! Files that a run and a report write, without loss.
 
 use crate::program::{CHEAP, Place, document, path};
 use bagnold_harness::store::{Store, StorePolicy};

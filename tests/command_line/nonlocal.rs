@@ -2,7 +2,7 @@
 
 use crate::program::Place;
 
-/// What both scenes say of the material; grains nearly as large as the particles, so that the law's length is resolved.
+/// Material of both scenes; grains nearly as large as the particles, so that the law's length is resolved.
 const LAW: &str = "law = \"nonlocal-mu-i\", static_friction = 0.382, limiting_friction = 0.643, reference_inertia = 0.279, \
      grain_diameter = 0.004, grain_density = 2500.0, cooperativity = 0.48, relaxation_time = 1e-4, surface = \"vanishing\", \
      seed = 1e-6";

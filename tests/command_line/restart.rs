@@ -10,9 +10,9 @@ use std::time::{Duration, Instant};
 pub(crate) struct Work {
     pub(crate) name: &'static str,
     pub(crate) arguments: &'static [&'static str],
-    /// Where its final states are told, in its folder.
+    /// File with the final states, in the folder of the command.
     states: &'static str,
-    /// What of a line there is compared, where not all.
+    /// Text that marks the compared lines of the file; none where all are compared.
     only: Option<&'static str>,
 }
 
@@ -104,7 +104,7 @@ with = { fluids = ["newtonian"], resolution = 30, convergence_resolutions = [], 
 data = [{ metric = "wall_work", value = -1.0, unit = "%", uncertainty = 1.0, source = "own" }]
 "#;
 
-/// How often each command is disturbed.
+/// Number of times that each command is killed.
 fn kills() -> usize {
     std::env::var("BAGNOLD_KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(2)
 }
@@ -119,7 +119,7 @@ impl Work {
         process.spawn().expect("started")
     }
 
-    /// What its folder says of the final states.
+    /// Final states of the command, as lines of a file in its folder.
     pub(crate) fn states(&self, place: &Place, folder: &str) -> String {
         let path = place.path(folder).join(self.states);
         let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));

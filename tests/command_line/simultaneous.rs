@@ -17,7 +17,7 @@ fn start(place: &Place, arguments: &[&str]) -> Child {
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("started")
 }
 
-/// How each ended, with what it said.
+/// Exit code and messages of each command.
 fn ended(children: Vec<Child>) -> Vec<(Option<i32>, String)> {
     let end = |child: Child| {
         let Output { status, stderr, .. } = child.wait_with_output().expect("ended");

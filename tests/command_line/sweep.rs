@@ -23,7 +23,7 @@ path = "slope_angle"
 values = [20.0, 25.0, 95.0]
 "#;
 
-/// When each record was written.
+/// Times at which the records were written.
 fn records(folder: &Path) -> Finished {
     let runs: Vec<PathBuf> =
         std::fs::read_dir(folder.join("runs")).into_iter().flatten().flatten().map(|run| run.path()).collect();
@@ -70,7 +70,7 @@ fn failures_keep_their_reason() {
     );
 }
 
-/// What `bagnold sweep` says to a plan that it refuses, with exit code 2 and without a folder.
+/// Message of `bagnold sweep` for a plan that it refuses, with exit code 2 and without a folder.
 fn refusal(plan: &str, arguments: &[&str]) -> String {
     let place = Place::new();
     place.file("plan.toml", plan);

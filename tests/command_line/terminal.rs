@@ -102,7 +102,7 @@ fn neither_can_be_written_and_nothing_panics() {
     }
 }
 
-/// What a file holds or is called is shown, and not obeyed by a terminal.
+/// Texts and names of files are shown, and not obeyed by a terminal.
 #[test]
 fn texts_of_files_do_not_reach_the_terminal_as_they_stand() {
     let place = Place::new();

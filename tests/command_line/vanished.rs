@@ -11,7 +11,7 @@ fn remove(folder: &Path) {
     }
 }
 
-/// What a command ends with whose folder of this name is removed after its first checkpoint.
+/// Exit status and message of a command whose folder of this name is removed after its first checkpoint.
 fn without(work: &Work, place: &crate::program::Place, removed: &str) -> (ExitStatus, String) {
     let mut child = work.start(place, "out", "1");
     assert!(has_gone_on(&mut child, place, "out-store"), "{}: over before anything could be removed", work.name);

@@ -30,7 +30,7 @@ const STRESS: f64 = 500.0;
 /// Pressure that keeps grains below their yield `[Pa]`.
 const CONFINEMENT: f64 = 5000.0;
 
-/// What is prescribed in the periodic unit box, and what follows from it.
+/// Field prescribed in the periodic unit box, and the exact value that follows from it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Field {
     /// p = P Π cos k x_i: −∇p/ρ.

@@ -120,7 +120,7 @@ fn a_frozen_disorder_of_the_particles_lowers_the_viscosity() {
     }
 }
 
-/// What (11) makes of the viscosity for this flow on a square lattice, by hand: to the lowest order in kΔ the force
+/// Viscosity factor of (11) for this flow on a square lattice, by hand: to the lowest order in kΔ the force
 /// is 2 ν k² u times −2 Σ V F (x⁴ − x²y²)/(r² + (0.01 h)²), which tends to one in the continuum.
 fn lattice_factor(smoothing_ratio: f64) -> f64 {
     let kernel = Kernel::<2>::new(KernelShape::WendlandC2, smoothing_ratio);

@@ -86,7 +86,7 @@ fn the_commands_of_every_tutorial_work() {
     assert!(done >= 12, "{done} commands");
 }
 
-/// What `mdbook build` has made, for `tests/documentation/book.sh`.
+/// Links in the output of `mdbook build`, for `tests/documentation/book.sh`.
 #[test]
 #[ignore = "needs a book that mdbook has built: bash tests/documentation/book.sh"]
 fn every_link_of_the_built_book_leads_somewhere() {

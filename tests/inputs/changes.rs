@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use serde_json::Value;
 
-/// What may be changed: a dotted path, with values that fit its type and values that do not.
+/// Field that may be changed: a dotted path, with values that fit its type and values that do not.
 #[derive(Debug, Clone)]
 pub(crate) struct Leaf {
     pub(crate) path: String,
@@ -29,7 +29,7 @@ const NUMBERS: [&str; 27] = [
 const COUNTS: [&str; 14] =
     ["-1", "0", "1", "2", "3", "4", "5", "17", "1000", "1001", "100000", "1000000", "9223372036854775807", "1.5"];
 
-/// What is of no number's type.
+/// Values of other types than numbers.
 const OTHERS: [&str; 7] = ["\"\"", "\"word\"", "true", "[]", "{}", "2024-01-01", "[[[]]]"];
 
 /// The list of `bagnold dev verify`: with its settings a case takes a moment.

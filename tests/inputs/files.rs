@@ -12,7 +12,7 @@ use proptest::strategy::ValueTree;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// What a slip of the hand puts into a text.
+/// Texts that a typing mistake inserts.
 const SLIPS: [&str; 24] = [
     "",
     "\"",

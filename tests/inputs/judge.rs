@@ -1,4 +1,4 @@
-//! What becomes of a generated input.
+//! Judgement of a generated input.
 
 use crate::changes::{Input, inputs};
 use bagnold_harness::case::{Changes, PreparedCase, Silent, Tier, execute};
@@ -14,7 +14,7 @@ use std::time::Duration;
 /// A refusal, or the check of what is taken, must not take longer.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// What is expected to take longer on one core is taken as given and not computed `[s]`.
+/// Expected time on one core above which an input is taken as given and not computed `[s]`.
 const WORTH_COMPUTING: f64 = 0.3;
 
 /// A run that is expected to take a third of a second and takes longer than this on a busy machine is endless.
@@ -23,7 +23,7 @@ const LONGEST_RUN: Duration = Duration::from_secs(120);
 /// Longest message `[characters]`.
 const LONGEST_MESSAGE: usize = 1500;
 
-/// How many inputs are tried, unless `BAGNOLD_INPUTS` says otherwise.
+/// Number of inputs that are tried, unless `BAGNOLD_INPUTS` sets another.
 const USUAL: u32 = 300;
 
 #[derive(Debug, Default)]

@@ -21,7 +21,7 @@ fn pair(artificial_viscosity: f64, relative: Vector<2>) -> Scene<2> {
     Scene { numerics, rheology: Rheology::Newtonian(Newtonian { viscosity: 0.0 }), ..open_scene(flow) }
 }
 
-/// What an artificial viscosity adds to the relative velocity in the first step, over that step `[m/s²]`.
+/// Contribution of an artificial viscosity to the relative velocity in the first step, over that step `[m/s²]`.
 fn added(artificial_viscosity: f64, relative: Vector<2>) -> Vector<2> {
     let after = |coefficient| {
         let mut simulation = simulation(pair(coefficient, relative));

@@ -26,7 +26,7 @@ const GRAVITY: f64 = 9.81;
 const WITHOUT_FRICTION: f64 = 3.78;
 /// γH/c over tan(45° + φ/2) of cuts with friction.
 const WITH_FRICTION: f64 = 3.83;
-/// What the crest goes down as the cut falls, over the height `[-]`.
+/// Settlement of the crest at which a cut counts as falling, over the height `[-]`.
 const FALLING: f64 = 0.005;
 
 /// A face of some rows, soil behind it for one and a half heights, in front for one and below for half of one, on a rough base between
@@ -115,7 +115,7 @@ impl Cut {
         }
     }
 
-    /// Where the particle at the upper end of the face is among all.
+    /// Index of the particle at the upper end of the face.
     fn crest(scene: &Scene<2>) -> usize {
         let near = |index: &usize| (scene.flow.position[*index] - Vector::<2>::new(0.0, HEIGHT)).norm();
         (0..scene.flow.position.len()).min_by(|a, b| near(a).total_cmp(&near(b))).expect("particles")

@@ -10,7 +10,7 @@ use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
-/// What the coupling adds to every density in the first step `[kg/m³]`, and the densities before it.
+/// Change of every density by the coupling in the first step `[kg/m³]`, and the densities before it.
 fn effect<const D: usize>(scene: &Scene<D>) -> (Vec<f64>, Vec<f64>)
 where
     Simulation<D>: Compiled<D>,

@@ -78,8 +78,8 @@ fn falling(law: SofteningDruckerPrager) -> Scene<2> {
     scene
 }
 
-/// What the ledger books as plastic is Σ V ∫ (τ dκ − p de), up to p/2K of the second part, and what elastic energy is lost with the pressure; and with
-/// that entry the ledger closes.
+/// Plastic work of the ledger: Σ V ∫ (τ dκ − p de), up to p/2K of the second part, and the elastic energy that is lost
+/// with the pressure; with that entry the ledger closes.
 #[test]
 fn dilation_takes_its_part_of_the_plastic_work_of_the_ledger() {
     let law = SofteningDruckerPrager { peak_cohesion: 200.0, residual_cohesion: 50.0, ..SAND };

@@ -46,7 +46,7 @@ fn a_disordered_block_loses_what_its_terms_dissipate() {
     }
 }
 
-/// What cases and scenes leave open of the largest work.
+/// Largest residual of cases and scenes over the largest work `[-]`.
 const OPEN: f64 = 0.005;
 
 /// Every term of the scheme off, and short steps.
@@ -76,7 +76,7 @@ fn accounts(scene: Scene<2>, end: f64) -> Vec<(f64, EnergyAccount)> {
     accounts
 }
 
-/// What stays open over the largest work, if the ledger has an error.
+/// Residual over the largest work, if the ledger has an error.
 fn open(accounts: &[(f64, EnergyAccount)], error: impl Fn(&mut EnergyLedger)) -> f64 {
     let mut book = EnergyBook::default();
     for (time, account) in accounts {

@@ -1,4 +1,4 @@
-//! What a law keeps of each particle: its diffusion, and that it goes with the particle.
+//! Field that a law keeps of each particle: its diffusion, and its transport with the particle.
 
 use crate::determinism::column;
 use crate::patches::{

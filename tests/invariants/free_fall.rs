@@ -1,4 +1,4 @@
-//! What a block without contact does: its masses are exact, its shape stays, it falls with g.
+//! Free fall of a block without contact: its masses are exact, its shape stays, it falls with g.
 
 use crate::patches::{Disorder, SPACING, advance, bed, block, open_scene, simulation};
 use bagnold_solver::vector::Vector;

@@ -1,4 +1,4 @@
-//! What must hold in every run, whatever the case: balances, symmetries, determinism, exact messages.
+//! Invariants of every run, whatever the case: balances, symmetries, determinism, exact messages.
 
 mod artificial_viscosity;
 mod cuts;

@@ -1,4 +1,4 @@
-//! What a law keeps beside its field: numbers of its own, which go with the particle.
+//! Memory of a law beside its field: numbers of its own, which go with the particle.
 
 use crate::determinism::column;
 use crate::patches::{GRAINS, SPACING, advance, simulation};

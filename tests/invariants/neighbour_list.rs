@@ -10,7 +10,8 @@ use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 use rand::RngExt;
 
-/// How much farther than the search radius a neighbour may be, relative to it `[-]`: distances are taken in single precision.
+/// Largest excess of a neighbour's distance over the search radius, relative to it `[-]`: distances are in single
+/// precision.
 const ROUNDING: f64 = 1e-6;
 
 /// A position and all its images, the position first; none along open axes.

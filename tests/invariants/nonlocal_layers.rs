@@ -34,7 +34,7 @@ fn law(surface: FieldBoundary) -> Rheology {
     Rheology::NonlocalMuI(NonlocalMuI { surface, ..NonlocalMuI::of(BEADS) })
 }
 
-/// How a layer moves at the start: velocity `[m/s]` and shear rate `[1/s]` at a height `[m]`, and tanθ of its stress.
+/// Motion of a layer at the start: velocity `[m/s]` and shear rate `[1/s]` at a height `[m]`, and tanθ of its stress.
 struct Start<'a> {
     velocity: &'a (dyn Fn(f64) -> f64 + Sync),
     shear_rate: &'a (dyn Fn(f64) -> f64 + Sync),

@@ -1,4 +1,4 @@
-//! When a chute of the nonlocal law flows: the case `nonlocal-shear` judges how it does.
+//! Onset of flow in a chute of the nonlocal law: the case `nonlocal-shear` judges the flow itself.
 
 use crate::nonlocal_layers::on_one_thread;
 use bagnold_cases::nonlocal_shear::{

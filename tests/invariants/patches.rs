@@ -35,7 +35,7 @@ pub(crate) const GRAINS: Rheology = Rheology::MuI(MuI {
 
 pub(crate) const SYRUP: Rheology = Rheology::Newtonian(Newtonian { viscosity: 20.0 });
 
-/// How far from a lattice at rest a block is.
+/// Deviation of a block from a lattice at rest.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Disorder {
     /// Largest displacement along each axis, in spacings `[-]`.

@@ -145,8 +145,9 @@ fn crept(side_walls: Option<SideWalls>, density_coupling: f64) -> (f64, f64) {
     (way / count / SPACING, still / count)
 }
 
-/// What holds grains does not make them creep: the whole layer comes to rest to the last bit. The density–pressure coupling alone
-/// goes on in it, as it does without side walls, since the pressure of grains that walls hold is not smooth.
+/// Friction of side walls does not make grains creep: the whole layer comes to rest to the last bit. The
+/// density–pressure coupling alone goes on in it, as it does without side walls, since the pressure of grains that
+/// walls hold is not smooth.
 #[test]
 fn a_layer_at_rest_does_not_creep_by_its_side_walls() {
     assert_eq!(crept(Some(WALLS), 0.0), (0.0, 1.0));

@@ -78,8 +78,8 @@ fn falling() -> Simulation<2> {
     simulation(scene)
 }
 
-/// What the ledger books as plastic is Σ V ∫ τ dκ, with the strains of the particles, and what elastic energy they lose with their
-/// pressure; and with that entry the ledger closes.
+/// Plastic work of the ledger: Σ V ∫ τ dκ, with the strains of the particles, and the elastic energy that they lose
+/// with their pressure; with that entry the ledger closes.
 #[test]
 fn the_strain_of_the_particles_is_the_plastic_work_of_the_ledger() {
     let mut simulation = falling();

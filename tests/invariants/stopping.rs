@@ -1,4 +1,4 @@
-//! How a run ends: finished, stopped by its observer, or diverged with a message that says where and why.
+//! End of a run: finished, stopped by its observer, or diverged with a message that names place and reason.
 
 use crate::patches::{Disorder, SOUND_SPEED, SPACING, block, open_scene, simulation};
 use bagnold_solver::material::rheology::ViscousLaw;

@@ -1,4 +1,4 @@
-//! What walls, mirrors, gates and contacts give to the flow: with gravity it is all the momentum that the flow gains.
+//! Momentum from walls, mirrors, gates and contacts: with gravity it is all the momentum that the flow gains.
 
 use crate::patches::{Disorder, SPACING, SYRUP, bed, block, open_scene, simulation};
 use bagnold_solver::domain::{AxisBoundary, Domain};

@@ -1,5 +1,5 @@
-//! What the paper says of its pairwise operators near a free surface, which the recipe does not use: (10) pushes where the pressure is
-//! uniform, and (11) is far off there.
+//! Pairwise operators near a free surface, as the paper describes them: (10) pushes where the pressure is uniform, and
+//! (11) is far off there. The default numerics do not use them.
 
 use crate::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, SPACING, SYRUP, block, exact_pairs, open_scene, simulation,

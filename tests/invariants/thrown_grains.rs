@@ -16,7 +16,7 @@ const SPRAY: usize = 6;
 const LOOSE: f64 = 0.35;
 /// Rate at which the spray flies apart `[1/s]`: no two grains are in each other's reach after 0.1 s.
 const DIVERGENCE: f64 = 40.0;
-/// When all have come down and lie still `[s]`.
+/// Time at which all grains have come down and lie still `[s]`.
 const END: f64 = 1.0;
 
 /// The densities of grains alone bound those of all, and all grains end in the heap.

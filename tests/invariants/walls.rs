@@ -1,4 +1,4 @@
-//! What walls carry: hydrostatic pressures and linear profiles continued behind the surface.
+//! Fields carried by walls: hydrostatic pressures and linear profiles continued behind the surface.
 
 use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, bed, block, open_scene, simulation};
 use bagnold_solver::domain::AxisBoundary;

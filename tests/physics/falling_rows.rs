@@ -1,10 +1,11 @@
 //! Rows of the papers fall when what they state is false: of twenty drawn rows that count as reproduced, the numbers that their metrics
 //! read are broken, and each row has to lose its status.
 //!
-//! What is broken is what a metric measures, never the row or the gate. A number is broken by a quarter, to either side; an error, a
-//! residual or a loss becomes a quarter of its scale; what has a sense but no number has its sign or, where it is a ratio, its trend
-//! turned round. A quarter is more than any number of the two papers is known to, and less than what turns any of their statements into
-//! another. `BAGNOLD_ALL_ROWS=1` asks every row that metrics reproduce; rows that rest on tests alone are not asked.
+//! The value that a metric measures is broken, never the row or the gate. A number is broken by a quarter, to either
+//! side; an error, a residual or a loss becomes a quarter of its scale; what has a sense but no number has its sign or,
+//! where it is a ratio, its trend turned round. A quarter is more than any number of the two papers is known to, and
+//! less than what turns any of their statements into another. `BAGNOLD_ALL_ROWS=1` asks every row that metrics
+//! reproduce; rows that rest on tests alone are not asked.
 
 use bagnold_harness::case::{Changes, Silent, Tier, execute};
 use bagnold_harness::evidence::{Element, MetricName, PAPERS};

@@ -7,12 +7,12 @@ use bagnold_harness::case::{Parameters, Run, Silent, Tier};
 
 /// Relative change that the drift snapshots allow `[-]`.
 const TOLERANCE: f64 = 1e-3;
-/// What the stopping time may change here `[-]`: the front creeps over its last percent, so that a thousandth of its way
-/// is a hundredth of its time. The drift snapshots repeat to the bit and need no such allowance.
+/// Allowed relative change of the stopping time `[-]`: the front creeps over its last percent, so that a thousandth of
+/// its way is a hundredth of its time. The drift snapshots repeat to the bit and need no such allowance.
 const STOPPING_TIME_TOLERANCE: f64 = 1e-2;
 
-/// What the run-out may change here `[-]`: a grain more or less in the toe, which counts by its mass, moves the front by
-/// 0.57 spacings.
+/// Allowed relative change of the run-out `[-]`: a grain more or less in the toe, which counts by its mass, moves the
+/// front by 0.57 spacings.
 const RUN_OUT_TOLERANCE: f64 = 1.2e-2;
 
 /// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.

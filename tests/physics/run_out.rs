@@ -1,4 +1,4 @@
-//! How far a column runs out: the measurement at rest, and what the default resolution is known to.
+//! Run-out of columns: the measurement at rest, and the uncertainty at the default resolution.
 
 use bagnold_cases::collapse::Collapse;
 use bagnold_cases::collapse::planar::{ColumnPlanar, ColumnPlanarParameters};
@@ -48,8 +48,9 @@ fn a_column_that_does_not_move_has_no_run_out() {
     }
 }
 
-/// What columns of a = 0.5 approach: means over 40, 80 and 160 particles over the half width were 0.982, 0.949 and 0.935 by the
-/// thickness in bins of 0.1 r_0, which does not know rows, so of order 1.2; 0.962, 0.954 and 0.935 by rows.
+/// Run-out that columns of a = 0.5 approach: means over 40, 80 and 160 particles over the half width were 0.982, 0.949
+/// and 0.935 by the thickness in bins of 0.1 r_0, which does not know rows, so of order 1.2; 0.962, 0.954 and 0.935 by
+/// rows.
 const APPROACHED: f64 = 0.924;
 
 #[test]

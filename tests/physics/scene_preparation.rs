@@ -1,4 +1,5 @@
-//! What a scene is before it runs: settled bodies rest when they are released, and the cost that is said is the cost that is taken.
+//! State of a scene before it runs: settled bodies rest when they are released, and the stated cost is the cost that is
+//! taken.
 
 use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_harness::store::{Store, StorePolicy};

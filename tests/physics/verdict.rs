@@ -36,7 +36,7 @@ pub(crate) fn assert_gates(case: &str, tier: Tier) {
     }
 }
 
-/// What is wrong, a line each: diverged runs, failed gates, contradictions of the list of known failures.
+/// Complaints about a result, a line each: diverged runs, failed gates, contradictions of the list of known failures.
 pub(crate) fn complaints(result: &CaseResult, list: &KnownFailures, tier: Tier) -> Vec<String> {
     let diverged = result.unexpected_divergences().map(|run| match &run.outcome {
         Outcome::Diverged { message, .. } => format!("  [{}] {message}", run.variant),

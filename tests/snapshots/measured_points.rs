@@ -1,4 +1,4 @@
-//! How much is judged by measured points: neither by formulas nor by solvers of this project.
+//! Quantities judged by measured points: neither by formulas nor by solvers of this project.
 
 use bagnold_harness::case::{Changes, Silent, Tier, execute};
 use bagnold_harness::evidence::{ReferenceKind, shipped_table, shipped_tables};
@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 
 /// Cases that measured points judge.
 const CASES: [&str; 5] = ["column-planar", "column-round", "water-column", "settling", "bed-load-1d"];
-/// What the quick tier judges by measured points at least.
+/// Least numbers of quantities and data sets that the quick tier judges by measured points.
 const QUANTITIES: usize = 12;
 const DATA_SETS: usize = 6;
 

@@ -1,5 +1,5 @@
-//! What the workspace depends on, by the rules of `deny.toml`: licences, crates and where they come from. Licences are those of this
-//! platform's crates; `.ci/run` asks cargo-deny for all.
+//! Dependencies of the workspace, by the rules of `deny.toml`: licences, crates and their sources. Licences are those
+//! of this platform's crates; `.ci/run` asks cargo-deny for all.
 
 use crate::source::workspace;
 use std::process::Command;

@@ -92,7 +92,7 @@ fn blanked(text: &str) -> String {
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// Where the comment, text or character that begins here ends; `at` if none does.
+/// End of the comment, text or character that begins here; `at` if none does.
 fn skipped(bytes: &[u8], at: usize) -> usize {
     let rest = &bytes[at..];
     let find = |needle: &[u8], from: usize| {

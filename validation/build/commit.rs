@@ -20,7 +20,7 @@ pub(crate) fn commit(workspace: &Path, sources: &[&str]) -> Option<String> {
     Some(if changes.is_empty() { head } else { head + CHANGED })
 }
 
-/// What git prints.
+/// Output of git.
 fn git(workspace: &Path, arguments: &[&str]) -> Option<String> {
     let mut command = Command::new("git");
     // a build that another repository's hook started must not look there

@@ -9,11 +9,11 @@ use crate::evidence::{
 use crate::metric::{ComparisonPart, Confidence, Metric, MetricKind};
 use std::collections::BTreeSet;
 
-/// How far a value with all inputs at their own may have moved since its table was made, relative to it: a derivative of a result that is
-/// another by a hundredth is another by about as much, of which an uncertainty with two digits shows nothing.
+/// Largest relative change of a value with nominal inputs since its table was made: a derivative of a result that
+/// changes by a hundredth changes by about as much, of which an uncertainty with two digits shows nothing.
 const MOVED: f64 = 0.01;
 
-/// What is accepted of the paper tier.
+/// Baseline comparisons of the paper tier.
 const PAPER: &str = include_str!("../harness/snapshots/comparisons/paper.csv");
 
 /// Names of all cases that state ranges.
@@ -23,7 +23,7 @@ fn stating() -> impl Iterator<Item = (&'static str, &'static StatedUncertainty)>
     all.filter(|(_, stated)| !stated.ranges.is_empty())
 }
 
-/// What makes a table one of another program, line by line.
+/// Differences of a table from the current program, line by line.
 fn stale(
     case: &str,
     stated: &StatedUncertainty,

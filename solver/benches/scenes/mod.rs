@@ -17,7 +17,7 @@ const GRAVITY: f64 = 9.81;
 const HEIGHT: f64 = 1.0;
 const DENSITY: f64 = 1000.0;
 
-/// What is stepped.
+/// Material and numerics of a benchmark scene.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Law {
     /// Plain WCSPH: pairwise operators, no coupling, no damping but (15), about 20 neighbours.

@@ -30,7 +30,7 @@ const GRAIN: f64 = 0.005;
 const LAW: MixingLength = MixingLength { shape: MixingLengthShape::Parabolic, origin_offset: 6e-4 };
 const WALL: RoughWall = RoughWall { sand_roughness: GRAIN };
 
-/// What flows.
+/// Benchmark scenes with water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Displaced particles of water that come to rest, laminar.

@@ -1,5 +1,5 @@
-//! What can leave its range in an incompressible run, and the rules. A failed step, as the passes see it, is a row of the
-//! velocity system and such a quantity, without a place and a time.
+//! Quantities that can leave their range in an incompressible run, and the rules. A failed step, as the passes see it,
+//! is a row of the velocity system and such a quantity, without a place and a time.
 
 use super::numerics::MOST_ITERATIONS;
 
@@ -56,7 +56,7 @@ impl Quantity {
     }
 }
 
-/// What left its range.
+/// Failure of a step: a row of the velocity system, and its quantity that left its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Failure {
     /// Row of the velocity system: the fluid's free particles first, then the sediment's.

@@ -16,7 +16,7 @@ pub struct IncompressibleSimulation<const D: usize> {
     pub(super) state: State<D>,
 }
 
-/// What the linear solves and the searches of a run have cost.
+/// Cost of a run: iterations of its linear solves, and searches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SolverCost {
     /// Iterations of the implicit velocities.
@@ -60,7 +60,8 @@ impl IncompressibleSimulation<2> {
     }
 }
 
-/// What takes a loop over particles stands here and not with the reading functions below, so that it is compiled with the solver.
+/// Methods that loop over particles: here and not with the reading functions below, so that they are compiled with the
+/// solver.
 impl IncompressibleSimulation<2> {
     /// Force of walls and fixed grains on the fluid and the sediment in the last step `[N]`, per metre of width in 2-D:
     /// friction and drag, without what the walls' pressure gives.
@@ -144,7 +145,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
         self.state.steps
     }
 
-    /// What the run has cost.
+    /// Iterations and searches of the run so far.
     #[must_use]
     pub fn cost(&self) -> SolverCost {
         let State { system, projection, search, .. } = &self.state;

@@ -33,7 +33,7 @@ pub(super) struct State<const D: usize> {
     pub(super) last_step: f64,
 }
 
-/// What every kind of sediment has; arrays have the shape `[free particles]`.
+/// Fields common to every kind of sediment; arrays have the shape `[free particles]`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SedimentParticles<'s, const D: usize> {
     pub(super) position: &'s [Vector<D>],

@@ -1,5 +1,5 @@
-//! How much of the space the grains take, over the height above the bed, and what follows from it: the volume-fraction
-//! form of the equations.
+//! Solid fraction over the height above the bed, and the overburden and mixing length that follow from it: the
+//! volume-fraction form of the equations.
 //!
 //! φ(z) is given, one for the whole of a flat bed, or that of the columns of grains that dilate, between whose middles it
 //! changes along straight lines.
@@ -72,7 +72,7 @@ pub struct Stratification {
     mixing_length: Vec<f64>,
 }
 
-/// What the stratification is at a height.
+/// Values of the stratification at a height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Stratum {
     /// φ `[-]`.
@@ -105,7 +105,7 @@ impl Stratification {
         new
     }
 
-    /// What the integrals are of; φ column by column.
+    /// Strata over which the integrals are taken; φ column by column.
     #[must_use]
     pub fn strata(&self) -> &Strata {
         &self.strata

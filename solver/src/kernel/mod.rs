@@ -50,7 +50,7 @@ impl<const D: usize> Kernel<D> {
         }
     }
 
-    /// Which it is.
+    /// Shape of the kernel.
     #[must_use]
     pub fn shape(&self) -> KernelShape {
         self.shape

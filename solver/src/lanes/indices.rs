@@ -143,11 +143,11 @@ impl TryFrom<PackedIndices> for CheckedIndices {
     }
 }
 
-/// How much longer than what it holds the room for a list may be: a file must not buy all memory.
+/// Largest room for a list over its contents: a file must not buy all memory.
 const LARGEST_SPARSITY: usize = 1 << 12;
 
 impl CheckedIndices {
-    /// What every index is below.
+    /// Exclusive upper bound of every index.
     #[must_use]
     pub fn bound(&self) -> usize {
         self.bound

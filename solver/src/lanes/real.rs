@@ -1,4 +1,4 @@
-//! What a formula needs of a number, so that one formula serves a single value and eight lanes alike.
+//! Arithmetic that a formula requires of a number, so that one formula serves a single value and eight lanes alike.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -8,7 +8,7 @@ use super::descent::{Descent, Stalled, descend};
 use super::reductions::{BLOCK, Unknown, dot, sum_of_blocks, weighted_square};
 use crate::parallel::prelude::*;
 
-/// What a residual is turned into a direction with.
+/// Preconditioner that turns a residual into a direction.
 pub(crate) trait Preconditioner<T: Unknown> {
     /// Weights of the residual's norm: the inverse diagonal, 0 for a row that is no unknown.
     fn weights(&self) -> &[f64];
@@ -29,7 +29,7 @@ impl<T: Unknown> Preconditioner<T> for Vec<f64> {
     }
 }
 
-/// When a solve ends.
+/// Stopping criterion of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Criterion {
     /// Norm of the residual over that of the right-hand side `[-]`, both weighted with the inverse diagonal.

@@ -26,7 +26,7 @@ pub(crate) struct IncompleteCholesky {
     stride: usize,
     /// L_ab within the block, row after row without gaps; the column counts from the block's first row.
     lower: Vec<(u32, f32)>,
-    /// Where a row ends, counted from the block's start.
+    /// End of each row, counted from the block's start.
     end: Vec<u32>,
     /// 1/P_a, or 0 for a row that is no unknown.
     inverse_pivot: Vec<f64>,

@@ -63,7 +63,7 @@ impl Coefficients for Single {
     }
 }
 
-/// What single precision keeps of a coefficient: sums over a row are taken of these, so that row and sum agree.
+/// Value of a coefficient in single precision: sums over a row are taken of these, so that row and sum agree.
 #[inline(always)]
 pub(crate) fn single(coefficient: f64) -> f64 {
     f64::from(coefficient as f32)
@@ -80,7 +80,7 @@ pub(crate) struct LaneRows<C> {
     count: Vec<u32>,
     /// Chunks of every group.
     width: Vec<u32>,
-    /// Which version of a pattern the columns are.
+    /// Version of the pattern that the columns come from.
     pattern: u64,
     set: InstructionSet,
 }

@@ -1,6 +1,6 @@
 //! Dilatancy of sheared grains: φ = φ_max/(1 + B I) with I = γ̇ d √(ρ_s/p) (Maurin et al. 2016 for bed load).
 
-/// How grains dilate.
+/// Dilatancy of sheared grains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dilatancy {
     /// Dilation B `[-]`, ≥ 0.

@@ -1,4 +1,4 @@
-//! What loops go through: slices, chunks of slices, and several of them side by side.
+//! Items of parallel loops: slices, chunks of slices, and several of them side by side.
 
 /// Items of known number that can be divided.
 pub(crate) trait Items: Sized + Send {
@@ -16,7 +16,7 @@ pub(crate) trait Items: Sized + Send {
     }
 }
 
-/// What has items.
+/// Conversion into the items of a parallel loop.
 pub(crate) trait IntoItems {
     /// Its items.
     type Items: Items;
@@ -197,7 +197,7 @@ impl<I: Items> Items for Enumerated<I> {
     }
 }
 
-/// What a function makes of items.
+/// Results of a function for each item.
 #[derive(Debug)]
 pub(crate) struct Mapped<I, F> {
     pub(super) items: I,

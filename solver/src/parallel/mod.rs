@@ -23,7 +23,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Parts for each thread: enough that no one waits long for the last.
 const PARTS: usize = 8;
 
-/// What loops do with their items.
+/// Operations of parallel loops on their items.
 pub(crate) trait Parallel: Items {
     /// Each item with its number.
     fn enumerate(self) -> Enumerated<Self> {
@@ -35,7 +35,7 @@ pub(crate) trait Parallel: Items {
         WithLeast { items: self, least }
     }
 
-    /// What `function` makes of each item.
+    /// Results of `function` for each item.
     fn map<R, F: Fn(Self::Item) -> R + Clone + Send>(self, function: F) -> Mapped<Self, F> {
         Mapped { items: self, function }
     }

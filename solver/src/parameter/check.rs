@@ -4,7 +4,7 @@ use super::{ParameterProblem, Shape, Variant, shortened};
 use serde_json::Value as Schema;
 use toml::{Table, Value};
 
-/// What is wrong with one field; paths are dotted, with the index in a list: `slopes[1]`.
+/// Fault of one field; paths are dotted, with the index in a list: `slopes[1]`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
     /// There is no such field.
@@ -25,7 +25,7 @@ pub enum Fault {
         path: String,
         /// The value as written; none if it takes more than a line.
         value: Option<String>,
-        /// What it must be, completing "must be …".
+        /// Rule that the value breaks, completing "must be …".
         rule: String,
         /// The name that is none of an enum's, and the enum's names.
         choice: Option<(String, Vec<String>)>,
@@ -51,7 +51,7 @@ pub fn first_fault(schema: &Schema, value: &Value) -> Option<Fault> {
     Place { path: String::new() }.fault(schema, value)
 }
 
-/// Where the checker stands.
+/// Path of the value that the checker visits.
 struct Place {
     path: String,
 }
@@ -228,7 +228,7 @@ fn broken_list(rule: &Schema, values: &[Value]) -> Option<(Option<usize>, String
     Some((Some(twin), "unique".to_owned()))
 }
 
-/// What a value of a shape is called, without the words of Rust's type system.
+/// Name of a value of a shape, without the words of Rust's type system.
 fn kind_in_words(shape: &Shape<'_>) -> String {
     match shape {
         Shape::Fields { .. } | Shape::Tagged { .. } => "a table of fields",

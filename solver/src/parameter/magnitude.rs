@@ -1,4 +1,4 @@
-//! How large and how small a number may be, by its unit: what no rule of a field bounds, its unit does.
+//! Largest and smallest size of a number by its unit: the unit bounds what no rule of a field bounds.
 //!
 //! The unit stands in the field's doc comment, `[m]`, and so in the schema's description. The bounds are far outside of
 //! what any scene of grains and water asks for; they stop what is mistyped or given in another unit before it becomes an
@@ -32,7 +32,7 @@ pub(super) fn bound(schema: &mut Value) {
     Walk { units: Vec::new(), is_seed: false }.visit(schema);
 }
 
-/// What is known of a number from what it lies in.
+/// Context of a number, from the schema that encloses it.
 #[derive(Clone, Default)]
 struct Walk {
     /// Units that the nearest description names, in its order.

@@ -20,7 +20,8 @@
 //! );
 //! ```
 //!
-//! What no rule bounds, the unit does: a length of 1e308 m is refused wherever it stands, and so is an angle of 1e-308°.
+//! The unit of a number bounds it where no rule does: a length of 1e308 m is refused wherever it stands, and so is an
+//! angle of 1e-308°.
 //!
 //! A rule that compares fields is a function of the struct that holds them.
 

@@ -10,7 +10,7 @@ pub struct ParameterProblem {
     pub value: String,
     /// The rule that it breaks, completing "must be …".
     pub rule: String,
-    /// What to do about it.
+    /// Remedy.
     pub remedy: String,
 }
 

@@ -1,4 +1,4 @@
-//! What a schema says of a value, as far as parameters need it.
+//! Shape of a value in a schema, as far as parameters need it.
 
 use serde_json::{Map, Value};
 

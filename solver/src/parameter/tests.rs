@@ -67,7 +67,7 @@ fn layer() -> toml::Value {
     toml::Value::try_from(&layer).expect("a table")
 }
 
-/// What is said of the layer with some fields replaced by those of a text.
+/// Message of the checker for the layer with some fields replaced by those of a text.
 fn said(change: &str) -> String {
     let mut layer = layer();
     let changed: toml::Table = toml::from_str(change).expect("TOML");

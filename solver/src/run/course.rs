@@ -1,4 +1,4 @@
-//! Where a run stands between its observations.
+//! Progress of a run between its observations.
 
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -27,7 +27,7 @@ impl RunProgress {
     }
 }
 
-/// Who watches a run, and may interrupt it between two steps.
+/// Observer of a run, which may interrupt it between two steps.
 pub trait Observer<S> {
     /// Sees a state that is due; [`ControlFlow::Break`] ends the run.
     fn observe(&mut self, simulation: &S) -> ControlFlow<()>;

@@ -1,4 +1,4 @@
-//! How a run diverges: which particle, where, when, which quantity. A frame: each model fills it with its own
+//! Divergence of a run: particle, place, time and quantity. A frame: each model fills it with its own
 //! quantities and the rules that they broke.
 
 use crate::vector::Vector;

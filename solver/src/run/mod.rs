@@ -1,4 +1,4 @@
-//! What the runs of both models have in common: the loop, how it ends, is interrupted and continued, and how it goes wrong.
+//! Runs of both models: their loop, end, interruption, continuation and divergence.
 
 mod course;
 mod divergence;

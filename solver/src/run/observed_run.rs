@@ -2,7 +2,7 @@
 
 use crate::run::{Divergence, Observer, RunProgress, StopReason};
 
-/// What can be run.
+/// Simulation that a run advances step by step.
 pub(crate) trait Stepping<const D: usize> {
     /// Time `[s]`.
     fn now(&self) -> f64;

@@ -1,8 +1,8 @@
-//! What is common to saved simulations: why one cannot be continued.
+//! Errors of saved simulations that cannot be continued, common to both models.
 
 use super::SceneError;
 
-/// Why a saved simulation is not continued.
+/// Reason why a saved simulation is not continued.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ContinueError {
     /// Its scene breaks a rule.
@@ -17,7 +17,7 @@ pub enum ContinueError {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the saved state has {found} {what}, but its scene has {expected}")]
 pub struct ForeignState {
-    /// What was counted.
+    /// Name of the items that were counted.
     pub what: &'static str,
     /// Number in the saved state.
     pub found: usize,

@@ -1,4 +1,4 @@
-//! Why a scene cannot be simulated.
+//! Errors of scenes that cannot be simulated.
 
 use crate::parameter::ParameterProblem;
 
@@ -11,7 +11,7 @@ pub enum SceneError {
     /// Arrays of different lengths.
     #[error("the flow's {array} has {found} entries, but there are {expected} positions")]
     Length {
-        /// Which array.
+        /// Name of the array.
         array: &'static str,
         /// Its length.
         found: usize,
@@ -23,7 +23,7 @@ pub enum SceneError {
     NoField {
         /// The law.
         law: &'static str,
-        /// How many values there are.
+        /// Number of values.
         found: usize,
     },
     /// A memory of particles whose law keeps nothing beside its field.
@@ -33,15 +33,15 @@ pub enum SceneError {
     NoMemory {
         /// The law.
         law: &'static str,
-        /// How many particles have one.
+        /// Number of particles with a memory.
         found: usize,
     },
     /// A value that is not finite or not positive where it must be.
     #[error("the {quantity} of particle {particle} is {value}, but must be {rule}")]
     Value {
-        /// Which quantity.
+        /// Name of the quantity.
         quantity: &'static str,
-        /// Which particle.
+        /// Index of the particle.
         particle: usize,
         /// The value.
         value: f64,
@@ -56,7 +56,7 @@ pub enum SceneError {
         "the period along axis {axis} is {length} m, but must be at least {least} m, the reach of the kernel; make the domain longer or the particles smaller"
     )]
     Period {
-        /// Which axis.
+        /// Index of the axis.
         axis: usize,
         /// Its period.
         length: f64,

@@ -1,8 +1,8 @@
-//! How a run ends.
+//! Reasons for the end of a run.
 
 use super::Divergence;
 
-/// How a run ended.
+/// Reason for the end of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum StopReason<const D: usize> {
     /// Reached its end time.

@@ -1,4 +1,4 @@
-//! What can leave its range in a weakly compressible run, and the rules.
+//! Quantities that can leave their range in a weakly compressible run, and the rules.
 
 /// A speed beyond this many sound speeds is a divergence `[-]`: weak compressibility has long been lost.
 pub(crate) const LARGEST_MACH_NUMBER: f64 = 3.0;

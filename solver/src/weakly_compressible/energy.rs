@@ -115,7 +115,7 @@ pub struct EnergyAccount {
     pub kinetic: f64,
     /// Energy of compression and of elastic shear.
     pub elastic: f64,
-    /// What came and went since the start.
+    /// Gains and losses of energy since the start.
     pub ledger: EnergyLedger,
 }
 
@@ -141,7 +141,7 @@ impl EnergyAccount {
         self.kinetic + self.elastic - self.ledger.gravity
     }
 
-    /// What the ledger does not explain of the change since a state before `[J]`: positive if energy came from nowhere.
+    /// Change since a state before that the ledger does not explain `[J]`: positive if energy came from nowhere.
     #[must_use]
     pub fn residual_since(&self, before: &Self) -> f64 {
         let (now, then) = (&self.ledger, &before.ledger);
@@ -185,7 +185,7 @@ fn compression_energy(equation_of_state: &EquationOfState, density: f64) -> f64 
     if free { 0.0 } else { specific_modulus * (libm::log1p(strain) - strain / (1.0 + strain)) }
 }
 
-/// What the velocity step of eight particles adds to the ledger.
+/// Contribution of the velocity step of eight particles to the ledger.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct VelocityStep<'a, V, const D: usize> {
     /// Masses, zero where there is no particle.
@@ -196,7 +196,7 @@ pub(crate) struct VelocityStep<'a, V, const D: usize> {
     pub(crate) before: &'a [V; D],
     /// After it, with the contact.
     pub(crate) end: &'a [V; D],
-    /// What a contact changed.
+    /// Velocity change by a contact.
     pub(crate) contact: &'a [V; D],
     /// Accelerations by walls' tractions, artificial terms, and hourglass control at walls `[m/s²]`.
     pub(crate) by_walls: &'a [V; D],
@@ -253,7 +253,7 @@ fn sum_of_lanes<V: Lanes>(lanes: V) -> f64 {
     lanes.to_array().iter().sum()
 }
 
-/// What pushes a particle after its velocity step, and so where its loss is booked.
+/// Cause of a push after the velocity step of a particle, and so the entry in which its loss is booked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PushCause {
     /// A contact with a wall of segments.
@@ -262,7 +262,7 @@ pub(crate) enum PushCause {
     SideWalls,
 }
 
-/// What a push adds that follows the velocity step of a particle.
+/// Contribution of a push that follows the velocity step of a particle to the ledger.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PushStep<'a, const D: usize> {
     pub(crate) mass: f64,
@@ -300,7 +300,7 @@ impl<const D: usize> PushStep<'_, D> {
     }
 }
 
-/// What the deformation of eight particles adds to the ledger.
+/// Contribution of the deformation of eight particles to the ledger.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DeformationStep<'a, V, const D: usize> {
     /// Volumes before the step, zero where there is no particle.
@@ -386,7 +386,7 @@ fn scaled_sum<V: Lanes, const D: usize>(factor: V, a: &[[V; D]; D], b: &[[V; D];
     sum
 }
 
-/// What the compression of eight particles adds to the ledger.
+/// Contribution of the compression of eight particles to the ledger.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CompressionStep<V> {
     /// Masses, zero where there is no particle.
@@ -417,7 +417,7 @@ impl<V: Lanes> CompressionStep<V> {
     }
 }
 
-/// What dilation makes of the compression of eight particles.
+/// Effect of dilation on the compression of eight particles in the ledger.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DilationStep<V> {
     /// Volumes, zero where there is no particle.

@@ -1,9 +1,9 @@
-//! What a law keeps of each particle beside its field, an array of a few values a particle.
+//! Memory that a law keeps of each particle beside its field, an array of a few values per particle.
 
 use crate::lanes::{LANES, Lanes};
 use crate::material::rheology::field::{LawField, MOST_MEMORIES, Memory};
 
-/// What particles begin with, if the law keeps anything.
+/// Initial memory of particles; none for a law without a memory.
 pub(crate) fn initial(memories: &[LawField]) -> Option<Memory<f64>> {
     let mut initial = Memory::default();
     for (value, memory) in initial.iter_mut().zip(memories) {

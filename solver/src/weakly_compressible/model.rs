@@ -13,7 +13,7 @@ use crate::weakly_compressible::numerics::{MomentumOperator, Numerics, Viscosity
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 
-/// What stays the same from step to step, except the neighbour list, which a search fills anew.
+/// Properties of a run that do not change from step to step. Only the neighbour list does: a search fills it anew.
 #[derive(Debug)]
 pub(crate) struct Model<const D: usize> {
     pub(crate) list: VerletList,
@@ -25,7 +25,7 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) spacing: f64,
     pub(crate) contact_friction: f64,
     pub(crate) instruction_set: InstructionSet,
-    /// What the law keeps of each particle.
+    /// Field that the law keeps of each particle.
     pub(crate) field: Option<LawField>,
     /// Whether it keeps anything beside.
     pub(crate) keeps_memory: bool,
@@ -35,11 +35,11 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) lone_density_per_mass: f64,
     /// Whether plastic flow changes the volume, so that the pressure depends on the field also.
     pub(crate) dilates: bool,
-    /// Where the law holds together.
+    /// Artificial stress of a cohesive law.
     pub(crate) artificial_stress: Option<ArtificialStress>,
 }
 
-/// What diffuses among pairs in the pass of continuity.
+/// Quantities that diffuse among pairs in the pass of continuity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PairDiffusion {
     /// Nothing.
@@ -70,7 +70,7 @@ impl<const D: usize> Model<D> {
         }
     }
 
-    /// What the momentum operator and the law need of the velocity gradient.
+    /// Use of the velocity gradient by the momentum operator and the law.
     pub(crate) fn gradient_use(&self) -> GradientUse {
         match self.numerics.momentum_operator {
             MomentumOperator::SingleDivergence | MomentumOperator::UncorrectedDivergence | MomentumOperator::ByLaw => {
@@ -91,7 +91,7 @@ impl<const D: usize> Model<D> {
         !self.rheology.is_solid() && self.gradient_use() == GradientUse::Stress
     }
 
-    /// How far the neighbour list reaches beyond the kernel `[m]`.
+    /// Reach of the neighbour list beyond the kernel `[m]`.
     pub(crate) fn skin(&self) -> f64 {
         self.numerics.verlet_skin * self.kernel.support()
     }
@@ -183,7 +183,8 @@ impl<const D: usize> Model<D> {
         self.numerics.pairs_in_single()
     }
 
-    /// What diffuses among pairs: the stress ratio of a law that carries its stress along, and a field of the law.
+    /// Quantities that diffuse among pairs: the stress ratio of a law that carries its stress along, and a field of the
+    /// law.
     #[inline(always)]
     pub(crate) fn pair_diffusion(&self) -> PairDiffusion {
         if self.field_diffusion().is_some() {
@@ -204,7 +205,7 @@ impl<const D: usize> Model<D> {
             && self.gradient_use() == GradientUse::Stress
     }
 
-    /// How the law's field spreads, if it does.
+    /// Diffusion of the law's field, if it diffuses.
     #[inline(always)]
     pub(crate) fn field_diffusion(&self) -> Option<FieldDiffusion> {
         self.field.and_then(|field| field.diffusion)
@@ -215,7 +216,7 @@ impl<const D: usize> Model<D> {
         self.field_diffusion().is_some_and(|diffusion| diffusion.surface == FieldBoundary::Vanishing)
     }
 
-    /// What of a particle is elastic, from an equivalent shear stress and a pressure `[Pa]`, and what the law keeps.
+    /// Elastic part of a particle, from an equivalent shear stress and a pressure `[Pa]`, and its field and memory.
     #[inline(always)]
     pub(crate) fn elasticity(&self, shear_stress: f64, pressure: f64, field: &FieldStep<f64>) -> f64 {
         self.rheology.elasticity(shear_stress, pressure, field, self.elastic_viscosity())

@@ -44,17 +44,17 @@ pub struct Particles<const D: usize> {
     pub(crate) pressure_gradient: Vec<Vector<D>>,
     /// Apparent viscosities `[Pa·s]`, for the pairwise operators.
     pub(crate) viscosity: Vec<f64>,
-    /// What the law keeps of each particle, in the unit of its [`LawField`](crate::material::rheology::field::LawField), zero on
-    /// walls; none of a law that keeps nothing.
+    /// Field of the law for each particle, in the unit of its [`LawField`](crate::material::rheology::field::LawField),
+    /// zero on walls; none for a law without a field.
     pub field: Option<Vec<f64>>,
-    /// What the law keeps beside its field, zero on walls; none of a law that keeps nothing there.
+    /// Memory of the law beside its field, zero on walls; none for a law without a memory.
     pub memory: Option<Vec<Memory<f64>>>,
-    /// What only wall particles have.
+    /// Fields of wall particles alone.
     pub(crate) walls: WallFields<D>,
     /// 0 for all real particles together, then for every image 1 if it is behind a mirror, and the sentinel `[-]`.
     pub(crate) mirrored: Vec<f64>,
 
-    /// Which particle this is: its place in the scene; what inlets feed is counted on from there.
+    /// Identity of each particle: its place in the scene; particles that inlets feed are counted on from there.
     pub identity: Vec<u32>,
     /// Masses `[kg]` (per metre of depth in 2-D).
     pub mass: Vec<f64>,
@@ -75,7 +75,7 @@ pub struct Particles<const D: usize> {
     /// Impulse that walls, mirrors and contacts have given each particle since the start `[kg m/s]`.
     pub(crate) support_impulse: Vec<Vector<D>>,
 
-    /// Which wall a wall particle belongs to, shape `[wall]`.
+    /// Wall of each wall particle, shape `[wall]`.
     pub(super) wall: Vec<u32>,
     pub(super) flow: usize,
 }
@@ -121,14 +121,14 @@ impl<const D: usize> Particles<D> {
         }
     }
 
-    /// What the law keeps of a particle, by its storage index.
+    /// Field and memory of a particle, by its storage index.
     #[inline(always)]
     pub(crate) fn kept(&self, index: usize) -> FieldStep<f64> {
         let field = self.field.as_ref().map_or(0.0, |field| field[index]);
         FieldStep::alone(field).with_memory(self.memory.as_ref().map_or(Memory::default(), |memory| memory[index]))
     }
 
-    /// What it keeps of eight flow particles.
+    /// Field and memory of eight flow particles.
     #[inline(always)]
     pub(crate) fn kept_by<V: Lanes>(&self, places: Range<usize>) -> FieldStep<V> {
         let field = self.field.as_ref().map_or(V::splat(0.0), |field| load::<V>(&field[places.clone()]));

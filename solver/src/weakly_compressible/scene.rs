@@ -1,4 +1,4 @@
-//! What a simulation starts from.
+//! Scene from which a weakly compressible simulation starts.
 
 use crate::domain::{AxisBoundary, Domain};
 use crate::material::equation_of_state::EquationOfState;
@@ -24,9 +24,9 @@ pub struct Flow<const D: usize> {
     pub mass: Vec<f64>,
     /// Deviatoric stresses `[Pa]`.
     pub stress: Vec<Tensor<D>>,
-    /// What the law keeps of each particle, in its own unit; empty for its initial value, and of a law that keeps nothing.
+    /// Field of the law for each particle, in its own unit; empty for its initial value, and for a law without a field.
     pub field: Vec<f64>,
-    /// What the law keeps beside its field; empty for its initial values, and of a law that keeps nothing there.
+    /// Memory of the law beside its field; empty for its initial values, and for a law without a memory.
     pub memory: Vec<Memory<f64>>,
 }
 

@@ -296,8 +296,8 @@ impl<const D: usize> Simulation<D> {
         &self.state.enclosure.books.inflow
     }
 
-    /// Where a particle that an inlet has fed began its way, a row behind the opening where it moved with its row `[m]`, and the
-    /// time at which it became free `[s]`; none for one of the start.
+    /// Entry of a particle that an inlet has fed: the start of its way, a row behind the opening where it moved with
+    /// its row `[m]`, and the time at which it became free `[s]`; none for a particle of the initial state.
     #[must_use]
     pub fn entry(&self, identity: u32) -> Option<(Vector<D>, f64)> {
         self.state.enclosure.entry(identity)

@@ -26,9 +26,9 @@ pub struct Snapshot<const D: usize> {
     pub pressure: Vec<f64>,
     /// Masses `[kg]`.
     pub mass: Vec<f64>,
-    /// What the law keeps of each particle, in its own unit; empty if that is nothing.
+    /// Field of the law for each particle, in its own unit; empty for a law without a field.
     pub field: Vec<f64>,
-    /// What the law keeps beside its field, in the order in which it declares it; empty if that is nothing.
+    /// Memory of the law beside its field, in the order in which the law declares it; empty for a law without a memory.
     pub memory: Vec<Memory<f64>>,
     /// Impulses that walls, mirror planes and contacts have given each particle since the start `[kg m/s]`; with the
     /// single divergence only.

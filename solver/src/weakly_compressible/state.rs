@@ -1,4 +1,4 @@
-//! What a run changes from step to step.
+//! State of a run that changes from step to step.
 
 use crate::kernel::Kernel;
 use crate::lanes::InstructionSet;

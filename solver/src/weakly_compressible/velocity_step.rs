@@ -56,7 +56,7 @@ impl<const D: usize> State<D> {
     }
 }
 
-/// What particles meet at plane walls.
+/// Plane walls that particles may touch.
 #[derive(Clone, Copy)]
 struct Touch<'a, const D: usize> {
     walls: &'a [Wall<D>],

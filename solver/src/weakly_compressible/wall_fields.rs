@@ -1,4 +1,4 @@
-//! What only wall particles have, and where images stand behind a mirror: arrays that leave the flow out.
+//! Fields of wall particles alone, and marks of images behind a mirror: arrays that leave the flow out.
 
 use crate::lanes::{LANES, LaneIndices, Lanes, gather};
 use crate::vector::Vector;

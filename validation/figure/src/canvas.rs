@@ -70,7 +70,7 @@ impl Ink {
     }
 }
 
-/// How a text is set.
+/// Typesetting of a text.
 #[derive(Clone, Copy)]
 pub(super) struct TextSpec {
     /// Font size `[px]`.

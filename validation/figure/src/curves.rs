@@ -1,4 +1,4 @@
-//! What is drawn inside the frame: bands, lines, references, points with error bars.
+//! Contents of the frame: bands, lines, references, points with error bars.
 
 use super::canvas::{Canvas, Ink, Point, Rectangle};
 use super::clip::{clip_chain, clip_polygon, dashes, thin};

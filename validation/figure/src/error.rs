@@ -1,14 +1,14 @@
-//! What can go wrong between a figure's data and its files.
+//! Errors between a figure's data and its files.
 
 use std::path::PathBuf;
 
-/// Why a figure was not drawn or written; the message completes "failed to …".
+/// Error in drawing or writing a figure; the message completes "failed to …".
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
     /// The font inside the program could not be registered.
     #[error("register the embedded font {style}: the font file is damaged, rebuild the program")]
     Font {
-        /// Which of the embedded fonts.
+        /// Name of the embedded font.
         style: &'static str,
     },
     /// The drawing library refused an element.
@@ -36,7 +36,7 @@ pub enum FigureError {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// Error from the system.
         source: std::io::Error,
     },
 }

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 /// Family name, as in the font's own name table and as browsers know it.
 pub(super) const FAMILY: &str = "DejaVu Sans";
 
-/// What a browser may take where DejaVu Sans is not installed; Verdana has the same widths.
+/// Font families with a fallback for browsers without DejaVu Sans; Verdana has the same widths.
 pub(super) const FAMILY_WITH_FALLBACK: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// plotters' text size is a line height, 1.24 times the em that it writes into the SVG.

@@ -15,7 +15,7 @@ use tiny_skia::Pixmap;
 
 /// Pixels of the animation over those of a figure's sheet: 800 px wide, what a page shows.
 const SCALE: f32 = 0.5;
-/// How long the last picture stays `[s]`.
+/// Duration of the last picture `[s]`.
 const LAST_SECONDS: f64 = 2.0;
 /// The palette's index for "as in the picture before".
 const UNCHANGED: u8 = 255;

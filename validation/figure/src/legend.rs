@@ -12,7 +12,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 /// Places for a legend along each side of a plot, less one.
 const STEPS: usize = 8;
 
-/// Where a legend stands.
+/// Position of a legend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LegendPosition {
     /// In a corner or at an edge of the plot that holds no data.

@@ -67,7 +67,7 @@ pub struct Axis {
     pub scale: Scale,
     /// Fixed limits; `None` fits the data.
     pub limits: Option<(f64, f64)>,
-    /// What a dimensionless axis is a ratio of, where it has one scale for all curves.
+    /// Quantity and scale of a dimensionless axis, for an axis with one scale for all curves.
     pub ratio: Option<AxisRatio>,
     /// Names of the places 1, 2, … of a vertical axis in place of numbers; empty for numbers.
     pub names: Vec<String>,
@@ -93,7 +93,7 @@ pub enum Scale {
     Logarithmic,
 }
 
-/// How a series is drawn.
+/// Mark of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mark {
     /// Solid line: a simulation that is continuous.
@@ -113,7 +113,7 @@ pub enum Mark {
 pub struct Series {
     /// Legend entry; empty for none.
     pub label: String,
-    /// How it is drawn.
+    /// Mark of the series.
     pub mark: Mark,
     /// Colour slot in the colour-blind safe palette; the same slot is the same run in every panel.
     pub colour: usize,

@@ -237,7 +237,7 @@ impl<'p> ScaledPanel<'p> {
 
 type Span = (Range, Scale);
 
-/// What both axes show, and whether there is anything to show.
+/// Ranges of both axes, and whether there is anything to show.
 fn ranges(panel: &Panel) -> (Span, Span, bool) {
     let fields: Vec<_> = panel.field.iter().chain(&panel.opposite).collect();
     if !fields.is_empty() {

@@ -1,4 +1,4 @@
-//! Where an axis has ticks, and what they are called.
+//! Ticks of an axis, and their labels.
 
 use super::Scale;
 use super::range::Range;

@@ -28,7 +28,7 @@ const SIGNALS: [Signal; 3] = [
     Signal { number: 1, name: "SIGHUP" },
 ];
 
-/// What the handlers of signals write.
+/// Flags that the signal handlers set.
 #[derive(Default)]
 struct Flags {
     asked: Arc<AtomicBool>,

@@ -81,7 +81,7 @@ pub fn superscript(number: i32) -> String {
         .collect()
 }
 
-/// How a number's digits are put.
+/// Format of a number's digits.
 struct Style {
     /// Powers of ten that are written out.
     plain: std::ops::Range<i32>,
@@ -90,7 +90,7 @@ struct Style {
     typeset: bool,
 }
 
-/// What becomes of zeros that end a fraction.
+/// Treatment of zeros that end a fraction.
 enum Zeros {
     Kept,
     Dropped,

@@ -13,7 +13,7 @@ pub struct PublishedGrains {
     pub law: MuI,
     /// Solid fraction φ `[-]`.
     pub solid_fraction: f64,
-    /// How sure the project is of them.
+    /// Confidence in the values.
     pub confidence: Confidence,
 }
 
@@ -46,14 +46,14 @@ pub static LAGREE_GRAINS: LazyLock<PublishedGrains> =
 pub static ALUMINIUM_BARS: LazyLock<PublishedGrains> =
     LazyLock::new(|| read_shipped("column-planar/grains.csv", |table| PublishedGrains::read(table, "aluminium bars")));
 
-/// How deposits and flows of the glass beads depend on their thickness.
+/// Dependence of deposits and flows of the glass beads on their thickness.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlowRule {
     /// Length scale L of h_stop over the grain diameter `[-]`.
     pub deposit_length: f64,
     /// β of Ū/√(g h) = β h/h_stop `[-]`.
     pub flow_coefficient: f64,
-    /// How sure the project is of them.
+    /// Confidence in the coefficients.
     pub confidence: Confidence,
 }
 

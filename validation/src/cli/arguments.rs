@@ -1,4 +1,4 @@
-//! What can be typed: the commands, their options and their help.
+//! Command-line arguments: the commands, their options and their help.
 
 mod examples;
 mod foreign;

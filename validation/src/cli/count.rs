@@ -1,4 +1,4 @@
-//! How many things of about equal cost are done: runs of a sweep, evaluations of a calibration.
+//! Progress count of work of about equal cost: runs of a sweep, evaluations of a calibration.
 
 use super::display::{Display, time_left};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,7 +10,7 @@ pub(super) struct CountBar {
     state: Arc<Mutex<Counted>>,
 }
 
-/// What is known of them.
+/// Progress of counted work.
 struct Counted {
     what: String,
     doing: String,

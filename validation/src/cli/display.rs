@@ -1,4 +1,4 @@
-//! What a user sees of the work: a bar on a terminal, elsewhere a line every half minute.
+//! Progress display: a bar on a terminal, elsewhere a line every half minute.
 
 use super::terminal::{BARS, tell};
 use super::ticker::Ticker;

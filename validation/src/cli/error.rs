@@ -1,4 +1,4 @@
-//! Why the program ends with exit code 2.
+//! Errors that end the program with exit code 2.
 
 use super::new::error::NewError;
 use crate::calibration::CalibrationError;
@@ -58,7 +58,7 @@ pub enum ProgramError {
     /// No mutation has this name.
     #[error("`{name}` is not among the mutations; `bagnold dev mutate list` names them")]
     UnknownError {
-        /// What was asked for.
+        /// Requested name.
         name: String,
     },
     /// A mutation that no test is named for.

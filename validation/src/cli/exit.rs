@@ -1,4 +1,4 @@
-//! How the program ends.
+//! Exit code of the program.
 
 use crate::case::CaseResult;
 use crate::metric::Metric;

@@ -1,4 +1,4 @@
-//! How long a command will take: from what its runs took on this machine before, else from what they take on another one.
+//! Expected time of a command: from its earlier runs on this machine, else from runs on another machine.
 
 use super::machine;
 use crate::case::{CaseResult, Estimate, PreparedCase, speed_up, wall_time};
@@ -26,7 +26,7 @@ pub(super) struct Expectation {
     begun: Instant,
     cases: Vec<&'static str>,
     runs: Vec<ExpectedRun>,
-    /// When each run began, and the time that it took `[s]` once it is done.
+    /// Start of each run, and its duration `[s]` once it is done.
     times: Mutex<Vec<(Option<Instant>, Option<f64>)>>,
 }
 
@@ -47,7 +47,7 @@ impl Expectation {
         Self { command, begun: Instant::now(), cases: cases.iter().map(|case| case.name()).collect(), runs, times }
     }
 
-    /// What is expected, in words.
+    /// Expected time, in words.
     pub(super) fn in_words(&self, estimate: &Estimate, root: &Path, threads: usize) -> String {
         estimate.in_words(self.seconds(AllSpeeds::read(root).of(&build()), threads), threads)
     }
@@ -132,7 +132,7 @@ impl Expectation {
     }
 }
 
-/// What tells the speeds of programs with one store apart. Laws of a user's own are slower than built-in ones.
+/// Properties of the build that distinguish speeds in one store. User-defined laws are slower than built-in ones.
 fn build() -> String {
     let laws = if registered().is_empty() { "" } else { ", with laws of its own" };
     format!("{}, {}{laws}", profile(), instruction_set())

@@ -1,4 +1,4 @@
-//! How fast this machine is, from a flow that takes a moment.
+//! Speed of this machine, from a flow that takes a moment.
 
 use bagnold_solver::domain::Domain;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};

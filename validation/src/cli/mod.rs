@@ -101,7 +101,7 @@ fn answered(answer: &clap::Error) -> ExitCode {
     }
 }
 
-/// What a signal has left, and how to resume.
+/// Message after a signal: the results that are kept, and how to resume.
 fn interrupted(signal: Signal, error: &ProgramError) -> String {
     let InterruptedRuns { whole, lost } = checkpoint::kept_at_the_end();
     let runs = |count: usize| if count == 1 { "1 run".to_owned() } else { format!("{count} runs") };

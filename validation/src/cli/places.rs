@@ -1,5 +1,5 @@
-//! Where committed values lie: in the checkout, if one works in it; elsewhere in the current folder, and what is not there
-//! the program carries. Those of a suite of studies lie in its folder.
+//! Places of committed values. In a checkout they lie there, elsewhere in the current folder; what is missing there, the
+//! program carries. Those of a suite of studies lie in its folder.
 
 use super::error::ProgramError;
 use crate::case::Tier;

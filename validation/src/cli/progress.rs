@@ -1,4 +1,4 @@
-//! How far the runs of cases are, how long still, how fast.
+//! Progress of the runs of cases: part done, time left, speed.
 
 use super::display::{Display, time_left};
 use crate::case::{Monitor, PreparedCase};
@@ -12,7 +12,7 @@ const PARTS: u64 = 10_000;
 /// Time between two updates `[ms]`: a step may take less than a terminal needs for a line.
 const UPDATE_INTERVAL: u64 = 100;
 
-/// What is known of one run.
+/// Progress of one run.
 struct RunState {
     name: String,
     /// Expected cost over that of all runs `[-]`.
@@ -34,12 +34,12 @@ impl RunState {
     }
 }
 
-/// What is known of all runs.
+/// Progress of all runs.
 struct OverallProgress {
     runs: Vec<RunState>,
     finished: AtomicUsize,
     begin: Instant,
-    /// What was done last.
+    /// Description of the last work done.
     doing: Mutex<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What `bagnold run` writes and prints of finished cases and studies, and how a report shows them.
+//! Output of `bagnold run` for finished cases and studies, and its form in a report.
 
 use super::arguments::RunArguments;
 use super::error::ProgramError;
@@ -18,7 +18,7 @@ use crate::store::Store;
 use std::io::Write;
 use std::time::Instant;
 
-/// What a command writes of its results.
+/// Publication of a command's results.
 pub(super) struct ResultPublication<'a> {
     pub(super) command: &'a RunArguments,
     pub(super) title: String,
@@ -37,7 +37,7 @@ pub(super) struct ResultPublication<'a> {
     pub(super) learns: bool,
 }
 
-/// Where it goes, and what its making has taken.
+/// Output folder, and the time spent on the publication.
 pub(super) struct Publication<'a> {
     pub(super) claimed: OutputFolder,
     pub(super) store: &'a Store,

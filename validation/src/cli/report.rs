@@ -178,7 +178,7 @@ fn accepted_comparisons(folder: &Path, result: &CaseResult) -> Result<(), Progra
     write_whole(&path, text.as_bytes()).map_err(|error| unwritable(&error))
 }
 
-/// What the values are compared with: those of an earlier report, or the accepted ones. Read before anything is simulated.
+/// Baseline of the report: values of an earlier report, or the accepted ones. Read before anything is simulated.
 fn baseline(
     command: &ReportArguments,
     places: &CommittedValues,
@@ -202,7 +202,7 @@ fn drifted(page: &Report) -> String {
     moved.iter().filter(|moved| moved.has_drifted).map(|moved| format!("drifted: {moved}\n")).collect()
 }
 
-/// Why the exit code is 0 beside values that have drifted; nothing where none has.
+/// Reason for exit code 0 despite values that have drifted; empty if none has.
 fn not_denied(drifted: &str) -> String {
     let (values, change) = match drifted.lines().count() {
         0 => return String::new(),

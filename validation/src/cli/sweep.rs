@@ -37,7 +37,7 @@ pub(super) fn sweep(
     }
 }
 
-/// How a sweep that is done is run again.
+/// Remedy for a repeated run of a finished sweep.
 const ANEW: &str = "to run them again, name another folder with --out";
 
 fn begin(
@@ -117,7 +117,7 @@ fn submit(
     Ok(())
 }
 
-/// What the options ask for, and where they say nothing, what was asked for the last time.
+/// Request of the options, completed with the last one.
 fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::SlurmRequest) -> slurm::SlurmRequest {
     slurm::SlurmRequest {
         partition: cluster.partition.clone().or(last.partition),

@@ -1,4 +1,4 @@
-//! What the program says on standard output and standard error.
+//! Messages of the program on standard output and standard error.
 //!
 //! Standard error is a courtesy: a reader who has gone, a full disk or a terminal that was closed change nothing. Standard
 //! output is a result: one that cannot be written is an error of the command, unless its reader has had enough (`| head`).

@@ -6,7 +6,7 @@ use super::super::scene::{Bed, height_axis};
 use super::super::terms::viscous_pair;
 use crate::lanes::Lanes;
 
-/// How a wall particle below a no-slip bed moves against its partner, so that the velocity is 0 at the wall.
+/// Mirror velocity of wall particles below a no-slip bed relative to their partner, for zero velocity at the wall.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WallMirror {
     /// Height of the wall `[m]`.
@@ -38,7 +38,7 @@ impl WallMirror {
     }
 }
 
-/// What the bed holds a fluid particle with, Δt Σ_w k_aw `[kg]`, at a dynamic viscosity of the particle `[Pa·s]`.
+/// Friction of the bed on a fluid particle, Δt Σ_w k_aw `[kg]`, at a dynamic viscosity of the particle `[Pa·s]`.
 pub(crate) fn friction<const D: usize>(bed: Bed, fluid: &Phase<D>, a: usize, viscosity: f64, time_step: f64) -> f64 {
     let walls = fluid.wall_sums[a];
     match bed {

@@ -1,4 +1,4 @@
-//! Where a phase ends: at its free surface and at its bed.
+//! Boundaries of a phase: its free surface and its bed.
 
 mod bed;
 mod surface;

@@ -7,7 +7,7 @@ use crate::lanes::Lanes;
 /// Deficit of neighbours above which a particle lies at the surface (31) `[-]`.
 pub(crate) const AT_SURFACE: f64 = 0.5;
 
-/// What tells a phase's surface.
+/// Detection of the free surface of a phase, (31).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Surface {
     /// Volume of a particle over Σ V W of the lattice and the reference `[m^D]`.

@@ -20,7 +20,7 @@ struct Link {
     exchange: f64,
 }
 
-/// What the columns and the fluid exchange in a step.
+/// Exchange of momentum between the columns and the fluid in a step.
 #[derive(Debug, Default)]
 pub(crate) struct ColumnDrag {
     links: Vec<Link>,

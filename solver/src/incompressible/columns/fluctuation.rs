@@ -1,5 +1,5 @@
-//! What the grains leave of the water's fluctuation across the bed: there are no eddies smaller than the pores, and what
-//! the particles' disorder stirs on their own scale must not carry momentum into the bed.
+//! Damping of the water's velocity fluctuation across the bed by grains: there are no eddies smaller than the pores,
+//! and motion that the particles' disorder stirs on their own scale must not carry momentum into the bed.
 //!
 //! Between grains w relaxes towards its mean, dw/dt = −(w − w̄)/T_q min(φ/φ_q, 1), implicitly.
 

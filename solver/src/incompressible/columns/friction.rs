@@ -9,7 +9,7 @@
 use super::super::numerics::{ColumnNumerics, MOST_ITERATIONS};
 use crate::material::rheology::Rheology;
 
-/// What a column is asked for.
+/// Inputs of the friction solve of a column.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Chain<'a> {
     pub(crate) law: &'a Rheology,

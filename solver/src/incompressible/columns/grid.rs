@@ -1,4 +1,4 @@
-//! Where the nodes of the columns stand, and the hat weights by which particles and nodes share.
+//! Positions of the columns' nodes, and the hat weights by which particles and nodes share.
 //!
 //! Nodes lie Δ apart along the height and a column's width apart along the bed. A hat is 1 at its node and falls to 0 at
 //! the next one, so that the weights of a particle sum to one: what it gives to the nodes is what it has.

@@ -30,7 +30,7 @@ pub(crate) struct Nodes {
     packing: f64,
 }
 
-/// What turns masses into fields.
+/// Laws that turn the masses of nodes into their fields.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct NodeLaws<'a> {
     pub(crate) dilatancy: &'a Dilatancy,

@@ -217,7 +217,7 @@ fn a_resting_bed_leaves_no_room() {
     assert!(fastest < 1e-4, "{fastest} m/s");
 }
 
-/// What moves with grains is no wall: fluid and grains together change by gravity and by what the held grains take.
+/// Momentum of fluid and grains together changes by gravity and by the held grains alone: moving grains are not a wall.
 #[test]
 fn the_balance_of_both_phases_closes() {
     let mut scene = scene(0.02, shear_flow, 5);

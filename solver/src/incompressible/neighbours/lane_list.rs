@@ -204,7 +204,7 @@ fn longest(counts: &[u32; LANES]) -> u32 {
     counts.iter().fold(0, |most, &count| most.max(count))
 }
 
-/// What a search reads.
+/// Inputs of a search.
 struct Sorted<'a, const D: usize> {
     targets: &'a [Vector<D>],
     which: Sources,

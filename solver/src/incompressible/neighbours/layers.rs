@@ -1,9 +1,9 @@
-//! How far particles have moved against those around them since the last search, judged by layers along the bed.
+//! Relative displacement of neighbouring particles since the last search, judged by layers along the bed.
 //!
-//! What a layer moves as a whole does not count, which saves most searches of a shear flow. The layers are those of the
-//! search, thicker than the reach by two skins: particles whose layers are not next to each other stay out of reach as
-//! long as no two successive layers move apart by a skin. Layers without particles are left out of the succession, so
-//! that a drop above the surface is compared with the surface.
+//! The motion of a layer as a whole does not count, which saves most searches of a shear flow. The layers are those of
+//! the search, thicker than the reach by two skins: particles whose layers are not next to each other stay out of reach
+//! as long as no two successive layers move apart by a skin. Layers without particles are left out of the succession,
+//! so that a drop above the surface is compared with the surface.
 
 use super::super::scene::height_axis;
 use crate::domain::{AxisBoundary, Domain};
@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// More layers than this are one: a stray particle far away must not buy memory.
 const MOST_LAYERS: usize = 65_536;
 
-/// Where the particles of a phase stand, and where its free ones have gone since the last search `[m]`.
+/// Positions of the particles of a phase, and displacements of its free ones since the last search `[m]`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Places<'a, const D: usize> {
     pub(crate) free: &'a [Vector<D>],

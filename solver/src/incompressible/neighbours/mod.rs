@@ -1,4 +1,4 @@
-//! Who is near whom: cells, pairs and their separations by the shortest way, and when a search is due.
+//! Neighbour search: cells, pairs and their separations by the shortest way, and the time at which a search is due.
 
 mod grid;
 mod lane_list;

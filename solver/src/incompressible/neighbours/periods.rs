@@ -13,8 +13,8 @@ pub(crate) struct Periods<const D: usize> {
     inverse: Vector<D>,
 }
 
-/// How near to the end of a period eight particles may be, over the reach `[-]`, for their pairs to lie within it: within a step
-/// others may have left the period by a part of a spacing, and come back at its end.
+/// Least distance of eight particles from the end of a period with all pairs within it, over the reach `[-]`: within
+/// a step others may have left the period by a part of a spacing, and come back at its end.
 const ROOM: f64 = 1.5;
 
 /// Whether eight particles have pairs across the end of a period.

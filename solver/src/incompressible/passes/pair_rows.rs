@@ -23,7 +23,7 @@ use crate::vector::Vector;
 /// viscosity `[Pa·s]`.
 const BEHIND: usize = 2;
 
-/// What the viscous rows of a phase are made of.
+/// Inputs of the viscous rows of a phase.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Friction<'a> {
     /// Dynamic viscosity of every particle `[Pa·s]`.
@@ -92,7 +92,7 @@ fn fill<const D: usize>(pairs: &Pairs<'_, D>, out: Out<'_, D>) {
     }
 }
 
-/// What the pass reads.
+/// Inputs of the pass over pairs.
 struct Pairs<'a, const D: usize> {
     phase: &'a Phase<D>,
     records: &'a [[f64; 4]],
@@ -103,7 +103,7 @@ struct Pairs<'a, const D: usize> {
     surface_gain: f64,
 }
 
-/// What it writes, from a first group on.
+/// Outputs of the pass over pairs, from a first group on.
 struct Out<'a, const D: usize> {
     first: usize,
     stride: usize,
@@ -161,7 +161,7 @@ impl<const D: usize> LanePass for Task<'_, '_, D> {
     }
 }
 
-/// What the rows of a group sum to.
+/// Row sums of a group of eight particles.
 struct RowSums<V, const D: usize> {
     gradient: [V; D],
     laplacian: V,

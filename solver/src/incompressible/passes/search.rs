@@ -6,7 +6,7 @@ use super::drag_exchange::DragExchange;
 use crate::domain::Domain;
 use crate::run::ForeignState;
 
-/// When the next search is due, and how many there were.
+/// Schedule of the neighbour searches, and their number.
 #[derive(Debug)]
 pub(crate) struct Search<const D: usize> {
     pub(crate) periods: Periods<D>,

@@ -79,7 +79,7 @@ fn find<const D: usize>(around: &Around<'_, D>, out: Sums<'_, D>) {
     }
 }
 
-/// What the pass reads.
+/// Inputs of the pass over the surroundings of particles.
 struct Around<'a, const D: usize> {
     free: &'a LaneList<D>,
     walls: &'a LaneList<D>,
@@ -114,7 +114,7 @@ impl<const D: usize> Around<'_, D> {
     }
 }
 
-/// What it writes, from a first group on.
+/// Outputs of the pass over the surroundings of particles, from a first group on.
 struct Sums<'a, const D: usize> {
     first: usize,
     stride: usize,

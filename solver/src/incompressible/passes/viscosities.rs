@@ -7,7 +7,7 @@ use crate::material::turbulence::eddy_viscosity;
 use crate::parallel::prelude::*;
 use crate::vector::shear_rate;
 
-/// What the laws give at every free particle.
+/// Viscosities, shear rates and loads of the laws at every free particle.
 #[derive(Debug)]
 pub(crate) struct Viscosities {
     /// Dynamic viscosity of every fluid particle `[Pa·s]`, times its voidage.

@@ -60,7 +60,7 @@ pub(crate) struct Phase<const D: usize> {
     /// Σ V W over that of the lattice `[-]`.
     pub(crate) concentration: Vec<f64>,
     pub(crate) at_surface: Vec<bool>,
-    /// What a particle lacks of neighbours, from 0 inside to 1 at the surface `[-]`; a smooth form of (31), because
+    /// Neighbour deficit of a particle, from 0 inside to 1 at the surface `[-]`; a smooth form of (31), because
     /// particles that change sides in steps shake the column. One half is (31).
     pub(crate) deficit: Vec<f64>,
     /// 1 at the surface and beside it, 0 inside `[-]`.
@@ -159,7 +159,7 @@ impl<const D: usize> Phase<D> {
         })
     }
 
-    /// Where the particles stand, for the judgement whether a search is due.
+    /// Positions and displacements of the particles, to judge whether a search is due.
     pub(crate) fn places(&self) -> Places<'_, D> {
         Places { free: &self.position, fixed: &self.wall, travel: &self.travel }
     }

@@ -1,4 +1,4 @@
-//! What passes over pairs read of a particle, packed so that eight neighbours are loaded in quads: the position first,
+//! Particle data that passes over pairs read, packed so that eight neighbours are loaded in quads: the position first,
 //! behind it up to as many values again.
 
 use crate::lanes::{LANES, LaneIndices, Lanes};

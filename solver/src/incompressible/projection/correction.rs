@@ -1,8 +1,8 @@
-//! Which density errors a pressure corrects.
+//! Selection of the density errors that a pressure corrects.
 
 use super::super::phase::Phase;
 
-/// Which density errors are corrected.
+/// Density errors that a pressure corrects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Correction {
     /// Too dense and too thin alike.
@@ -12,7 +12,7 @@ pub(crate) enum Correction {
 }
 
 impl Correction {
-    /// What a particle lacks of its density and is to be corrected `[-]`.
+    /// Relative density deficit of a particle that is to be corrected `[-]`, negative where it is too dense.
     pub(crate) fn missing<const D: usize>(self, phase: &Phase<D>, a: usize) -> f64 {
         let missing = 1.0 - phase.concentration[a];
         match self {

@@ -1,6 +1,6 @@
-//! What fixes the level of the pressure, and how it is sought where nothing does.
+//! Level of the pressure: fixed by a surface, otherwise a mean of zero.
 
-/// What fixes the level of the pressure.
+/// Reference that fixes the level of the pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Gauge {
     /// A surface.

@@ -40,7 +40,7 @@ enum RowState {
     Missing,
 }
 
-/// What the projection of one phase needs beside it.
+/// Inputs of the projection of one phase, besides the phase itself.
 struct Prediction<'a, const D: usize> {
     velocity: &'a [Vector<D>],
     rows: RowState,

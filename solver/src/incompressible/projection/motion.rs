@@ -1,5 +1,5 @@
-//! How particles move with their new velocities. The first that would move by more than a spacing is an error: its index and
-//! its displacement in spacings.
+//! Motion of particles with their new velocities. The first that would move by more than a spacing is an error: its
+//! index and its displacement in spacings.
 
 use super::super::numerics::PressureSource;
 use super::super::phase::Phase;

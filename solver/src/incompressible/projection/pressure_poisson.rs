@@ -43,7 +43,7 @@ pub(crate) struct PressurePoisson<const D: usize> {
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
     own: Vec<Vector<D>>,
     diagonal: Vec<f64>,
-    /// What the diagonal has beyond its links `[1/m²]`.
+    /// Excess of the diagonal over the sum of its links `[1/m²]`.
     held: Vec<f64>,
     right_side: Vec<f64>,
     gradient: Vec<Vector<D>>,
@@ -148,12 +148,12 @@ impl<const D: usize> PressurePoisson<D> {
         self.own[a]
     }
 
-    /// What the diagonal of A has beyond its links `[1/m²]`.
+    /// Excess of the diagonal of A over the sum of its links, in the row of a particle `[1/m²]`.
     pub(crate) fn held(&self, a: usize) -> f64 {
         self.held[a]
     }
 
-    /// What fixes the level of the pressure.
+    /// Reference that fixes the level of the pressure.
     pub(crate) fn gauge(&self) -> Gauge {
         self.gauge
     }

@@ -1,4 +1,4 @@
-//! Which scenes can be simulated.
+//! Checks of an incompressible scene before it is simulated.
 
 use super::{IncompressibleScene, ParticleSet, Sediment, SedimentLoad, SedimentPressure, SolidFraction};
 use crate::domain::AxisBoundary;
@@ -44,7 +44,7 @@ impl<const D: usize> IncompressibleScene<D> {
         self.check_periods(least_period)
     }
 
-    /// What columns of grains ask of the scene, and that there are columns where φ is to be theirs.
+    /// Requirements of columns of grains on the scene, and their existence where φ is taken from them.
     fn check_columns(&self) -> Result<(), SceneError> {
         let dilates = |sediment: &Sediment<D>| matches!(sediment.pressure, SedimentPressure::Dilatant { .. });
         let dilating = self.sediment.as_ref().filter(|sediment| dilates(sediment));

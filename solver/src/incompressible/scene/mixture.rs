@@ -1,4 +1,4 @@
-//! Which scenes the mixture's continuity serves.
+//! Check of scenes that use the mixture's continuity.
 
 use super::super::numerics::{Continuity, MeanFlux, PressureSource, SurfaceTreatment};
 use super::{IncompressibleScene, SedimentPressure};
@@ -6,7 +6,7 @@ use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
 
 impl<const D: usize> IncompressibleScene<D> {
-    /// What the mixture's continuity asks of the other choices.
+    /// Requirements of the mixture's continuity on the other choices.
     pub(super) fn check_mixture(&self) -> Result<(), SceneError> {
         let numerics = &self.numerics;
         let choice = |field, value, rule, remedy| Err(ParameterProblem::new(field, value, rule, remedy).into());

@@ -1,4 +1,4 @@
-//! What an incompressible simulation starts from.
+//! Scene from which an incompressible simulation starts.
 
 mod check;
 mod mixture;
@@ -26,7 +26,7 @@ pub struct ParticleSet<const D: usize> {
     pub velocity: Vec<Vector<D>>,
 }
 
-/// What the fluid flows over.
+/// Bed below the fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bed {
     /// Nothing: wall particles, if there are any, hold it back along their normal only.
@@ -85,7 +85,7 @@ pub struct Fluid<const D: usize> {
     pub gravity: Vector<D>,
 }
 
-/// How the phases share the space.
+/// Partition of the space between fluid and sediment.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SolidFraction {
     /// They overlap: grains displace no fluid.
@@ -115,7 +115,7 @@ pub struct IncompressibleScene<const D: usize> {
     pub fluid: Fluid<D>,
     /// The sediment.
     pub sediment: Option<Sediment<D>>,
-    /// How the phases share the space.
+    /// Partition of the space between fluid and sediment.
     pub solid_fraction: SolidFraction,
     /// Boundaries: periodic or open.
     pub domain: Domain<D>,

@@ -8,7 +8,7 @@ use crate::material::drag::DragLaw;
 use crate::material::rheology::Rheology;
 use crate::vector::Vector;
 
-/// What a law's pressure is: the load that the grains carry, for the pore pressure carries no friction.
+/// Pressure in the sediment's law: the load that the grains carry, for the pore pressure carries no friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SedimentLoad {
     /// The weight in the water of packed grains up to a level.
@@ -37,7 +37,7 @@ impl SedimentLoad {
     }
 }
 
-/// What keeps the sediment apart.
+/// Source of the pressure that keeps sediment particles apart.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SedimentPressure {
     /// A pressure Poisson equation of its own, (11): each grain is incompressible.
@@ -57,7 +57,7 @@ pub enum SedimentPressure {
     },
 }
 
-/// Which force a sediment particle feels from the fluid.
+/// Form of the drag force of the fluid on a sediment particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum DragForm {
     /// (30): one grain a particle, ½ C_d d |u_r| per mass of the fluid around it.
@@ -84,7 +84,7 @@ pub struct Sediment<const D: usize> {
     pub density: f64,
     /// Grain diameter `[m]`.
     pub grain_diameter: f64,
-    /// How the grains resist a shear: any law, at the rate of a particle or pair and the load on it.
+    /// Shear resistance of the grains: any law, at the rate of a particle or pair and the load on it.
     pub law: Rheology,
     /// The load that stands for the law's pressure.
     pub load: SedimentLoad,

@@ -1,4 +1,4 @@
-//! What a closure makes of a uniform shear of displaced particles, where the corrected gradient is exact.
+//! Eddy viscosity of each closure in a uniform shear of perturbed particles, where the corrected gradient is exact.
 
 use super::super::Turbulence;
 use super::super::simulation::IncompressibleSimulation;

@@ -1,4 +1,4 @@
-//! What needs a look behind the step: pairs against brute force, operators against their definitions.
+//! Tests of the internals of a step: pairs against brute force, operators against their definitions.
 
 mod eddy_viscosity;
 mod pairs;

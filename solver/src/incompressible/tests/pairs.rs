@@ -121,7 +121,7 @@ fn check<const D: usize>(periods: [Option<f64>; D], which: Sources) {
     }
 }
 
-/// What eight particles at one position see of the end of a period.
+/// Pass that finds whether eight particles at one position may have pairs across the end of a period.
 struct OfEight<'a> {
     periods: &'a Periods<2>,
     position: Vector<2>,

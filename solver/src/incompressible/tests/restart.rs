@@ -1,4 +1,5 @@
-//! What is saved of grains in columns and of a mixture: continued, they end in the bits of a run without interruption.
+//! Saved states of grains in columns and of a mixture: continued, they end bitwise identical to a run without
+//! interruption.
 
 use crate::incompressible::columns::tests::{scene, shear_flow};
 use crate::incompressible::projection::mixture::tests::suspension;

@@ -4,7 +4,7 @@ use super::super::numerics::PairLaw;
 use super::super::terms::viscous_pair::mean_rate;
 use crate::material::rheology::Rheology;
 
-/// What a pair reads of one of its particles.
+/// Load and viscosity of one particle of a pair.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct End {
     /// Load on the grains `[Pa]`.

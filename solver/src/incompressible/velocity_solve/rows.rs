@@ -48,18 +48,18 @@ pub(crate) struct VelocityRows<'a, const D: usize> {
     pub(crate) exchange: &'a DragExchange<D>,
     pub(crate) periods: &'a Periods<D>,
     pub(crate) viscosities: &'a Viscosities,
-    /// What the fluid exchanges with columns of grains, if there are any.
+    /// Drag exchange of the fluid with columns of grains, if there are any.
     pub(crate) columns: Option<&'a ColumnDrag>,
     /// Δt `[s]`.
     pub(crate) time_step: f64,
 }
 
-/// What a row begins with.
+/// Inertia, velocity and forces that a row begins with.
 struct Begin<const D: usize> {
     inertia: f64,
     velocity: Vector<D>,
     gravity: Vector<D>,
-    /// What moves with grains push along the bed `[N]`.
+    /// Push of the moving grains of columns along the bed, Σ β U `[N]`.
     push: f64,
 }
 

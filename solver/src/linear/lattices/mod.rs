@@ -49,7 +49,7 @@ struct Level<const D: usize> {
 #[derive(Debug)]
 pub(crate) struct Lattices<const D: usize> {
     levels: Vec<Level<D>>,
-    /// How many of them there are, the finest first.
+    /// Number of lattices in use, the finest first.
     number: usize,
     periodic: [bool; D],
     order: CellOrder,
@@ -61,7 +61,7 @@ pub(crate) struct Lattices<const D: usize> {
     /// Nodes of the finest lattice at the corners of every cell, for so many cells and nodes along the axes.
     node: Vec<[u32; CORNERS]>,
     finest: ([usize; D], [usize; D]),
-    /// What every cell gives to its corners.
+    /// Contributions of every cell to its corners.
     corner: Vec<[f64; CORNERS]>,
     inverse_diagonal: Vec<f64>,
 }

@@ -1,6 +1,6 @@
 //! Grains that slip through a fluid, and what the laws make their exchange coefficient from.
 
-/// What a law of a suspension looks at.
+/// Inputs of a drag law in a suspension.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Suspension {
     /// Volume fraction φ `[-]` of the grains.

@@ -1,4 +1,4 @@
-//! What holds for all drag laws together.
+//! Properties common to all drag laws.
 
 use super::DragLaw;
 use proptest::prelude::*;
@@ -87,7 +87,8 @@ proptest! {
         }
     }
 
-    /// Where two rows of Morsi and Alexander's table meet, the force may drop by 2.3 %, which 3 % more slip makes good.
+    /// Growth of the drag with slip: between two rows of Morsi and Alexander's table the force may drop by 2.3 %, which
+    /// 3 % more slip makes good.
     #[test]
     fn force_grows_with_slip(exponent in -8.0..4.67f64, solid_fraction in 1e-6..0.7f64, growth in 1.03..1.5f64) {
         let slip = libm::pow(10.0, exponent) * VISCOSITY / DIAMETER;

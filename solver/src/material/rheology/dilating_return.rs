@@ -1,6 +1,6 @@
 //! The return of Drucker and Prager's strength where plastic flow dilates and so raises the pressure.
 //!
-//! Where the volume of a step is given, what dilates plastically is compressed elastically. With the trial τ* and p* (elastic, at κ⁰),
+//! Plastic dilation in a step of given volume is compressed elastically. With the trial τ* and p* (elastic, at κ⁰),
 //!
 //! τ* − G Δκ = Y(κ⁰ + Δκ, p), p = p* + (K + p*) (exp(e(κ⁰ + Δκ) − e(κ⁰)) − 1),
 //!
@@ -17,7 +17,7 @@ use crate::lanes::Real;
 /// Most evaluations: those of a bracket that is halved down to rounding.
 const MOST: usize = 80;
 
-/// What counts as having come to a kink `[-]`.
+/// Relative distance from a kink within which it counts as reached `[-]`.
 const KINK: f64 = 4.0 * f64::EPSILON;
 
 /// The excess g `[Pa]` and its derivative `[Pa]`.

@@ -1,4 +1,4 @@
-//! What a law keeps of each particle beside the stress, and how it spreads among particles.
+//! Field and memory that a law keeps of each particle beside the stress, and diffusion of the field among particles.
 //!
 //! A law declares its field once, as a [`LawField`]; the model stores it with the particle, sorts, saves and removes it
 //! with it, and hands it to the law together with the elastic trial. Beside its field a law may keep up to [`MOST_MEMORIES`]
@@ -25,7 +25,7 @@ pub enum FieldBoundary {
     NoFlux,
 }
 
-/// How a field spreads.
+/// Diffusion of a field among particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldDiffusion {
     /// D, the factor of ∇²f in the law's equation of its field, in the unit of that equation times `[m²]`.
@@ -43,13 +43,13 @@ pub struct LawField {
     pub name: &'static str,
     /// Its unit.
     pub unit: &'static str,
-    /// What it means, in a few words.
+    /// Meaning of the field, in a few words.
     pub description: &'static str,
     /// Value of particles that a scene gives none, and of those that come in by an inlet.
     pub initial: f64,
     /// Least and largest value that it may start with.
     pub bounds: (f64, f64),
-    /// How it spreads; none for a memory of the particle alone.
+    /// Diffusion of the field; none for a memory of the particle alone.
     pub diffusion: Option<FieldDiffusion>,
 }
 
@@ -61,10 +61,11 @@ impl LawField {
     }
 }
 
-/// How many numbers a law may keep of each particle beside its field `[-]`.
+/// Largest number of values that a law may keep of each particle beside its field `[-]`.
 pub const MOST_MEMORIES: usize = 3;
 
-/// What a law keeps of a particle beside its field, in the order and the units in which it declares them; zero behind those.
+/// Memory of a particle beside the law's field, in the order and the units in which the law declares it; zero beyond
+/// that.
 pub type Memory<R> = [R; MOST_MEMORIES];
 
 /// A field at the start of a step, what its neighbours do to it, and the law's memory beside it.
@@ -77,7 +78,7 @@ pub struct FieldStep<R> {
     pub gain: R,
     /// Σ D w, with what walls and the surface take; 0 without diffusion.
     pub loss: R,
-    /// What the law keeps beside the field, at the start of the step.
+    /// Memory of the law beside the field, at the start of the step.
     pub memory: Memory<R>,
 }
 
@@ -111,14 +112,14 @@ pub struct FieldReturn<R> {
     pub field: R,
 }
 
-/// What a particle has at the end of a step.
+/// Stress, field and memory of a particle at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StateReturn<S, R> {
     /// Deviatoric stress `[Pa]`.
     pub stress: S,
     /// The law's field.
     pub field: R,
-    /// What the law keeps beside.
+    /// Memory of the law beside its field.
     pub memory: Memory<R>,
 }
 
@@ -135,10 +136,10 @@ impl<S, R> StateReturn<S, R> {
 /// A cohesion is allowed: the stress up to which the material is elastic need not vanish with the pressure. Only a
 /// law that bears tension carries a shear stress at p ≤ 0.
 pub trait FieldLaw {
-    /// What it keeps.
+    /// Field that the law keeps of each particle.
     fn field(&self) -> LawField;
 
-    /// What it keeps beside: up to [`MOST_MEMORIES`] numbers that do not diffuse.
+    /// Memory of a particle beside the field: up to [`MOST_MEMORIES`] numbers that do not diffuse.
     fn memories(&self) -> &[LawField] {
         &[]
     }
@@ -165,11 +166,11 @@ pub trait FieldLaw {
         R::splat(0.0)
     }
 
-    /// What of a particle is elastic at an equivalent shear stress and a pressure `[Pa]`, from 1 to 0 `[-]`; 0 without
+    /// Elastic part of a particle at an equivalent shear stress and a pressure `[Pa]`, from 1 to 0 `[-]`; 0 without
     /// pressure. `elastic_viscosity` `[Pa·s]` is that of the damping which the elastic part feels.
     fn elasticity<R: Real>(&self, shear_stress: R, pressure: R, field: &FieldStep<R>, elastic_viscosity: f64) -> R;
 
-    /// Which part of the spin turns the stress `[-]`: 1 where nothing flows, 0 where all of the shear is plastic.
+    /// Part of the spin that turns the stress `[-]`: 1 where nothing flows, 0 where all of the shear is plastic.
     /// `vorticity` is |2ω| `[1/s]`.
     fn turned_part<R: Real>(
         &self,

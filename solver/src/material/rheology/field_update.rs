@@ -5,7 +5,7 @@ use super::{ElasticModuli, TrialStress};
 use crate::lanes::Real;
 use crate::lanes::algebra::{accumulate, deviatoric_rate, invariant, matrix_product};
 
-/// What a step is taken with.
+/// Pressure, elastic moduli and length of a step.
 #[derive(Clone, Copy)]
 pub(super) struct Step<R> {
     /// `[Pa]`

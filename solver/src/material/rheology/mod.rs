@@ -401,10 +401,10 @@ macro_rules! rheology {
                 }
             }
 
-            /// How far below its yield a plastic material is: 1 where the equivalent shear stress `[Pa]` is more than
-            /// one per cent below the yield stress at a pressure `[Pa]`, falling to 0 at the yield `[-]`; 0 for viscous
-            /// laws and without pressure. A law with a field judges by that too; `elastic_viscosity` `[Pa·s]` is that of the
-            /// damping which the elastic part feels.
+            /// Elastic part of a plastic material, by its distance below the yield `[-]`: 1 where the equivalent shear
+            /// stress `[Pa]` is more than one per cent below the yield stress at a pressure `[Pa]`, falling to 0 at the
+            /// yield; 0 for viscous laws and without pressure. A law with a field judges by that too;
+            /// `elastic_viscosity` `[Pa·s]` is that of the damping which the elastic part feels.
             #[inline(always)]
             #[must_use]
             pub fn elasticity<R: Real>(
@@ -474,7 +474,7 @@ macro_rules! rheology {
                 }
             }
 
-            /// What the law keeps beside its field, in the order in which particles have it.
+            /// Memory that the law keeps beside its field, in the order in which particles have it.
             #[must_use]
             pub fn memories(&self) -> &[LawField] {
                 match self {

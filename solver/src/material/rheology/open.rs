@@ -65,10 +65,11 @@ pub trait OpenPlasticLaw: Debug + Send + Sync {
 /// A plastic law in f64 with a field of its own: what it keeps of each particle beside the stress, such as the plastic strain
 /// that it has softened by. A cohesion is allowed.
 pub trait OpenFieldLaw: Debug + Send + Sync {
-    /// What it keeps.
+    /// Field that the law keeps of each particle.
     fn field(&self) -> LawField;
 
-    /// What it keeps beside: up to [`MOST_MEMORIES`](super::field::MOST_MEMORIES) numbers that do not diffuse.
+    /// Memory of a particle beside the field: up to [`MOST_MEMORIES`](super::field::MOST_MEMORIES) numbers that do not
+    /// diffuse.
     fn memories(&self) -> &[LawField] {
         &[]
     }
@@ -89,8 +90,8 @@ pub trait OpenFieldLaw: Debug + Send + Sync {
         0.0
     }
 
-    /// What it keeps beside its field at the end of the step that ended so, with zeros behind. A step of no length leaves it as
-    /// it was.
+    /// Memory beside the field at the end of the step that ended so, zero beyond the declared numbers. A step of no
+    /// length leaves it as it was.
     fn memory_after(&self, _trial: &TrialStress<f64>, field: &FieldStep<f64>, _end: &FieldReturn<f64>) -> Memory<f64> {
         field.memory
     }

@@ -10,7 +10,7 @@
 
 use crate::lanes::Real;
 
-/// How plastic flow dilates.
+/// Dilation of plastic flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlasticDilation {
     /// β_p `[-]`.

@@ -21,8 +21,8 @@
 //! τ + G κ = G γ holds to rounding, so that a path is exact for every step. With dilation the pressure rises with Δκ, and the equation is that
 //! of `dilating_return`.
 //!
-//! Where the equation of state keeps tension, a cohesion reaches to p = −k/μ, the apex of the cone, and Y = 0 beyond it.
-//! Where it cuts tension, p = 0 means that the material has come apart: no shear stress, whatever the cohesion.
+//! Cohesion reaches to p = −k/μ, the apex of the cone, where the equation of state keeps tension; Y = 0 beyond it.
+//! With a tension cut-off, p = 0 means that the material has come apart: no shear stress, whatever the cohesion.
 //!
 //! Limits: no rate; a dilation that does not end (without κ_d) is for checks against limit analysis. Softening localises: in a body,
 //! bands of shear are as narrow as the particles allow.
@@ -114,7 +114,7 @@ impl SofteningDruckerPrager {
         strain_left / R::splat(self.softening_strain)
     }
 
-    /// How it dilates.
+    /// Plastic dilation of the material.
     #[inline(always)]
     pub(super) fn dilation(&self) -> PlasticDilation {
         PlasticDilation { peak: self.peak_dilation, strain: self.dilation_strain.unwrap_or(f64::INFINITY) }
@@ -130,7 +130,8 @@ impl SofteningDruckerPrager {
             .or_else(|| self.dilation_problem())
     }
 
-    /// What dilates more than it has friction gains energy from its flow under a great pressure.
+    /// Range error of the dilation, if any. A material with more dilation than friction gains energy from its flow
+    /// under a great pressure.
     fn dilation_problem(&self) -> Option<ParameterProblem> {
         let (dilation, peak) = (self.dilation(), self.peak_dilation);
         let problem = |value: f64, field: &str, rule: String, remedy: &str| {
@@ -273,7 +274,7 @@ impl FieldLaw for SofteningDruckerPrager {
         self.strength(pressure, self.softening_strain) / shear_rate.max(REST_SHEAR_RATE)
     }
 
-    /// What flows steadily has softened.
+    /// Field in steady flow: the strain at which the material has softened.
     fn field_in_flow(&self, shear_rate: f64, stress_ratio: f64) -> f64 {
         if shear_rate != 0.0 && stress_ratio > 0.0 { self.softening_strain } else { 0.0 }
     }

@@ -117,18 +117,18 @@ fn on_a_plane(domain: &Domain<2>, place: &Vector<2>, reach: f64) -> bool {
     (0..2).any(|axis| planes(&domain.axes[axis]).into_iter().flatten().any(|plane| near(axis, plane)))
 }
 
-/// What the rows of a part are laid among.
+/// Geometry among which the rows of a part are laid.
 struct Laying<'a> {
     /// Lines of all parts.
     lines: &'a [Facet<2>],
-    /// Which of them is the part's.
+    /// Index of the part's own line.
     own: usize,
     domain: &'a Domain<2>,
     spacing: f64,
     rows: usize,
 }
 
-/// What a row keeps of a strip across it.
+/// Part of a strip across a row that the row keeps.
 #[derive(Clone, Copy, Default)]
 struct Strip {
     /// Middle along the part `[m]`.
@@ -199,8 +199,8 @@ impl Laying<'_> {
         before.chain(along).chain(after).collect()
     }
 
-    /// How much of a place behind the wall belongs to this part: on the bisector of a corner it belongs to both, so that mirror images of
-    /// a corner have mirror images of its particles.
+    /// Share of a place behind the wall that belongs to this part: on the bisector of a corner it belongs to both, so
+    /// that mirror images of a corner have mirror images of its particles.
     fn owned(&self, near: &[usize], place: &Vector<2>, reach: f64) -> f64 {
         if !is_inside(self.domain, place) {
             return 0.0;

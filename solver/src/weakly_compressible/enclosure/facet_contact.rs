@@ -19,9 +19,9 @@ use crate::weakly_compressible::walls::Surface;
 /// Sweeps over the facets that are touched; a corner of two or three walls seldom needs more, and one that does
 /// brings to a stop.
 const SWEEPS: usize = 4;
-/// How much of its speed a particle may still approach with after a sweep `[-]`: rounding.
+/// Largest speed of approach after a sweep, over the speed of the particle `[-]`: rounding.
 const ROUNDING: f64 = 1e-12;
-/// How much farther than the nearest a rim may be to be touched `[-]`.
+/// Largest excess of the distance of a touched rim over the nearest, relative to it `[-]`.
 const TIE: f64 = 1e-9;
 
 /// Facet walls in a step.

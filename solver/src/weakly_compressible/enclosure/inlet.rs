@@ -6,8 +6,9 @@
 //! that of any wall. A row whose middle reaches the opening becomes free: its particles have the velocity of the row, and the
 //! pressure and stress that it had. A new row takes its place at the rear, so that the rows go one row back.
 //!
-//! How many rows are through follows from the integral of the rate, so that the mass that was fed is that integral to half
-//! a row and to what a row moves in a step, at any time. Where the rate is zero the rows stand, and close the opening.
+//! The number of rows that are through follows from the integral of the rate. So the mass that was fed is that integral
+//! to half a row and to what a row moves in a step, at any time. Where the rate is zero the rows stand, and close the
+//! opening.
 
 use super::facet::Facet;
 use super::facet_wall::{BackingParticle, FacetWall, Motion};

@@ -24,7 +24,7 @@ const SMALLEST: f64 = 0.02;
 const NARROW: f64 = 1.5;
 /// Depth of a particle in spacings at least, where triangles fold so that its centroid is less deep `[-]`.
 const LEAST_DEPTH: f64 = 0.05;
-/// How far beyond a cell's corners facets are looked for, over that distance `[-]`: rounding.
+/// Search distance for facets over the distance of a cell's corners `[-]`: rounding.
 const BEYOND: f64 = 1.0 + 1e-6;
 
 /// Dummy particles that fill the space behind each facet wall in `rows` at the flow's `spacing` `[m]`, the first half a spacing
@@ -64,7 +64,7 @@ struct Part {
     narrow: bool,
 }
 
-/// What particles are laid among.
+/// Geometry among which particles are laid.
 struct Laying<'a> {
     facets: Vec<Facet<3>>,
     /// The part of every facet.
@@ -78,7 +78,7 @@ struct Laying<'a> {
     looked_at: AtomicUsize,
 }
 
-/// What somebody has of a cell.
+/// Piece of a cell that belongs to one owner.
 struct Piece {
     /// Its centroid `[m]`.
     place: Vector<3>,
@@ -241,8 +241,8 @@ impl<'a> Laying<'a> {
         Some((self.parts[self.part_of[facet]].wall, BackingParticle { position, normal, depth, volume: piece.volume }))
     }
 
-    /// What belongs to facets of a kind of a cell: behind them, no farther than the rows reach, inside the domain, and
-    /// nearer to none of the others.
+    /// Piece of a cell that belongs to facets of a kind: behind them, no farther than the rows reach, inside the
+    /// domain, and nearer to none of the others.
     fn piece(&self, cell: &Cell, is_own: impl Fn(usize) -> bool) -> Option<Piece> {
         let radius = cell.radius();
         let candidates = self.candidates(&cell.middle, radius)?;

@@ -12,7 +12,7 @@ pub(super) const GROUPS: usize = BLOCK / LANES;
 /// Neighbours that a row of the list can hold.
 pub(crate) const LARGEST_ROW: usize = 1024;
 
-/// Where a group's chunks stand, and how many.
+/// Place and number of a group's chunks.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Extent {
     pub(super) start: u32,
@@ -28,7 +28,7 @@ impl Extent {
     }
 }
 
-/// What is searched: particles, a radius `[m]` and the grids of flow and walls.
+/// Inputs of a search: particles, a radius `[m]` and the grids of flow and walls.
 #[derive(Clone, Copy)]
 pub(super) struct Search<'a, const D: usize> {
     pub(super) positions: &'a [Vector<D>],

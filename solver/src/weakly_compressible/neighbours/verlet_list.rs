@@ -25,7 +25,7 @@ pub(crate) struct NeighbourGroup<'a> {
     pub(crate) pairs: LaneChunks<'a>,
     /// Whether images are among the flow neighbours.
     pub(crate) has_images: bool,
-    /// Where the first flow chunk stands among all chunks; the wall chunks follow the flow chunks.
+    /// Index of the first flow chunk among all chunks; the wall chunks follow the flow chunks.
     pub(crate) first_pair: usize,
 }
 

@@ -1,4 +1,4 @@
-//! What the momentum equation reads of a flow particle and of the numerics.
+//! Inputs of the momentum equation from a flow particle and from the numerics.
 
 use super::layout::Momentum;
 use super::precision::Precision;
@@ -8,7 +8,7 @@ use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 
-/// What is read of a flow particle.
+/// Neighbour data of a flow particle.
 pub(super) struct FlowPartner<V, const D: usize> {
     pub(super) position: [V; D],
     pub(super) velocity: [V; D],
@@ -39,7 +39,7 @@ impl<V: Real, const D: usize> FlowPartner<V, D> {
     }
 }
 
-/// What the loops need of the numerics.
+/// Constants of the pair loops, from the numerics.
 pub(super) struct Constants {
     pub(super) smoothing_length: f64,
     /// h c `[m²/s]`.

@@ -16,7 +16,7 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{artificial_viscosity, continuity, field_diffusion};
 use std::ops::Range;
 
-/// What the pass over all blocks found on its way.
+/// Extremes found by the pass over all blocks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extremes {
     /// Largest apparent kinematic viscosity of laws with an explicit viscous bound `[m²/s]`.
@@ -37,7 +37,7 @@ impl Extremes {
     }
 }
 
-/// What a pass over a block writes.
+/// Outputs of the pass over a block.
 pub(super) struct Output<'a, const D: usize> {
     pub(super) density: &'a mut [f64],
     pub(super) velocity_gradient: &'a mut [Tensor<D>],
@@ -46,7 +46,7 @@ pub(super) struct Output<'a, const D: usize> {
     pub(super) artificial_viscosity: &'a mut [f64],
     /// The law's field, or one value that is not written.
     pub(super) field: &'a mut [f64],
-    /// What the law keeps beside, or one that is not written.
+    /// Memory of the law beside its field, or one value that is not written.
     pub(super) memory: &'a mut [Memory<f64>],
     pub(super) energy: &'a mut EnergyLedger,
 }
@@ -55,13 +55,13 @@ pub(super) struct Output<'a, const D: usize> {
 pub(super) struct RateSums<V, const D: usize> {
     /// Σ V_b v_ab·∇_aW_ab = −∇·v `[1/s]`.
     pub(super) compression: V,
-    /// What walls have of it.
+    /// Part of the compression that is due to walls.
     pub(super) wall_compression: V,
     /// The coupling's pair sum `[Pa/m²]`.
     pub(super) coupling: V,
     /// Velocity gradient before its correction `[1/s]`.
     pub(super) gradient: [[V; D]; D],
-    /// What walls have of it.
+    /// Part of the velocity gradient that is due to walls.
     pub(super) wall_gradient: [[V; D]; D],
     /// The pair sum of the stress ratio's diffusion `[Pa/m²]`.
     pub(super) stress_diffusion: [[V; D]; D],
@@ -96,7 +96,7 @@ pub(super) struct FieldSums<V> {
     pub(super) eigenvalue: V,
 }
 
-/// What the law takes a step from: the new density, and the pressure at it with the field before the step.
+/// Inputs of the law's step: the new density, and the pressure at it with the field before the step.
 #[derive(Clone, Copy)]
 struct LawStep<V> {
     /// `[kg/m³]`

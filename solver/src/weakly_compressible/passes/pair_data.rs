@@ -1,4 +1,4 @@
-//! What the passes hand on to each other and reuse from step to step.
+//! Data that the passes hand on to each other and reuse from step to step.
 
 use super::records::Records;
 use crate::lanes::LANES;
@@ -20,17 +20,17 @@ pub(crate) struct PairData<const D: usize> {
     pub(super) no_field: Vec<f64>,
     /// Likewise where the law keeps nothing beside its field.
     pub(super) no_memory: Vec<Memory<f64>>,
-    /// What the pass that runs reads of a neighbour, where pairs are in single precision.
+    /// Neighbour records of the pass that runs, where pairs are in single precision.
     pub(super) single: Records<f32>,
-    /// What the geometry pass reads of a neighbour.
+    /// Neighbour records of the geometry pass.
     pub(crate) geometry: Records,
-    /// What the momentum pass reads of a neighbour.
+    /// Neighbour records of the momentum pass.
     pub(super) momentum: Records,
-    /// What the continuity pass reads of a neighbour.
+    /// Neighbour records of the continuity pass.
     pub(super) continuity: Records,
     /// Pressure and stress of the walls until they are stored, shape `[wall]`.
     pub(super) wall_stress: Vec<(f64, Tensor<D>)>,
-    /// What a step adds to the energy ledger, block by block of particles.
+    /// Contributions of a step to the energy ledger, block by block of particles.
     pub(crate) energy: Vec<EnergyLedger>,
     /// Velocities of the walls until they are stored, and those that continuity takes of a liquid, shape `[wall]`.
     pub(super) wall_velocity: Vec<(Vector<D>, Vector<D>)>,

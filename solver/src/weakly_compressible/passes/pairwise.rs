@@ -22,7 +22,7 @@ const fn values(dimension: usize) -> usize {
     2 * dimension + 4
 }
 
-/// What is read of a flow particle.
+/// Neighbour data of a flow particle.
 struct Partner<V, const D: usize> {
     position: [V; D],
     velocity: [V; D],
@@ -84,7 +84,7 @@ struct Pass<'a, const D: usize> {
     weights: &'a mut [[f64; LANES]],
 }
 
-/// What the loops read.
+/// Inputs of the pair loops.
 #[derive(Clone, Copy)]
 struct Inputs<'a, const D: usize> {
     model: &'a Model<D>,
@@ -219,8 +219,8 @@ fn wall_difference<V: Lanes, const D: usize>(
     scaled(beta, &difference(velocity_a, &wall_velocity))
 }
 
-/// What (13) takes beside (11): Σ V (μ_b + μ_a)(v_b − v_a) ⊗ ∇W, since with (9) ∇(μv) − v_a∇μ = L Σ V μ_b (v_b − v_a) ∇W
-/// and μ_a∇v likewise, and Σ V ∇W.
+/// Viscous sums of (13) beside (11): Σ V (μ_b + μ_a)(v_b − v_a) ⊗ ∇W, since with (9)
+/// ∇(μv) − v_a∇μ = L Σ V μ_b (v_b − v_a) ∇W and μ_a∇v likewise, and Σ V ∇W.
 #[inline(always)]
 fn viscous_sums<V: Lanes, const D: usize>(
     inputs: Inputs<'_, D>,

@@ -1,4 +1,4 @@
-//! What side walls take from the velocities of a plane flow, after all other forces and contacts of a step.
+//! Friction of side walls on the velocities of a plane flow, after all other forces and contacts of a step.
 
 use crate::parallel::prelude::*;
 use crate::vector::Vector;

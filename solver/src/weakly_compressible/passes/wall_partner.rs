@@ -1,5 +1,5 @@
-//! What a wall particle does to a flow particle in the momentum equation: read by the pass of the forces, and by the one
-//! that books them to facet walls.
+//! Action of a wall particle on a flow particle in the momentum equation: read by the pass of the forces, and by the
+//! one that books them to facet walls.
 
 use super::flow_partner::{Constants, FlowPartner};
 use super::layout::Momentum;
@@ -13,7 +13,7 @@ use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{hourglass, no_slip, stress_divergence, wall_slip};
 use std::ops::Range;
 
-/// What is read of a wall particle: records of the length of [`FlowPartner`]'s with a layout of their own.
+/// Neighbour data of a wall particle: records of the length of [`FlowPartner`]'s with a layout of their own.
 pub(super) struct WallPartner<V, const D: usize> {
     pub(super) position: [V; D],
     /// Velocity of the wall itself.
@@ -61,7 +61,7 @@ pub(super) struct WallGroup<V, const D: usize> {
     viscous: ViscousPart<V, D>,
 }
 
-/// What of a particle's stress needs no pressure: [`no_slip`] takes it.
+/// Part of a particle's stress that needs no pressure: [`no_slip`] takes it.
 struct ViscousPart<V, const D: usize> {
     /// Its share of the stress `[-]`: 1 of a liquid, 0 of grains.
     share: V,

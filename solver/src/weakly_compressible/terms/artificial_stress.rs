@@ -16,7 +16,7 @@ use crate::lanes::Real;
 /// ε of Gray, Monaghan & Swift `[-]`.
 const STRENGTH: f64 = 0.3;
 
-/// What of a pair's tension is taken, for one kernel and spacing.
+/// Part of a pair's tension that is removed, for one kernel and spacing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ArtificialStress {
     /// In the plane: the ratio of two values of a kernel is the same in space.

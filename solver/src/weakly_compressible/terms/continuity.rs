@@ -2,15 +2,16 @@
 //!
 //! The divergence in (7) is not corrected: the trace of the corrected gradient makes the layer shrink or blow up.
 //!
-//! Where grains bear no tension, a density is held where their own kernel puts it. Continuity gives (7) of every pair that parts, weighted
-//! with the neighbour's volume m/ρ: grains that leave their neighbours one after another grow thinner each time, and thinner neighbours
-//! count for more, so that in a spray ahead of a front ρ fell to a hundredth and each grain weighed on the others with the volume of a
-//! hundred. But smoothed by the kernel a grain alone has the density m W(0), 1/4 of ρ0 in the plane and 1/8 in space with h = 1.5 Δ, and with
-//! others near it has more. So ρ ≥ m W(0), or V W(0) ≤ 1: no volume fills the kernel more than once. There the pressure is zero, in free
-//! flight and until the grain has come together again with others, so that the bound does no work, moves nothing and loses no mass. What
-//! lands from it is not pressed together either: in a full neighbourhood of volumes Δ^D, Σ V W = 1 − W(0) Δ^D without itself, so that ρ comes to
-//! m W(0) exp(1 − W(0) Δ^D), 0.53 ρ0 in the plane and 0.30 ρ0 in space. A bound at ρ0 would be another matter: what parts and meets again would be
-//! under pressure before it touches.
+//! The kernel of a grain bounds its density where grains bear no tension. Continuity gives (7) of every pair that
+//! parts, weighted with the neighbour's volume m/ρ: grains that leave their neighbours one after another grow thinner
+//! each time, and thinner neighbours count for more, so that in a spray ahead of a front ρ fell to a hundredth and each
+//! grain weighed on the others with the volume of a hundred. But smoothed by the kernel a grain alone has the density
+//! m W(0), 1/4 of ρ0 in the plane and 1/8 in space with h = 1.5 Δ, and with others near it has more. So ρ ≥ m W(0), or
+//! V W(0) ≤ 1: no volume fills the kernel more than once. There the pressure is zero, in free flight and until the
+//! grain has come together again with others, so that the bound does no work, moves nothing and loses no mass. What
+//! lands from it is not pressed together either: in a full neighbourhood of volumes Δ^D, Σ V W = 1 − W(0) Δ^D without
+//! itself, so that ρ comes to m W(0) exp(1 − W(0) Δ^D), 0.53 ρ0 in the plane and 0.30 ρ0 in space. A bound at ρ0 would
+//! be another matter: what parts and meets again would be under pressure before it touches.
 
 use crate::lanes::Real;
 

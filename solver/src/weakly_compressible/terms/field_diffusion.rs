@@ -25,7 +25,7 @@ pub const CLOSED: f64 = 0.85;
 /// Range of eigenvalues below it over which it opens `[-]`.
 const OPENING: f64 = 0.1;
 
-/// What a surface takes of the missing weight `[-]`.
+/// Strength of the sink at a surface over the missing weight `[-]`.
 const SURFACE_STRENGTH: f64 = 4.0;
 
 /// 1 + d_w/d_a of a pair with a wall particle at a depth `[m]` behind its surface, whose normal is given; 0 for a smooth wall.
@@ -36,8 +36,8 @@ pub fn wall_factor<V: Real, const D: usize>(r: &[V; D], normal: &[V; D], depth: 
     factor * (V::splat(1.0) - smoothness)
 }
 
-/// What a free surface takes `[1/m²]`, from the Σ w of a particle and that of a lattice, and the smallest eigenvalue of its
-/// moment matrix.
+/// Sink at a free surface `[1/m²]`. It follows from the Σ w of a particle and that of a lattice, and the smallest
+/// eigenvalue of its moment matrix.
 #[inline(always)]
 pub fn surface_sink<V: Real>(weights: V, full_weight: f64, eigenvalue: V) -> V {
     let zero = V::splat(0.0);

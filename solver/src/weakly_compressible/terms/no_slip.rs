@@ -10,9 +10,10 @@
 use crate::lanes::Real;
 use crate::lanes::algebra::{difference, dot, product, scaled};
 
-/// What takes the place of the slip β (v_a − v_wall) `[m/s]` where the shear rate changes with the distance: β (v_a − v_wall) is right in
-/// the middle between a and the surface, a's own gradient at a, and the line through both gives the shear rate in the middle between a
-/// and w, min(1, d_w/d_a) times their difference further on, along the wall: across it the velocity has no slope at the surface. Without it the surface of a curved profile lies 0.05 Δ too far back.
+/// Replacement of the slip β (v_a − v_wall) `[m/s]` where the shear rate changes with the distance: β (v_a − v_wall) is
+/// right in the middle between a and the surface, a's own gradient at a, and the line through both gives the shear rate
+/// in the middle between a and w, min(1, d_w/d_a) times their difference further on, along the wall: across it the
+/// velocity has no slope at the surface. Without it the surface of a curved profile lies 0.05 Δ too far back.
 #[inline(always)]
 pub fn slip_at_middle<V: Real, const D: usize>(
     slip: &[V; D],

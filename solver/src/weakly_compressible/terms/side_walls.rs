@@ -19,7 +19,7 @@ pub fn speed_lost<R: Real>(pressure: R, density: R, friction_per_width: f64, tim
     R::splat(2.0 * friction_per_width * time_step) * pressure.max(R::splat(0.0)) / density
 }
 
-/// What is left of a speed `[m/s]` over itself `[-]`, where walls take up to `lost` `[m/s]` of it; 0 at rest.
+/// Remaining part of a speed `[m/s]` over itself `[-]`, where walls take up to `lost` `[m/s]` of it; 0 at rest.
 #[inline(always)]
 #[must_use]
 pub fn share_left<R: Real>(speed: R, lost: R) -> R {

@@ -71,7 +71,7 @@ pub fn complete<V: Real, const D: usize>(deviator: &mut [[V; D]; D]) {
 mod tests {
     use super::*;
 
-    /// What particle a takes from b.
+    /// Contribution of particle b to the diffusion at particle a.
     fn bracket(a: (&[[f64; 3]; 3], f64), b: (&[[f64; 3]; 3], f64)) -> [[f64; 3]; 3] {
         let mut sum = [[0.0; 3]; 3];
         accumulate_bracket(&mut sum, pair_factor(1.0, 1.0, a.1 + b.1), a, b);

@@ -1,5 +1,5 @@
-//! What the flow gives a wall particle: recipe step 3 (default) or Adami's pressure (22) with the density (23) (the
-//! paper), term by term of the averages over flow neighbours with the weights V_f W_wf.
+//! Extrapolation from the flow to a wall particle: recipe step 3 (default) or Adami's pressure (22) with the density
+//! (23) (the paper), term by term of the averages over flow neighbours with the weights V_f W_wf.
 
 use crate::lanes::algebra::{accumulate_outer, dot, matrix_product, zero_tensor};
 use crate::lanes::{Lanes, Real};

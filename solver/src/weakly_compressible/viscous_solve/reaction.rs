@@ -1,5 +1,5 @@
-//! What walls and planes of symmetry give to the flow by the response K of an implicit step, beside the forces of the old state:
-//! for balances, where the flow is enclosed.
+//! Reactions of walls and planes of symmetry on the flow by the response K of an implicit step. They come beside the
+//! forces of the old state: for balances, where the flow is enclosed.
 //!
 //! Of (−K δ)_a = V_a [Σ_b w_ab (s_a L_a + s_b L_b) r + Σ_w w_aw β s_a L_a r] the pairs of the flow cancel each other. The sum over wall
 //! particles is theirs, wall by wall, and what images behind a mirror give is that plane's.

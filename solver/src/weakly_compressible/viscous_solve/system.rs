@@ -1,5 +1,5 @@
-//! What a solve keeps: coefficients and vectors in groups of eight particles, as the neighbour list has them, and
-//! records of what a pair loop reads of a neighbour.
+//! Storage of a solve: coefficients and vectors in groups of eight particles, as the neighbour list has them, and
+//! records of the neighbours for the pair loops.
 
 use super::lane;
 use crate::lanes::LANES;

@@ -6,15 +6,15 @@ use crate::vector::Vector;
 /// A plate normal to the first axis, lifted along the second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gate {
-    /// Where its upstream face stands `[m]`.
+    /// Position of the gate's upstream face `[m]`.
     pub position: f64,
-    /// Where its lower edge stands at the start `[m]`.
+    /// Coordinate of the gate's lower edge at the start `[m]`.
     pub edge: f64,
     /// Its height `[m]`.
     pub height: f64,
     /// Speed at which it is pulled up `[m/s]`.
     pub speed: f64,
-    /// How far it is pulled `[m]`.
+    /// Distance by which the gate is pulled up `[m]`.
     pub lift: f64,
     /// Rows of particles through its thickness: enough to keep both sides apart.
     pub rows: usize,

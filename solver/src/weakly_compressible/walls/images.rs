@@ -32,7 +32,7 @@ const BLOCK: usize = 1024;
 /// Images a task of the copies.
 const COPIED: usize = 4096;
 
-/// What may have images along an axis: real particles, then images along the axes before.
+/// Sources of images along an axis: real particles, then images along the axes before.
 #[derive(Clone, Copy)]
 struct Sources<'a, const D: usize> {
     positions: &'a [Vector<D>],

@@ -38,8 +38,8 @@ pub struct Wall<const D: usize> {
     pub velocity: Vector<D>,
     /// Rough or smooth.
     pub roughness: Surface,
-    /// How far the wall still moves at its velocity, taking its particles with it, before it stands still `[m]`. At 0
-    /// a rough wall with a velocity is a belt: it drags, and its particles stay.
+    /// Distance that the wall still moves at its velocity, taking its particles with it, before it stands still `[m]`.
+    /// At 0 a rough wall with a velocity is a belt: it drags, and its particles stay.
     pub travel: f64,
     /// Lower and upper corner of the region in which a wall of finite size touches the flow `[m]`; it travels along.
     pub region: Option<(Vector<D>, Vector<D>)>,

@@ -1,5 +1,5 @@
-//! What a divergence most likely comes from, with a remedy each: the message of the solver says particle, place, time and
-//! quantity, and a user wants to know what to change.
+//! Likely causes of a divergence, each with a remedy. The message of the solver names particle, place, time and
+//! quantity; the causes name the parameter to change.
 
 use crate::observation::{Outcome, Recorded};
 
@@ -49,7 +49,7 @@ pub(super) fn explained<O>(mut record: Recorded<O>) -> Recorded<O> {
     record
 }
 
-/// What a message's quantity usually comes from.
+/// Usual causes of the divergence that a message of the solver describes; none for an unknown quantity.
 fn causes(message: &str) -> Option<&'static str> {
     let known = |(name, _): &&(&str, &str)| message.contains(&format!(": the {name} of particle "));
     CAUSES.iter().find(known).map(|(_, causes)| *causes)

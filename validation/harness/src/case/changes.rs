@@ -12,20 +12,20 @@ use serde_json::Value as Schema;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
-/// What the user asks to differ from a tier's parameters.
+/// User's changes to the parameters of a tier.
 #[derive(Debug, Clone, Default)]
 pub struct Changes<'a> {
     /// A file's fields, without `case` and `tier`, and where it stands.
     pub file: Option<(&'a Path, Table)>,
     /// `path=value` arguments, applied after the file; each gives fields of its own.
     pub settings: &'a [String],
-    /// How much the runs may ask for.
+    /// Resource limits of the runs.
     pub limits: Limits,
     /// Keys of the runs that are to be simulated; all runs where there are none. What concerns only other runs is not refused.
     pub only: &'a [Variant],
 }
 
-/// Where a user has given parameters, for errors that come up once the changes are gone.
+/// Source of the user's parameters, for errors that occur after the changes are discarded.
 #[derive(Debug, Default)]
 pub(super) struct ParameterSource {
     file: Option<PathBuf>,
@@ -43,7 +43,7 @@ impl ParameterSource {
 }
 
 impl Changes<'_> {
-    /// Where they come from.
+    /// Source of these changes: the file and the `--set` arguments.
     pub(super) fn source(&self) -> ParameterSource {
         ParameterSource {
             file: self.file.as_ref().map(|(file, _)| file.to_path_buf()),
@@ -223,10 +223,10 @@ fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
     }
 }
 
-/// What a friction angle is called.
+/// Name of the field that gives a static friction coefficient as an angle.
 const ANGLE: &str = "friction_angle";
 
-/// What it stands for.
+/// Name of the field that a friction angle sets, by its tangent.
 const COEFFICIENT: &str = "static_friction";
 
 /// The first friction angle `[°]` that has no tangent to stand for, or stands beside what it stands for.

@@ -1,9 +1,10 @@
-//! What a particle-step costs, for estimates before a run: orders of magnitude of a small scene on one core.
+//! Cost of a particle-step, for estimates before a run: orders of magnitude for a small scene on one core.
 
 /// Of the weakly compressible model in the plane `[s]`; space costs four times as much.
 pub const WEAKLY_COMPRESSIBLE: f64 = 0.7e-6;
 
-/// What an implicit viscous step of that model costs of an explicit one `[-]`: pairs in double precision, and some ten iterations.
+/// Cost of an implicit viscous step over that of an explicit one `[-]`, weakly compressible model: pairs in double
+/// precision, and some ten iterations.
 pub const IMPLICIT_STEP: f64 = 3.0;
 
 /// Of the incompressible model `[s]`.

@@ -30,9 +30,9 @@ pub trait AnyCase: Sync {
     fn name(&self) -> &'static str;
     /// One line for `bagnold list`.
     fn summary(&self) -> &'static str;
-    /// What its metrics are built from; empty for a case that does not declare it.
+    /// Quantities from which the metrics of the case are built; empty if the case does not declare them.
     fn quantities(&self) -> &'static [Quantity];
-    /// Where its code stands.
+    /// Origin of the code of the case: these packages or another crate.
     fn origin(&self) -> CodeOrigin;
     /// Whether it is a canonical study: runs of other cases under checks of its own.
     fn is_study(&self) -> bool {
@@ -48,7 +48,7 @@ pub trait AnyCase: Sync {
     fn schema(&self, tier: Tier) -> serde_json::Value;
     /// The schema of its parameters, as their type has it.
     fn parameter_schema(&self) -> &'static serde_json::Value;
-    /// What another code may give of a run, beside single numbers.
+    /// Columns that the case accepts from an external code for a run, besides single numbers.
     fn form(&self) -> &'static ExternalSchema;
     /// Types and checks a tier's parameters with the user's changes.
     ///
@@ -61,11 +61,11 @@ pub trait AnyCase: Sync {
 pub trait PreparedCase: Send + Sync {
     /// Name of the case.
     fn name(&self) -> &'static str;
-    /// Where the code of the case stands.
+    /// Origin of the code of the case: these packages or another crate.
     fn origin(&self) -> CodeOrigin;
     /// The parameters: a complete file for `bagnold run`.
     fn parameters_toml(&self) -> &str;
-    /// What the runs start from, drawn; none for a case that does not draw it.
+    /// Drawing of the initial state of the runs; none for a case that does not draw it.
     fn setup(&self) -> Option<Figure>;
     /// Number of runs.
     fn run_count(&self) -> usize;
@@ -77,9 +77,9 @@ pub trait PreparedCase: Send + Sync {
     fn particle_steps(&self, run: usize) -> f64;
     /// Time of a run on one core that follows from its parameters alone `[s]`; limits are counted by it.
     fn nominal_seconds(&self, run: usize) -> f64;
-    /// What all runs are expected to need.
+    /// Estimated resources of all runs together.
     fn estimate(&self) -> Estimate;
-    /// What a run is known by in a store: the same for the same simulation; none where the store is bypassed.
+    /// Key of a run in a store, equal for identical simulations; none if the store is bypassed.
     fn identity(&self, run: usize, store: &Store) -> Option<String>;
     /// Takes a run's record from the store or simulates it, in the current rayon pool.
     ///
@@ -192,7 +192,7 @@ struct CasePlan<C: Case> {
     command: String,
     /// Fields that differ from the tier's, with their values.
     differs: Vec<(String, String)>,
-    /// Where they were given.
+    /// Source of the user's parameters.
     source: ParameterSource,
     slots: Vec<Slot<RunOf<C::Parameters>>>,
 }

@@ -1,4 +1,4 @@
-//! Why a case refuses its parameters.
+//! Errors in the parameters of a case.
 
 use crate::input::{FieldError, did_you_mean, origin, shown};
 use crate::output::FileError;
@@ -19,7 +19,7 @@ pub enum ParameterError {
         field: String,
         /// Its value.
         value: String,
-        /// What follows from it.
+        /// Error that follows from this value.
         error: Box<ParameterError>,
     },
     /// An error that names no field of the user's.
@@ -63,7 +63,7 @@ pub enum ParameterError {
         file: Option<PathBuf>,
         /// Dotted TOML path.
         field: String,
-        /// Where its values are told.
+        /// Remedy: the command that prints or explains the values of the field.
         remedy: String,
     },
     /// A file is not TOML.
@@ -160,7 +160,7 @@ pub enum SettingError {
         value: String,
         /// The rule it breaks, completing "must be …".
         rule: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: String,
     },
 }
@@ -208,7 +208,7 @@ impl ParameterError {
     }
 }
 
-/// What a case that asks for no run lacks.
+/// Text that names the empty lists of a case without a run.
 fn nothing_in(lists: &[String]) -> String {
     let named: Vec<String> = lists.iter().map(|path| format!("`{path}`")).collect();
     match named.len() {

@@ -1,4 +1,4 @@
-//! What runs will need, before anything is allocated: particles, memory, steps and time; and how much is allowed.
+//! Estimated resources of runs before anything is allocated (particles, memory, steps and time), and their limits.
 
 use super::Run;
 use std::fmt;
@@ -19,7 +19,7 @@ const GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
 /// longest fine tier takes some tens.
 const USUAL_CORE_HOURS: f64 = 10_000.0;
 
-/// What some runs are expected to need.
+/// Estimated resources of a set of runs.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Estimate {
     /// Number of runs.
@@ -73,7 +73,7 @@ impl Estimate {
         (self.running * at_once).min(self.all_running) + self.all_particles * BYTES_KEPT
     }
 
-    /// How far it is beyond what is allowed: above 1 if it is. One run at a time must fit into the memory.
+    /// Ratio of the estimate to the limits; above 1 if it exceeds them. One run at a time must fit into the memory.
     fn excess(&self, limits: &Limits) -> f64 {
         let excess = (self.memory(1) / limits.memory).max(self.core_seconds / 3600.0 / limits.core_hours);
         // a run whose cost is not even a number is beyond any limit
@@ -154,7 +154,7 @@ fn rounded(value: f64) -> String {
     format!("{text}")
 }
 
-/// How much the runs of a case may ask for.
+/// Resource limits of the runs of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Memory `[bytes]`.

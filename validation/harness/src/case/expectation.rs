@@ -1,9 +1,9 @@
-//! How long runs will take together, from what each takes on one core: the order in which [`super::execute`] does them.
+//! Expected wall time of several runs, from their times on one core, in the order of [`super::execute`].
 
 /// Gain in speed by every thread of a run beyond its first `[-]`. Small runs gain less, large ones more.
 const GAIN: f64 = 0.7;
 
-/// How much faster a run is on so many threads than on one `[-]`.
+/// Speed-up of a run on a number of threads relative to one thread `[-]`.
 #[must_use]
 pub fn speed_up(threads: usize) -> f64 {
     1.0 + GAIN * (threads.max(1) - 1) as f64

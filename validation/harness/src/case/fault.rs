@@ -1,4 +1,4 @@
-//! What the checker says of a field, put into a user's words.
+//! Faults that the checker finds in a field, as messages for the user.
 
 use super::error::ParameterError;
 use crate::input::nearest;
@@ -37,7 +37,7 @@ pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> Param
     }
 }
 
-/// What to do about a value of the wrong type: the nearest of an enum's names, or a look at a valid value.
+/// Remedy for a value of the wrong type: the nearest name of an enum, or the command that shows a valid value.
 pub(super) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str) -> String {
     choice
         .and_then(|(name, known)| nearest(name, known.iter().map(String::as_str)))

@@ -1,5 +1,5 @@
-//! What parameters leave to choose, and what a run has chosen: read from the schemas of the parameters and from the serialised run, so
-//! that a new option of a law, an operator or a boundary shows by itself.
+//! Options that the parameters offer and those that a run has chosen. They are read from the schemas of the parameters
+//! and from the serialised run, so that a new option of a law, an operator or a boundary shows by itself.
 
 use super::Registry;
 use bagnold_solver::parameter::Shape;
@@ -46,7 +46,7 @@ impl Features {
         self.options.iter().flat_map(of_feature)
     }
 
-    /// What a serialised run has chosen.
+    /// Options that a serialised run has chosen.
     #[must_use]
     pub fn chosen(&self, run: &Value) -> BTreeSet<FeatureOption> {
         let mut chosen = BTreeSet::new();

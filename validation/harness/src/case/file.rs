@@ -12,7 +12,7 @@ use toml::{Table, Value};
 /// A file that was read, its parameters still untyped.
 #[derive(Debug, Clone)]
 pub struct CaseFile {
-    /// Where it stands.
+    /// Path of the file.
     pub path: PathBuf,
     /// The case that it describes.
     pub case: String,

@@ -36,7 +36,7 @@ pub(super) fn fail_diverged(metrics: &mut [Metric], runs: &[RunSummary]) {
     }
 }
 
-/// Where a table holds no number.
+/// Description of the first number in a table that is not finite: column, row and value.
 fn broken(table: &Table) -> Option<String> {
     table.rows.iter().enumerate().find_map(|(row, values)| {
         let column = values.iter().position(|value| !value.is_finite())?;

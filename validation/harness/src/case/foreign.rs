@@ -1,4 +1,4 @@
-//! What another code may give of a run, so that its numbers are taken and judged as our own are.
+//! Data of an external code for a run, so that its numbers are read and judged as our own are.
 
 use crate::figure::Figure;
 use crate::input::{FieldError, did_you_mean, nearest};
@@ -15,7 +15,7 @@ pub type NamedColumns = BTreeMap<String, Vec<f64>>;
 pub struct ParticleFrame {
     /// Time `[s]`.
     pub time: f64,
-    /// What is known of each.
+    /// Values of each particle or cell, by column.
     pub columns: NamedColumns,
 }
 
@@ -37,7 +37,7 @@ pub struct ExternalColumn {
     pub name: &'static str,
     /// SI unit, `-` for none.
     pub unit: &'static str,
-    /// What it is, one phrase.
+    /// Description, one phrase.
     pub description: &'static str,
 }
 
@@ -49,7 +49,7 @@ impl ExternalColumn {
     }
 }
 
-/// What a run of a case may yield, beside single numbers, which every case takes.
+/// Data that a case accepts for a run from an external code, besides single numbers, which every case accepts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExternalSchema {
     /// Columns of particles.
@@ -58,7 +58,7 @@ pub struct ExternalSchema {
     pub series: &'static [ExternalColumn],
     /// Columns of the profile.
     pub profile: &'static [ExternalColumn],
-    /// How the measurements are taken from them, in prose.
+    /// Description in prose of how the measurements are taken from these columns.
     pub description: &'static str,
 }
 
@@ -97,7 +97,7 @@ pub struct ExternalObservation<O> {
     pub measured: Vec<&'static str>,
 }
 
-/// What another code's runs of a case come to.
+/// Results of an external code's runs of a case.
 #[derive(Debug, Clone)]
 pub struct ExternalResult {
     /// Numbers, of which those in `measured` may be judged.

@@ -1,4 +1,4 @@
-//! What is asked of a case's parameters as a whole, before anything is allocated: the rules between fields, runs that can
+//! Checks of the parameters of a case as a whole, before anything is allocated: the rules between fields, runs that can
 //! be distinguished, and a size that this machine can take. Every refusal names a field that the user has changed.
 
 use super::changes::{Changes, find, leaves, table_of};
@@ -159,7 +159,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
     }
 }
 
-/// What runs need together.
+/// Estimated resources of the runs together.
 fn of_runs<R: Run>(runs: &[&R]) -> Estimate {
     runs.iter().map(|run| Estimate::of(*run)).fold(Estimate::default(), Estimate::and)
 }

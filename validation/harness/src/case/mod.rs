@@ -1,4 +1,4 @@
-//! What a case is: typed parameters → independent runs → observations → metrics and figures.
+//! Definition of a case: typed parameters → independent runs → observations → metrics and figures.
 
 mod causes;
 mod changes;
@@ -124,8 +124,8 @@ pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send +
 /// One independent simulation of a case. Its serialised form is its identity in the store, so it
 /// holds everything that the simulation depends on.
 pub trait Run: Serialize + Clone + Send + Sync {
-    /// What it leaves behind: plain data, stored and shared by tests and report. Stored as postcard,
-    /// which needs serde's plain derive: no untagged or internally tagged enums, no `flatten`.
+    /// Observation that the run produces: plain data, stored and shared by tests and report. Stored as postcard, which
+    /// needs serde's plain derive: no untagged or internally tagged enums, no `flatten`.
     type Observation: Serialize + DeserializeOwned + Send + Sync;
 
     /// Full name of the run, `key=value,…` in the case's fixed order; unique within the case.
@@ -162,17 +162,17 @@ pub trait Run: Serialize + Clone + Send + Sync {
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, ParameterError>;
 }
 
-/// How far a run has come; called often, must be cheap.
+/// Progress of a run; called often, must be cheap.
 pub trait Progress: Sync {
     /// `simulated` of `total` seconds are done, with `particle_steps` particle-steps so far.
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64);
     /// The run resumes from a checkpoint at a simulated time `[s]`.
     fn resumed(&self, simulated: f64);
-    /// Where the run keeps its checkpoints; none where nothing is kept.
+    /// Checkpoints of the run; none if nothing is kept.
     fn checkpoints(&self) -> Option<&Checkpoints> {
         None
     }
-    /// What takes states during the run; none where none are asked for.
+    /// Receiver of states during the run; none if no states are requested.
     fn output(&self) -> Option<&dyn StateOutput> {
         None
     }
@@ -181,7 +181,7 @@ pub trait Progress: Sync {
 /// A run of a case with these parameters.
 pub type RunOf<P> = <P as Parameters>::Run;
 
-/// What such a run leaves behind.
+/// Observation that a run of a case with these parameters produces.
 pub type ObservationOf<P> = <RunOf<P> as Run>::Observation;
 
 /// A run with what it left behind.
@@ -197,12 +197,12 @@ pub trait Case: Sync + 'static {
     const DESCRIPTION: &'static str = Self::SUMMARY;
     /// The quantities that its metrics are built from, each declared once; empty for a case that does not declare them.
     const QUANTITIES: &'static [Quantity] = &[];
-    /// Where its code stands. Leave it as it is: no hash of sources covers a case of another crate, so its results are known
-    /// by the program that computed them.
+    /// Origin of the code of the case. Leave it as it is: no hash of sources covers a case of another crate, so its
+    /// results are known by the program that computed them.
     const ORIGIN: CodeOrigin = CodeOrigin::ELSEWHERE;
     /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
     const STATED: &'static [&'static str] = &[];
-    /// What another code may give of a run, beside single numbers.
+    /// Data that the case accepts for a run from an external code, besides single numbers.
     const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema::NUMBERS;
     /// Typed parameters.
     type Parameters: Parameters;

@@ -5,7 +5,7 @@ use serde_json::Value as Schema;
 use std::collections::BTreeMap;
 use toml::{Table, Value};
 
-/// What stands at each dotted path of the parameters, with its unit; entries of lists are numbered, `gauges[0].width`.
+/// Remarks on the parameters by dotted path, each with its unit; entries of lists are numbered, `gauges[0].width`.
 pub(super) fn notes(schema: &Schema, parameters: &Table) -> BTreeMap<String, String> {
     let mut notes = BTreeMap::new();
     collect(schema, &Value::Table(parameters.clone()), "", &mut notes);

@@ -4,7 +4,7 @@ use crate::input::{FieldError, did_you_mean, nearest};
 use crate::observation::Frame;
 use std::path::Path;
 
-/// What can be written of a state, of both models; a case without a quantity leaves it out.
+/// Quantities of a state that can be written, of both models; a case without a quantity leaves it out.
 pub const OUTPUT_FIELDS: [&str; 12] = [
     "id",
     "mass",
@@ -20,7 +20,7 @@ pub const OUTPUT_FIELDS: [&str; 12] = [
     "phase",
 ];
 
-/// Which states are wanted.
+/// Selection of the states that a run writes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputPlan {
     /// Time between two of them `[s]`.
@@ -94,7 +94,7 @@ impl OutputPlan {
     /// Takes the table out of the fields of a case file.
     ///
     /// # Errors
-    /// What [`OutputPlan::of`] refuses; something else than a table.
+    /// Errors of [`OutputPlan::of`]; a value that is not a table.
     pub(super) fn taken(fields: &mut toml::Table, path: &Path) -> Result<Option<Self>, FieldError> {
         match fields.remove("output") {
             None => Ok(None),

@@ -31,7 +31,7 @@ impl Registry {
         self.0.iter().copied()
     }
 
-    /// Where the code of the cases stands: elsewhere, if that of any of them does.
+    /// Origin of the code of the cases: elsewhere, if that of any of them is.
     #[must_use]
     pub fn origin(self) -> CodeOrigin {
         self.iter().map(AnyCase::origin).fold(CodeOrigin::PACKAGE, CodeOrigin::and)

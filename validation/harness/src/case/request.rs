@@ -1,4 +1,4 @@
-//! What a user asks to be run: a case by its name or from a file, with changes, all of its runs or some.
+//! Request for runs: a case by its name or from a file, with changes, all of its runs or some.
 
 use super::error::ParameterError;
 use super::{AnyCase, CaseFile, Changes, Limits, OutputPlan, PreparedCase, Registry, Tier};
@@ -16,7 +16,7 @@ pub struct Request<'a> {
     pub settings: &'a [String],
     /// Keys of the runs that are meant; all runs where there are none.
     pub only: &'a [Variant],
-    /// How much the runs may ask for.
+    /// Resource limits of the runs.
     pub limits: Limits,
 }
 

@@ -1,4 +1,4 @@
-//! What a finished case hands to reports, files and tests: plain data, whatever the case's types were.
+//! Results of a finished case for reports, files and tests: plain data, whatever the case's types were.
 
 use super::Tier;
 use crate::control::{Control, ControlTrial};
@@ -12,9 +12,9 @@ use serde::{Deserialize, Serialize};
 /// One run of a case in brief.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunSummary {
-    /// Which run; empty where the case has a single one.
+    /// Name of the run; empty if the case has a single run.
     pub variant: Variant,
-    /// How it ended.
+    /// Outcome of the run.
     pub outcome: Outcome,
     /// Flow particles.
     pub particles: usize,
@@ -53,7 +53,7 @@ impl RunSummary {
 pub struct CaseResult {
     /// Name on the command line.
     pub name: String,
-    /// Where its code stands.
+    /// Origin of the code of the case: these packages or another crate.
     pub origin: CodeOrigin,
     /// One line about it.
     pub summary: String,
@@ -75,7 +75,7 @@ pub struct CaseResult {
     pub tables: Vec<Table>,
     /// The runs in the case's order.
     pub runs: Vec<RunSummary>,
-    /// What each run depends on, by the names of its fields, in the order of `runs`; null for what cannot be written as JSON.
+    /// Values that each run depends on, by field name, in the order of `runs`; null if JSON cannot hold them.
     pub run_parameters: Vec<serde_json::Value>,
     /// The regime of each run's flow, in the order of `runs`.
     pub regimes: Vec<FlowRegime>,

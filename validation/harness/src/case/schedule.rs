@@ -20,7 +20,7 @@ pub trait Monitor: Sync {
     fn resumed(&self, run: usize, simulated: f64);
     /// The run is done, or was taken from the store.
     fn finished(&self, run: usize);
-    /// What takes states of the run on its way: such a run is never taken from the store.
+    /// Receiver of states during the run; a run with a receiver is never taken from the store.
     fn output(&self, _run: usize) -> Option<&dyn StateOutput> {
         None
     }
@@ -71,7 +71,7 @@ struct ScheduledRun {
     number: usize,
 }
 
-/// What the workers share.
+/// State that the worker threads share.
 struct Queue<J, E> {
     /// Jobs not yet begun, the last first: the next one is popped off the end.
     waiting: Vec<J>,

@@ -16,7 +16,7 @@ const CHECKSUM_BYTES: usize = 32;
 /// Files begun by this process.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-/// Why a checkpoint is not continued.
+/// Reason why a checkpoint is not continued.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Refused {
     /// It cannot be read.
@@ -68,7 +68,7 @@ fn short(error: io::Error) -> Refused {
     if error.kind() == io::ErrorKind::UnexpectedEof { Refused::Damaged } else { Refused::Unreadable(error) }
 }
 
-/// What comes before the contents.
+/// Head of a checkpoint file, which precedes the contents.
 fn head(key: &str, contents: &[u8]) -> Vec<u8> {
     let length = (key.len() as u64).to_le_bytes();
     let checksum = Sha256::digest(contents);

@@ -26,8 +26,8 @@ const KEPT: usize = 2;
 /// Ends the names of checkpoints.
 const EXTENSION: &str = "checkpoint";
 
-/// Where one run keeps its checkpoints. Used by one run at a time; another program that simulates the same run does no harm,
-/// because both would write the same states.
+/// Checkpoints of one run. They are used by one run at a time; another program that simulates an identical run does no
+/// harm, because both would write identical states.
 #[derive(Debug)]
 pub struct Checkpoints {
     folder: PathBuf,
@@ -38,9 +38,9 @@ pub struct Checkpoints {
 
 #[derive(Debug)]
 struct CheckpointState {
-    /// What an earlier program left, the newest first, until a run has taken it.
+    /// Checkpoints of an earlier program, the newest first, until a run has taken them.
     left: Option<Vec<CheckpointFile>>,
-    /// When the next one is due.
+    /// Time at which the next checkpoint is due.
     due: Instant,
 }
 
@@ -181,7 +181,7 @@ impl Checkpoints {
     }
 }
 
-/// How many runs an interruption has found in progress.
+/// Number of runs in progress at an interruption.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InterruptedRuns {
     /// Those of which a checkpoint was written.

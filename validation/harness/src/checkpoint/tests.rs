@@ -8,7 +8,7 @@ fn text(contents: &[u8]) -> Result<String, String> {
     String::from_utf8(contents.to_vec()).map_err(|error| error.to_string())
 }
 
-/// What a program that starts now would continue.
+/// Contents that a program starting now would continue from.
 fn left(folder: &Path, key: &str) -> Option<String> {
     Checkpoints::at(folder, key, None).take(text)
 }

@@ -1,4 +1,4 @@
-//! Why a plan of many evaluations is refused, whatever they are made for.
+//! Errors in a plan of many evaluations, whatever their purpose.
 
 use crate::case::{ParameterError, SettingError};
 use crate::input::{FieldError, WRITTEN_BY_HAND, did_you_mean, position, read_text, shown};
@@ -67,7 +67,7 @@ impl PlanError {
         }
     }
 
-    /// What a case refuses, in the words of the plan that asks for it.
+    /// Parameter error of a case, expressed in the fields of the plan that requests it.
     #[must_use]
     pub fn of(error: ParameterError, plan: &Path) -> Self {
         match error {

@@ -26,7 +26,7 @@ use std::path::Path;
 pub struct CaseRequest {
     /// Name of the case.
     pub case: String,
-    /// What tells it from other requests of the same case.
+    /// Name that distinguishes it from other requests of the same case.
     pub name: Option<String>,
     /// Tier whose parameters fill what is left out.
     #[serde(default = "quick")]
@@ -47,7 +47,7 @@ fn quick() -> Tier {
 }
 
 impl CaseRequest {
-    /// What it is called in tables.
+    /// Label of the request in tables.
     #[must_use]
     pub fn label(&self) -> &str {
         self.name.as_deref().unwrap_or(&self.case)
@@ -84,7 +84,7 @@ pub fn key(prepared: &dyn PreparedCase) -> String {
 /// that panics are records too, with the reason.
 ///
 /// # Errors
-/// What has nothing to do with the parameters, such as threads that cannot be started.
+/// Errors unrelated to the parameters, such as threads that cannot be started.
 pub fn evaluate(
     prepared: Box<dyn PreparedCase>,
     store: &Store,

@@ -1,9 +1,9 @@
-//! Where a parameter stands in the cases' files.
+//! Paths of a parameter in the files of the cases.
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Where a parameter stands.
+/// Dotted path of a parameter, for all cases or by case.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Paths {

@@ -1,4 +1,4 @@
-//! What an evaluation leaves: numbers and tables, nothing that depends on when or where it ran.
+//! Record of an evaluation: numbers and tables, nothing that depends on when or where it ran.
 
 use crate::case::CaseResult;
 use crate::metric::{Metric, Variant, Verdict};
@@ -14,7 +14,7 @@ use std::path::Path;
 pub struct MetricValue {
     /// Stable snake_case name.
     pub name: String,
-    /// Which run, `key=value,…`.
+    /// Run that the value is of, `key=value,…`.
     pub variant: Variant,
     /// The value, in `unit`.
     pub value: f64,
@@ -22,7 +22,7 @@ pub struct MetricValue {
     pub unit: String,
     /// The gate's outcome.
     pub verdict: Verdict,
-    /// Why it has no value: what the flow still does at the end of the run.
+    /// Reason for the missing value: the change that the flow still shows at the end of the run.
     pub not_steady: Option<String>,
 }
 
@@ -42,7 +42,7 @@ impl MetricValue {
 /// A finished evaluation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationRecord {
-    /// What it is known by.
+    /// Key of the evaluation, 32 hexadecimal digits.
     pub key: String,
     /// Name of the case.
     pub case: String,
@@ -52,7 +52,7 @@ pub struct EvaluationRecord {
     pub metrics: Vec<MetricValue>,
     /// Profiles and time series.
     pub tables: Vec<Table>,
-    /// Why its numbers mean nothing: a run diverged, or the parameters gave no scene.
+    /// Reason why the numbers are invalid: a run diverged, or the parameters gave no scene.
     pub failure: Option<String>,
 }
 

@@ -14,14 +14,14 @@ struct Step {
     settings: Vec<String>,
 }
 
-/// What is to be run of a case.
+/// Runs of a case that propagate its input uncertainty.
 #[derive(Debug)]
 pub struct SensitivityPlan {
     steps: Vec<Step>,
 }
 
 impl SensitivityPlan {
-    /// What propagates the ranges that are stated of a case; empty where there are none.
+    /// Plan that propagates the stated ranges of a case; empty if none are stated.
     #[must_use]
     pub fn of(case: &str) -> Self {
         let Some(stated) = StatedUncertainty::of(case) else { return Self { steps: Vec::new() } };
@@ -116,7 +116,7 @@ impl SensitivityPlan {
     }
 }
 
-/// What a case compares with something from outside, whether it has a number for it or not, by name, in the case's order.
+/// Comparisons of a case with external data, with or without a number, by name, in the case's order.
 fn validations(result: &CaseResult) -> BTreeMap<&str, Vec<&Metric>> {
     let mut named: BTreeMap<&str, Vec<&Metric>> = BTreeMap::new();
     for metric in result.metrics.iter().filter(|metric| metric.kind == MetricKind::Validation) {

@@ -1,4 +1,4 @@
-//! What can be wrong with a reference: a data file, or parameters that have no reference solution.
+//! Errors of a reference: a data file, or parameters that have no reference solution.
 
 /// A reference that cannot be read or computed. Data errors name file, line and column, each counted from 1.
 #[derive(Debug, thiserror::Error)]
@@ -24,9 +24,9 @@ pub enum ReferenceError {
         file: String,
         /// Line of the file.
         line: u64,
-        /// What stands there.
+        /// Offending text of the line.
         text: String,
-        /// What it breaks, and what to write instead.
+        /// Rule that the text breaks, and its replacement.
         rule: String,
     },
     /// A required metadata line is absent.
@@ -46,7 +46,7 @@ pub enum ReferenceError {
         line: u64,
         /// Column of the table.
         column: usize,
-        /// What it breaks, and what to do.
+        /// Rule that the table breaks, and the remedy.
         rule: String,
     },
     /// A number column holds something else.
@@ -63,7 +63,7 @@ pub enum ReferenceError {
         column: usize,
         /// Name of the column.
         name: String,
-        /// What stands there.
+        /// Offending text of the cell.
         text: String,
     },
     /// The table has no such column.
@@ -97,9 +97,9 @@ pub enum ReferenceError {
         file: String,
         /// The column of labels.
         column: String,
-        /// What stands there.
+        /// Offending label.
         label: String,
-        /// What may stand there.
+        /// Labels that are allowed in the column.
         allowed: &'static str,
     },
 }

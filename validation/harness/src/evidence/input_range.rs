@@ -3,7 +3,7 @@
 use crate::metric::Variant;
 use serde::Deserialize;
 
-/// What a number rests on.
+/// Basis of a stated number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Basis {
@@ -27,7 +27,7 @@ impl Basis {
     }
 }
 
-/// What is spread evenly over a range.
+/// Quantity that is uniformly distributed over a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Spread {
@@ -42,7 +42,7 @@ pub enum Spread {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct InputRange {
-    /// What it is called.
+    /// Name of the input.
     pub name: String,
     /// The case at the lower end, `path=value`.
     pub low: Vec<String>,
@@ -50,19 +50,19 @@ pub struct InputRange {
     pub high: Vec<String>,
     /// The case's own value of the first path, in the unit of that parameter.
     pub own: f64,
-    /// What is spread evenly.
+    /// Quantity that is uniformly distributed over the range.
     #[serde(default)]
     pub spread: Spread,
     /// The range in words, with its unit.
     pub range: String,
-    /// What the range rests on.
+    /// Basis of the range.
     pub basis: Basis,
-    /// Where it comes from.
+    /// Source of the range.
     pub source: String,
-    /// What variants of comparisons have for which the input is not known so.
+    /// Variants of comparisons to which the range does not apply.
     #[serde(default)]
     pub not_for: Vec<Variant>,
-    /// What variants of comparisons have that the range is of; all where there are none.
+    /// Variants of comparisons to which the range applies; empty for all.
     #[serde(default)]
     pub only_for: Vec<Variant>,
 }
@@ -80,7 +80,7 @@ impl InputRange {
         Self::first(&self.low).map(|(path, _)| path)
     }
 
-    /// Where in the range the case's own value stands, from 0 at the lower to 1 at the upper end `[-]`; none where it stands outside.
+    /// Position of the case's own value in the range, 0 at the lower and 1 at the upper end `[-]`; none outside.
     #[must_use]
     pub fn place(&self) -> Option<f64> {
         let (low, high) = (Self::first(&self.low)?, Self::first(&self.high)?);

@@ -21,7 +21,7 @@ use crate::input::{DOCUMENT, read_text, shown};
 use crate::metric::{Confidence, MetricKind};
 use std::path::Path;
 
-/// Where a reference value comes from.
+/// Origin of a reference value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReferenceKind {
     /// Exact for the model.
@@ -37,7 +37,7 @@ pub enum ReferenceKind {
 }
 
 impl ReferenceKind {
-    /// What a verdict against such a value rests on.
+    /// Kind of verdict that such a reference value supports.
     #[must_use]
     pub fn kind(self) -> MetricKind {
         match self {
@@ -47,18 +47,18 @@ impl ReferenceKind {
     }
 }
 
-/// What the header of a reference file says.
+/// Header of a reference file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Metadata {
-    /// What the values are.
+    /// Quantity of the values.
     pub quantity: String,
     /// Unit of that quantity.
     pub unit: String,
-    /// Where the values come from, `kind` in the file.
+    /// Origin of the values, `kind` in the file.
     pub origin: ReferenceKind,
-    /// How well they are established; rows may say otherwise in a column `confidence`.
+    /// Confidence in the values; rows may state otherwise in a column `confidence`.
     pub confidence: Confidence,
-    /// How far they may be off, in words; per-row figures stand in a column.
+    /// Uncertainty of the values, in words; figures for each row stand in a column.
     pub uncertainty: String,
     /// Publication, figure, table.
     pub source: String,
@@ -71,7 +71,7 @@ pub struct Metadata {
 pub struct MeasuredData {
     /// File as the caller named it.
     pub file: String,
-    /// What the header says.
+    /// Header of the file.
     pub metadata: Metadata,
     /// Columns in the order of the file, all of the same length.
     pub columns: Vec<ReferenceColumn>,
@@ -135,7 +135,7 @@ impl MeasuredData {
         Ok(self.numbers(number)?[row])
     }
 
-    /// How sure the project is of each row: its word in a column `confidence`, or else the header's.
+    /// Confidence in each row: its word in a column `confidence`, or else the header's.
     pub fn confidences(&self) -> Result<Vec<Confidence>, ReferenceError> {
         let rows = match self.columns.first() {
             Some(ReferenceColumn::Numbers { values, .. }) => values.len(),

@@ -8,7 +8,7 @@
 //!
 //! with the place p of the own value in the range, 0 at the lower end. In the middle of a range with a straight E this is
 //! |E_high − E_low|/√12. An own value that stands at an end of its range may be as far off as the range is wide, and u is twice that.
-//! Where both ends move E to the same side, their difference would hide what the input does, and u does not.
+//! Both ends may move E to the same side: their difference would then hide the effect of the input, but u does not.
 
 use super::sensitivity_table::{RangeEnd, SensitivityRow};
 use crate::metric::{Metric, Variant};

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 include!(concat!(env!("OUT_DIR"), "/sensitivities.rs"));
 
-/// Where in its range an input is.
+/// Position of an input in its range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RangeEnd {
@@ -27,9 +27,9 @@ pub enum RangeEnd {
 pub struct SensitivityRow {
     /// Name of the range; empty where all inputs have their own values.
     pub input: String,
-    /// Where in it.
+    /// Position of the input in its range.
     pub end: RangeEnd,
-    /// Which repetition with another seed, from 0 `[-]`.
+    /// Number of the repetition with another seed, from 0 `[-]`.
     pub repeat: usize,
     /// Name of the metric.
     pub quantity: String,

@@ -19,7 +19,7 @@ pub fn shipped_table(name: &str) -> Result<MeasuredData, ReferenceError> {
     MeasuredData::parse(&format!("reference-data/{name}"), text)
 }
 
-/// What `read` makes of a table.
+/// Value that `read` computes from a shipped table.
 ///
 /// # Panics
 /// If the table is not what `read` expects. No user can bring that about: the tables are part of the program, and tests

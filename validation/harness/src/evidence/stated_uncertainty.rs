@@ -1,4 +1,4 @@
-//! How far comparisons are known where neither the runs of a case nor its tables tell: `reference-data/CASE/uncertainty.toml`.
+//! Stated uncertainty of comparisons that neither runs nor tables determine: `reference-data/CASE/uncertainty.toml`.
 //!
 //! Inputs have ranges, each with its source. They are propagated by runs at both ends of each range (`sensitivity_table`,
 //! `propagation`). A spacing is propagated by a run at half of it: at first order twice the difference is left, taken for the half
@@ -17,7 +17,7 @@ include!(concat!(env!("OUT_DIR"), "/stated_uncertainties.rs"));
 /// Name of the file in the folder of a case.
 const FILE: &str = "uncertainty.toml";
 
-/// Why a run that shows what an input does has no uncertainty by its inputs.
+/// Reason why a run that shows the effect of an input has no input uncertainty.
 const ALTERED: &str = "this run shows what an input does, and is no comparison of its own";
 
 /// The runs that propagate ranges, of the quick tier.
@@ -36,7 +36,7 @@ pub struct SensitivityRuns {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Refinement {
-    /// What it is called.
+    /// Name of the refinement.
     pub name: String,
     /// The case with half of it, `path=value`.
     pub refined: Vec<String>,
@@ -46,37 +46,37 @@ pub struct Refinement {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatedPart {
-    /// What it belongs to.
+    /// Part of the comparison's uncertainty that the number belongs to.
     pub part: ComparisonPart,
     /// Names of the metrics; all where there are none.
     #[serde(default)]
     pub quantities: Vec<String>,
-    /// What their variants have.
+    /// Keys and values that the variants of these metrics contain.
     #[serde(default)]
     pub variant: Variant,
     /// Standard uncertainty over the reference's value, or over the metric's where that is 0 `[-]`; 0 for none.
     pub relative: Option<f64>,
     /// Standard uncertainty in the metric's unit.
     pub absolute: Option<f64>,
-    /// What it rests on.
+    /// Basis of the number.
     pub basis: Basis,
-    /// Where it comes from.
+    /// Source of the number.
     pub source: String,
 }
 
-/// What is not known, and why.
+/// Unknown part of an uncertainty, with the reason.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UnknownPart {
-    /// What it belongs to.
+    /// Part of the comparison's uncertainty that is unknown.
     pub part: ComparisonPart,
     /// Names of the metrics; all where there are none.
     #[serde(default)]
     pub quantities: Vec<String>,
-    /// What their variants have.
+    /// Keys and values that the variants of these metrics contain.
     #[serde(default)]
     pub variant: Variant,
-    /// Why it is not known.
+    /// Reason why the part is unknown.
     pub reason: String,
 }
 
@@ -92,12 +92,12 @@ pub struct StatedUncertainty {
     /// Spacings.
     #[serde(rename = "spacing")]
     pub spacings: Vec<Refinement>,
-    /// What is known without runs.
+    /// Uncertainties that are known without runs.
     #[serde(rename = "part")]
     pub parts: Vec<StatedPart>,
-    /// What variants have of runs that are there to show what an input does, and are no comparisons of their own.
+    /// Variants of runs that show the effect of an input and are not comparisons of their own.
     pub altered: Vec<Variant>,
-    /// What is not known.
+    /// Unknown parts of the uncertainty, each with a reason.
     #[serde(rename = "unknown")]
     pub unknown: Vec<UnknownPart>,
 }
@@ -134,7 +134,7 @@ impl StatedUncertainty {
         self.altered.iter().any(|other| variant.includes(other))
     }
 
-    /// Why a part of a comparison is not known; none where no reason is stated.
+    /// Reason why a part of a comparison's uncertainty is unknown; none if no reason is stated.
     #[must_use]
     pub fn reason(&self, part: ComparisonPart, metric: &Metric) -> Option<&str> {
         let is_it = |own: &&UnknownPart| own.part == part && concerns(&own.quantities, &own.variant, metric);

@@ -156,7 +156,7 @@ impl ValidationSet {
         self.comparisons.iter().filter(|row| quantities.contains(&row.quantity.as_str()))
     }
 
-    /// How many comparisons of some quantities there are, without those that show what an input does.
+    /// Number of comparisons of some quantities, without those that show the effect of an input.
     #[must_use]
     pub fn number(&self, quantities: &[&str]) -> usize {
         self.of(quantities).filter(|row| !row.is_altered()).count()
@@ -205,8 +205,8 @@ impl ValidationSet {
         [0, 1, 2, 3].map(range)
     }
 
-    /// Where the true value of what is predicted as `value` lies with 95 % confidence, by the comparisons of some quantities; none
-    /// where there are too few.
+    /// 95 % prediction interval of the true value for a predicted `value`, from the comparisons of some quantities;
+    /// none if there are too few.
     #[must_use]
     pub fn predict(&self, quantities: &[&str], regime: FlowRegime, value: f64) -> Option<PredictionInterval> {
         let bias = self.bias(quantities)?;

@@ -17,7 +17,7 @@ pub struct FieldError {
     pub value: String,
     /// The rule it breaks, completing "must be …".
     pub rule: Box<str>,
-    /// What to do about it.
+    /// Remedy.
     pub remedy: Box<str>,
 }
 

@@ -30,7 +30,7 @@ pub(crate) struct Mesh {
     pub(crate) left_out: usize,
 }
 
-/// Why a file gives no mesh; each completes "FILE …".
+/// Reason why a file gives no mesh; each completes "FILE …".
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MeshError {
     /// It cannot be read.
@@ -62,7 +62,7 @@ pub(crate) enum MeshError {
 }
 
 impl MeshError {
-    /// What to do about it.
+    /// Remedy.
     pub(crate) fn remedy(&self) -> &'static str {
         match self {
             Self::Unreadable(_) => "check the path, which begins at this file, and its permissions",

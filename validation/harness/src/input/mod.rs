@@ -1,4 +1,4 @@
-//! What a user writes: its fields, the names in it and the places, so that an error can point at them.
+//! User input: its fields, the names in it and the places, so that an error can point at them.
 
 mod escape;
 mod field;

@@ -1,4 +1,4 @@
-//! Where in a text something stands.
+//! Line and column of a place in a text.
 
 /// Line and column of a byte offset, both from 1.
 pub(crate) fn position(text: &str, offset: usize) -> (usize, usize) {

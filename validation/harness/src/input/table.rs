@@ -1,9 +1,9 @@
-//! What may be wrong with the text of a table, whoever reads it: quotes, control characters, separators, decimals.
+//! Faults in the text of any table: quotes, control characters, separators, decimals.
 
 use super::escape::is_control;
 use super::field::FieldError;
 
-/// What a table's text breaks, and where.
+/// Fault in the text of a table, with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TableFault {
     /// Line, from 1.
@@ -45,7 +45,7 @@ pub fn text_fault(text: &str) -> Option<TableFault> {
     })
 }
 
-/// Where the quote opens that a line does not close. Quotes open at the beginning of a word; two in a quoted word are one
+/// Position of the first unclosed quote in a line. Quotes open at the beginning of a word; two in a quoted word are one
 /// that is meant.
 fn open_quote(line: &str) -> Option<usize> {
     let mut open = None;
@@ -79,7 +79,7 @@ pub fn comma_fault(heading: &str, line: usize) -> Option<TableFault> {
     Some(TableFault { line, column: 1, defect: format!("columns separated by {separator}"), remedy: REMEDY })
 }
 
-/// What to do about a word where a number should be.
+/// Remedy for a word in the place of a number.
 pub fn number_remedy(word: &str) -> &'static str {
     let are_numbers = |separator: char| {
         word.contains(separator) && word.split(separator).all(|part| is_number(part) || has_decimal_comma(part))
@@ -95,7 +95,7 @@ pub fn number_remedy(word: &str) -> &'static str {
     }
 }
 
-/// What to do about a row of so many values where the table has so many columns.
+/// Remedy for a row whose number of values differs from the number of columns.
 pub fn row_remedy(row: &str, values: usize, columns: usize) -> &'static str {
     if [';', '\t'].iter().any(|separator| row.matches(*separator).count() + 1 == columns) {
         "use one separator for the whole table"

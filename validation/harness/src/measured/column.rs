@@ -1,10 +1,10 @@
-//! Which column of a foreign file is what, and in which unit.
+//! Columns of an external file: the quantity and unit of each.
 
 use super::unit;
 use crate::case::ExternalColumn;
 use crate::input::FieldError;
 
-/// Where a quantity comes from.
+/// Source of the values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ColumnSource {
     /// A column of the file.

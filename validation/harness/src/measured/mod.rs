@@ -24,13 +24,13 @@ pub struct Measurements {
     pub path: PathBuf,
     /// Its text, as it was read.
     text: String,
-    /// What they are given over: the first column.
+    /// Independent variable of the measurements: the first column.
     abscissa: MeasuredColumn,
-    /// What was measured: the second column.
+    /// Measured quantity: the second column.
     measured: MeasuredColumn,
     /// Standard uncertainties, in the unit of what was measured.
     uncertainty: Vec<f64>,
-    /// What its comments say.
+    /// Values that the comments of the file give.
     said: Said,
 }
 
@@ -45,7 +45,7 @@ struct MeasuredColumn {
     values: Vec<f64>,
 }
 
-/// What comments of the form `# key: value` say.
+/// Values that comments of the form `# key: value` give.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Said {
     /// Largest root mean square of the residuals `[-]`.
@@ -56,9 +56,9 @@ struct Said {
     panel: Option<String>,
     /// Legend of the curve that is compared.
     curve: Option<String>,
-    /// Where they come from.
+    /// Source of the measurements.
     source: Option<String>,
-    /// How sure one is of them.
+    /// Confidence in the measurements.
     confidence: Option<Confidence>,
 }
 
@@ -101,12 +101,12 @@ impl Measurements {
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// Where they come from: what the file says, else the file.
+    /// Source of the measurements: as the file states it, else the path of the file.
     pub fn source(&self) -> String {
         self.said.source.clone().unwrap_or_else(|| self.path.display().to_string())
     }
 
-    /// How sure the file is of them.
+    /// Confidence in the measurements, as the file states it.
     pub fn confidence(&self) -> Option<Confidence> {
         self.said.confidence
     }
@@ -172,14 +172,14 @@ impl Measurements {
         std::fs::write(file, &self.text)
     }
 
-    /// Where the copy stands in the folder of a run.
+    /// Path of the copy in the folder of a run.
     #[must_use]
     pub fn kept(&self) -> String {
         format!("overlay/{}.csv", self.name())
     }
 }
 
-/// What a variant can hold of a text: it uses `=`, `,` and `_` itself.
+/// Text in the form that a variant can hold: it uses `=`, `,` and `_` itself.
 fn text_of_variant(text: &str) -> String {
     let letter = |letter: char| if letter.is_alphanumeric() || letter == '.' { letter } else { '-' };
     let text: String = text.chars().map(letter).collect();

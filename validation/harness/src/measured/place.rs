@@ -1,4 +1,4 @@
-//! Where measurements belong: the panel whose axes are theirs, and its curves.
+//! Figure panel that measurements belong to: the one whose axes match theirs, with its curves.
 
 use super::reading::same_kind;
 use super::{MeasuredColumn, Measurements};
@@ -120,7 +120,7 @@ impl MatchingPanel {
     }
 }
 
-/// What a simulation has drawn.
+/// Whether a series was drawn by a simulation.
 fn is_ours(series: &Series) -> bool {
     series.mark != Mark::Reference && series.points.len() > 1
 }
@@ -174,7 +174,7 @@ fn too_many(measurements: &Measurements, figures: &[Figure], several: &[Matching
     FieldError::new("columns", axes(measurements), &rule, remedy).in_file(&measurements.path)
 }
 
-/// Where curves have values.
+/// Range over which curves have values, in words.
 fn reach(place: &MatchingPanel, series: &[&Series]) -> String {
     let points = series.iter().flat_map(|series| &series.points).map(|point| place.turned(*point).0);
     format!("they reach over {}", range(points))

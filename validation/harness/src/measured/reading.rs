@@ -86,7 +86,7 @@ pub(super) fn same_kind(from: &str, to: &str) -> Option<f64> {
     if from == to { Some(1.0) } else { unit::factor(from, to) }
 }
 
-/// What the comments say. A key with a slip of the pen is refused: a limit must not vanish.
+/// Values that the comments give. A key with a slip of the pen is refused: a limit must not vanish.
 fn said(text: &str) -> Result<Said, FieldError> {
     let mut said = Said::default();
     for line in text.lines().filter_map(|line| line.trim_start().strip_prefix('#')) {

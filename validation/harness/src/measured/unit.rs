@@ -16,7 +16,7 @@ const SYMBOLS: [(&str, f64, UnitExponents); 9] = [
     ("%", 1e-2, [0, 0, 0]),
 ];
 
-/// What may stand before a symbol.
+/// Prefixes of a unit symbol, with their factors.
 const PREFIXES: [(&str, f64); 8] =
     [("k", 1e3), ("M", 1e6), ("h", 1e2), ("d", 1e-1), ("c", 1e-2), ("m", 1e-3), ("u", 1e-6), ("µ", 1e-6)];
 

@@ -15,7 +15,7 @@ pub use variant::{Value, Variant};
 
 use serde::{Deserialize, Serialize};
 
-/// What a verdict rests on; the four are never mixed.
+/// Kind of reference that a verdict rests on; the four are never mixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MetricKind {
@@ -128,7 +128,7 @@ impl Limit {
     }
 }
 
-/// Who states a gate. The order is that of a page.
+/// Owner of a gate. The order is that of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GateOwner {
@@ -144,9 +144,9 @@ pub enum GateOwner {
 pub struct Gate {
     /// The rule.
     pub limit: Limit,
-    /// Why the limit stands where it does, one sentence.
+    /// Reason for the value of the limit, one sentence.
     pub reason: String,
-    /// Who states it.
+    /// Owner of the gate.
     #[serde(default)]
     pub owner: GateOwner,
     /// Half width in the metric's unit where scatter alone sets it, of repetitions or of a measurement; none for a limit
@@ -155,14 +155,14 @@ pub struct Gate {
     pub statistical: Option<f64>,
 }
 
-/// What a value is compared with.
+/// Reference that a value is compared with.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Reference {
     /// The reference's value in the metric's unit, where it is a number.
     pub value: Option<f64>,
-    /// Where it comes from: equation, paper or solver.
+    /// Source of the reference: equation, paper or solver.
     pub source: String,
-    /// How sure the project is of it.
+    /// Confidence in the reference.
     pub confidence: Confidence,
 }
 
@@ -177,27 +177,28 @@ pub const COVERAGE: f64 = 2.0;
 pub struct Metric {
     /// Stable snake_case name, such as `velocity_l2`.
     pub name: String,
-    /// Which run or runs; empty where the case has a single run.
+    /// Run or runs that the metric is of; empty if the case has a single run.
     pub variant: Variant,
     /// The value.
     pub value: f64,
     /// Its unit, `-` for none, `%` for percent.
     pub unit: String,
-    /// What it is compared with, if anything.
+    /// Reference that the value is compared with, if any.
     pub reference: Option<Reference>,
-    /// What the verdict rests on.
+    /// Kind of reference that the verdict rests on.
     pub kind: MetricKind,
     /// The gate, if there is one; a metric without a gate is observed.
     pub gate: Option<Gate>,
     /// Whether a page opens with it, right behind what fails: what its reader asked for, where nothing judges it.
     #[serde(default)]
     pub leads: bool,
-    /// Why it is no value of a steady state, although it should be one: it then has no value.
+    /// Reason why the metric has no value: it should be one of a steady state, but is not.
     pub not_steady: Option<String>,
-    /// What value and reference are known to, as far as it is known.
+    /// Uncertainty of value and reference, as far as it is known.
     #[serde(default)]
     pub uncertainty: Uncertainty,
-    /// Where the true value lies by how far such values were off where they were measured; none where nothing of the kind was.
+    /// 95 % prediction interval of the true value, from the errors of comparable predictions; none without such
+    /// comparisons.
     #[serde(default)]
     pub prediction: Option<PredictionInterval>,
     /// Relative tolerance of the drift snapshot: how far the value may move before a change is reported `[-]`.
@@ -261,7 +262,7 @@ impl Metric {
         self
     }
 
-    /// Who states its gate; the case where it has none.
+    /// Owner of the metric's gate; the case if it has no gate.
     #[must_use]
     pub fn gate_owner(&self) -> GateOwner {
         self.gate.as_ref().map_or(GateOwner::Case, |gate| gate.owner)

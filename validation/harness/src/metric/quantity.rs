@@ -1,4 +1,5 @@
-//! What a metric is, declared once: its name, unit and sentence. A case lists its quantities; metrics are built from them.
+//! Declaration of a metric, made once: its name, unit and sentence. A case lists its quantities; metrics are built from
+//! them.
 
 use super::{Metric, MetricKind, Variant};
 
@@ -12,9 +13,9 @@ pub struct Quantity {
     pub name: &'static str,
     /// Unit of the value, `-` for none, `%` for percent.
     pub unit: &'static str,
-    /// What its verdict rests on.
+    /// Kind of reference that its verdict rests on.
     pub kind: MetricKind,
-    /// What it is, one sentence without a full stop.
+    /// Description, one sentence without a full stop.
     pub description: &'static str,
 }
 

@@ -50,7 +50,7 @@ impl FlowRegime {
     }
 }
 
-/// Where the true value lies, by how far predictions of such values were off where they were measured.
+/// 95 % prediction interval of the true value, from the errors of comparable predictions beside measurements.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PredictionInterval {
     /// Lower bound with 95 % confidence, in the metric's unit.
@@ -62,7 +62,7 @@ pub struct PredictionInterval {
     /// Relative standard uncertainty by inputs that it holds, root mean square of those comparisons `[-]`; none where it is not known.
     #[serde(default)]
     pub input_uncertainty: Option<f64>,
-    /// What was compared.
+    /// Quantity of the comparisons.
     pub quantity: String,
     /// The flow's own regime.
     pub regime: FlowRegime,

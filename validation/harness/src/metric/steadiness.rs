@@ -4,8 +4,8 @@
 /// rest exponentially is then 0.15 % from its end at most.
 const LARGEST_CHANGE: f64 = 0.01;
 
-/// Why the mean over the last `window` `[s]` of a series of (time `[s]`, value) is not that of a steady state; none where it is,
-/// or where there is no series. `quantity` names what the series is of.
+/// Reason why a mean over the last `window` `[s]` of a series of (time `[s]`, value) is not steady; none if it is, or
+/// if there is no series. `quantity` names what the series is of.
 #[must_use]
 pub fn unsteadiness(quantity: &str, series: impl Iterator<Item = (f64, f64)>, window: f64) -> Option<String> {
     let samples: Vec<(f64, f64)> = series.collect();

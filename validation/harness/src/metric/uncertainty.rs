@@ -1,11 +1,11 @@
-//! What a value and its reference are known to: the parts of a gate's width, each with the sentence that it comes from.
+//! Uncertainty of a value and its reference: the parts of a gate's width, each with the sentence that it comes from.
 //!
 //! Parts are standard uncertainties of independent causes, so they add as squares. An unknown part is absent: the
 //! sum is then that of what is known, and says of how much that is.
 
 use serde::{Deserialize, Serialize};
 
-/// Where an uncertainty comes from.
+/// Cause of an uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Origin {
@@ -41,7 +41,7 @@ impl Origin {
     }
 }
 
-/// What the parts of a comparison's uncertainty belong to, after ASME V&V 20.
+/// Part of a comparison's uncertainty, after ASME V&V 20.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ComparisonPart {
@@ -67,7 +67,7 @@ impl ComparisonPart {
         }
     }
 
-    /// What it is written as.
+    /// Symbol of the part.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
@@ -81,16 +81,16 @@ impl ComparisonPart {
 /// One cause.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct UncertaintyComponent {
-    /// What it is.
+    /// Cause of the uncertainty.
     pub origin: Origin,
     /// Standard uncertainty, in the metric's unit.
     pub standard: f64,
-    /// Where the number comes from, one sentence.
+    /// Source of the number, one sentence.
     pub source: String,
 }
 
 impl UncertaintyComponent {
-    /// What it is called: its source up to the first bracket.
+    /// Name of the component: its source up to the first bracket.
     #[must_use]
     pub fn name(&self) -> &str {
         self.source.split(" (").next().unwrap_or(&self.source)

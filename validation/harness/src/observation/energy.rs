@@ -1,4 +1,4 @@
-//! Where the potential energy of a flow goes.
+//! Conversion of the potential energy of a flow.
 
 use crate::figure::{Axis, Figure, Panel};
 

@@ -8,15 +8,15 @@ use serde::{Deserialize, Serialize};
 pub struct EnergyBook {
     /// Kinetic, elastic and potential energy, the latter from zero at the start.
     pub total: Vec<f64>,
-    /// What the ledger says that energy has changed by since the start.
+    /// Change of total energy since the start that the ledger explains.
     pub explained: Vec<f64>,
     /// Work of gravity up to the last sample.
     pub gravity: f64,
-    /// What walls at rest, and those that move, have given up to the last sample.
+    /// Energy that walls, at rest and moving, have given up to the last sample.
     pub walls: f64,
-    /// What the kernel corrections have fed in up to the last sample.
+    /// Energy that the kernel corrections have fed in up to the last sample.
     pub correction: f64,
-    /// What was dissipated up to the last sample, by cause.
+    /// Energy dissipated up to the last sample, by cause.
     pub dissipated: Vec<(String, f64)>,
     /// Kinetic energy at the start, and energy that inlets have brought up to the last sample.
     pub entered: (f64, f64),

@@ -1,4 +1,4 @@
-//! What a run leaves behind: plain data that knows nothing of the simulation it came from.
+//! Observation of a run: plain data that does not depend on the simulation it came from.
 
 pub mod energy;
 mod energy_book;
@@ -10,7 +10,7 @@ pub use motion::{MotionFrame, MotionSequence};
 
 use serde::{Deserialize, Serialize};
 
-/// How a run ended.
+/// Outcome of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
@@ -23,7 +23,7 @@ pub enum Outcome {
     },
     /// Diverged; the last good state was kept.
     Diverged {
-        /// Which particle, where, when, which quantity, in words.
+        /// Particle, place, time and quantity of the divergence, in words.
         message: String,
         /// Whether the case declares this divergence as its expected result.
         expected: bool,
@@ -78,7 +78,7 @@ impl Frame {
 /// A run's record: the observation and how it came about.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recorded<O> {
-    /// How the run ended.
+    /// Outcome of the run.
     pub outcome: Outcome,
     /// Hash of the final state's bits in particle-identity order: the same on any machine and thread count.
     pub state_hash: String,
@@ -96,7 +96,7 @@ pub struct Recorded<O> {
     pub frames: Vec<Frame>,
     /// The state in which a run that diverged was found to have done so.
     pub first_bad: Option<Frame>,
-    /// What the case measured.
+    /// Data that the case measured.
     pub data: O,
 }
 

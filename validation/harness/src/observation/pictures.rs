@@ -1,4 +1,4 @@
-//! How the particles of a heap are shown: animations, and pictures with speed on one side and pressure on the other.
+//! Pictures of the particles of a heap: animations, and pictures with speed on one side and pressure on the other.
 
 use super::{Frame, MotionFrame, MotionSequence};
 use crate::figure::{Animation, AnimationFrame, Axis, Field, Figure, Mark, Panel, Series};
@@ -8,7 +8,7 @@ const SPANNED: f64 = 0.998;
 /// Time that a picture of an animation is shown `[s]`.
 const SECONDS_PER_FRAME: f64 = 0.08;
 
-/// What lengths and times are measured in, and what is drawn of a heap.
+/// Units of length and time of a heap's pictures, and the part of the heap that is drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct View {
     /// Unit of length `[m]`.

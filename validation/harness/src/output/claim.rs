@@ -8,9 +8,9 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// What a folder belongs to, kept in a file inside it.
+/// Owner of a folder, such as a sweep, kept in a file inside the folder.
 pub trait Owner: Serialize + DeserializeOwned + PartialEq {
-    /// What is in the folder, for messages: `sweep`.
+    /// Kind of work in the folder, for messages: `sweep`.
     const WHAT: &'static str;
     /// Name of the file.
     const MARKER: &'static str;
@@ -59,7 +59,7 @@ pub fn is_claimed<O: Owner>(folder: &Path) -> bool {
     folder.join(O::MARKER).is_file()
 }
 
-/// What a marked folder belongs to.
+/// Owner of a marked folder.
 ///
 /// # Errors
 /// A marker that cannot be read or is damaged.

@@ -1,4 +1,4 @@
-//! What can go wrong with files and folders.
+//! Errors of files and folders.
 
 use crate::input::shown;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ pub enum FileError {
         file: PathBuf,
         /// The system's reason.
         reason: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: &'static str,
     },
     /// Files cannot be written.
@@ -29,9 +29,9 @@ pub enum FileError {
     Damaged {
         /// The file.
         file: PathBuf,
-        /// What is wrong with it.
+        /// Defect of the file.
         reason: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: String,
     },
 }
@@ -86,7 +86,7 @@ pub enum FolderError {
     Locked {
         /// The folder.
         folder: PathBuf,
-        /// Which process, where known: " (process 17)".
+        /// Process that holds the lock, if known: " (process 17)".
         by: String,
     },
     /// The folder, or one above it, is a link to nothing.
@@ -96,7 +96,7 @@ pub enum FolderError {
         folder: PathBuf,
         /// The link.
         link: PathBuf,
-        /// Where it points to.
+        /// Target of the link.
         target: PathBuf,
     },
     /// Files in it cannot be read or written.

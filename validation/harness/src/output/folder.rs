@@ -9,8 +9,8 @@ use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// What a fresh checkout holds in `reports/`, and what commands put there that were run before a report: they make no
-/// folder foreign.
+/// Entries of `reports/` in a fresh checkout, and those of commands that were run before a report: they make no folder
+/// foreign.
 const COMMITTED: [&str; 12] = [
     "README.md",
     "gallery",
@@ -35,7 +35,7 @@ const OWN_PREFIX: &str = MARKER;
 pub struct OutputFolder {
     folder: PathBuf,
     staging: PathBuf,
-    /// What the claim itself made, to be taken back if nothing is published: the marker, and folders from the inside out.
+    /// Marker that the claim made, and folders that it made, from the inside out; removed if nothing is published.
     marker: Option<PathBuf>,
     made: Vec<PathBuf>,
     /// Until this is dropped no other command writes the folder.
@@ -106,7 +106,7 @@ impl OutputFolder {
         &self.folder
     }
 
-    /// Where the new contents are written.
+    /// Folder in which the new contents are written.
     #[must_use]
     pub fn staging(&self) -> &Path {
         &self.staging

@@ -99,7 +99,7 @@ fn write_holder(file: &mut File) -> io::Result<()> {
     file.write_all(format!("process {}\n", std::process::id()).as_bytes())
 }
 
-/// Who holds the lock, as far as its file tells: " (process 17)".
+/// Holder of the lock, as far as its file states it: " (process 17)".
 fn holder(path: &Path) -> String {
     for _ in 0..READINGS {
         let mut text = String::new();

@@ -40,7 +40,7 @@ pub(super) fn hand_over(folder: &Path, made: usize) {
     let _ = file.and_then(|mut file| writeln!(file, "{made}"));
 }
 
-/// How many folders of its path others have made for it, which are no longer written down then.
+/// Number of folders of its path that others have made for it; reading it deletes the record.
 pub(super) fn handed_over(folder: &Path) -> usize {
     let file = folder.join(MADE_BY_OTHERS);
     let text = read_text(&file, DOCUMENT).unwrap_or_default();

@@ -1,9 +1,10 @@
-//! How new contents take the place of old ones, so that a kill at any moment leaves no mixture behind.
+//! Atomic replacement of old contents by new ones, so that a kill at any moment leaves no mixture behind.
 //!
-//! Where a folder holds nothing but Bagnold's entries and plain files, the new contents are a folder of their own beside it,
-//! with links to those files, and one rename exchanges the two: a reader sees either. Where it also holds folders that are
-//! not Bagnold's (`reports/` holds the store) or the file system cannot exchange, one rename commits the new contents inside
-//! the folder and the entries are then moved one by one; the next claim of the folder ends what a kill interrupted.
+//! A folder that holds nothing but Bagnold's entries and plain files is exchanged as a whole: the new contents are a
+//! folder of their own beside it, with links to those files, and one rename exchanges the two. A reader sees either. If
+//! it also holds folders that are not Bagnold's (`reports/` holds the store) or the file system cannot exchange, one
+//! rename commits the new contents inside the folder and the entries are then moved one by one; the next claim of the
+//! folder ends what a kill interrupted.
 
 use super::marker::{MARKER, STAGING_PREFIX, read_marker, write_marker};
 use super::whole::{settle, settle_all};

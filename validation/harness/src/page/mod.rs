@@ -1,5 +1,5 @@
-//! What the pages of reports, judgements, comparisons and calibrations share: the style, the templates' filling, and figures
-//! that are drawn beside them.
+//! Common parts of the pages of reports, judgements, comparisons and calibrations: the style, the templates' filling,
+//! and figures that are drawn beside them.
 
 mod template;
 

@@ -46,7 +46,7 @@ struct AcceptedValue {
     line: usize,
 }
 
-/// How a metric relates to its baseline.
+/// Regression status of a metric: its change from the baseline value.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drift {
     /// There is no baseline value: nothing can have drifted.
@@ -57,7 +57,7 @@ pub enum Drift {
         change: f64,
         /// The baseline's value.
         baseline: f64,
-        /// How far the value might have moved, in the metric's unit.
+        /// Largest change that is tolerated, in the metric's unit.
         tolerance: f64,
     },
     /// Outside it.
@@ -66,7 +66,7 @@ pub enum Drift {
         change: f64,
         /// The baseline's value.
         baseline: f64,
-        /// How far the value might have moved, in the metric's unit.
+        /// Largest change that is tolerated, in the metric's unit.
         tolerance: f64,
     },
     /// The baseline is in another unit: it must be taken again.
@@ -88,7 +88,7 @@ impl Drift {
         matches!(self, Self::Drifted { .. } | Self::UnitChanged { .. } | Self::VerdictChanged { .. })
     }
 
-    /// How far the value has moved in tolerances `[-]`; infinite where it cannot be compared, none where it is new.
+    /// Change of the value in tolerances `[-]`; infinite if it cannot be compared, none if it is new.
     #[must_use]
     pub fn in_tolerances(&self) -> Option<f64> {
         match *self {
@@ -303,7 +303,7 @@ impl Baseline {
     }
 }
 
-/// How far `metric` may move from `from` before it counts as changed, in the metric's unit.
+/// Largest change of `metric` from `from` that does not count as changed, in the metric's unit.
 pub(super) fn snapshot_tolerance(metric: &Metric, from: f64) -> f64 {
     metric.snapshot_tolerance * from.abs() + metric.snapshot_floor
 }

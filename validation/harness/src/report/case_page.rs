@@ -126,7 +126,7 @@ fn figure(metric: &Metric, drawn: &[DrawnFigure]) -> String {
     best.filter(|best| fit(best) > (0, 0)).map(|best| best.name.clone()).unwrap_or_default()
 }
 
-/// How many metrics of a case are what.
+/// Numbers of a case's metrics by status, in words.
 pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
     let drifted = judged.metrics.iter().filter(|metric| metric.drift.is_failure()).count();
     let parts = [

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 pub struct Comparison<'r> {
     /// Name of the case.
     pub case: &'r str,
-    /// What is compared.
+    /// Metric that is compared.
     pub metric: &'r Metric,
     /// Prediction less reference.
     pub error: f64,
@@ -26,7 +26,7 @@ pub struct Comparison<'r> {
     pub reference: Option<f64>,
 }
 
-/// What a comparison says of the model.
+/// Statement of a comparison about the error of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ModelError {
     /// The error is within the uncertainty.
@@ -73,14 +73,14 @@ impl<'r> Comparison<'r> {
         self.uncertainty().map(|uncertainty| uncertainty / self.measured().abs()).filter(|level| level.is_finite())
     }
 
-    /// What is not known.
+    /// Parts of the uncertainty that are unknown.
     #[must_use]
     pub fn unknown(&self) -> Vec<ComparisonPart> {
         let is_unknown = |part: &ComparisonPart| self.metric.uncertainty.of_part(*part).is_none();
         ComparisonPart::ALL.into_iter().filter(is_unknown).collect()
     }
 
-    /// What it says of the model.
+    /// Statement of this comparison about the error of the model.
     #[must_use]
     pub fn model_error(&self) -> ModelError {
         match self.uncertainty() {

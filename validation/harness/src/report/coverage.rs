@@ -1,4 +1,4 @@
-//! Which option of a law, an operator or a boundary is judged by which case, and how.
+//! Coverage of the options of laws, operators and boundaries by the cases, and the kind of evidence for each.
 //!
 //! Options come from the parameters' own types, uses from the runs, and how an option is judged from the metrics of these runs. What no
 //! case uses is declared in `validation/harness/coverage.toml`, with the tests that hold it or the reason why none does.
@@ -10,7 +10,7 @@ use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 
-/// How the runs of a case that use an option are judged, the strongest first.
+/// Grade of the evidence from the runs of a case that use an option, the strongest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Grade {
     /// Against experiments, published fits or other people's simulations.
@@ -45,7 +45,7 @@ impl Grade {
         }
     }
 
-    /// What the letter means.
+    /// Meaning of the letter.
     #[must_use]
     pub fn meaning(self) -> &'static str {
         match self {
@@ -73,7 +73,7 @@ impl Grade {
     }
 }
 
-/// How a case judges an option: gates by grade, and how many of all fail.
+/// Gates of a case on an option: their number by grade, and how many of all fail.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct CaseCoverage {
     /// Gates of each grade.
@@ -87,9 +87,9 @@ pub struct CaseCoverage {
 pub struct OptionCoverage {
     /// The option.
     pub option: FeatureOption,
-    /// How each case judges it, in the report's order; none where no run of the case uses it.
+    /// Coverage by each case, in the report's order; none if no run of the case uses the option.
     pub cases: Vec<Option<CaseCoverage>>,
-    /// What is declared of it.
+    /// Declaration of the option, if there is one.
     pub declared: Option<&'static DeclaredOption>,
 }
 
@@ -112,7 +112,7 @@ pub struct DeclaredOption {
     /// Tests that hold it, `path/of/file.rs::function`.
     #[serde(default)]
     pub tests: Vec<String>,
-    /// Why nothing tests it, or what its tests leave out.
+    /// Reason why no test covers the option, or the part that its tests leave out.
     #[serde(default)]
     pub open: String,
 }
@@ -123,7 +123,7 @@ pub struct DeclaredOption {
 pub struct Selection {
     /// The parameter.
     pub feature: String,
-    /// What it chooses.
+    /// Runs or files that the parameter chooses.
     pub because: String,
 }
 
@@ -146,19 +146,19 @@ impl Declarations {
         self.selections.iter().any(|selection| selection.feature == feature)
     }
 
-    /// What is declared of an option.
+    /// Declaration of an option.
     #[must_use]
     pub fn of(&self, option: &FeatureOption) -> Option<&DeclaredOption> {
         self.options.iter().find(|own| own.feature == option.feature && own.option == option.option)
     }
 }
 
-/// What this program was built with.
+/// Declarations that this program was built with.
 pub static DECLARATIONS: LazyLock<Declarations> = LazyLock::new(|| {
     toml::from_str(include_str!("../../coverage.toml")).expect("a test reads the file that is built in")
 });
 
-/// How the cases of a report judge every option that their parameters leave.
+/// Coverage of every option that the parameters offer, by the cases of a report.
 #[must_use]
 pub fn coverage(features: &Features, cases: &[CaseReport]) -> Vec<OptionCoverage> {
     let chosen: Vec<Vec<BTreeSet<FeatureOption>>> =

@@ -1,4 +1,4 @@
-//! What has moved since the baseline, by how many tolerances, and how it got there.
+//! Regressions since the baseline: the changes in tolerances, with the history of each value.
 
 use super::Report;
 use super::accepted::{Drift, MetricKey};
@@ -13,7 +13,7 @@ use std::fmt;
 /// Rows of the table; what has drifted is always in it.
 const ROWS: usize = 25;
 
-/// What has moved less is noise of rounding, and not worth a row `[tolerances]`.
+/// Least change that is worth a row `[tolerances]`; smaller changes are rounding noise.
 const LEAST: f64 = 0.05;
 
 /// Values of the history that a line shows.
@@ -25,7 +25,7 @@ const LINE: (f64, f64) = (96.0, 20.0);
 /// A value that has moved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moved {
-    /// Which.
+    /// Key of the metric.
     pub key: MetricKey,
     /// By how many tolerances `[-]`; infinite for a change of unit or verdict, and for what is gone.
     pub tolerances: f64,

@@ -1,11 +1,11 @@
-//! What can go wrong while a report is read, judged or written.
+//! Errors while a report is read, judged or written.
 
 use crate::figure::FigureError;
 use crate::input::read_text;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// Why a report was not written; the message completes "failed to …".
+/// Reason why a report was not written; the message completes "failed to …".
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// A case name that would not stay inside the report's folder.
@@ -21,7 +21,7 @@ pub enum ReportError {
     Write {
         /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// A figure's file could not be written.
@@ -32,7 +32,7 @@ pub enum ReportError {
     Template(#[from] minijinja::Error),
 }
 
-/// Why a committed file of `tests/snapshots` was not read or written; the message completes "failed to …".
+/// Reason why a committed file of `tests/snapshots` was not read or written; the message completes "failed to …".
 #[derive(Debug, thiserror::Error)]
 pub enum BaselineError {
     /// The file could not be read.
@@ -40,7 +40,7 @@ pub enum BaselineError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// The file could not be written.
@@ -48,7 +48,7 @@ pub enum BaselineError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// The file is not what it should be.
@@ -56,7 +56,7 @@ pub enum BaselineError {
     Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong in it.
+        /// Defect of the file.
         message: String,
     },
     /// A case name that is no file name.
@@ -76,7 +76,7 @@ pub(super) fn read_if_there(path: &Path, most: u64) -> Result<Option<String>, Ba
     }
 }
 
-/// Why an earlier report's folder is no baseline; the message completes "failed to …".
+/// Reason why an earlier report's folder is no baseline; the message completes "failed to …".
 #[derive(Debug, thiserror::Error)]
 pub enum EarlierError {
     /// A file could not be read.
@@ -84,7 +84,7 @@ pub enum EarlierError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// It is not what it should be.
@@ -94,7 +94,7 @@ pub enum EarlierError {
     Content {
         /// The file or folder.
         path: PathBuf,
-        /// What is wrong with it.
+        /// Defect of the file or folder.
         message: String,
     },
 }

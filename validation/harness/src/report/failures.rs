@@ -115,7 +115,7 @@ fn off(metric: &Metric) -> String {
     format!("{} is right ({sign}{} %)", with_unit(expected, &metric.unit), two_digits(share))
 }
 
-/// What the list of known failures says, without its reason.
+/// Entry of the list of known failures in words, without its reason.
 fn short_note(judged: &JudgedMetric<'_>) -> String {
     let whole = note(judged);
     match &judged.standing {

@@ -1,20 +1,20 @@
 //! The list of gates, `tests/snapshots/gates/TIER.txt`: every gate that a tier has ever had, a line each. A gate that is no longer
-//! judged stays in the list, and the CHANGELOG has to say why it went: a limit cannot be lost in a change of something else.
+//! judged stays in the list, and `gates_removed.toml` has to say why it went: a limit cannot be lost in a change of something else.
 
 use super::accepted::{Baseline, MetricKey, tier_name};
 use super::error::{BaselineError, read_if_there};
 use crate::case::Tier;
-use crate::input::DOCUMENT;
+use crate::input::{DOCUMENT, WRITTEN_BY_HAND};
 use crate::metric::Variant;
+use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// What a bullet of the CHANGELOG that names gates begins with; the gates follow in backquotes, as `CASE METRIC` for all of a
-/// metric's or `CASE METRIC [VARIANT]` for those of some runs.
-const REMOVED: &str = "- Gates removed:";
+/// File of the gates that went, in the folder of all baseline values.
+const REMOVED: &str = "gates_removed.toml";
 
 const HEAD: &str = "# Every gate that this tier has ever had: case | metric | variant. `bagnold report --accept` adds to it. No line is taken\n\
-    # away: a gate that went is named in the CHANGELOG, in a bullet that begins with `- Gates removed:`.\n";
+    # away: a gate that went is an entry of tests/snapshots/gates_removed.toml.\n";
 
 /// The gates of a tier.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -66,20 +66,16 @@ impl GateList {
         write().map_err(|source| BaselineError::Write { path: path.clone(), source })
     }
 
-    /// What is wrong between the list, the gates among all accepted values of the tier and the CHANGELOG, a line each: gates that
-    /// went without a word, and gates that are not in the list.
+    /// Contradictions between the list, the gates among all baseline values of the tier and the gates that went, a line each:
+    /// gates that went without a reason, and gates that are not in the list.
     #[must_use]
-    pub fn differences(&self, accepted: &Baseline, changelog: &str) -> Vec<String> {
+    pub fn differences(&self, accepted: &Baseline, removed: &RemovedGates) -> Vec<String> {
         let now: BTreeSet<&MetricKey> = accepted.gates().collect();
-        let removed = removed(changelog);
-        let is_explained = |gate: &MetricKey| removed.iter().any(|removed| removed.names(gate));
+        let is_explained = |gate: &MetricKey| removed.removed.iter().any(|removed| removed.names(gate));
         let name = |gate: &MetricKey| format!("{} {} [{}]", gate.case, gate.metric, gate.variant);
         let gone = self.gates.iter().filter(|gate| !now.contains(gate) && !is_explained(gate));
         let gone = gone.map(|gate| {
-            format!(
-                "{} is no longer judged: restore the gate, or say in CHANGELOG.md why it went (`{REMOVED} ...`)",
-                name(gate)
-            )
+            format!("{} is no longer judged: restore the gate, or add it to {REMOVED} with the reason", name(gate))
         });
         let new = now.iter().filter(|gate| !self.gates.contains(**gate));
         let new =
@@ -94,40 +90,44 @@ fn gate(line: &str) -> Option<MetricKey> {
     Some(MetricKey { case: case.to_owned(), metric: metric.to_owned(), variant: variant.parse().ok()? })
 }
 
-/// Gates that the CHANGELOG says went.
-#[derive(Debug, PartialEq)]
-struct RemovedGates {
+/// The gates that went.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RemovedGates {
+    #[serde(default)]
+    removed: Vec<RemovedGate>,
+}
+
+/// Gates of a case and a metric that went.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RemovedGate {
     case: String,
     metric: String,
-    /// What the variants of all of them have.
+    /// Common part of their variants; empty for all.
     variant: Variant,
+    /// Reason why they went; it has to be given.
+    #[serde(rename = "reason")]
+    _reason: String,
 }
 
 impl RemovedGates {
-    fn parse(text: &str) -> Option<Self> {
-        let (case, rest) = text.split_once(' ')?;
-        let (metric, variant) = rest.split_once(" [").unwrap_or((rest, "]"));
-        let variant = variant.strip_suffix(']')?.parse().ok()?;
-        Some(Self { case: case.to_owned(), metric: metric.to_owned(), variant })
+    /// Reads the file in the folder of all baseline values; a missing file is an empty list.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or an entry has an unknown or a missing field.
+    pub fn read(folder: &Path) -> Result<Self, BaselineError> {
+        let path = folder.join(REMOVED);
+        let Some(text) = read_if_there(&path, WRITTEN_BY_HAND)? else { return Ok(Self::default()) };
+        toml::from_str(&text).map_err(|error| BaselineError::Content { path, message: error.to_string() })
     }
+}
 
+impl RemovedGate {
     fn names(&self, gate: &MetricKey) -> bool {
         let has_all = self.variant.parts().all(|(key, value)| gate.variant.get(key) == Some(value));
         (&self.case, &self.metric) == (&gate.case, &gate.metric) && has_all
     }
-}
-
-/// The gates that the bullets of the CHANGELOG name, continued lines included.
-fn removed(changelog: &str) -> Vec<RemovedGates> {
-    let mut found = Vec::new();
-    let mut within = false;
-    for line in changelog.lines() {
-        within = line.starts_with(REMOVED) || (within && line.starts_with("  "));
-        if within {
-            found.extend(line.split('`').skip(1).step_by(2).filter_map(RemovedGates::parse));
-        }
-    }
-    found
 }
 
 #[cfg(test)]
@@ -149,27 +149,32 @@ mod tests {
             (metric("flux", "fluid=water,resolution=20"), metric("velocity", "fluid=water,resolution=20"));
         let mut list = GateList::default();
         list.add(&accepted(&[one.clone(), other.clone()]));
-        assert_eq!(list.differences(&accepted(&[one.clone(), other.clone()]), ""), [""; 0]);
+        let none = RemovedGates::default();
+        assert_eq!(list.differences(&accepted(&[one.clone(), other.clone()]), &none), [""; 0]);
 
         // a metric that vanishes, one that keeps its value and loses its limit, and one whose reference loses its confidence
         let unverified = other.clone().against(None, "a source", crate::metric::Confidence::Unverified);
         for without in
             [vec![one.clone()], vec![one.clone(), Metric { gate: None, ..other }], vec![one.clone(), unverified]]
         {
-            let lost = |changelog: &str| list.differences(&accepted(&without), changelog);
-            let said = lost(
-                "- Gates removed: `film flux`, no longer of use\n  `other velocity`, `film velocity [fluid=honey]`\n",
-            );
-            assert!(
-                said.len() == 1 && said[0].starts_with("film velocity [fluid=water,resolution=20] is no longer judged"),
-                "{said:?}"
-            );
-            assert_eq!(lost("- Other.\n  `film velocity`\n").len(), 1, "another bullet names no gates");
-            assert_eq!(lost("- Gates removed: it was\n  `film velocity [resolution=20]`\n"), [""; 0]);
-            assert_eq!(lost("- Gates removed: `film velocity`: it was wrong\n"), [""; 0]);
+            let lost = |case: &str, metric: &str, variant: &str| {
+                let text = format!(
+                    "[[removed]]\ncase = '{case}'\nmetric = '{metric}'\nvariant = '{variant}'\nreason = 'of no use'"
+                );
+                list.differences(&accepted(&without), &toml::from_str(&text).expect("TOML"))
+            };
+            for other in [("film", "flux", ""), ("other", "velocity", ""), ("film", "velocity", "fluid=honey")] {
+                let said = lost(other.0, other.1, other.2);
+                let expected = "film velocity [fluid=water,resolution=20] is no longer judged";
+                assert!(said.len() == 1 && said[0].starts_with(expected), "{said:?}");
+            }
+            assert_eq!(lost("film", "velocity", "resolution=20"), [""; 0]);
+            assert_eq!(lost("film", "velocity", ""), [""; 0]);
         }
-        let new = list
-            .differences(&accepted(&[one, metric("velocity", "fluid=water,resolution=20"), metric("drift", "")]), "");
+        let new = list.differences(
+            &accepted(&[one, metric("velocity", "fluid=water,resolution=20"), metric("drift", "")]),
+            &none,
+        );
         assert!(new.len() == 1 && new[0].starts_with("film drift [] is not in the list"), "{new:?}");
     }
 

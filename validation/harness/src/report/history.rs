@@ -63,13 +63,13 @@ pub fn append(
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct History {
     values: BTreeMap<MetricKey, Vec<f64>>,
-    /// When each of them was taken: a place in `commits`.
+    /// Commits at which the values were taken, as places in `commits`.
     times: BTreeMap<MetricKey, Vec<usize>>,
     /// The commits at which values were taken, oldest first.
     commits: Vec<String>,
 }
 
-/// What is read of a row.
+/// Columns of a row that are read.
 #[derive(Debug, Deserialize)]
 struct ReadRow {
     base_commit: String,

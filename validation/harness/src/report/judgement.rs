@@ -8,7 +8,7 @@ use super::{CaseReport, Report};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use crate::observation::Outcome;
 
-/// How bad a result is; the order is that of the page.
+/// Severity of a result; the order is that of the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
     /// A gate fails that is not listed, or the list of known failures contradicts the result.
@@ -81,7 +81,7 @@ impl JudgedCase<'_> {
         }
     }
 
-    /// How many metrics have this severity.
+    /// Number of metrics with this severity.
     #[must_use]
     pub fn count(&self, severity: Severity) -> usize {
         self.metrics.iter().filter(|judged| judged.severity() == severity).count()
@@ -135,7 +135,7 @@ pub struct Judgement<'r> {
     pub diverged: usize,
     /// Gates of the baseline that are not judged.
     pub not_judged: usize,
-    /// What became of the elements of each paper.
+    /// Status of the elements of each paper.
     pub papers: Vec<PaperSummary<'r>>,
 }
 

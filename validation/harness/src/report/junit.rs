@@ -47,7 +47,7 @@ fn cases(case: &JudgedCase<'_>) -> Vec<TestCase> {
     diverged.chain(gates).collect()
 }
 
-/// How a gate ended; nothing for what is only observed.
+/// Test status of a gate; none for a metric that is only observed.
 fn status(judged: &JudgedMetric<'_>) -> Option<TestCaseStatus> {
     let failed = |kind: &str, message: String| {
         let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);

@@ -22,7 +22,7 @@ pub struct KnownFailure {
     pub best_value: f64,
     /// Day of that value, `YYYY-MM-DD`.
     pub date: String,
-    /// Why the gate is not reached, and what was tried.
+    /// Reason why the gate fails, and the attempts to reach it.
     pub reason: String,
 }
 
@@ -35,7 +35,7 @@ pub struct KnownFailures {
     pub failures: Vec<KnownFailure>,
 }
 
-/// What the list says about a metric.
+/// Status of a metric in the list of known failures.
 #[derive(Debug, Clone, PartialEq)]
 pub enum KnownFailureStatus {
     /// Not listed: the gate's own verdict counts.
@@ -122,7 +122,7 @@ impl KnownFailures {
         self.failures.iter().find(|failure| failure.key() == key)
     }
 
-    /// What the list says about `metric` of `case`.
+    /// Status of `metric` of `case` in the list.
     #[must_use]
     pub fn standing(&self, case: &str, metric: &Metric) -> KnownFailureStatus {
         let Some(entry) = self.entry(case, metric).cloned() else { return KnownFailureStatus::Unlisted };

@@ -45,7 +45,7 @@ use print::Chapter;
 
 pub use accepted::{Baseline, Drift, MetricKey};
 pub use error::{BaselineError, EarlierError, ReportError};
-pub use gate_list::GateList;
+pub use gate_list::{GateList, RemovedGates};
 pub use history::History;
 pub use judgement::{Judgement, judge};
 pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
@@ -71,7 +71,7 @@ pub struct Report {
     pub title: String,
     /// The tier that all cases ran at.
     pub tier: Tier,
-    /// How the report came about.
+    /// Provenance of the report.
     pub generated: ReportProvenance,
     /// The cases in the order of their registry.
     pub cases: Vec<CaseReport>,
@@ -79,9 +79,9 @@ pub struct Report {
     pub baseline: Baseline,
     /// Folder of the earlier report that the baseline is; none where it is the accepted values.
     pub against: Option<String>,
-    /// What accepted figures were at earlier times; may be empty.
+    /// History of accepted figures; may be empty.
     pub history: History,
-    /// What a particle-step took at earlier times; may be empty.
+    /// History of the wall time of a particle-step; may be empty.
     pub speeds: SpeedHistory,
     /// The gates that are known to fail; may be empty.
     pub known_failures: KnownFailures,
@@ -91,7 +91,7 @@ pub struct Report {
     pub features: Option<Features>,
 }
 
-/// How a report came about.
+/// Provenance of a report.
 #[derive(Debug, Clone, Default)]
 pub struct ReportProvenance {
     /// Version of the program.
@@ -109,7 +109,7 @@ pub struct ReportProvenance {
 }
 
 impl ReportProvenance {
-    /// What this program made in `wall` time, by `command` where it is to be shown.
+    /// Provenance of a report that this program made in `wall` time, by `command` if it is to be shown.
     #[must_use]
     pub fn of_this_program(wall: Duration, command: String) -> Self {
         Self {
@@ -150,7 +150,7 @@ pub struct CaseReport {
     pub animations: Vec<Animation>,
     /// The simulations behind the metrics.
     pub runs: Vec<crate::case::RunSummary>,
-    /// What each of them depends on, by the names of its fields.
+    /// Values that each run depends on, by field name.
     pub run_parameters: Vec<serde_json::Value>,
     /// The text of `metrics.json`, written as it is.
     pub metrics_json: String,
@@ -165,7 +165,7 @@ struct DrawnFigure {
     moves: bool,
     /// Width and height of the picture `[px]`, so that the page does not move when it comes.
     size: Option<(u32, u32)>,
-    /// Why there is no picture, or nothing.
+    /// Reason why there is no picture; none if there is one.
     failure: Option<String>,
 }
 
@@ -174,7 +174,8 @@ struct DrawnFigure {
 /// together as `metrics.json`, small pictures in `figures/overview/CASE.png` and `figures/scatter/QUANTITY.{svg,png,pdf,csv}`. Files of the same names are replaced, others are left
 /// alone.
 ///
-/// What was drawn before is taken from `drawings`. A figure that cannot be drawn does not spoil the report: the page says so in its place.
+/// Earlier drawings are taken from `drawings`. A figure that cannot be drawn does not spoil the report: the page says
+/// so in its place.
 ///
 /// # Errors
 /// If a case name is no folder name, or a file cannot be written.
@@ -319,7 +320,7 @@ fn draw_small(report: &Report, folder: &Path, drawings: &Drawings) -> Result<Vec
     report.cases.par_iter().filter_map(draw).collect()
 }
 
-/// What the page shows of a figure. One that was not drawn is named there and in the log; a file that cannot be written is
+/// Figure as the page shows it. One that was not drawn is named there and in the log; a file that cannot be written is
 /// an error of the whole report.
 fn as_drawn(
     name: &str,

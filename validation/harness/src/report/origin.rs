@@ -1,4 +1,4 @@
-//! How a report came about, in the words of a page.
+//! Provenance of a report, in the words of a page.
 
 use super::ReportProvenance;
 use crate::store::provenance::short_commit;

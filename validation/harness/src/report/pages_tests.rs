@@ -168,7 +168,7 @@ fn flows_without_their_cases_are_left_out() {
     assert!(!none.contains("class=\"flow") && none.contains("class=\"small\"><a"));
 }
 
-/// What people write into cases, laws and data ends up in pictures and messages as well as in the page's own text.
+/// User text in cases, laws and data ends up in pictures and messages as well as in the page's own text.
 #[test]
 fn labels_captions_and_messages_of_runs_are_text_and_not_markup() {
     let folder = tempfile::tempdir().expect("folder");

@@ -1,4 +1,4 @@
-//! What became of every element of the papers, by the metrics of a report.
+//! Status of every element of the papers, by the metrics of a report.
 
 use super::CaseReport;
 use crate::case::RunSummary;
@@ -6,7 +6,7 @@ use crate::evidence::{Element, ElementStatus, MetricName, PAPERS, Paper, RunName
 use crate::metric::{Metric, Verdict};
 use crate::observation::Outcome;
 
-/// What became of an element; the worst of several metrics is the first here.
+/// Status of an element; the worst of several metrics is the first here.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Status {
     /// A number of ours lies outside of what the paper prints.
@@ -23,7 +23,7 @@ pub enum Status {
     NotStatedClearly,
     /// Nothing here speaks of it.
     NotCovered,
-    /// What speaks of it is not run, or not judged, at this tier.
+    /// Metrics or runs that show it are not run, or not judged, at this tier.
     NotInThisTier,
 }
 
@@ -55,8 +55,8 @@ impl Status {
         }
     }
 
-    /// What a metric says of an element that names it: the paper's number decides where there is one, else the gate; none
-    /// of an observed metric.
+    /// Status that a metric gives to an element that names it: the paper's number decides if there is one, else the
+    /// gate; none for an observed metric.
     #[must_use]
     pub fn of(name: &MetricName, metric: &Metric) -> Option<Self> {
         Self::of_value(name, metric.value, metric.verdict())
@@ -77,18 +77,18 @@ impl Status {
 /// A metric that shows an element.
 #[derive(Debug, Clone)]
 pub struct Shown<'r> {
-    /// How the element names it.
+    /// Metric as the element names it.
     pub name: &'r MetricName,
     /// The metric.
     pub metric: &'r Metric,
-    /// What it says; none if it is observed only.
+    /// Status that the metric gives to the element; none if it is observed only.
     pub status: Option<Status>,
 }
 
 /// A run that has to end without diverging.
 #[derive(Debug, Clone)]
 pub struct Ended<'r> {
-    /// How the element names it.
+    /// Run as the element names it.
     pub name: &'r RunName,
     /// The run.
     pub run: &'r RunSummary,
@@ -103,12 +103,12 @@ impl<'r> Ended<'r> {
     }
 }
 
-/// What became of one element.
+/// Status of one element, with the metrics and runs that show it.
 #[derive(Debug, Clone)]
 pub struct ElementOutcome<'r> {
     /// The element.
     pub element: &'r Element,
-    /// What became of it.
+    /// Status of the element.
     pub status: Status,
     /// The metrics of this report that show it.
     pub shown: Vec<Shown<'r>>,
@@ -205,14 +205,14 @@ impl<'r> PaperSummary<'r> {
         Self { paper, elements: paper.elements.iter().map(|element| ElementOutcome::of(element, cases)).collect() }
     }
 
-    /// How many elements have this status.
+    /// Number of elements with this status.
     #[must_use]
     pub fn count(&self, status: Status) -> usize {
         self.elements.iter().filter(|fate| fate.status == status).count()
     }
 }
 
-/// How many elements have this status, over all papers.
+/// Number of elements with this status, over all papers.
 #[must_use]
 pub fn count(accounts: &[PaperSummary<'_>], status: Status) -> usize {
     accounts.iter().map(|account| account.count(status)).sum()

@@ -3,7 +3,7 @@
 use super::template::fill;
 use serde::Serialize;
 
-/// What a page has for the screen alone, from its beginning to its end.
+/// Parts of a page for the screen alone, from beginning to end of each.
 const FOR_THE_SCREEN: [(&str, &str); 5] = [
     ("<script", "</script>"),
     ("<nav", "</nav>"),
@@ -20,7 +20,7 @@ pub(super) struct Chapter {
 }
 
 impl Chapter {
-    /// What a finished page has for paper.
+    /// Printable part of a finished page.
     pub(super) fn of(name: impl Into<String>, page: &str) -> Self {
         Self { name: name.into(), body: relinked(&for_paper(between(page, "<body>", "</body>"))) }
     }

@@ -79,7 +79,7 @@ fn prediction(found: &PredictionInterval, unit: &str) -> Value {
     json!({ "interval": interval, "warnings": found.warnings })
 }
 
-/// Why the gate stands where it does, and why it does not judge where the spacing is too coarse for it.
+/// Reason of the gate, with a remark if the spacing is too coarse for the gate to judge.
 fn reason(metric: &Metric, gate: &Gate) -> String {
     if metric.is_coarser_than_gate() {
         return format!("not judged, for the spacing moves the value by more than the gate is wide: {}", gate.reason);
@@ -106,7 +106,7 @@ fn gate_mark(judged: &JudgedMetric<'_>) -> VerdictMark {
     }
 }
 
-/// What the list of known failures adds, in a sentence.
+/// Remark of the list of known failures, in a sentence.
 pub(super) fn note(judged: &JudgedMetric<'_>) -> String {
     let best = |value: f64| with_unit(value, &judged.metric.unit);
     match &judged.standing {

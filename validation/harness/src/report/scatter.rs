@@ -26,7 +26,7 @@ pub struct QuantityBias {
     pub cases: Vec<(String, Vec<Comparison>)>,
     /// Comparisons without a ratio: where a value is not positive.
     pub left_out: usize,
-    /// What they say together.
+    /// Bias and scatter of all the comparisons together.
     pub found: ModelBias,
 }
 

@@ -6,7 +6,7 @@ use crate::metric::{Variant, Verdict};
 /// Significant figures of a value: far below any tolerance, and no noise of the last bits.
 const FIGURES: i32 = 9;
 
-/// What stands in the first line, so that a reader knows the columns.
+/// First line of a snapshot, which names the columns for the reader.
 const COLUMNS: &str = "name | variant | value | unit | verdict";
 
 /// A line.
@@ -19,7 +19,7 @@ pub(super) struct SnapshotLine<'a> {
     pub(super) verdict: Verdict,
 }
 
-/// What a snapshot says of itself, as insta writes it.
+/// Source line of a snapshot, as insta writes it.
 const SOURCE: &str = "source: tests/snapshots/main.rs";
 
 /// Whose values a snapshot holds.

@@ -16,7 +16,7 @@ pub(super) const FOLDER: &str = "validated";
 /// Ratio of the ends of an interval from which its axis is logarithmic `[-]`.
 const WIDE: f64 = 10.0;
 
-/// What is shown as one: its name and the quantities of metrics.
+/// Group of quantities that a page shows as one, with its name.
 struct Group {
     name: String,
     quantities: Vec<String>,

@@ -1,4 +1,4 @@
-//! What the template sees: nothing but text, made by `page` and `rows`.
+//! Data of the templates: nothing but text, made by `page` and `rows`.
 
 use crate::metric::Variant;
 use serde::Serialize;
@@ -20,7 +20,7 @@ impl VerdictMark {
     pub(super) const OBSERVED: Self = Self { class: "observed", symbol: "○", word: "observed" };
 }
 
-/// What a link to a metric's row names: letters, digits, points and dashes.
+/// Link target of a metric's row: letters, digits, points and dashes.
 pub(super) fn anchor(case: &str, metric: &str, variant: &Variant) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || c == '.' || c == '-' || c == '_' { c } else { '-' };
     format!("metric-{case}-{metric}-{}", variant.file_name()).chars().map(plain).collect()

@@ -32,7 +32,7 @@ pub(super) fn width(metric: &Metric) -> Option<Value> {
     Some(json!({ "parts": parts, "statement": statement, "words": words.join("; ") }))
 }
 
-/// How far a gate lets its value go, in the metric's unit.
+/// Half width of a gate, in the metric's unit.
 fn half_width(gate: &Gate) -> Option<f64> {
     let half = match gate.limit {
         Limit::AtMost(bound) | Limit::AtLeast(bound) => bound.abs(),

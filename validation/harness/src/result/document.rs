@@ -14,7 +14,7 @@ pub struct MetricsDocument {
     pub tier: Tier,
     /// SHA-256 over the runs' final states: the same on any machine and number of threads.
     pub state_hash: String,
-    /// How the numbers came about.
+    /// Provenance of the numbers.
     pub provenance: Provenance,
     /// The runs and how they ended.
     pub runs: Vec<RunSummary>,
@@ -22,7 +22,7 @@ pub struct MetricsDocument {
     pub metrics: Vec<MetricEntry>,
 }
 
-/// How the numbers came about.
+/// Provenance of the numbers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
     /// Version of Bagnold.
@@ -56,7 +56,7 @@ pub struct Provenance {
 pub struct MetricEntry {
     /// Stable snake_case name.
     pub name: String,
-    /// Which run, `key=value,…`.
+    /// Run or runs that the number is of, `key=value,…`.
     pub variant: Variant,
     /// The value; null if it is not a finite number.
     pub value: Option<f64>,
@@ -64,27 +64,28 @@ pub struct MetricEntry {
     pub unit: String,
     /// The reference's value in the same unit.
     pub reference: Option<f64>,
-    /// Where the reference comes from.
+    /// Source of the reference.
     pub source: Option<String>,
-    /// How sure the project is of the reference.
+    /// Confidence in the reference.
     pub confidence: Option<Confidence>,
-    /// What the verdict rests on.
+    /// Kind of reference that the verdict rests on.
     pub kind: MetricKind,
     /// The gate's limit, such as `{"at_most": 0.7}`; null if the number is only observed.
     pub limit: Option<Limit>,
-    /// Why the limit stands where it does.
+    /// Reason for the value of the limit.
     pub reason: Option<String>,
     /// Distance to the limit in the metric's unit, negative where it is broken.
     pub margin: Option<f64>,
     /// The gate's outcome.
     pub verdict: Verdict,
-    /// Why it has no value although it should be one of a steady state; absent where it is.
+    /// Reason why a number that should be one of a steady state has no value; absent if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub not_steady: Option<String>,
     /// Parts of what value and reference are known to; absent where nothing is known.
     #[serde(default, skip_serializing_if = "Uncertainty::is_empty")]
     pub uncertainty: Uncertainty,
-    /// Where the true value lies by how far such values were off where they were measured; absent where nothing of the kind was.
+    /// 95 % prediction interval of the true value, from the errors of comparable predictions; absent without such
+    /// comparisons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prediction: Option<PredictionInterval>,
     /// Relative tolerance of the drift snapshot `[-]`.

@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 /// States of one run; more are no film but a mistake in the interval.
 const MOST_STATES: usize = 10_000;
 
-/// What of all runs is written.
+/// Output of the states of all runs of a case.
 pub struct States {
     runs: Vec<RunStates>,
 }
@@ -24,7 +24,7 @@ struct RunStates {
     written: Mutex<StateOutputProgress>,
 }
 
-/// How far it is.
+/// Progress of the output of one run.
 #[derive(Default)]
 struct StateOutputProgress {
     /// Simulations of the run that have begun: a start and a stop are two.
@@ -36,7 +36,7 @@ struct StateOutputProgress {
     /// Times and files.
     flow: Vec<(f64, String)>,
     walls: Vec<(f64, String)>,
-    /// What went wrong first; nothing is written after it.
+    /// First error; nothing is written after it.
     problem: Option<io::Error>,
 }
 
@@ -62,7 +62,7 @@ impl States {
     /// Writes the files that join the states of a run.
     ///
     /// # Errors
-    /// What could not be written on the way or now; more states than anyone can look at.
+    /// Errors of writing, now or during the run; more states than anyone can look at.
     pub fn finish(self) -> io::Result<()> {
         for run in self.runs {
             let written = run.written.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -1,4 +1,4 @@
-//! How dense a material is in bulk: from its law, where that knows its grains, or as given.
+//! Bulk density of a material: from its law, if that has a grain density, or as given.
 
 use crate::case::ParameterError;
 use bagnold_solver::material::rheology::Rheology;

@@ -1,4 +1,4 @@
-//! How the energy of a run by the weakly compressible model is judged: its ledger closes, and it never rises.
+//! Energy gates of a run by the weakly compressible model: its ledger closes, and its total energy never rises.
 
 use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::EnergyBook;
@@ -13,7 +13,7 @@ quantities! {
         accounted("correction_work", "%", "energy fed in by the kernel correction of the forces, over that scale"),
 }
 
-/// What energies are compared with.
+/// Scale that energies are compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EnergyScale {
     /// The work that the run is about: half a per cent may stay open.
@@ -51,7 +51,7 @@ impl EnergyScale {
     }
 }
 
-/// What may stay open of the work, and of a layer's energy at rest `[%]`.
+/// Largest unexplained share of the work, and of a layer's energy at rest `[%]`.
 const OPEN: f64 = 0.5;
 const OPEN_AT_REST: f64 = 1e-3;
 
@@ -63,8 +63,8 @@ const WORK_OR_WEIGHT: &str = "of the largest work done, by gravity, by walls, di
 /// Least work that counts, over the weight times the height `[-]`.
 const LEAST_WORK: f64 = 0.1;
 
-/// What is left open of the kinetic energy in a time √(H/g), over the length of a step as a share of that time `[-]`: water
-/// that swings in a tank has 2.6, all else less.
+/// Unexplained kinetic energy in a time √(H/g), over the length of a step as a share of that time `[-]`: water that
+/// swings in a tank has 2.6, all else less.
 const STEPS: f64 = 4.0;
 
 const OPEN_REASON: &str = "an error of one per cent in the term that does most cannot hide in half a per cent; what is left is the \

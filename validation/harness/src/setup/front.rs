@@ -1,4 +1,4 @@
-//! How far material reaches.
+//! Front position of a material.
 
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;

@@ -1,5 +1,5 @@
-//! What simulations of several cases start from: the sites of a lattice, displacements from them, a weight above them, and the
-//! walls around them; and what several of them measure: fronts and the ledger of energies.
+//! Initial states and measurements that several cases share: the sites of a lattice, displacements from them, a weight
+//! above them, and the walls around them; fronts and the ledger of energies.
 
 mod bulk;
 pub mod energy_ledger;

@@ -7,12 +7,12 @@ use sha2::{Digest, Sha256};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Where drawings are kept, if anywhere, how large figures are drawn, and how many drawings had to be made.
+/// Cache of drawings: its folder, if any, the size of figures, and the number of drawings that had to be made.
 #[derive(Debug, Default)]
 pub struct Drawings {
     /// Folder of this version of the sources; none where nothing is kept.
     folder: Option<PathBuf>,
-    /// What is kept is replaced.
+    /// Whether drawings that are kept are replaced.
     anew: bool,
     made: AtomicUsize,
     format: FigureFormat,
@@ -38,7 +38,7 @@ impl Drawings {
         Self { format, ..self }
     }
 
-    /// How large figures are drawn.
+    /// Format of the figures: their size.
     #[must_use]
     pub fn format(&self) -> FigureFormat {
         self.format
@@ -92,7 +92,7 @@ impl Drawings {
         Ok(bytes)
     }
 
-    /// How many drawings had to be made.
+    /// Number of drawings that had to be made.
     #[must_use]
     pub fn made(&self) -> usize {
         self.made.load(Ordering::Relaxed)
@@ -105,7 +105,7 @@ mod tests {
     use std::convert::Infallible;
     use std::path::Path;
 
-    /// What comes back for some data where `fresh` would be drawn, and how many drawings were made for it.
+    /// Drawing returned for some data if `fresh` would be drawn, and the number of drawings made for it.
     fn drawn(folder: &Path, policy: StorePolicy, data: f64, fresh: &str) -> (String, usize) {
         let drawings = Store::at(folder, policy).drawings();
         let draw = || Ok::<_, Infallible>(fresh.as_bytes().to_vec());

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Where the code of a case stands.
+/// Origin of the code of a case: the packages of this program or another crate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CodeOrigin(Home);
 
@@ -38,9 +38,9 @@ impl CodeOrigin {
     }
 }
 
-/// What tells a program's results from another program's: SHA-256 in hexadecimal digits of everything that a result of
-/// such a case depends on, beside its parameters. `None` where the program's own file would have to be read and cannot be;
-/// a warning has said so.
+/// Identity of a program's results: SHA-256 in hexadecimal digits of everything that a result of such a case depends
+/// on, besides its parameters. `None` if the program's own file would have to be read and cannot be; a warning has said
+/// so.
 #[must_use]
 pub fn identity(origin: CodeOrigin) -> Option<&'static str> {
     let is_told_by_sources = origin == CodeOrigin::PACKAGE && is_declared() && registered().is_empty();
@@ -84,7 +84,7 @@ fn own_program() -> Option<&'static str> {
     program.as_deref()
 }
 
-/// Where the program lies. On Linux the file that runs, also if another one has taken its place since.
+/// Path of the program. On Linux the file that runs, also if another one has taken its place since.
 fn program_file() -> io::Result<PathBuf> {
     let running = Path::new("/proc/self/exe");
     if cfg!(target_os = "linux") && running.exists() { Ok(running.to_owned()) } else { std::env::current_exe() }

@@ -1,4 +1,4 @@
-//! What lies in a store, and how it is made smaller on request.
+//! Contents of a store, and their reduction on request.
 
 use super::{DRAWN, UNFINISHED, is_version};
 use std::io::Result;
@@ -34,7 +34,7 @@ pub struct Version {
     pub unfinished: usize,
     /// Size of them all `[bytes]`.
     pub bytes: u64,
-    /// When the newest was written.
+    /// Time at which its newest file was written.
     pub newest: SystemTime,
 }
 
@@ -47,7 +47,7 @@ pub struct RetentionPolicy {
     pub bytes: Option<u64>,
 }
 
-/// What was deleted.
+/// Number and size of the files that were deleted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Pruned {
     /// Number of entries, checkpoints and drawings.

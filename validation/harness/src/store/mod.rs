@@ -99,7 +99,7 @@ impl Store {
         Self { checkpoint_interval: interval, ..self }
     }
 
-    /// Where an unfinished run keeps its checkpoints; emptied where everything is to begin anew.
+    /// Checkpoints of an unfinished run; emptied if everything is to begin anew.
     #[must_use]
     pub fn checkpoints(&self, key: &StoreKey) -> Checkpoints {
         let checkpoints = Checkpoints::at(&self.checkpoint_folder(key), &key.0, self.checkpoint_interval);
@@ -197,7 +197,7 @@ impl Store {
     }
 }
 
-/// Where the platform keeps what can be made again, such as `~/.cache/bagnold`.
+/// Cache folder of the platform, such as `~/.cache/bagnold`.
 fn cache_folder() -> Option<PathBuf> {
     let folders = etcetera::base_strategy::choose_native_strategy().ok()?;
     Some(folders.cache_dir().join("bagnold"))

@@ -75,7 +75,7 @@ pub fn profile() -> String {
     format!("{profile}, solver at opt-level {solver_opt_level}")
 }
 
-/// What to say of a program whose solver is not optimised; nothing of any other.
+/// Warning about a program whose solver is not optimised; none for any other.
 #[must_use]
 pub fn unoptimised() -> Option<String> {
     unoptimised_at(build().solver_opt_level)

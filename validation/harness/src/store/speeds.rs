@@ -1,4 +1,4 @@
-//! How long runs took on this machine, kept beside what they computed: what the next estimate goes by.
+//! Wall times of runs on this machine, kept beside their results: the basis of the next estimate.
 //!
 //! A run's time is kept over its nominal time, which follows from its parameters alone. So what was measured once holds for
 //! other sizes and durations as well, as far as the nominal time grows with them as it should.
@@ -24,7 +24,7 @@ struct Taken {
     taken: f64,
 }
 
-/// What is known of a case.
+/// Known times of a case.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 struct OfCase {

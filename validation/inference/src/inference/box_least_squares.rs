@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 /// Singular values below this share of the largest one count as zero.
 const RANK_TOLERANCE: f64 = 1e-10;
 
-/// Where a variable stands.
+/// Status of a variable: free, or at its lower or upper bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum BoundStatus {
     Free,

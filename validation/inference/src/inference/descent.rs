@@ -11,7 +11,7 @@ pub(super) trait Smooth {
     fn jacobian(&self, point: &[f64]) -> DMatrix<f64>;
 }
 
-/// Where a descent ends.
+/// End of a descent.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bottom {
     /// The point.

@@ -1,4 +1,4 @@
-//! What residuals at the best point say about the data, their uncertainties and the model.
+//! Diagnosis of the data, their uncertainties and the model from the residuals at the best point.
 
 use super::region::chi_squared_quantile;
 

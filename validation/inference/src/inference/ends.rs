@@ -34,7 +34,7 @@ pub struct IntervalEnd {
 /// A side of a parameter, with the points that were evaluated for its end.
 #[derive(Debug, Clone)]
 pub(super) struct IntervalSide {
-    /// Which parameter.
+    /// Index of the parameter.
     pub(super) parameter: usize,
     /// Whether it is the upper side.
     pub(super) upper: bool,
@@ -44,7 +44,7 @@ pub(super) struct IntervalSide {
     radius: f64,
 }
 
-/// What the model has said about a side, as distances from the best point.
+/// Bracket of an interval's end from the model's evaluations, as distances from the best point.
 struct Bracket {
     /// The farthest point that agrees.
     inside: Option<(f64, usize)>,

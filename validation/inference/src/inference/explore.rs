@@ -124,7 +124,7 @@ fn best(history: &[Evaluated]) -> Option<Minimum> {
         .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
 }
 
-/// Where a point stands in the history.
+/// Index of a point in the history.
 fn place_of(history: &[Evaluated], point: &[f64]) -> Option<usize> {
     history.iter().position(|evaluated| evaluated.point == point)
 }

@@ -1,4 +1,4 @@
-//! What a weighted residual costs: its square, or less where it is an outlier.
+//! Loss function of weighted residuals: the square, or less for an outlier.
 //!
 //! Huber's loss is ρ(r) = r² for |r| ≤ c and 2 c |r| − c² beyond; with c = 1.345 the estimate keeps 95 % of its efficiency
 //! where errors are normal. A search that knows squares only is given ±√ρ in the place of r. Intervals at the limits of χ²
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// c, in standard uncertainties.
 const CORNER: f64 = 1.345;
 
-/// What a residual costs.
+/// Loss function of a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Loss {

@@ -44,14 +44,14 @@ pub use solve::{Answer, SolvePlan, UNLIKELY, solve};
 
 /// The model as the search sees it.
 pub trait Evaluate {
-    /// What can go wrong beyond a run that diverges.
+    /// Error other than a run that diverges.
     type Error;
 
     /// Weighted residuals `[-]` at each point of the unit cube; `None` where the model failed (a run diverged). Points
     /// may be evaluated in parallel; the caller caches, so asking twice costs nothing and counts once.
     ///
     /// # Errors
-    /// What stops the whole search, such as a full disk.
+    /// Failures that stop the whole search, such as a full disk.
     fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Self::Error>;
 }
 

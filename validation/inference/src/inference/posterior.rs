@@ -91,7 +91,7 @@ pub fn sample(region: &Region, seed: u64) -> Posterior {
     }
 }
 
-/// Where a walker begins: near the best point, within the cube.
+/// Start of a walker: near the best point, within the cube.
 fn first(region: &Region, random: &mut Random) -> Vec<f64> {
     let spread = |k: usize| 0.2 * (region.profiles[k].interval[1] - region.profiles[k].interval[0]).max(1e-6);
     let one = |(k, u): (usize, &f64)| {

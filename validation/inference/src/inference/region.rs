@@ -1,4 +1,4 @@
-//! What the data leave open: the joint region, intervals, covariance, and whether the model explains the data at all.
+//! Joint region, intervals and covariance that the data leave open, and whether the model explains the data at all.
 //!
 //! Of data with normal errors χ² rises from its minimum to the truth by a number that follows the χ² distribution, with
 //! as many degrees of freedom as there are parameters, or one for a single parameter with the others at their best
@@ -17,7 +17,7 @@ pub const CONFIDENCE: f64 = 0.95;
 const LEAST_SHARE: f64 = 1e-8;
 const LEAST_INFORMATION: f64 = 1e-3;
 
-/// Which standard uncertainties of the data count.
+/// Choice of the standard uncertainties of the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Uncertainties {
     /// As they are stated.
@@ -112,7 +112,7 @@ impl Region {
         constrained(&self.emulator, &self.base, start, which, value)
     }
 
-    /// Where the emulator's profile along one parameter leaves the interval beyond a point, and whether that is at the bound.
+    /// End of the interval on the emulator's profile along one parameter beyond a point, and whether it is at the bound.
     #[must_use]
     pub fn end_beyond(&self, start: &[f64], which: usize, upper: bool) -> (Vec<f64>, bool) {
         let direction = if upper { 1.0 } else { -1.0 };

@@ -119,7 +119,7 @@ mod tests {
             Self { truth: [0.45, 0.6], noise, variance, random }
         }
 
-        /// What the mean of all runs would be.
+        /// Residuals of the mean of all runs.
         fn mean(&self, u: &[f64]) -> Vec<f64> {
             let curve = |u: &[f64], k: usize| {
                 let t = k as f64 / 11.0;

@@ -8,7 +8,7 @@ use crate::sampling::Random;
 /// A choice with the weighted residuals of its best parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FittedChoice {
-    /// What it is called.
+    /// Name of the choice.
     pub name: String,
     /// Weighted residuals `[-]`, one a datum in the same order for all choices.
     pub residuals: Vec<f64>,
@@ -16,10 +16,10 @@ pub struct FittedChoice {
     pub parameters: usize,
 }
 
-/// How a choice fares.
+/// Score of a choice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Score {
-    /// What it is called.
+    /// Name of the choice.
     pub name: String,
     /// χ² `[-]`.
     pub chi_squared: f64,

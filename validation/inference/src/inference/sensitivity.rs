@@ -15,7 +15,7 @@ const LEVELS: usize = 4;
 /// Change of a parameter, p/(2 (p − 1)) of the range for p levels, so that all levels are equally likely.
 const CHANGE: f64 = LEVELS as f64 / (2.0 * (LEVELS as f64 - 1.0));
 
-/// What one parameter does to the residuals.
+/// Effect of one parameter on the residuals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effect {
     /// Root mean square over the data of the mean size of its effects (μ*), in standard uncertainties of a datum per

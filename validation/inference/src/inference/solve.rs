@@ -17,18 +17,18 @@ pub const UNLIKELY: f64 = 0.01;
 /// Searches that are begun anew from a lower point.
 const MOST_RESTARTS: usize = 3;
 
-/// What is done, and with how much.
+/// Plan of a search and its exploration, with their budgets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolvePlan {
     /// Start in the unit cube.
     pub start: Vec<f64>,
-    /// How the minimum is looked for.
+    /// Search method for the minimum.
     pub method: Method,
     /// Points of a design that is given; empty for a search.
     pub design: Vec<Vec<f64>>,
-    /// What each search may spend.
+    /// Budget of each search.
     pub budget: Budget,
-    /// What the exploration of the region may spend, each time.
+    /// Evaluations for each exploration of the region.
     pub region_evaluations: usize,
     /// Whether runs scatter.
     pub runs: Repeatability,
@@ -50,7 +50,7 @@ pub struct Answer {
 /// Searches and explores until nothing lower turns up.
 ///
 /// # Errors
-/// What [`search`](super::search()) returns.
+/// Errors of [`search`](super::search()).
 pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, SearchError<M::Error>> {
     let usual = plan.runs.budget(plan.budget);
     let mut found = if plan.design.is_empty() {

@@ -29,7 +29,7 @@ impl Evaluate for RosenbrockModel {
 /// A decay to a plateau, y = a exp(−b t) + c at twelve times, without noise, standard uncertainty 0.02.
 #[derive(Clone)]
 pub(super) struct ExponentialDecay {
-    /// Where the data come from, in the unit cube.
+    /// Parameters of the synthetic data, in the unit cube.
     pub(super) truth: [f64; 3],
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How a range is divided.
+/// Division of a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Spacing {
@@ -23,7 +23,7 @@ pub struct BoundsError {
     pub value: f64,
     /// The rule that it breaks, completing "must be …".
     pub rule: String,
-    /// What to do about it.
+    /// Remedy.
     pub remedy: &'static str,
 }
 

@@ -24,7 +24,7 @@ use std::ops::Range;
 /// Blocks that a time series is split into where nothing else asks for another number.
 pub const BLOCKS: usize = 32;
 
-/// What the half width claims `[-]`.
+/// Confidence level of the half width `[-]`.
 const CONFIDENCE: f64 = 0.95;
 
 /// Largest correlation of neighbouring blocks that is distinguished from a drift `[-]`.
@@ -51,7 +51,7 @@ impl Average {
     }
 }
 
-/// Why a time series has no average with an error; the message completes "failed to …".
+/// Error of a time series too short for an average with an error; the message completes "failed to …".
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "average over {samples} samples: the window must hold at least {BLOCKS}, one a block; sample more often or longer"

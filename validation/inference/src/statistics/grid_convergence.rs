@@ -52,7 +52,7 @@ const ORDERS: (f64, f64) = (0.4, 2.0);
 /// Steps between them.
 const STEPS: usize = 64;
 
-/// What the index claims to hold `[-]`.
+/// Confidence level of the index `[-]`.
 const CONFIDENCE: f64 = 0.95;
 
 /// Student's factor of that confidence for a scatter that is known exactly `[-]`.
@@ -70,7 +70,7 @@ pub struct GridConvergence {
     pub open_orders: (f64, f64),
     /// Half width of the finest mean's 95 % interval over its value, scatter included `[-]`.
     pub index: f64,
-    /// What the means approach, in their unit.
+    /// Limit of the means at infinite resolution, in their unit.
     pub limit: f64,
     /// Relative standard deviation of single runs, pooled over the resolutions `[-]`; none without repeated runs.
     pub scatter: Option<f64>,

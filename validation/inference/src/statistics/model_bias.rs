@@ -12,7 +12,7 @@
 //! The true value then lies about M/δ, within ± 2 σ_M M/δ in 19 cases of 20 where there are many comparisons. Where the
 //! comparisons have experimental uncertainties of their own, σ_E² is their mean square. Where one is not known, none is
 //! invented: there is no σ_M, u holds both scatters, and δ = exp(m), the geometric mean, which is the above for σ_M = σ_E.
-//! Where the experiments claim more than the comparisons scatter, u² < σ_E², what the model adds cannot be told, and there
+//! For experiments that claim more than the comparisons scatter, u² < σ_E², what the model adds cannot be told, and there
 //! is no σ_M either.
 
 use super::student_quantile;
@@ -28,7 +28,7 @@ pub struct Comparison {
     pub uncertainty: Option<f64>,
 }
 
-/// What is known of the model's own scatter.
+/// Standard deviation of the model's own scatter, as far as it is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Deviation {
     /// Experimental uncertainties are known.
@@ -62,7 +62,7 @@ pub struct ModelBias {
     pub deviation: Deviation,
 }
 
-/// What the intervals claim `[-]`.
+/// Confidence level of the intervals `[-]`.
 const CONFIDENCE: f64 = 0.95;
 
 /// Fewest comparisons whose scatter says anything.

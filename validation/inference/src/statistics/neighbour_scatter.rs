@@ -1,4 +1,4 @@
-//! How far points scatter about a smooth curve that nobody knows: about the line through their neighbours.
+//! Scatter of points about an unknown smooth curve: about the line through their neighbours.
 
 /// Standard deviation of independent scatter of the ordinates, from the distance of each inner point to the straight line through
 /// its two neighbours, in the unit of y; none for fewer than three points of rising abscissa.

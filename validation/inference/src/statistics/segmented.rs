@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 /// y in pieces of straight lines that meet at the break points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Segmented {
-    /// Where the slope changes, rising, unit of x; one fewer than there are pieces.
+    /// Abscissas at which the slope changes, rising, unit of x; one fewer than there are pieces.
     pub breaks: Vec<f64>,
     /// Slope of every piece, unit of y over unit of x.
     pub slopes: Vec<f64>,

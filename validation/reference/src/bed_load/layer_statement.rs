@@ -1,4 +1,4 @@
-//! What the bed-load paper states of its velocity profiles.
+//! Statements of the bed-load paper on its velocity profiles.
 
 use crate::evidence::read_shipped;
 use crate::metric::Confidence;
@@ -11,7 +11,7 @@ pub struct LayerStatement {
     pub slope: f64,
     /// Number of layers.
     pub layers: f64,
-    /// How sure the project is of it.
+    /// Confidence in the statement.
     pub confidence: Confidence,
 }
 

@@ -16,9 +16,9 @@ pub struct LowestVelocity {
     pub points: Vec<(f64, f64)>,
     /// The power law.
     pub law: Exponent,
-    /// Where it is from.
+    /// Source of the points.
     pub source: String,
-    /// How sure the project is of it.
+    /// Confidence in the points.
     pub confidence: Confidence,
 }
 

@@ -17,13 +17,13 @@ const FEWEST: usize = 20;
 pub struct MotionThresholds {
     /// (D*, τ*_c) `[-]` in the order of the table, D* = d ((s − 1) g/ν²)^⅓.
     pub points: Vec<(f64, f64)>,
-    /// Where they are from.
+    /// Source of the points.
     pub source: String,
-    /// How sure the project is of them.
+    /// Confidence in the points.
     pub confidence: Confidence,
 }
 
-/// What experiments with grains of about one size say together, Shields numbers `[-]`.
+/// Band of the thresholds from experiments with grains of about one size, Shields numbers `[-]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThresholdBand {
     /// Half of them lie below.
@@ -32,7 +32,7 @@ pub struct ThresholdBand {
     pub bounds: (f64, f64),
     /// Half of the width of the middle two thirds, a standard deviation.
     pub deviation: f64,
-    /// How many they are.
+    /// Number of experiments.
     pub number: usize,
 }
 

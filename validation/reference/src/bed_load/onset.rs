@@ -31,7 +31,7 @@ pub fn critical_shields_number(dimensionless_diameter: f64) -> f64 {
     a / (1.0 + b * dimensionless_diameter) + c * (1.0 - libm::exp(-e * dimensionless_diameter))
 }
 
-/// How sure the project is of the curve.
+/// Confidence in the curve of the critical Shields number.
 #[must_use]
 pub fn onset_confidence() -> Confidence {
     CURVE.confidence

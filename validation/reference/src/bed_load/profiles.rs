@@ -21,7 +21,7 @@ pub enum MeasuredBedLoad {
 /// A column of profile points, heights above the layer's z = 0 `[m]` first.
 type HeightProfile = Vec<(f64, f64)>;
 
-/// What was found.
+/// Measured or simulated profiles of bed load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BedLoadProfiles {
     /// φ `[-]`.
@@ -36,7 +36,7 @@ pub struct BedLoadProfiles {
     pub stress_scatter: f64,
     /// q* = ∫ φ u_s dz/√((s − 1) g d³) of these points `[-]`.
     pub transport: f64,
-    /// Where it comes from.
+    /// Source of the profiles.
     pub source: String,
 }
 

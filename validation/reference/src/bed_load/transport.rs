@@ -48,7 +48,7 @@ const SAME_SHIELDS: f64 = 1.3;
 /// Fewest runs that say something together.
 const FEWEST_RUNS: usize = 10;
 
-/// What runs of about one Shields number say together, each over Wong & Parker's 1.6 form `[-]`.
+/// Distribution of the measured rates of runs of about one Shields number, each over Wong & Parker's 1.6 form `[-]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeasuredRates {
     /// Half of them carried less.
@@ -57,11 +57,11 @@ pub struct MeasuredRates {
     pub bounds: (f64, f64),
     /// Half of the width of the middle two thirds, a standard deviation.
     pub deviation: f64,
-    /// How many they are.
+    /// Number of runs.
     pub number: usize,
-    /// Where they are from.
+    /// Source of the rates.
     pub source: String,
-    /// How sure the project is of them.
+    /// Confidence in the rates.
     pub confidence: Confidence,
 }
 
@@ -98,7 +98,7 @@ pub(super) fn quantile(ascending: &[f64], share: f64) -> f64 {
     }
 }
 
-/// What the table says of a formula.
+/// Row of a formula in the table.
 #[derive(Debug, Clone, PartialEq)]
 struct FormulaCoefficients {
     source: String,
@@ -169,13 +169,13 @@ impl TransportFormula {
         &self.row().source
     }
 
-    /// What it is.
+    /// Kind of reference.
     #[must_use]
     pub fn origin(self) -> ReferenceKind {
         self.row().origin
     }
 
-    /// How sure the project is of it: read in two or more documents, or in one besides the coefficients.
+    /// Confidence in the formula: read in two or more documents, or in one besides the coefficients.
     #[must_use]
     pub fn confidence(self) -> Confidence {
         self.row().confidence

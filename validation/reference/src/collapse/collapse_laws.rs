@@ -22,9 +22,9 @@ pub struct Branch {
 /// A law in branches, with gaps where its source gives none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CollapseLaw {
-    /// Where it comes from.
+    /// Source of the law.
     pub source: String,
-    /// How sure the project is of it.
+    /// Confidence in the law.
     pub confidence: Confidence,
     /// Its branches in ascending order.
     pub branches: Vec<Branch>,

@@ -22,9 +22,9 @@ pub struct MeasuredPile {
     pub failure: Vec<(f64, f64)>,
     /// Standard uncertainty of a height of the surface `[m]`: scatter of the points about the line through their neighbours.
     pub reading: f64,
-    /// Where it is from.
+    /// Source of the values.
     pub source: String,
-    /// How sure the project is of it.
+    /// Confidence in the values.
     pub confidence: Confidence,
 }
 
@@ -37,9 +37,9 @@ pub struct MeasuredRunOuts {
     pub doubtful: Vec<(f64, f64)>,
     /// Relative standard deviation of the points about the line through their neighbours, in logarithms `[-]`.
     pub scatter: f64,
-    /// Where they are from.
+    /// Source of the points.
     pub source: String,
-    /// How sure the project is of them.
+    /// Confidence in the points.
     pub confidence: Confidence,
 }
 
@@ -74,7 +74,7 @@ impl MeasuredPile {
         })
     }
 
-    /// Where its surface falls to a thickness `[m]`, straight between its points `[m]`.
+    /// Front position of its surface at a thickness `[m]`, linear between its points `[m]`.
     #[must_use]
     pub fn front(&self, thickness: f64) -> f64 {
         let below = self.surface.windows(2).find(|pair| pair[0].1 >= thickness && pair[1].1 < thickness);

@@ -27,7 +27,7 @@ pub struct OtherCodes {
     pub series: Vec<CodeSeries>,
     /// Origin of the values.
     pub source: String,
-    /// How sure the project is of them.
+    /// Confidence in the values.
     pub confidence: Confidence,
 }
 

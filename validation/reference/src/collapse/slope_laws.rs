@@ -6,12 +6,12 @@ use crate::evidence::read_shipped;
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
-/// What is known of the experiment on a slope (Mangeney et al. 2010).
+/// Published values of the experiment on a slope (Mangeney et al. 2010).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlopeExperiment {
     /// Coefficients k of the run-out law `[-]`: the lower and the upper quotation.
     pub run_out_coefficients: (f64, f64),
-    /// How sure the project is of them.
+    /// Confidence in the coefficients.
     pub confidence: Confidence,
     /// Angle of repose of its beads `[°]`.
     pub repose_angle: f64,

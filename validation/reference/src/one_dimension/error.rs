@@ -1,4 +1,4 @@
-//! Why a layer has no solution.
+//! Errors of a layer without a solution.
 
 /// A layer that cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -45,13 +45,13 @@ pub enum LayerError {
         slope: f64,
         /// Slope from which on it slides `[-]`.
         limit: f64,
-        /// What to do.
+        /// Remedy.
         remedy: String,
     },
     /// Time steps did not lead to a steady state.
     #[error("compute the steady layer: {reason} after {steps} time steps; use other cells or milder closures")]
     NotSteady {
-        /// What stands against it.
+        /// Obstacle to the steady state.
         reason: String,
         /// Time steps taken.
         steps: usize,

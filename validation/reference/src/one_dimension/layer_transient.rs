@@ -257,7 +257,7 @@ pub struct LayerProfile {
     pub velocities: Vec<f64>,
 }
 
-/// How the depth mean of the velocity went.
+/// History of the depth-averaged velocity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TransientHistory {
     /// Times `[s]`, the start included.

@@ -21,7 +21,7 @@ pub struct NonlocalLayer {
     pub layer: BagnoldProfile,
     /// Amplitude A `[-]` of the cooperation.
     pub cooperativity: f64,
-    /// What g is at the surface.
+    /// Boundary condition of g at the surface.
     pub surface: FieldBoundary,
 }
 
@@ -141,7 +141,7 @@ impl NonlocalLayer {
         Ok(NonlocalProfile { heights, fluidities, velocities, surface_velocity: below })
     }
 
-    /// What g is at the bed and at the surface.
+    /// Boundary conditions of g at the bed and at the surface.
     pub(crate) fn ends(&self) -> [FieldBoundary; 2] {
         [FieldBoundary::Vanishing, self.surface]
     }

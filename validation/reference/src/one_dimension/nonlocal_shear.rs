@@ -8,7 +8,7 @@
 //! - a heap between rough side walls a width B apart, inclined by θ: μ = tanθ − μ_B y/B (Jop, Forterre & Pouliquen 2005, J. Fluid Mech.
 //!   541), p = ρ g cosθ y.
 //!
-//! Where μ < μ_s a local law is at rest. Here the flow decays there, over ξ(μ) = A d/√|R| where μ no longer changes, at least over
+//! For μ < μ_s a local law is at rest. Here the flow decays there, over ξ(μ) = A d/√|R| where μ no longer changes, at least over
 //! ξ(0) = A d √(μ_2/(Δμ μ_s)).
 
 use super::LayerError;
@@ -16,7 +16,7 @@ use super::fluidity_balance::FluidityBalance;
 use bagnold_solver::material::rheology::MuI;
 use bagnold_solver::material::rheology::field::FieldBoundary;
 
-/// Where the stresses come from.
+/// Source of the stresses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ShearStress {
     /// A vertical chute from its middle to a wall.
@@ -57,7 +57,7 @@ pub struct NonlocalShear {
     pub thickness: f64,
     /// The stresses.
     pub stress: ShearStress,
-    /// What g is at the near and the far end.
+    /// Boundary conditions of g at the near and the far end.
     pub ends: [FieldBoundary; 2],
 }
 

@@ -38,7 +38,8 @@ fn below_a_plate(cells: usize) -> NonlocalShearProfile {
     beads(20.0, stress, [FieldBoundary::Vanishing; 2]).steady(cells).expect("steady")
 }
 
-/// How a small fluidity of a chute, grown from 1 in the middle by a Runge–Kutta method, ends at its wall: the least g on the way, and g′.
+/// Shooting solution of a small fluidity from 1 in the middle of a chute to its wall, by a Runge–Kutta method. Returns the
+/// least g on the way, and g′ at the wall.
 fn shot(of: &NonlocalShear) -> (f64, f64) {
     let steps = 4000;
     let step = of.thickness / f64::from(steps);
@@ -129,7 +130,7 @@ fn the_tail_of_a_heap_decays_as_in_another_program() {
     assert!((limit - expected).abs() < 1e-12 && (limit - 1.22).abs() < 0.0051, "{limit} d");
 }
 
-/// Where the side walls bear all shear, μ = 0 and uniform, and a fluidity from above decays over ξ(0) exactly.
+/// Exact decay over ξ(0) of a fluidity from above: the side walls support all shear, and μ = 0 is uniform.
 #[test]
 fn a_far_tail_decays_over_the_length_of_the_law() {
     let stress = ShearStress::Heap { slope: 0.4877, weight: 14_000.0, side_friction: 0.02 / DIAMETER };

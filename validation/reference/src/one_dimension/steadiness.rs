@@ -1,4 +1,4 @@
-//! How long a layer needs until it flows steadily.
+//! Time until a layer flows steadily.
 //!
 //! From rest a layer accelerates with g (sinθ − μ_s cosθ) at most, so that no time to the steady mean Ū of (37) is shorter than
 //! T = Ū/(g (sinθ − μ_s cosθ)); how much longer it is depends on how far the slope is from both friction angles. The transient

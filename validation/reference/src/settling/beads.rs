@@ -28,12 +28,12 @@ const NUMBERS: [(&str, GrainNumber); 4] = [
     ("oil viscosity", |grains| &mut grains.kinematic_viscosity),
 ];
 
-/// What was measured.
+/// Measured settling of beads in oil.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SettlingBeads {
     /// Beads and oil.
     pub grains: SettlingGrains,
-    /// What beads and oil are known to: the name of each number with these beads and oil at the lower and the upper end of its range.
+    /// Uncertainty range of each number: its name, with beads and oil at the lower and the upper end of the range.
     pub ends: Vec<(&'static str, SettlingGrains, SettlingGrains)>,
     /// (time `[s]`, height of the upper interface `[m]`).
     pub upper: Vec<(f64, f64)>,
@@ -47,9 +47,9 @@ pub struct SettlingBeads {
     pub suspension: FittedValue,
     /// The same of the deposit.
     pub packing: FittedValue,
-    /// Where it is from.
+    /// Source of the measurements.
     pub source: String,
-    /// How sure the project is of it.
+    /// Confidence in the measurements.
     pub confidence: Confidence,
 }
 

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 /// The standard drag curve of a smooth sphere.
 pub struct StandardDrag {
-    /// How sure the project is of it.
+    /// Confidence in the curve.
     pub confidence: Confidence,
     /// Reynolds numbers and drag coefficients `[-]`.
     pub points: Vec<(f64, f64)>,

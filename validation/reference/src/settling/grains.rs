@@ -31,13 +31,13 @@ static RICHARDSON_ZAKI: LazyLock<RichardsonZaki> = LazyLock::new(|| {
     })
 });
 
-/// How sure the project is of [`richardson_zaki_exponent`]: observed beside a run, never a gate.
+/// Confidence in [`richardson_zaki_exponent`]: observed beside a run, never a gate.
 #[must_use]
 pub fn richardson_zaki_confidence() -> Confidence {
     RICHARDSON_ZAKI.confidence
 }
 
-/// What a grain's submerged weight is compared with.
+/// Form of a grain, which relates its submerged weight to its drag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GrainForm {
     /// A sphere of diameter d: c = ¾.

@@ -10,11 +10,11 @@ use std::sync::LazyLock;
 pub struct MeasuredFront {
     /// (t/√(a/(2g)), x/a) `[-]`, in ascending order.
     pub points: Vec<(f64, f64)>,
-    /// Where it is from.
+    /// Source of the points.
     pub source: String,
-    /// How sure the project is of it.
+    /// Confidence in the points.
     pub confidence: Confidence,
-    /// What figures call it.
+    /// Name in figures.
     pub name: &'static str,
     /// Half width of an even spread of readings, in x/a `[-]`.
     reading: f64,
@@ -27,9 +27,9 @@ pub struct MeasuredHeights {
     pub aspect_ratio: f64,
     /// (t/√(a/(2g)), height over that at first) `[-]`, in ascending order.
     pub points: Vec<(f64, f64)>,
-    /// Where they are from.
+    /// Source of the points.
     pub source: String,
-    /// How sure the project is of them.
+    /// Confidence in the points.
     pub confidence: Confidence,
 }
 
@@ -53,7 +53,7 @@ pub static WATER_HEIGHTS: LazyLock<Vec<MeasuredHeights>> = LazyLock::new(|| {
     })
 });
 
-/// Who read or measured a front, and its points (t/√(a/(2g)), x/a) `[-]`.
+/// Name of a front's reader or experimenter, and its points (t/√(a/(2g)), x/a) `[-]`.
 pub type NamedFront = (String, Vec<(f64, f64)>);
 
 /// Fronts of columns twice as high as wide by other experimenters and readers, with their names: (t/√(a/(2g)), x/a) `[-]`.

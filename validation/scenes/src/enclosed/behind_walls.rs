@@ -1,11 +1,11 @@
-//! What stands behind walls when a scene is filled. A wall has one side, so that material behind it is a mistake of the file, or
-//! what a wall cuts off a body that was drawn too large. Nothing of it is left out in silence.
+//! Material behind walls when a scene is filled. A wall has one side, so that material behind it is a mistake of the file,
+//! or the part that a wall cuts off a body that was drawn too large. Nothing of it is left out in silence.
 
 use super::surfaces::NearestWall;
 use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
 
-/// How one gets to see it.
+/// Command that shows the material behind walls.
 const DRAW: &str = "see `bagnold show FILE.toml --picture setup.png`";
 
 /// A site of the lattice that a body holds.
@@ -65,11 +65,11 @@ fn behind<const D: usize>(
 pub(super) struct Permissions<'a> {
     /// Name of each wall, and then of each inlet, and whether material may stand on both sides of it.
     pub(super) walls: Vec<(&'a str, bool)>,
-    /// Which of them is the first inlet, and how one is turned round.
+    /// Index of the first inlet among them, and the remedy for a reversed inlet.
     pub(super) inlets: (usize, &'a str),
     /// Largest share of a body that may be behind walls `[-]`.
     pub(super) most: f64,
-    /// How a wall is turned round.
+    /// Remedy for a reversed wall.
     pub(super) turn: &'a str,
 }
 

@@ -69,7 +69,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         names::check_measured(&self.measured, |name| self.gauges.iter().any(|gauge| gauge.name() == name))
     }
 
-    /// What a thickness is measured along: one direction, which leaves the material somewhere.
+    /// Check of the direction of a thickness: one direction only, which leaves the material somewhere.
     fn check_direction(&self, k: usize, gauge: &S::Gauge) -> Result<(), ParameterError> {
         let within = |error: ParameterError| Err(error.within(&format!("gauges[{k}]")));
         let (given, wall) = gauge.along();

@@ -39,7 +39,7 @@ pub(crate) fn picture_axes<'a, S: Dimension<D>, const D: usize>(
     std::array::from_fn(|k| Axis { limits: Some(limits(k)), ..Axis::linear(["x [m]", "y [m]", "z [m]"][k]) })
 }
 
-/// Where particles start, and what walls take of the bodies.
+/// Figure of the initial particles, and of the parts of bodies that walls remove.
 pub(crate) fn setup<S: Dimension<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Figure {
     let sites = parameters.survey(&Surfaces::of(&parameters.enclosure(), parameters.depth_of_walls()));
     let count = |fate: SiteFate| sites.iter().filter(|(_, other)| *other == fate).count();

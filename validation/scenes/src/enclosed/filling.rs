@@ -1,4 +1,4 @@
-//! Where particles start: on the sites of lattices that bodies hold, as dense as the material above them makes them.
+//! Initial particles: on the sites of lattices that bodies hold, as dense as the material above them makes them.
 
 use super::behind_walls::{Permissions, Site};
 use super::geostatic::GeostaticStress;
@@ -105,7 +105,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     }
 }
 
-/// What becomes of a site that a body holds.
+/// Fate of a site that a body holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum SiteFate {
     /// A particle starts there.
@@ -119,7 +119,7 @@ pub(crate) enum SiteFate {
 /// Share of a body's mass that its particles may have too much or too little before it is said `[-]`.
 const MISFIT: f64 = 0.02;
 
-/// What is to be said of bodies on the common lattice that are no whole number of its spacings: their particles have another mass
+/// Remarks on bodies on the common lattice that are no whole number of its spacings: their particles have another mass
 /// than they.
 fn misfits<const D: usize>(bodies: &[impl SceneBody<D>], groups: &[LatticeGroup<D>], spacing: f64) -> Vec<String> {
     let common = SiteLattice::<D>::common(spacing);

@@ -8,7 +8,7 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::input::FieldError;
 use crate::statistics::{Extrapolation, interpolated};
 
-/// What a run may yield.
+/// Columns that an external code may give for a run.
 pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     particles: &[],
     series: &[

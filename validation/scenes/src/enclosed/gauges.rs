@@ -7,7 +7,7 @@ use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
 
-/// What gauges remember from sample to sample; in the plane, masses and impulses are those per metre of depth.
+/// State of the gauges from sample to sample; in the plane, masses and impulses are those per metre of depth.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Memory<const D: usize> {
     /// Time of the last sample `[s]`.

@@ -1,4 +1,4 @@
-//! What a case file can hold.
+//! Plain data of a case file.
 
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};

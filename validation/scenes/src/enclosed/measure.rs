@@ -1,4 +1,4 @@
-//! What gauges measure, whatever the number of axes.
+//! Measurands of gauges, for any number of axes.
 
 use super::periods::Periods;
 use super::shapes;
@@ -12,10 +12,10 @@ const PLACES: usize = 256;
 /// Component of an opening's normal along an axis that counts as none `[-]`.
 const IN_PLANE: f64 = 1e-9;
 
-/// What a gauge measures.
+/// Measurand of a gauge.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Measurand<'a, const D: usize> {
-    /// How far the material reaches.
+    /// Front position of the material along a line.
     Front(FrontLine<D>),
     /// Thickness of the material along a direction.
     Depth(DepthGauge<D>),
@@ -37,7 +37,7 @@ pub struct DepthGauge<const D: usize> {
     pub direction: Vector<D>,
     /// Width across the direction `[m]`: in space the diameter of a circle.
     pub width: f64,
-    /// What is measured across it: in the plane the width `[m]`, in space the circle's area `[m²]`.
+    /// Section across the direction: in the plane the width `[m]`, in space the circle's area `[m²]`.
     pub section: f64,
 }
 
@@ -127,8 +127,8 @@ impl<const D: usize> Opening<D> {
         sum
     }
 
-    /// How often the way from one place to another leads through it or an image of it, less how often it leads back. Images
-    /// beside each other in one plane are one opening, however wide it is.
+    /// Net number of passages through it or an image on the way from `start` to `end`; backward ones count −1.
+    /// Images beside each other in one plane are one opening, however wide it is.
     fn passed_with_images(&self, periods: &Periods<D>, start: &Vector<D>, end: &Vector<D>, turns: [i64; D]) -> f64 {
         let beside = |axis: usize| self.normal[axis].abs() < IN_PLANE * self.normal.norm();
         let reach = turns.map(|turn| turn.abs() + 1);

@@ -1,4 +1,4 @@
-//! How scenes are judged: by their balances, and their gauges by what was measured.
+//! Metrics of scenes: their balances, and their gauges compared with measurements.
 
 use super::parameters::Dimension;
 use super::prediction;
@@ -172,7 +172,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
     metrics
 }
 
-/// What inlets have fed, and how far it is from what they were to feed.
+/// Inflow through inlets, and its difference from the prescribed inflow.
 fn feeds<S: Dimension<D>, const D: usize>(
     variant: &Variant,
     data: &SceneObservation<D>,

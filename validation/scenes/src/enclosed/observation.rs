@@ -1,4 +1,4 @@
-//! What a scene leaves behind: the gauges' series, and its balances.
+//! Observation of a scene: the gauges' series, and its balances.
 
 use crate::observation::EnergyBook;
 use bagnold_solver::vector::Vector;
@@ -15,7 +15,7 @@ pub struct OutflowRecord {
     pub mass: f64,
 }
 
-/// What an inlet has fed up to the last sample; in the plane, masses are those per metre of depth.
+/// Inflow through an inlet up to the last sample; in the plane, masses are those per metre of depth.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct FedMass {
     /// Particles.
@@ -44,7 +44,7 @@ pub struct SceneObservation<const D: usize> {
     pub energy: EnergyBook,
     /// Outflow through the lower and the upper side of the first axis, then of the next, up to the last sample.
     pub left: Vec<OutflowRecord>,
-    /// What came in, inlet by inlet.
+    /// Inflow, inlet by inlet.
     pub fed: Vec<FedMass>,
     /// Largest difference of the mass inside and outside from that of the start and of what came in `[kg]`.
     pub missing_mass: f64,

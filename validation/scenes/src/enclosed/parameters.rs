@@ -37,9 +37,9 @@ pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + S
     /// A gauge.
     type Gauge: SceneGauge<D>;
 
-    /// What to do about a scene without bodies.
+    /// Remedy for a scene without bodies.
     const ADD_A_BODY: &'static str;
-    /// What a step of a particle costs of one in the plane `[-]`: its neighbours.
+    /// Cost per particle-step relative to the plane `[-]` (more neighbours).
     const COST: f64;
     /// Mean force on a gauge's wall, in the unit that forces have here.
     const MEAN_FORCE: Quantity;
@@ -194,13 +194,13 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         }
     }
 
-    /// What the height of the scene weighs and the pressure at the start, over the density `[m²/s²]`: the square of the speed that
+    /// Weight of the scene's height and pressure at the start, over the density `[m²/s²]`: the square of the speed that
     /// either gives.
     pub(super) fn fall(&self) -> f64 {
         vector::<D>(&self.gravity).norm() * self.height() + self.pressure / self.bulk.density(&self.material)
     }
 
-    /// What the gauges measure, gauge by gauge.
+    /// Measurands of the gauges, gauge by gauge.
     pub(super) fn measures(&self) -> Vec<Measurand<'_, D>> {
         self.gauges.iter().map(|gauge| gauge.measure(&self.direction_of(gauge))).collect()
     }
@@ -243,7 +243,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         highest - lowest.fold(f64::INFINITY, f64::min)
     }
 
-    /// How dense the material is under a pressure.
+    /// Equation of state of the material: its density under a pressure.
     pub(super) fn equation_of_state(&self) -> EquationOfState {
         let reference_density = self.bulk.density(&self.material);
         let fastest = self.bodies.iter().map(|body| body.velocity().norm_squared()).fold(0.0, f64::max);

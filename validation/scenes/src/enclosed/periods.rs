@@ -30,9 +30,9 @@ impl<const D: usize> Periods<D> {
             || (0..D).any(|axis| self.0[axis].is_none() && direction[axis].abs() > ALONG_PERIODS * direction.norm())
     }
 
-    /// Where a particle went that was at `start` and is seen at `end`, beyond the sides that it has crossed: of all images of
-    /// `end` the one that is nearest to where its velocities take it, `expected` `[m]`. And by how many periods along each
-    /// axis it is beyond.
+    /// Unwrapped end of a particle's way from `start` to `end`, beyond the periodic sides that it has crossed. It is the image of
+    /// `end` that is nearest to where its velocities take it, `expected` `[m]`. The number of periods that it is beyond along each
+    /// axis comes second.
     pub(super) fn unwrapped(&self, end: &Vector<D>, expected: &Vector<D>) -> (Vector<D>, [i64; D]) {
         let turns = std::array::from_fn(|axis| match self.0[axis] {
             Some(length) => ((expected[axis] - end[axis]) / length).round() as i64,
@@ -57,8 +57,8 @@ impl<const D: usize> Periods<D> {
         ways
     }
 
-    /// How many periods along each axis a strip of a half width `[m]` along a direction reaches that begins at a place and ends
-    /// where the particles do, whose lower and upper corner `extent` gives.
+    /// Number of periods along each axis that a strip of a half width `[m]` along a direction reaches. The strip begins at a
+    /// place and ends where the particles do, whose lower and upper corner `extent` gives.
     pub(super) fn reach(
         &self,
         at: &Vector<D>,

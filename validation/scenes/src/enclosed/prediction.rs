@@ -1,4 +1,4 @@
-//! Where run-out and height of a scene of grains truly lie, by how far those of measured flows were off.
+//! Prediction intervals of run-out and height in a scene of grains, from the errors of validated flows.
 
 use super::measure::DepthGauge;
 use super::parameters::Dimension;
@@ -59,7 +59,7 @@ fn column<S: Dimension<D>, const D: usize>(
     Some(Column { regime, height, back, front })
 }
 
-/// What makes an interval one of a flow that is not over.
+/// Warning for the interval of a flow that still moves at the end.
 fn unfinished<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     data: &SceneObservation<D>,

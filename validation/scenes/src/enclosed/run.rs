@@ -31,7 +31,7 @@ pub struct SceneRun<S: Dimension<D>, const D: usize> {
     pub scene: SceneParameters<S, D>,
 }
 
-/// When particles are counted: for estimates.
+/// Time at which particles are counted: for estimates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Moment {
     Start,
@@ -40,7 +40,7 @@ enum Moment {
     End,
 }
 
-/// What is kept from sample to sample.
+/// State of the observer from sample to sample.
 #[derive(Serialize, Deserialize)]
 struct SceneObserver<const D: usize> {
     observation: SceneObservation<D>,
@@ -130,7 +130,7 @@ where
 }
 
 impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
-    /// What it is called among the runs of its case.
+    /// Variant of the run among the runs of its case.
     pub(super) fn named(&self) -> Variant {
         Variant::of("scene", self.scene.name.as_str())
     }

@@ -14,17 +14,17 @@ pub(super) struct GaugeColumn {
     pub(super) axis: String,
 }
 
-/// What a gauge has measured in a run.
+/// Measured series of a gauge in a run.
 pub(super) struct GaugeSeries<'a, const D: usize> {
     /// Name of the gauge.
     pub(super) gauge: &'a str,
-    /// What it measures.
+    /// Measurand of the gauge.
     pub(super) measure: Measurand<'a, D>,
     /// Its columns.
     pub(super) columns: Vec<GaugeColumn>,
     /// Their values, shape `[columns][samples]`.
     pub(super) values: &'a [Vec<f64>],
-    /// What its first column is compared with.
+    /// Measured series with which its first column is compared.
     pub(super) measured: Vec<&'a MeasuredSeries>,
 }
 

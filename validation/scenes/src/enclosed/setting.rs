@@ -34,11 +34,11 @@ pub trait SceneBody<const D: usize>: PlainData {
 
 /// A wall. It has one side: behind it is nothing.
 pub trait SceneWall<const D: usize>: PlainData {
-    /// What its facets are called.
+    /// Word for its facets.
     const FACETS: &'static str;
-    /// What it is given by: the places where it is at the start.
+    /// Fields of its geometry: the places of the wall at the start.
     const GIVEN_BY: &'static str;
-    /// How one is turned round that is seen from its back.
+    /// Remedy for a wall that is seen from its back.
     const TURN: &'static str;
 
     /// Its name, by which gauges and messages call it.
@@ -67,7 +67,7 @@ pub trait SceneWall<const D: usize>: PlainData {
 pub trait SceneInlet<const D: usize>: PlainData {
     /// The field by which its place is given.
     const GIVEN_BY: &'static str;
-    /// How one is turned round that looks the wrong way.
+    /// Remedy for an inlet that faces the wrong way.
     const TURN: &'static str;
 
     /// Its name, by which gauges and messages call it.
@@ -92,15 +92,15 @@ pub trait SceneInlet<const D: usize>: PlainData {
     fn feed(&self, supply: Supply) -> Option<Inlet<D>>;
 }
 
-/// What is measured while a scene runs.
+/// Measurement during the run of a scene.
 pub trait SceneGauge<const D: usize>: PlainData {
     /// Its name.
     fn name(&self) -> &str;
 
-    /// What a thickness is measured along, unless along gravity: a direction of any length, or the normal of the wall of a name.
+    /// Direction of a thickness, unless along gravity: a vector of any length, or the normal of a named wall.
     fn along(&self) -> (Option<Vector<D>>, Option<&str>);
 
-    /// What it measures, where gravity, or what takes its place as the direction of a thickness, points along the unit vector
+    /// Measurand of the gauge. Gravity, or what takes its place as the direction of a thickness, points along the unit vector
     /// `down`.
     fn measure(&self, down: &Vector<D>) -> Measurand<'_, D>;
 
@@ -111,7 +111,7 @@ pub trait SceneGauge<const D: usize>: PlainData {
     fn check(&self, spacing: f64, down: &Vector<D>) -> Result<(), ParameterError>;
 }
 
-/// How walls are unless a file says otherwise.
+/// Default surface of walls.
 pub(crate) fn rough() -> Surface {
     Surface::Rough
 }

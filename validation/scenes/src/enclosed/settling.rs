@@ -1,4 +1,4 @@
-//! How bodies come to rest before the clock of a run starts.
+//! Relaxation of bodies to rest before the clock of a run starts.
 //!
 //! Displaced particles do not bear each other as the lattice did. Released at once they drop until they do, are weightless
 //! meanwhile, and so without friction, and some of that stays as a slow motion for good. Settled bodies start at rest, with the
@@ -39,7 +39,7 @@ pub(super) const USUAL: f64 = 40.0;
 /// Longest settling, in times that sound needs across the scene `[-]`.
 const LONGEST: f64 = 400.0;
 
-/// When bodies rest.
+/// Criterion of rest for bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct RestCriterion {
     /// Root mean square of the speed at a peak of the kinetic energy `[m/s]`.

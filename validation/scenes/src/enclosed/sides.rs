@@ -23,7 +23,7 @@ pub enum DomainSide {
 }
 
 impl DomainSide {
-    /// Where it stands `[m]`.
+    /// Coordinate of the side `[m]`.
     fn coordinate(self) -> Option<f64> {
         match self {
             Self::None => None,
@@ -31,12 +31,12 @@ impl DomainSide {
         }
     }
 
-    /// Where it is a plane of symmetry `[m]`.
+    /// Coordinate of the plane of symmetry `[m]`.
     fn mirror(self) -> Option<f64> {
         if let Self::Mirror(plane) = self { Some(plane) } else { None }
     }
 
-    /// Where the flow leaves by it `[m]`.
+    /// Coordinate of the open side, through which the flow leaves `[m]`.
     fn open(self) -> Option<f64> {
         if let Self::Open(plane) = self { Some(plane) } else { None }
     }
@@ -109,7 +109,7 @@ pub trait SceneSides<const D: usize>: PlainData {
         (lower, upper)
     }
 
-    /// What of a box, by its lower and upper corner `[m]`, lies between them.
+    /// Part of a box, by its lower and upper corner `[m]`, that lies between them.
     fn clip(&self, (mut lower, mut upper): (Vector<D>, Vector<D>)) -> (Vector<D>, Vector<D>) {
         for (axis, (below, above)) in self.pairs().into_iter().enumerate() {
             lower[axis] = below.coordinate().map_or(lower[axis], |plane| lower[axis].max(plane));

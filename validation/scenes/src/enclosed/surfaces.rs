@@ -43,7 +43,7 @@ impl<const D: usize> FacetSurface<D> {
     }
 }
 
-/// What walls at rest make up together, and each that moves, as the rows of an inlet do, at the start.
+/// Surfaces at the start: one of all walls at rest, and one of each moving wall or inlet's rows.
 pub(super) struct Surfaces<const D: usize>(Vec<FacetSurface<D>>);
 
 impl<const D: usize> Surfaces<D> {

@@ -7,7 +7,7 @@ use crate::measured::Measurements;
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
 use std::path::Path;
 
-/// What is read.
+/// Quantity that a check reads.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum CheckedQuantity {
     /// A metric of the case itself.
@@ -122,7 +122,7 @@ impl StudyCheck {
         }
     }
 
-    /// What the value would be if all agreed.
+    /// Value for perfect agreement.
     fn expected(&self) -> Option<f64> {
         match self.read {
             CheckedQuantity::Distance(..) => Some(0.0),
@@ -141,7 +141,7 @@ fn check_metric_name(name: &str) -> Result<(), FieldError> {
     Err(FieldError::new("name", format!("\"{name}\""), rule, "such as \"front_position\""))
 }
 
-/// What is read: exactly one of the four ways.
+/// Quantity of a check: exactly one of the four ways.
 fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> {
     let ways = [
         ("metric", text.metric.is_some()),

@@ -50,7 +50,7 @@ pub(super) struct SeriesText {
     pub(super) only: Option<Variant>,
 }
 
-/// What a figure may name.
+/// Names that a figure may refer to.
 #[derive(Debug)]
 pub(super) struct NamesOfStudy<'study> {
     /// The named variants.
@@ -160,7 +160,7 @@ impl FigureText {
         Figure::new(&self.name, &format!("{} Points are simulated, lines are references.", self.caption), vec![panel])
     }
 
-    /// Where a variant stands on the abscissa.
+    /// Abscissa of a variant.
     fn place(&self, variant: &Variant) -> Option<f64> {
         match &self.over {
             Some(over) => variant.get(over).and_then(Value::number),

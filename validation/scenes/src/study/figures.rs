@@ -1,4 +1,4 @@
-//! What checks have read, drawn beside what it is compared with.
+//! Figures of the checks' readings beside their references.
 
 use super::check::{CheckedQuantity, StudyCheck};
 use super::file::Reduction;

@@ -223,7 +223,7 @@ impl CheckText {
 }
 
 impl VariedParameter {
-    /// What it is called in variants.
+    /// Label of the parameter in variants.
     pub(super) fn label(&self) -> &str {
         self.name.as_deref().unwrap_or_else(|| self.path.rsplit('.').next().unwrap_or_default())
     }

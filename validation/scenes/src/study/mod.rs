@@ -63,7 +63,7 @@ pub struct Study {
     changes: Vec<ChangedSettings>,
 }
 
-/// What only studies have; one whose first line is misspelt is to be refused, not passed over.
+/// Keys that only studies have; a study whose first line is misspelt is to be refused, not passed over.
 const KEYS: [&str; 4] = ["study", "checks", "vary", "variants"];
 
 /// Whether a file describes a study: it has the key `study`, or one that only studies have.

@@ -1,4 +1,4 @@
-//! What a check reads of a finished case: a metric of the case itself, a value of a column, or its distance from a
+//! Reading of a check in a finished case. It is a metric of the case itself, a value of a column, or its distance from a
 //! measured series.
 
 use super::file::{Distance, Reduction};
@@ -105,7 +105,7 @@ impl ColumnWindow {
 }
 
 impl RunCurve {
-    /// What a reduction takes of it; not a number where the run has left nothing to take.
+    /// Value of a reduction of the curve; not a number for a curve without suitable points.
     pub(super) fn value(&self, reduction: Reduction) -> f64 {
         let values = || self.points.iter().map(|point| point.1);
         let found = match reduction {

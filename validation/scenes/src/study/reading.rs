@@ -1,4 +1,4 @@
-//! What a check reads of the runs of a study: metrics, values and distances of columns, and orders of earlier checks.
+//! Readings of a check in a study: metrics, values and distances of columns, and orders of earlier checks.
 
 use super::check::{CheckedQuantity, StudyCheck};
 use super::file::Reduction;
@@ -9,20 +9,20 @@ use crate::input::FieldError;
 use crate::metric::{Metric, Uncertainty, Value, Variant};
 use crate::statistics::log_log_slope;
 
-/// What a check has read of one run.
+/// Reading of a check in one run.
 pub(super) struct Reading {
     /// The run: keys of the study and of the case.
     pub(super) variant: Variant,
     pub(super) value: f64,
     pub(super) unit: String,
-    /// Where it was read from; none for a metric of the case.
+    /// Curve of the reading; none for a metric of the case.
     pub(super) curve: Option<RunCurve>,
-    /// What the case knows of its uncertainty.
+    /// Uncertainty that the case states for the value.
     pub(super) uncertainty: Uncertainty,
 }
 
 impl Reading {
-    /// Why its value is not a number.
+    /// Reason for a value that is not a number.
     pub(super) fn why_there_is_none(&self) -> String {
         let ends = |curve: &RunCurve| Some((curve.over.clone(), curve.points.first()?.0, curve.points.last()?.0));
         match self.curve.as_ref().map(ends) {
@@ -36,7 +36,7 @@ impl Reading {
 }
 
 impl Study {
-    /// What a check reads of all runs, of those before it if it is an order.
+    /// Readings of a check in all runs; for an order, those of the checks before it.
     pub(super) fn readings(
         &self,
         check: &StudyCheck,

@@ -99,7 +99,7 @@ impl Program {
     /// Runs a trial on the current pool's number of threads.
     ///
     /// # Errors
-    /// Why it has left nothing: it stopped, or was stopped.
+    /// Reason for a missing result: the program stopped, or was stopped.
     pub(super) fn run(&self, choice: &str, scope: &Scope, limit: Duration) -> Result<MutantRun, String> {
         let name = Path::new(choice).file_name().unwrap_or_default().to_string_lossy().into_owned();
         let file = self.file(&format!("{name}-{}-result", scope.case));
@@ -113,7 +113,7 @@ impl Program {
     /// fails.
     ///
     /// # Errors
-    /// Which test failed first, or why the program stopped.
+    /// Name of the first failing test, or reason for the stop of the program.
     pub(super) fn test(
         &self,
         test: &TestProgram,

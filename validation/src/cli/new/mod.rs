@@ -31,7 +31,7 @@ const CASE: &[Template] = &[
     (".gitignore", include_str!("template/gitignore.template")),
 ];
 
-/// How the crate and what it depends on are optimised.
+/// Optimisation profile of the crate and its dependencies.
 const PROFILE: &str = include_str!("template/profile.template");
 
 /// Writes the crate.

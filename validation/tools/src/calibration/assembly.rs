@@ -110,7 +110,7 @@ pub(super) fn assemble(
     }
 }
 
-/// What was found of every parameter.
+/// Estimates of all parameters.
 fn found(plan: &CalibrationPlan, answer: &Answer, posterior: Option<&Posterior>) -> Vec<ParameterEstimate> {
     let best = plan.values(&answer.search.best);
     let found = |(k, parameter): (usize, &CalibratedParameter)| {

@@ -1,4 +1,5 @@
-//! What is held out must differ in its physics from what is fitted: another slope, another aspect ratio, not another cell.
+//! Conditions of held-out data, which must differ in their physics from those of fitted data: another slope, another aspect
+//! ratio, not another cell.
 //!
 //! A block that is held out names the parameters that make its conditions (`conditions`). It is refused where all of them
 //! have a value that a fitted block of the same case has too, within a tolerance (`same_within`).

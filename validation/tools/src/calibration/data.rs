@@ -1,4 +1,4 @@
-//! What a model is compared with: single numbers, profiles from a CSV file, or synthetic data.
+//! Data of a calibration: single numbers, profiles from a CSV file, or synthetic data.
 
 use super::error::CalibrationError;
 use super::target::{Datum, DatumUncertainty, ProfileLocation, Target, parted};

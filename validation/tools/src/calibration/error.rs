@@ -1,4 +1,4 @@
-//! Why a calibration does not begin or finds nothing.
+//! Errors of a calibration that does not begin or finds nothing.
 
 use crate::case::ParameterError;
 use crate::evaluation::PlanError;
@@ -35,12 +35,12 @@ pub enum CalibrationError {
         file: PathBuf,
         /// The run.
         run: String,
-        /// Where it is fitted.
+        /// Block in which the run is fitted.
         fit: String,
-        /// Where it is held out.
+        /// Block in which the run is held out.
         hold_out: String,
     },
-    /// What is held out has the conditions of what is fitted.
+    /// Held-out data have the conditions of fitted data.
     #[error("{}: `{hold_out}` has the conditions of `{fit}` ({same}: the same within {percent} %); what is predicted must differ in its physics, so hold out other conditions", shown(.file))]
     SameConditions {
         /// The plan.
@@ -61,7 +61,7 @@ pub enum CalibrationError {
         file: PathBuf,
         /// The group of data.
         field: String,
-        /// What is missing, and what there is.
+        /// Missing counterpart, and the available ones.
         reason: String,
     },
     /// A search cannot begin or has found nothing.
@@ -69,7 +69,7 @@ pub enum CalibrationError {
     Search {
         /// The plan.
         file: PathBuf,
-        /// Why.
+        /// Reason for the failure.
         reason: String,
     },
 }

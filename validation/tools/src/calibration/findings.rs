@@ -1,4 +1,4 @@
-//! What a calibration leaves open, in sentences: of the search, of the fit, of the intervals.
+//! Open questions of a calibration, in sentences: of the search, of the fit, of the intervals.
 
 use super::plan::CalibrationPlan;
 use super::result::DatumComparison;
@@ -48,7 +48,7 @@ fn of_search(plan: &CalibrationPlan, answer: &Answer) -> Vec<String> {
     findings
 }
 
-/// What the residuals at the best point say.
+/// Findings from the residuals at the best point.
 fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[DatumComparison]) -> Vec<String> {
     let mut findings = Vec::new();
     match p_value {

@@ -7,7 +7,7 @@ use crate::store::{CodeOrigin, identity_or_unique, is_of_this_program};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// What a folder belongs to.
+/// Program and plan to which a folder belongs.
 #[derive(Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Belongs {
     source_hash: String,
@@ -50,13 +50,13 @@ impl CalibrationFolder {
         Ok(begun)
     }
 
-    /// Where it is.
+    /// Path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.folder
     }
 
-    /// Where the evaluations are.
+    /// Folder of the evaluations.
     #[must_use]
     pub fn evaluations(&self) -> PathBuf {
         self.folder.join("evaluations")

@@ -123,7 +123,7 @@ fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, Cali
     inference::solve(objective, &steps).map_err(|error| unsolved(error, objective))
 }
 
-/// Why a search found nothing, with what the model said last.
+/// Error of a search without a result, with the last message of the model.
 fn unsolved(error: SearchError<CalibrationError>, objective: &Objective<'_>) -> CalibrationError {
     match error {
         SearchError::Model(error) => error,

@@ -38,12 +38,12 @@ pub(super) struct Objective<'a> {
     pub(super) plan: &'a CalibrationPlan,
     pub(super) registry: Registry,
     pub(super) store: &'a Store,
-    /// Where evaluations are kept.
+    /// Folder of the evaluations.
     pub(super) folder: PathBuf,
     pub(super) watch: &'a dyn CalibrationMonitor,
     /// All data, those of fitted blocks first.
     pub(super) data: Vec<Datum>,
-    /// Why the last failing record failed.
+    /// Reason for the failure of the last failing record.
     pub(super) failure: Mutex<Option<String>>,
     /// Variance of every fitted prediction over that of its datum `[-]`; empty where runs do not scatter.
     pub(super) variances: Vec<f64>,
@@ -119,7 +119,7 @@ impl Objective<'_> {
         Ok(answers)
     }
 
-    /// What a fitted datum's residual counts where its prediction has a variance of its own.
+    /// Weight of a fitted datum's residual, where its prediction has a variance of its own `[-]`.
     pub(super) fn weight(&self, datum: usize) -> f64 {
         1.0 / (1.0 + self.scatter(datum) * self.scatter(datum)).sqrt()
     }
@@ -129,7 +129,7 @@ impl Objective<'_> {
         self.variances.get(datum).map_or(0.0, |variance| variance.sqrt())
     }
 
-    /// Why the last failing record failed.
+    /// Reason for the failure of the last failing record.
     pub(super) fn last_failure(&self) -> Option<String> {
         self.failure.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
@@ -148,7 +148,7 @@ impl Objective<'_> {
         self.data.iter().filter(move |datum| self.plan.blocks[datum.block].held_out == held_out)
     }
 
-    /// What the records of all blocks say about some data; an error where a record lacks what is asked for.
+    /// Predictions for some data from the records of all blocks; an error where a record lacks a datum's counterpart.
     pub(super) fn predict<'d>(
         &self,
         data: impl Iterator<Item = &'d Datum>,

@@ -22,11 +22,11 @@ pub struct CalibratedParameter {
     pub unit: String,
     /// Range and scale.
     pub bounds: Bounds,
-    /// Where the search begins.
+    /// Start of the search.
     pub start: f64,
     /// The value that synthetic data were made with.
     pub truth: Option<f64>,
-    /// Where it stands.
+    /// Path of the parameter in the cases.
     pub path: Paths,
 }
 
@@ -40,7 +40,7 @@ pub struct Choice {
     pub set: BTreeMap<String, Vec<String>>,
 }
 
-/// What makes the conditions of a block that is held out.
+/// Conditions of a block that is held out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Conditions {
     /// Dotted paths of the case's parameters, numbers or lists of numbers.
@@ -49,17 +49,17 @@ pub struct Conditions {
     pub(super) same_within: f64,
 }
 
-/// How often every evaluation is repeated.
+/// Repetition of every evaluation with several seeds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Repeats {
     /// Seeds: 1, 2, … up to this.
     pub count: usize,
-    /// Where a case has its seed.
+    /// Path of the seed in a case.
     pub path: Paths,
 }
 
 impl Repeats {
-    /// What a plan says about it.
+    /// Repeats from the fields of a plan.
     ///
     /// # Errors
     /// A number out of range, repeats beside choices, a path without repeats.
@@ -78,7 +78,7 @@ impl Repeats {
         Ok(Self { count, path: path.unwrap_or_else(|| Paths::Everywhere("seed".to_owned())) })
     }
 
-    /// Where a case has its seed, if evaluations are repeated.
+    /// Path of the seed in a case, if evaluations are repeated.
     pub(super) fn path_in(&self, case: &str) -> Option<&str> {
         self.path.in_case(case).filter(|_| self.count > 1)
     }
@@ -100,9 +100,9 @@ pub struct DataBlock {
     pub request: CaseRequest,
     /// Whether its data are held out.
     pub held_out: bool,
-    /// What makes its conditions, if it is held out.
+    /// Conditions of the block, if it is held out.
     pub conditions: Option<Conditions>,
-    /// Where it stands in the file, such as `fit[0]`.
+    /// Field of the block in the file, such as `fit[0]`.
     pub field: String,
 }
 
@@ -111,29 +111,29 @@ pub struct DataBlock {
 pub struct CalibrationPlan {
     /// The file.
     pub file: PathBuf,
-    /// What is calibrated, one line.
+    /// Subject of the calibration, one line.
     pub title: String,
-    /// What a reader of the page must know.
+    /// Remarks for the reader of the page.
     pub note: String,
-    /// How the minimum is looked for.
+    /// Search method.
     pub method: Method,
-    /// What the search may spend.
+    /// Budget of the search.
     pub budget: Budget,
-    /// What a residual costs.
+    /// Loss function of the residuals.
     pub loss: Loss,
-    /// How much one point may ask for.
+    /// Resource limits of one point.
     pub limits: Limits,
-    /// How often evaluations are repeated with other seeds.
+    /// Repetition of the evaluations with other seeds.
     pub repeats: Repeats,
     /// Evaluations beyond the search that may map the region of agreement.
     pub region_evaluations: usize,
     /// Trajectories of the screening; 0 for none.
     pub trajectories: usize,
-    /// What is sought.
+    /// Calibrated parameters.
     pub parameters: Vec<CalibratedParameter>,
     /// Levels of a design's grid along each parameter; empty for a Sobol sequence.
     pub levels: Vec<usize>,
-    /// What is tried; empty for a search.
+    /// Choices that are tried; empty for a search.
     pub choices: Vec<Choice>,
     /// Fitted blocks first.
     pub blocks: Vec<DataBlock>,

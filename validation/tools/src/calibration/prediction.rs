@@ -1,4 +1,4 @@
-//! What the posterior predicts for every datum: a band of 95 %, for fitted data and for those held out.
+//! Posterior prediction for every datum: a band of 95 %, for fitted data and for those held out.
 //!
 //! Predictions are those of the emulator at samples of the posterior. For what was held out an emulator of its own rests on
 //! the best point and the ends of the intervals.

@@ -3,7 +3,7 @@
 use super::target::Target;
 use crate::evaluation::EvaluationRecord;
 
-/// What one question was answered with every seed.
+/// Answers to one question, one for every seed.
 #[derive(Debug, Clone)]
 pub(super) struct Repeated(Vec<EvaluationRecord>);
 
@@ -13,7 +13,7 @@ impl Repeated {
         Self(records)
     }
 
-    /// Why a run failed, if one did.
+    /// Reason for a failed run, if one failed.
     pub(super) fn failure(&self) -> Option<&str> {
         self.0.iter().find_map(|record| record.failure.as_deref())
     }

@@ -51,14 +51,14 @@ impl Objective<'_> {
         Ok((0..self.plan.repeats.count).map(with_seed).collect())
     }
 
-    /// What the scatter at the start says, before anything is known: one variance for all data.
+    /// Variances from the scatter at the start, before the first search: one value for all data.
     pub(super) fn first_variances(&self) -> Result<Vec<f64>, CalibrationError> {
         let own = self.variances(&[self.plan.values(&self.plan.start())])?;
         let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
         Ok(vec![mean; own.len()])
     }
 
-    /// What it is about the minimum, datum by datum.
+    /// Variances about the minimum, datum by datum.
     pub(super) fn variances_about(&self, answer: &Answer) -> Result<Vec<f64>, CalibrationError> {
         let threshold = answer.explored.as_ref().map_or(0.0, |explored| explored.region.threshold);
         let limit = answer.search.chi_squared + ABOUT * threshold;

@@ -1,4 +1,4 @@
-//! What a calibration hands to its page and files: plain data without a trace of when or where it ran.
+//! Results of a calibration for its page and files: plain data without a trace of when or where it ran.
 
 use super::target::ProfileLocation;
 use serde::{Deserialize, Serialize};
@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 /// One datum beside the model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DatumComparison {
-    /// Which block of the plan.
+    /// Block of the plan.
     pub block: String,
-    /// What is compared.
+    /// Label of the compared quantity.
     pub label: String,
     /// Table, column and abscissa of a point of a profile.
     pub at: Option<ProfileLocation>,
@@ -24,9 +24,9 @@ pub struct DatumComparison {
     pub residual: f64,
     /// Standard deviation of the model's mean over its seeds, over that of the datum `[-]`; 0 without repeats.
     pub scatter: f64,
-    /// What 95 % of the posterior give; none of a bake-off.
+    /// Interval of 95 % of the posterior; none of a bake-off.
     pub predicted: Option<(f64, f64)>,
-    /// Where the datum comes from.
+    /// Source of the datum.
     pub source: String,
 }
 
@@ -79,7 +79,7 @@ pub struct FoundMinimum {
     pub chi_squared: f64,
 }
 
-/// What one parameter does to the data over its whole range.
+/// Effect of one parameter on the data over its whole range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ElementaryEffect {
     /// Name.
@@ -109,22 +109,22 @@ pub struct ChoiceResult {
     pub first: Option<f64>,
     /// 95 % interval of its rank.
     pub ranks: Option<(usize, usize)>,
-    /// Why it has no numbers.
+    /// Reason for missing numbers.
     pub failure: Option<String>,
-    /// Why it has none for what was held out.
+    /// Reason for missing numbers of the data held out.
     pub hold_out_failure: Option<String>,
 }
 
 /// A finished calibration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CalibrationResult {
-    /// What was calibrated.
+    /// Subject of the calibration.
     pub title: String,
-    /// What a reader must know.
+    /// Remarks for the reader.
     pub note: String,
     /// Method of the search.
     pub method: String,
-    /// Why it ended.
+    /// Reason for the end of the search.
     pub stopped: String,
     /// Evaluations of the search itself, other starts among them.
     pub searched: usize,
@@ -146,7 +146,7 @@ pub struct CalibrationResult {
     pub correlation: Vec<Vec<f64>>,
     /// Whether the joint 95 % region holds the truth of synthetic data.
     pub truth_inside: Option<bool>,
-    /// What the data leave open, in sentences.
+    /// Open questions of the calibration, in sentences.
     pub findings: Vec<String>,
     /// Samples of the posterior, parameters in their units; empty unless asked for.
     pub samples: Vec<Vec<f64>>,

@@ -1,4 +1,4 @@
-//! What of a case's record a datum is compared with, and how.
+//! Quantity of a case's record with which a datum is compared, and the comparison.
 
 use crate::evaluation::EvaluationRecord;
 use crate::input::nearest;
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// A table is read up to half a step beyond its ends, no farther.
 const HALF_A_STEP: (Extrapolation, Extrapolation) = (Extrapolation::Line(0.5), Extrapolation::Line(0.5));
 
-/// Where a datum lies in a profile.
+/// Location of a datum in a profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProfileLocation {
     /// Table of the case.
@@ -21,7 +21,7 @@ pub struct ProfileLocation {
     pub at: f64,
 }
 
-/// What of a record a datum is compared with.
+/// Quantity of a record with which a datum is compared.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Target {
     /// A metric.
@@ -35,7 +35,7 @@ pub(super) enum Target {
     Profile(ProfileLocation),
 }
 
-/// How far a datum may be off, as a standard deviation.
+/// Standard uncertainty of a datum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum DatumUncertainty {
     /// In the datum's unit.
@@ -49,7 +49,7 @@ pub(super) enum DatumUncertainty {
 pub(super) struct Datum {
     /// The block whose case it is compared with.
     pub(super) block: usize,
-    /// What it is compared with.
+    /// Quantity with which the datum is compared.
     pub(super) target: Target,
     /// The value, in `unit`.
     pub(super) value: f64,
@@ -57,12 +57,12 @@ pub(super) struct Datum {
     pub(super) unit: String,
     /// Standard uncertainty.
     pub(super) uncertainty: DatumUncertainty,
-    /// Where it comes from.
+    /// Source of the value.
     pub(super) source: String,
 }
 
 impl Target {
-    /// What a record says, with its unit.
+    /// Predicted value in a record, with its unit.
     ///
     /// # Errors
     /// The words for what the record does not have.
@@ -145,7 +145,7 @@ impl Target {
         changed
     }
 
-    /// Where it lies in a profile.
+    /// Location of the datum in a profile.
     #[must_use]
     pub(super) fn place(&self) -> Option<ProfileLocation> {
         match self {

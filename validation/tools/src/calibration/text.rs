@@ -173,7 +173,7 @@ impl CalibrationText {
         Ok(levels)
     }
 
-    /// What the search may spend.
+    /// Budget of the search.
     fn budget(&self) -> Result<Budget, FieldError> {
         for (name, value, most) in [
             ("evaluations", self.evaluations.unwrap_or(1), MOST_EVALUATIONS),
@@ -237,7 +237,7 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<DataBloc
 }
 
 impl BlockText {
-    /// What makes the conditions of a block that is held out.
+    /// Conditions of a block that is held out.
     fn conditions(&self, field: &str, held_out: bool) -> Result<Option<Conditions>, FieldError> {
         let given = [("conditions", self.conditions.is_some()), ("same_within", self.same_within.is_some())];
         if let Some((name, _)) = given.iter().find(|(_, given)| *given && !held_out) {

@@ -94,7 +94,7 @@ impl CalibrationResult {
     }
 }
 
-/// What a bake-off leaves open.
+/// Open questions of a bake-off, in sentences.
 fn undecided(trials: &[ChoiceResult]) -> Vec<String> {
     let is_rival = |trial: &&ChoiceResult| {
         trial.weight.is_some_and(|weight| weight >= RIVAL) || trial.ranks.is_some_and(|(best, _)| best == 1)

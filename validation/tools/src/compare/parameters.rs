@@ -36,7 +36,7 @@ fn of_case(all: &[Results], case: &str) -> Vec<ChangedParameter> {
     differing(case, &all.iter().map(own).collect::<Vec<_>>())
 }
 
-/// What differs among those folders that give parameters at all.
+/// Parameters that differ among the folders that state parameters.
 fn differing(case: &str, all: &[Option<Leaves>]) -> Vec<ChangedParameter> {
     let given: Vec<&Leaves> = all.iter().flatten().collect();
     let paths: BTreeSet<&String> = given.iter().flat_map(|leaves| leaves.keys()).collect();

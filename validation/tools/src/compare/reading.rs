@@ -6,7 +6,7 @@ use crate::result::MetricsDocument;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Why nothing can be compared.
+/// Errors that prevent a comparison.
 #[derive(Debug, thiserror::Error)]
 pub enum CompareError {
     /// A folder without results.
@@ -28,18 +28,18 @@ pub enum CompareError {
     File(#[from] FileError),
 }
 
-/// What a folder holds.
+/// Contents of a folder.
 #[derive(Debug, Clone)]
 pub struct Results {
     /// The folder as it was named.
     pub folder: PathBuf,
-    /// What it is called in legends and tables: its name, as far as needed to tell it from others.
+    /// Label in legends and tables: the folder's name, as far as needed to distinguish it from others.
     pub label: String,
     /// Cases by name.
     pub cases: BTreeMap<String, CaseResults>,
 }
 
-/// What a folder holds of a case.
+/// Contents of a folder for one case.
 #[derive(Debug, Clone)]
 pub struct CaseResults {
     /// Its numbers.

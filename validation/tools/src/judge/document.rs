@@ -16,7 +16,7 @@ pub(super) fn biases<'a>(case: &str, metrics: impl IntoIterator<Item = &'a Metri
     quantities_of([(case, metrics.into_iter().collect::<Vec<_>>())])
 }
 
-/// What was given of a code.
+/// Metrics that a code gives.
 pub(super) fn given(judged: &JudgedCode) -> impl Iterator<Item = &Metric> {
     judged.metrics.iter().filter_map(|one| one.foreign.as_ref())
 }

@@ -1,4 +1,4 @@
-//! Why nothing can be judged.
+//! Errors of `bagnold judge`.
 
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, shown};
@@ -6,7 +6,7 @@ use crate::output::FolderError;
 use crate::report::ReportError;
 use std::path::PathBuf;
 
-/// Why nothing can be judged.
+/// Errors that prevent a comparison of an external code.
 #[derive(Debug, thiserror::Error)]
 pub enum JudgeError {
     /// No submission.

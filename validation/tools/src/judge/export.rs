@@ -1,4 +1,4 @@
-//! What another code needs to run a case: geometry, material, initial particles, references and definitions.
+//! Export of a case for external codes: geometry, material, initial particles, references and definitions.
 
 use super::blank::{blank, wrapped};
 use super::error::JudgeError;

@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 pub struct CaseSubmissions {
     /// The runs of ours that any code gives something of.
     pub prepared: Box<dyn PreparedCase>,
-    /// What the codes gave.
+    /// Results of the codes.
     pub entries: Vec<CodeResults>,
 }
 
@@ -40,7 +40,7 @@ pub struct CodeResults {
     pub submission: Submission,
     /// The runs that it gives, in the order of its file.
     variants: Vec<Variant>,
-    /// What follows from the files that it gives.
+    /// Result computed from the files of the code.
     pub result: ExternalResult,
 }
 

@@ -67,7 +67,7 @@ fn in_order(numbers: &[f64], field: &str, file: &Path) -> Result<(), FieldError>
     })
 }
 
-/// What the columns of a part mean, each with its factor to SI and the field that it stands in.
+/// Assignment of a part's columns to quantities, each with its factor to SI and its field.
 fn plan(
     texts: &BTreeMap<String, toml::Value>,
     items: &'static [ExternalColumn],

@@ -1,4 +1,4 @@
-//! What another code submits: a TOML file that names its case, its runs, and what it gives of each.
+//! Submission of an external code: a TOML file with its case, its runs, and the data of each run.
 
 use crate::case::{CaseFile, Tier};
 use crate::evaluation::{PlanError, read_plan};
@@ -49,7 +49,7 @@ pub struct Code {
     pub version: String,
 }
 
-/// What it gives of a run, each part optional.
+/// Data of one run of the external code, each part optional.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ForeignRun {
@@ -77,7 +77,7 @@ pub struct ParticleFiles {
     /// Times of the files `[s]`; absent with a `.pvd`, which says them.
     #[serde(default)]
     pub times: Vec<f64>,
-    /// Which column of the files is what.
+    /// Assignment of the files' columns to quantities.
     pub columns: BTreeMap<String, toml::Value>,
 }
 
@@ -87,7 +87,7 @@ pub struct ParticleFiles {
 pub struct TableFile {
     /// The file, beside the submission.
     pub file: PathBuf,
-    /// Which column of the file is what.
+    /// Assignment of the file's columns to quantities.
     pub columns: BTreeMap<String, toml::Value>,
 }
 
@@ -201,7 +201,7 @@ pub(super) fn rising(numbers: &[f64]) -> Option<f64> {
     })
 }
 
-/// What the columns of a part mean.
+/// Sources of the columns of a part.
 ///
 /// # Errors
 /// A column that is neither a heading with its unit nor a constant; `field` is where it stands.

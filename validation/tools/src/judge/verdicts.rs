@@ -16,7 +16,7 @@ pub struct MetricComparison {
 }
 
 impl MetricComparison {
-    /// How the other code stands; none where nothing was given.
+    /// Verdict on the external code; none without a value from it.
     #[must_use]
     pub fn verdict(&self) -> Option<Verdict> {
         self.foreign.as_ref().map(Metric::verdict)

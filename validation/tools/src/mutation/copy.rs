@@ -14,7 +14,7 @@ use std::{fmt, io};
 /// mutations whose expressions it reaches.
 pub const CHOICE: &str = "BAGNOLD_MUTATION";
 
-/// What of a checkout the program is built from.
+/// Files and folders of a checkout from which the program is built.
 const SOURCES: [&str; 7] = ["Cargo.toml", "Cargo.lock", "README.md", "solver", "validation", "tests", "reference-data"];
 
 /// Module that the copy has in addition: it knows which mutation is chosen, or where to record which expressions are reached.
@@ -61,7 +61,7 @@ fn reach(number: usize) -> bool {
 /// The copy says nothing of what a mutation makes odd, such as a comparison that always holds.
 const NO_LINTS: &str = "#![allow(warnings, arithmetic_overflow, unconditional_panic, overflowing_literals)]\n";
 
-/// Why there is no copy.
+/// Error in making the copy of the program.
 #[derive(Debug, thiserror::Error)]
 pub enum CopyError {
     /// The records, or a text that the sources do not have once.
@@ -83,7 +83,7 @@ pub enum CopyError {
     /// The compiler refuses it.
     #[error("failed to build a copy of the program with all mutations in {folder}: {said}")]
     Build {
-        /// Where it stands.
+        /// Folder of the copy.
         folder: PathBuf,
         /// The first of what the compiler said.
         said: String,

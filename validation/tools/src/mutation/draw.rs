@@ -178,7 +178,7 @@ pub struct DrawProgress {
 }
 
 impl DrawProgress {
-    /// What this program has found of a draw, and the file that keeps it.
+    /// Findings of a draw with this program, and the file that keeps them.
     #[must_use]
     pub fn open(workspace: &Path, draw: &Draw) -> (Self, PathBuf) {
         let sources: String = draw.sources.iter().map(|(file, text)| format!("{file}\n{text}")).collect();

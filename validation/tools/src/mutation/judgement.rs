@@ -1,4 +1,4 @@
-//! What noticed an error: a gate, a divergence, the snapshot, or nothing.
+//! Detection of a mutation: by a gate, a divergence, the snapshot, or not at all.
 
 use super::{MutantRun, Mutation, Scope};
 use crate::metric::{Limit, Metric, Verdict};
@@ -15,7 +15,7 @@ pub struct Broken {
 }
 
 impl Broken {
-    /// How far beyond its limit the value is, over the limit's size `[-]`; infinite for no number.
+    /// Excess of the value beyond its limit, over the limit's size `[-]`; infinite for NaN.
     fn excess(&self) -> f64 {
         let Some(gate) = &self.metric.gate else { return 0.0 };
         let size = match gate.limit {
@@ -50,14 +50,14 @@ impl Detection {
     }
 }
 
-/// What became of one error.
+/// Outcome of one mutation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MutationOutcome {
     /// The error.
     pub error: Mutation,
     /// The cases that ran, in order.
     pub cases: Vec<String>,
-    /// Who noticed.
+    /// Strongest detection.
     pub catch: Detection,
     /// Values that moved beyond their snapshot tolerance, came or went.
     pub drifted: usize,

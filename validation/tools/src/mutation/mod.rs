@@ -1,5 +1,5 @@
-//! Which errors would be noticed: a file of mutations (`record`), one at a time in a copy of the program that holds them all
-//! (`copy`), through the cases that ought to see it (`trial`, `judgement`).
+//! Mutation testing. A file lists mutations (`record`); a copy of the program holds them all (`copy`). One at a time is tried in
+//! the cases that ought to detect it (`trial`, `judgement`).
 //!
 //! A case with an error is compared with the same case of the same program without one, so that neither accepted values
 //! that are out of date nor gates that fail anyway count. What is asked is who would have noticed:

@@ -7,7 +7,7 @@ use std::path::Path;
 
 const COLUMNS: [&str; 6] = ["error", "what is wrong", "cases", "caught by", "witness", "values drifted"];
 
-/// Who noticed, in a word.
+/// Kind of detection, in a word.
 fn word(catch: &Detection) -> &'static str {
     match catch {
         Detection::Gate(_) => "gate",
@@ -18,7 +18,7 @@ fn word(catch: &Detection) -> &'static str {
     }
 }
 
-/// Which gate with its value and limit, or what a run said.
+/// Broken gate with its value and limit, or the message of a stopped run.
 fn witness(finding: &MutationOutcome) -> String {
     match &finding.catch {
         Detection::Gate(broken) => {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// Where they stand in a checkout.
+/// File of the mutations, from the root of a checkout.
 pub const FILE: &str = "validation/tools/mutations.toml";
 
 /// An error that a programmer could make.
@@ -16,7 +16,7 @@ pub const FILE: &str = "validation/tools/mutations.toml";
 pub struct Mutation {
     /// Its name on the command line and in results.
     pub name: String,
-    /// What is wrong, half a sentence.
+    /// Description of the error, half a sentence.
     pub description: String,
     /// The cases that ought to notice, the likeliest first.
     #[serde(default)]
@@ -27,7 +27,7 @@ pub struct Mutation {
     /// Whether it was found by rule, and stands here because a gate kills it.
     #[serde(default)]
     pub generated: bool,
-    /// Where the sources change.
+    /// Replacements in the sources.
     pub places: Vec<SourceReplacement>,
 }
 
@@ -37,7 +37,7 @@ pub struct Mutation {
 pub struct SourceReplacement {
     /// File below `solver/src`, or from the root of the checkout where it begins with `validation/`.
     pub file: String,
-    /// What stands right before the text, where the text alone is not unique.
+    /// Text directly before `text`, where `text` alone is not unique.
     #[serde(default)]
     pub after: String,
     /// An expression.
@@ -50,7 +50,7 @@ pub struct SourceReplacement {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mutations {
-    /// What cases are cut to: settings of `--set`.
+    /// Settings of `--set` by case, which shorten the runs.
     settings: BTreeMap<String, Vec<String>>,
     #[serde(rename = "mutation")]
     list: Vec<Mutation>,
@@ -64,7 +64,7 @@ impl SourceReplacement {
         Path::new(root).join(&self.file)
     }
 
-    /// What is looked for in the file.
+    /// Text to search for in the file.
     #[must_use]
     pub fn needle(&self) -> String {
         format!("{}{}", self.after, self.text)

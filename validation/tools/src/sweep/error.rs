@@ -1,4 +1,4 @@
-//! Why a sweep does not begin or resume.
+//! Errors of a sweep that does not begin or resume.
 
 use crate::case::ParameterError;
 use crate::evaluation::PlanError;
@@ -35,9 +35,9 @@ pub enum SweepError {
     Slurm {
         /// The command.
         command: String,
-        /// What happened.
+        /// Defect, as a clause after the command.
         reason: String,
-        /// What to do about it.
+        /// Remedy.
         remedy: String,
     },
 }

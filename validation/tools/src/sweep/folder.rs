@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 /// Longest wait for another command that begins the same sweep at this moment.
 const LONGEST_BEGINNING: Duration = Duration::from_secs(30);
 
-/// How far a sweep is.
+/// Progress of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SweepProgress {
     /// Runs with numbers.
@@ -63,13 +63,13 @@ impl SweepFolder {
         Ok(Self { folder: folder.to_owned(), manifest })
     }
 
-    /// Where it is.
+    /// Path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.folder
     }
 
-    /// What is to be run.
+    /// Manifest of the runs.
     #[must_use]
     pub fn manifest(&self) -> &Manifest {
         &self.manifest
@@ -99,7 +99,7 @@ impl SweepFolder {
         missing
     }
 
-    /// How far it is.
+    /// Numbers of runs that are done, failed and missing.
     #[must_use]
     pub fn tally(&self) -> SweepProgress {
         let mut tally = SweepProgress::default();

@@ -78,7 +78,7 @@ fn failures(names: &[String], records: &[(&SweepRun, EvaluationRecord)]) -> std:
     writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
 }
 
-/// What every line begins with. Words lose TOML's quotes.
+/// First cells of every line: number, label, tier and parameters. Words lose TOML's quotes.
 fn first(entry: &SweepRun) -> Vec<String> {
     let plain = |value: &String| value.trim_matches(|mark| mark == '"' || mark == '\'').to_owned();
     let head = [entry.number.to_string(), entry.label.clone(), entry.tier.to_string()];

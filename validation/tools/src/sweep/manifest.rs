@@ -1,4 +1,4 @@
-//! What a sweep is to run, fixed once: every engine works from it.
+//! Manifest of a sweep: its runs, fixed once; every engine works from it.
 
 use super::error::SweepError;
 use crate::case::Tier;
@@ -13,7 +13,7 @@ pub struct SweepRun {
     pub number: usize,
     /// Name of the case.
     pub case: String,
-    /// What it is called in the tables.
+    /// Label in the tables.
     pub label: String,
     /// Its tier.
     pub tier: Tier,
@@ -21,20 +21,20 @@ pub struct SweepRun {
     pub folder: String,
     /// The parameters' values as TOML, in the manifest's order.
     pub point: Vec<String>,
-    /// What its record is known by; empty if it was refused.
+    /// Key of the record; empty for a rejected run.
     pub key: String,
     /// Expected cost `[particle-steps]`.
     pub particle_steps: f64,
     /// Its complete parameters.
     pub parameters_toml: String,
-    /// Why the case refuses these parameters.
+    /// Reason for the rejection of these parameters by the case.
     pub refusal: Option<String>,
 }
 
 /// All runs of a sweep.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
-    /// What the program that made it is known by.
+    /// Source hash of the program that wrote the manifest.
     pub source_hash: String,
     /// Names of the parameters.
     pub parameters: Vec<String>,

@@ -22,7 +22,7 @@ const MOST_SOBOL_POINTS: usize = 65_536;
 /// Columns that the table of results has anyway.
 const TAKEN: [&str; 9] = ["run", "case", "tier", "metric", "variant", "value", "unit", "verdict", "reason"];
 
-/// How the points lie.
+/// Arrangement of the points.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(
     untagged,

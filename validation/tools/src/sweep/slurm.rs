@@ -22,15 +22,15 @@ const ARRAY_LENGTH: usize = 1000;
 struct SlurmArray {
     /// Slurm's number.
     id: String,
-    /// What is added to a task's index to give its entry's number.
+    /// Number to add to a task's index, which gives the number of its entry.
     offset: usize,
 }
 
 /// Submits arrays for entries by number and returns Slurm's job numbers.
 ///
 /// # Errors
-/// What [`check`] refuses, no Slurm on this machine, a submission that is refused, a template that cannot be read or filled, files that cannot be
-/// written.
+/// Requests that [`check`] rejects, no Slurm on this machine, a submission that is rejected, a template that cannot be read or
+/// filled, files that cannot be written.
 pub fn submit(sweep: &SweepFolder, numbers: &[usize], request: &SlurmRequest) -> Result<Vec<String>, SweepError> {
     check(sweep.path(), request)?;
     let template = template_of(request)?;
@@ -104,7 +104,7 @@ pub fn queued(sweep: &SweepFolder) -> Result<BTreeSet<usize>, SweepError> {
     Ok(numbers)
 }
 
-/// What was asked of Slurm the last time, for a submission that asks for nothing else.
+/// Request of the last submission, for a submission without options of its own.
 ///
 /// # Errors
 /// A damaged file.
@@ -124,7 +124,7 @@ fn read_jobs(scripts: &Path) -> Result<Vec<SlurmArray>, FileError> {
     read_json(&scripts.join("jobs.json"))
 }
 
-/// What a file holds; the default without a file.
+/// Contents of a JSON file; the default without a file.
 fn read_json<T: Default + serde::de::DeserializeOwned>(file: &Path) -> Result<T, FileError> {
     let text = match read_text(file, WRITTEN_BY_HAND) {
         Ok(text) => text,

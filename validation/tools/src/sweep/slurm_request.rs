@@ -1,4 +1,4 @@
-//! What is asked of a Slurm cluster, and what of it may stand in a job script.
+//! Request to a Slurm cluster, with the values that may stand in a job script.
 //!
 //! A script is text that a shell and Slurm read line by line: a line break or a quote in a value would become a line of
 //! its own. So every value has the form that Slurm's manual gives it, and nothing else.
@@ -7,7 +7,7 @@ use crate::input::FieldError;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// What a job asks of the cluster.
+/// Resources and options of a Slurm job.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SlurmRequest {
     /// Partition; `None` for the cluster's default.

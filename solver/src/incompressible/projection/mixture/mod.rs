@@ -36,7 +36,7 @@ use crate::vector::Vector;
 /// Divergence over that of the parts that it is made of, below which it is rounding `[-]`.
 const ROUNDING: f64 = 1e-13;
 
-/// What the solve needs beside the operators of the fluid, reused from step to step.
+/// Arrays of the mixture's pressure solve besides the operators of the fluid, reused from step to step.
 #[derive(Debug)]
 pub(crate) struct Mixture<const D: usize> {
     /// Grain volumes of the sediment, the free particles first and then the fixed `[m^D]`.
@@ -48,7 +48,7 @@ pub(crate) struct Mixture<const D: usize> {
     sediment_mobility: Vec<f64>,
     /// s/ρ_f + φ/ρ_s of every fluid particle `[m³/kg]`.
     mobility: Vec<f64>,
-    /// What the compact Laplacian's diagonal has beyond its links `[1/m²]`.
+    /// Excess of the compact Laplacian's diagonal over the sum of its links `[1/m²]`.
     held: Vec<f64>,
     /// s p `[Pa]`.
     weighted: Vec<f64>,

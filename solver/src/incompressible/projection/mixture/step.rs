@@ -18,7 +18,7 @@ use crate::incompressible::scene::IncompressibleScene;
 use crate::incompressible::velocity_solve::VelocitySystem;
 use crate::vector::Vector;
 
-/// What the flux of the mixture is made of in a step, beside its velocities.
+/// Inputs of the mixture's flux in a step, besides its velocities.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Flux<'a, const D: usize> {
     pub(crate) scene: &'a IncompressibleScene<D>,

@@ -1,4 +1,4 @@
-//! Why a law of a user's own is not known or not made.
+//! Errors in the registration and construction of user-defined laws.
 
 /// A name that cannot be given to a law.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -26,11 +26,11 @@ pub enum OpenLawError {
         name: &'static str,
         /// The name of what it keeps.
         declared: String,
-        /// What is wrong with it.
+        /// Defect of the declaration, completing "is …".
         found: String,
         /// The rule.
         rule: String,
-        /// What to do.
+        /// Remedy.
         remedy: &'static str,
     },
     /// A parameter that is missing, unknown, or outside its range.

@@ -35,7 +35,7 @@ impl Parameters {
     }
 }
 
-/// What is written of a law of a user's own crate.
+/// Name and parameters of a user-defined law, as they are written.
 pub(in crate::material::rheology) struct Written {
     pub(super) name: &'static str,
     pub(super) parameters: &'static Parameters,

@@ -70,10 +70,9 @@ where
 pub struct ObservedRun<S: Recordable, O> {
     /// The simulation at its end.
     pub simulation: S,
-    /// How it ended, as of a run that has left no frames, that does not say why it was stopped, and whose divergence would
-    /// be an error.
+    /// End of the run with defaults: no frames, no criterion of the observer, and a divergence is an error.
     pub ending: Ending<S::State>,
-    /// What the observer has kept.
+    /// Data that the observer has kept.
     pub kept: O,
 }
 
@@ -108,9 +107,9 @@ where
     Ok(ObservedRun { simulation, ending: Ending::of(stop, last_good, started), kept })
 }
 
-/// How a run ended, and what it left on its way.
+/// End of a run: reason, last state, and pictures taken during the run.
 pub struct Ending<S> {
-    /// Why it ended.
+    /// Reason for the end.
     pub stop: Stop,
     /// The state that was observed last.
     pub last_good: S,
@@ -120,7 +119,7 @@ pub struct Ending<S> {
     pub may_diverge: bool,
     /// Pictures on the way; the last state is added to them.
     pub frames: Vec<Frame>,
-    /// When the run was started, as if it had not been interrupted.
+    /// Start time of the run, as if it had not been interrupted.
     pub started: Instant,
 }
 

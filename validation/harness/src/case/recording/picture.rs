@@ -1,4 +1,4 @@
-//! What other programs want to see of a state: the flow with what its law makes of it, and the walls.
+//! Particle data of a state for other programs: the flow with the quantities that its law computes, and the walls.
 
 use crate::observation::Frame;
 use bagnold_solver::incompressible::IncompressibleSimulation;

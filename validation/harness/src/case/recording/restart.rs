@@ -22,9 +22,9 @@ pub enum StartState {
 
 /// A simulation that can be saved and continued.
 pub trait Restartable<const D: usize>: Recordable + Sized {
-    /// What it is set up from.
+    /// Scene that the simulation is set up from.
     type Scene;
-    /// What it is saved as.
+    /// Form in which the simulation is saved.
     type Saved: DeserializeOwned;
     /// Sets it up.
     ///
@@ -45,17 +45,17 @@ pub trait Restartable<const D: usize>: Recordable + Sized {
 /// One simulation of a run.
 #[derive(Clone, Copy)]
 pub struct SimulationStage<'a, C> {
-    /// How far it has come, and where it is kept.
+    /// Progress of the run, with its checkpoints.
     pub progress: &'a dyn Progress,
     /// Its end `[s]`.
     pub end: f64,
     /// Time between two observations `[s]`.
     pub interval: f64,
-    /// What the run has come to before it; [`resumed`] gives that of an interrupted one.
+    /// Results of the run before this simulation; [`resumed`] gives those of an interrupted run.
     pub context: &'a C,
 }
 
-/// How a simulation ended.
+/// Reason for the end of a simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stop {
     /// Reached its end time.
@@ -70,11 +70,11 @@ pub enum Stop {
 pub struct RestartableRun<S, O> {
     /// The simulation at its end.
     pub simulation: S,
-    /// How it ended.
+    /// Reason for the end of the simulation.
     pub stop: Stop,
-    /// What the observer has kept.
+    /// Data that the observer has kept.
     pub kept: O,
-    /// When it was started, as if it had not been interrupted.
+    /// Start time of the simulation, as if it had not been interrupted.
     pub started: Instant,
 }
 
@@ -98,7 +98,7 @@ struct CheckpointContents<'a, C, O, S> {
     simulation: S,
 }
 
-/// What the run had come to before the simulation in which it was interrupted.
+/// Results of an interrupted run before the simulation in which it was interrupted.
 pub fn resumed<C: DeserializeOwned>(progress: &dyn Progress) -> Option<C> {
     let context = |bytes: &[u8]| postcard::take_from_bytes(bytes).map(|(context, _)| context);
     progress.checkpoints()?.look(|bytes| context(bytes).map_err(|error| error.to_string()))

@@ -1,4 +1,4 @@
-//! What can be wrong with the rows of a paper.
+//! Errors in the rows of a paper.
 
 /// Rows that cannot be read; the message completes "failed to …".
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -8,7 +8,7 @@ pub enum PaperError {
     Text {
         /// The file.
         file: String,
-        /// What is wrong, with its line.
+        /// Defect of the text, with its line.
         message: String,
     },
     /// A row breaks a rule.
@@ -22,9 +22,9 @@ pub enum PaperError {
         id: String,
         /// Field at fault.
         field: &'static str,
-        /// What stands there.
+        /// Offending value of the field.
         value: String,
-        /// What must stand there; what to do.
+        /// Rule for the field, and the remedy.
         rule: String,
     },
 }

@@ -48,7 +48,7 @@ struct MetricRow {
     /// Or a printed range, open to one side if one end is missing.
     at_least: Option<f64>,
     at_most: Option<f64>,
-    /// What a number outside is.
+    /// Status of a number of ours outside the printed range.
     outside: Option<String>,
 }
 
@@ -59,7 +59,7 @@ struct RunRow {
     variant: Variant,
 }
 
-/// What an element can be, by the beginning of its name.
+/// Kinds of element, by the beginning of its name.
 const KINDS: [&str; 5] = ["eq-", "table-", "fig-", "number-", "claim-"];
 
 /// Statuses that are written; the others are computed.

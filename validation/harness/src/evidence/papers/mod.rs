@@ -20,7 +20,7 @@ pub struct Paper {
     pub name: String,
     /// Authors and title.
     pub title: String,
-    /// Which text was read, and what it has lost.
+    /// Text that was read, with the parts that it lacks.
     pub source: String,
     /// Elements in the order of the paper.
     pub elements: Vec<Element>,
@@ -31,9 +31,9 @@ pub struct Paper {
 pub struct Element {
     /// Name, unique in its paper, such as `eq-13`, `fig-8` or `claim-short-run-out`.
     pub id: String,
-    /// Where it stands in the paper.
+    /// Location of the element in the paper.
     pub place: String,
-    /// What it says.
+    /// Statement of the element.
     pub statement: String,
     /// The file that has it, from the root of the workspace; none where nothing does.
     pub implemented: Option<String>,
@@ -47,9 +47,9 @@ pub struct Element {
     pub runs: Vec<RunName>,
     /// Figures that draw it.
     pub figures: Vec<FigureName>,
-    /// What became of it, where no metric and no test can say so.
+    /// Status of the element with its reason, if neither a metric nor a test determines it.
     pub settled: Option<(ElementStatus, String)>,
-    /// What a reader has to know besides; may be empty.
+    /// Note for the reader; may be empty.
     pub note: String,
 }
 
@@ -86,9 +86,9 @@ pub struct MetricName {
     pub case: String,
     /// Name.
     pub metric: String,
-    /// What the variants have in common.
+    /// Keys and values that the variants of all these metrics contain.
     pub variant: Variant,
-    /// What the paper says of the number; none where the metric's own gate decides.
+    /// Number or range that the paper prints; none if the metric's own gate decides.
     pub printed: Option<Printed>,
 }
 
@@ -97,7 +97,7 @@ pub struct MetricName {
 pub struct RunName {
     /// Case.
     pub case: String,
-    /// What the variants have in common.
+    /// Keys and values that the variants of all these runs contain.
     pub variant: Variant,
 }
 

@@ -1,6 +1,6 @@
-//! Why a text is no variant.
+//! Errors in the text of a variant.
 
-/// What is wrong with a text that should say which run.
+/// Defect of a text that should name a run.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum VariantError {
     /// A part without a key or a value.

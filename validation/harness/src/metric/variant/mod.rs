@@ -1,4 +1,4 @@
-//! Which run or runs a number speaks of: named values in one fixed order, with one text.
+//! Variant of a number: the run or runs that it is of, as named values in one fixed order, with one text.
 
 mod error;
 #[cfg(test)]
@@ -87,13 +87,13 @@ impl Variant {
         self.parts.iter().map(|(_, value)| value)
     }
 
-    /// What a file of this variant is called, such as `slope-angle-24-start-rest`: letters, digits, points and dashes.
+    /// File name of this variant, such as `slope-angle-24-start-rest`: letters, digits, points and dashes.
     #[must_use]
     pub fn file_name(&self) -> String {
         file_name(&self.to_string())
     }
 
-    /// What a file of this variant is called where the keys are known: `rest-40`.
+    /// File name of this variant if the keys are known, from its values alone: `rest-40`.
     #[must_use]
     pub fn file_name_of_values(&self) -> String {
         let values: Vec<String> = self.values().map(|value| file_name(&value.to_string())).collect();

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 /// Whole numbers up to this size are themselves as `f64`.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
-/// What a key of a variant says. It is built by `From`, which gives one form to each text: 1 and 1.0 are the same
+/// Value of a key of a variant. It is built by `From`, which gives one form to each text: 1 and 1.0 are the same
 /// integer, and a word that reads as a number is one.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
@@ -78,7 +78,7 @@ fn list_in(text: &str) -> Option<Value> {
     values.filter(|values| values.len() > 1).map(Value::List)
 }
 
-/// What the text reads as; `=` and `,`, which part the keys, become dashes.
+/// Value that a text reads as; `=` and `,`, which separate the keys, become dashes.
 impl From<&str> for Value {
     fn from(text: &str) -> Self {
         let read = number_in(text).or_else(|| range_in(text)).or_else(|| list_in(text));

@@ -1,4 +1,4 @@
-//! What the polynomials leave over at the evaluated points, carried from point to point by their distance (kriging).
+//! Correction of the polynomials by their remainders at the evaluated points, interpolated by distance (kriging).
 //!
 //! The left-over of each residual counts as a random function of mean 0 whose values at a distance d correlate as
 //! (1 + s + s²/3) exp(−s), s = √5 d/ℓ (Matérn, twice differentiable). Length ℓ and the share η of scatter, which no

@@ -45,7 +45,7 @@ pub struct Emulator {
     centre: Vec<f64>,
     /// δ in the unit cube.
     scale: f64,
-    /// What the polynomials miss.
+    /// Correction for the remainder of the polynomials.
     correction: Option<KrigingCorrection>,
     /// One row a residual, one column a coefficient, those of the correction last.
     coefficients: DMatrix<f64>,

@@ -31,7 +31,7 @@ impl Degree {
         }
     }
 
-    /// How the terms that it leaves out grow with |t|.
+    /// Growth of the neglected terms with |t|.
     pub(super) fn remainder(self, t: f64) -> f64 {
         match self {
             Self::Linear => t * t,

@@ -1,4 +1,4 @@
-//! What the data do not say about the parameters, in sentences.
+//! Parameters that the data do not determine, in sentences.
 
 mod sentence;
 
@@ -34,7 +34,7 @@ pub struct ParameterLabel {
     pub unit: String,
 }
 
-/// What was found, with numbers in the unit cube.
+/// Kind of finding, with numbers in the unit cube.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FindingKind {
     /// There are fewer data than parameters.
@@ -89,7 +89,7 @@ pub enum FindingKind {
 /// A finding and the sentence that tells it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// What was found.
+    /// Kind of finding.
     pub kind: FindingKind,
     text: String,
 }

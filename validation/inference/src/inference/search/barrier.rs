@@ -14,8 +14,8 @@ pub(super) fn is_parted(emulator: &Emulator, from: &[f64], to: &[f64]) -> bool {
     barrier(emulator, from, to) > BARRIER
 }
 
-/// How far χ² of the emulator rises above the higher of two points on the way from one to the other: the coordinate in
-/// which they differ most is moved in steps, all others are at their best, as along a valley.
+/// Barrier of the emulator's χ² between two points: its rise above the higher one on the way. The coordinate in which they
+/// differ most is moved in steps, all others are at their best, as along a valley.
 fn barrier(emulator: &Emulator, from: &[f64], to: &[f64]) -> f64 {
     let apart = |k: &usize| (from[*k] - to[*k]).abs();
     let along = (0..from.len()).max_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0);

@@ -16,7 +16,7 @@ use super::Evaluate;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// How the minimum is looked for.
+/// Search method for the minimum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
@@ -40,7 +40,7 @@ impl Method {
     }
 }
 
-/// What a search may spend, and when it has done enough.
+/// Budget and stopping criterion of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Budget {
@@ -127,7 +127,7 @@ impl LocalMinimum {
     }
 }
 
-/// What a search has found.
+/// Result of a search.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SearchResult {
     /// The evaluated point of least χ², in the unit cube.
@@ -136,7 +136,7 @@ pub struct SearchResult {
     pub chi_squared: f64,
     /// Every distinct point once, in the order of first evaluation.
     pub history: Vec<Evaluated>,
-    /// Why it ended.
+    /// Reason for the end of the search.
     pub stopped: Termination,
     /// Minima in which descents have ended, the lowest first.
     pub minima: Vec<LocalMinimum>,
@@ -144,7 +144,7 @@ pub struct SearchResult {
     pub every_start: bool,
 }
 
-/// Why a search has found nothing. Completes "failed to search: …".
+/// Error of a search that has found nothing. Completes "failed to search: …".
 #[derive(Debug, thiserror::Error)]
 pub enum SearchError<E> {
     /// The model cannot be evaluated at all.

@@ -1,11 +1,11 @@
-//! What has been evaluated: each distinct point once, never more than the budget.
+//! Record of the evaluations: each distinct point once, never more than the budget.
 
 use super::{Evaluated, LocalMinimum, SearchError, SearchResult, Termination};
 use crate::inference::Evaluate;
 use crate::sampling::design;
 use std::collections::BTreeMap;
 
-/// Why a method cannot continue.
+/// Reason for the halt of a method.
 #[derive(Debug)]
 pub(in crate::inference) enum Halt<E> {
     /// A new point would exceed the budget.

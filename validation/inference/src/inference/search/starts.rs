@@ -174,7 +174,7 @@ mod tests {
         vec![x * x + y - 11.0, x + y * y - 7.0, 0.5 * (x - 3.0)]
     }
 
-    /// How often, of 25 descents' starts, the lowest minimum is found, and another one beside it.
+    /// Number of 25 descents' starts that find the lowest minimum, and of those that find another one beside it.
     fn found(function: fn(&[f64]) -> Vec<f64>, lowest: [f64; 2]) -> (usize, usize) {
         let (mut reached, mut several) = (0, 0);
         for first in STARTS {

@@ -1,4 +1,4 @@
-//! What all methods must do.
+//! Requirements on all methods.
 
 use super::*;
 use crate::inference::stand_in::{ExponentialDecay, Failing, RosenbrockModel};

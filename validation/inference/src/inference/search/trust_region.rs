@@ -49,13 +49,13 @@ impl Iterate {
     }
 }
 
-/// Where a descent has ended, and why.
+/// End of a descent, with its reason.
 pub(super) struct DescentResult {
     /// The best point of this descent.
     pub(super) point: Vec<f64>,
     /// χ² there `[-]`.
     pub(super) chi_squared: f64,
-    /// Why it ended; none where it came to a minimum that is known.
+    /// Reason for the end; none for a descent that came to a minimum that is known.
     pub(super) stopped: Option<Termination>,
 }
 

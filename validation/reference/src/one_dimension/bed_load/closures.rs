@@ -1,4 +1,4 @@
-//! What closes the equations: friction and dilation of the grains, viscosity and mixing length of the water, drag.
+//! Closures of the equations: friction and dilation of the grains, viscosity and mixing length of the water, drag.
 //!
 //! The layer verifies a discretisation, so it may take from the solver's `material` what needs no discretising: the drag
 //! laws, the viscosity of suspensions, κ. Friction, dilation and mixing length it writes anew, in the form that its own
@@ -275,7 +275,7 @@ mod tests {
         }
     }
 
-    /// Where water and grains are sheared alike, both stresses together have the viscosity of the suspension.
+    /// For water and grains with one shear rate, both stresses together have the viscosity of the suspension.
     #[test]
     fn a_suspension_has_its_viscosity() {
         let closures = Closures::default();

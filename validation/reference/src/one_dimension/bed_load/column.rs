@@ -31,7 +31,7 @@ pub(super) struct TwoPhaseColumn<'a> {
     grains: Vec<f64>,
 }
 
-/// What stands at the faces, from the base to the surface.
+/// Quantities at the faces, from the base to the surface.
 #[derive(Debug, Default)]
 struct Faces {
     pressure: Vec<f64>,
@@ -40,7 +40,7 @@ struct Faces {
     grains: Vec<StressResponse>,
 }
 
-/// How a step is taken.
+/// Parameters of a time step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stride {
     /// Δt `[s]`.
@@ -49,7 +49,7 @@ pub(super) struct Stride {
     pub(super) towards_secant: f64,
 }
 
-/// How far a step has moved a column.
+/// Change of a column in a time step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
     /// Largest change of a velocity `[m/s]`.

@@ -1,4 +1,4 @@
-//! Where the grains are if they dilate with their inertial number: φ = φ_max/(1 + B I), I = γ d √ρ_s/√p′.
+//! Solid fraction of grains that dilate with their inertial number: φ = φ_max/(1 + B I), I = γ d √ρ_s/√p′.
 //!
 //! Eddies, if they are asked to, carry a part D φ of the weight, D = (K/φ) ν_t/(Sc (1 − φ)), so that p′ = P − D φ of the
 //! weight P above: where D is constant, that is the diffusion (ν_t/Sc) ∂_z φ that balances the settling of the grains.
@@ -7,20 +7,20 @@
 //! a cell and γ give φ, whose weight leads to the next cell, until nothing is left. The last cell takes what remains, so
 //! that no grain is lost.
 
-/// What the march needs besides the shear.
+/// Inputs of the march besides the shear.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Dilation {
     /// Height of a cell `[m]`.
     pub(super) cell_height: f64,
     /// Weight of all grains in the water `[Pa]`.
     pub(super) weight: f64,
-    /// What a solid fraction of 1 weighs `[N/m³]`.
+    /// Submerged weight of a solid fraction of 1 `[N/m³]`.
     pub(super) submerged_weight: f64,
     /// φ_max `[-]`.
     pub(super) largest_fraction: f64,
 }
 
-/// What loosens the grains of a cell.
+/// Loosening of the grains of a cell.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Loosening {
     /// B γ d √ρ_s `[√Pa]`.

@@ -1,4 +1,4 @@
-//! Where the layer has an answer, and where that is one of bed load.
+//! Range in which the layer has a solution, and range in which that is one of bed load.
 //!
 //! **A bed that slides.** What drags at the base of a bed of depth H under water of depth h is ρ_f g sinθ [h + H (1 +
 //! (s − 1) φ_max)], what holds it at most μ_s φ_max (s − 1) ρ_f g cosθ H. Where the first is greater, the grains move down to
@@ -25,7 +25,7 @@ pub const RELATIVE_DEPTHS: RangeInclusive<f64> = 9.0..=100.0;
 /// A quantity of a stream outside the range in which the layer is one of bed load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutsideBedLoad {
-    /// Which quantity.
+    /// Name of the quantity.
     pub quantity: &'static str,
     /// Its value `[-]`.
     pub value: f64,

@@ -1,4 +1,4 @@
-//! What is read off a layer: transport, depths, scales, slopes, and how well the balances close.
+//! Measures of a layer: transport, depths, scales, slopes, and residuals of the balances.
 
 use super::profile::LayerState;
 use bagnold_inference::statistics::linear_fit;
@@ -129,7 +129,7 @@ impl LayerState {
     }
 }
 
-/// Where the drag is.
+/// Peak and range of the drag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DragPeak {
     /// Height of the peak `[m]`.

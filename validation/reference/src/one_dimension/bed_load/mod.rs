@@ -57,13 +57,13 @@ pub struct BedLoadLayer {
     pub stream: Stream,
     /// Closures.
     pub closures: Closures,
-    /// What the grains do.
+    /// Motion of the grains.
     pub grains: GrainMotion,
     /// Height of a cell `[m]`; both depths and the held depth are whole multiples of it.
     pub cell_height: f64,
 }
 
-/// What the grains do.
+/// Motion of the grains.
 #[derive(Debug, Clone, PartialEq)]
 pub enum GrainMotion {
     /// They rest at a given φ(z): flow over and through a porous bed, or clear water.
@@ -93,7 +93,7 @@ impl InitialVelocity {
     }
 }
 
-/// Where the steps have led.
+/// Last state of the time steps, with its distance from a steady state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Approach {
     /// The last state.
@@ -106,7 +106,7 @@ pub struct Approach {
     pub velocity_change: f64,
     /// Largest change of φ in the last step `[-]`.
     pub fraction_change: f64,
-    /// Why it is not steady, if it is not.
+    /// Reason for an unsteady state; none for a steady one.
     pub unsteady: Option<String>,
 }
 

@@ -32,7 +32,7 @@ impl Stream {
         self.gravity * self.slope / self.root()
     }
 
-    /// What grains that filled the space would weigh in the water, (ρ_s − ρ_f) g cosθ `[N/m³]`.
+    /// Submerged weight of grains that fill the space, (ρ_s − ρ_f) g cosθ `[N/m³]`.
     #[must_use]
     pub fn submerged_weight(&self) -> f64 {
         (self.grain_density - self.fluid_density) * self.gravity / self.root()

@@ -21,7 +21,7 @@ pub(super) fn readable() -> Vec<(PathBuf, Vec<u8>)> {
     files.into_iter().map(|file| (file.clone(), std::fs::read(&file).expect("a file"))).collect()
 }
 
-/// What `write.py` writes for a point as an array's value.
+/// Array value that `write.py` writes for a point.
 fn expected(name: &str, index: usize) -> f64 {
     let number = index as f64;
     match name {

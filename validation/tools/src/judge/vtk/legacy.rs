@@ -3,13 +3,13 @@
 use super::array::{ByteOrder, Scalar};
 use super::{PLACES, PointArrays, Refusal};
 
-/// What is left of a file.
+/// Remainder of a file.
 struct Legacy<'file> {
     rest: &'file [u8],
     is_binary: bool,
 }
 
-/// What attributes belong to.
+/// Owner of the attributes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum AttributeOwner {
     Dataset,

@@ -29,13 +29,13 @@ pub(super) struct PointArrays {
 /// Name of the places among the arrays.
 pub(super) const PLACES: &str = "Points";
 
-/// What a file of HDF5 begins with.
+/// First bytes of an HDF5 file.
 const HDF5: &[u8] = b"\x89HDF";
 
 /// Endings of files that are read as VTK's, or refused as such: grids in several files and in HDF5 are no tables.
 pub(super) const ENDINGS: [&str; 8] = ["vtu", "vtp", "vtk", "pvtu", "pvtp", "vtm", "vtpd", "vtkhdf"];
 
-/// Why a file is not read; completes "`file` is …".
+/// Reason for the rejection of a file; completes "`file` is …".
 #[derive(Debug, Clone, PartialEq)]
 struct Refusal {
     value: String,

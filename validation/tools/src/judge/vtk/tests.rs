@@ -121,7 +121,7 @@ fn appended_arrays_that_share_their_bytes_are_refused() {
     assert!(message.contains("arrays share their bytes"), "{message}");
 }
 
-/// What damages a file.
+/// Damage to a file.
 #[derive(Debug, Clone)]
 enum Damage {
     /// Another byte at a place.
@@ -174,7 +174,7 @@ impl Damage {
     }
 }
 
-/// What VTK and meshio wrote in their encodings.
+/// Files that VTK and meshio wrote in their encodings.
 static FOREIGN: LazyLock<Vec<(PathBuf, Vec<u8>)>> = LazyLock::new(readable);
 
 proptest! {

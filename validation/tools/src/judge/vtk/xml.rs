@@ -12,7 +12,7 @@ struct Appended<'file> {
     is_raw: bool,
 }
 
-/// What arrays are read from.
+/// Source of the arrays.
 struct ArraySource<'file> {
     encoding: Encoding,
     appended: Option<Appended<'file>>,
