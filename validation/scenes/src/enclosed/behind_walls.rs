@@ -101,7 +101,7 @@ impl Permissions<'_> {
 
     fn too_much(&self, body: usize, wall: usize, share: f64) -> ParameterError {
         let name = self.walls[wall].0;
-        let defect = format!("walls remove {:.1} %, mostly `{name}` (limit {:.1} %)", 100.0 * share, 100.0 * self.most);
+        let defect = format!("walls remove {:.1} %, mostly `{name}` (limit {:.0} %)", 100.0 * share, 100.0 * self.most);
         let meant = (100.0 * share).ceil() / 100.0;
         let turn = if wall < self.inlets.0 { self.turn } else { self.inlets.1 };
         let remedy = if meant < 1.0 {
@@ -114,7 +114,7 @@ impl Permissions<'_> {
 
     fn both_sides(&self, OnBothSides { body, wall }: OnBothSides) -> ParameterError {
         let defect = format!("material on both sides of the wall `{}`", self.walls[wall].0);
-        let remedy = format!("{}, shorten the body, or set the wall's `both_sides = true`; {DRAW}", self.turn);
+        let remedy = format!("{}, shorten the body, or set its `both_sides = true`; {DRAW}", self.turn);
         ParameterError::field(&format!("bodies[{body}]"), defect, "", &remedy)
     }
 }
@@ -154,7 +154,7 @@ mod tests {
         let error = permissions(false, 0.05).behind(&sites).expect_err("too much").to_string();
         assert_eq!(
             error,
-            "`bodies[0]`: walls remove 50.0 %, mostly `bed` (limit 5.0 %); turn the wall round, shorten the body, or set `cut_at_most = 0.50`; \
+            "`bodies[0]`: walls remove 50.0 %, mostly `bed` (limit 5 %); turn the wall round, shorten the body, or set `cut_at_most = 0.50`; \
              see `bagnold show FILE.toml --picture setup.png`"
         );
     }

@@ -68,7 +68,7 @@ impl SpaceWall {
 impl setting::SceneWall<3> for SpaceWall {
     const FACETS: &'static str = "triangles";
     const GIVEN_BY: &'static str = "corners";
-    const TURN: &'static str = "reverse the wall (the order of corners)";
+    const TURN: &'static str = "reverse its corners";
 
     fn name(&self) -> &str {
         &self.name
