@@ -241,9 +241,7 @@ fn wrong_data_are_refused_by_name() {
     );
     assert_eq!(
         data(",uncertainty [m/s]\n", "\n").split(';').next(),
-        Some(
-            "error: failed to read the reference data mine.csv, line 9, column 2: the row has 3 fields, the table 2 columns"
-        )
+        Some("error: failed to read the reference data mine.csv, line 9, column 2: 3 fields in a table of 2 columns")
     );
     assert_eq!(
         data(",uncertainty [m/s]", ",sigma [m/s]"),

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// Iterations after which a solve is given up: a bound on the machine's time, which no result depends on.
 pub(crate) const MOST_ITERATIONS: usize = 2000;
 
-/// What the pressure Poisson equation drives to zero.
+/// Quantity that the pressure Poisson equation drives to zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PressureSource {
@@ -18,7 +18,7 @@ pub enum PressureSource {
     Density,
 }
 
-/// What holds at the free surface.
+/// Condition at the free surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceTreatment {
@@ -28,7 +28,7 @@ pub enum SurfaceTreatment {
     Eliminated,
 }
 
-/// How a pair of sediment particles gets its viscosity.
+/// Viscosity of a pair of sediment particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PairLaw {
@@ -43,7 +43,7 @@ pub enum PairLaw {
     HarmonicMean,
 }
 
-/// Which slip between the phases a pair's drag is taken from.
+/// Slip between the phases in the drag of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DragSlip {
@@ -53,7 +53,7 @@ pub enum DragSlip {
     Mean,
 }
 
-/// Which flux the pore pressure makes free of divergence.
+/// Flux that the pore pressure makes free of divergence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Continuity {
@@ -63,7 +63,7 @@ pub enum Continuity {
     Mixture,
 }
 
-/// What becomes of the mixture's mean flux along periods, which no pressure of the particles reaches.
+/// Treatment of the mixture's mean flux along periods, which no pressure of the particles reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MeanFlux {
@@ -73,7 +73,7 @@ pub enum MeanFlux {
     Zero,
 }
 
-/// What to do about numerics out of range.
+/// Remedy for numerics out of range.
 const DEFAULTS: &str = "see the default numerics with `bagnold show`";
 
 /// Numerical parameters of the projection step.
@@ -112,7 +112,7 @@ pub struct ProjectionNumerics {
     pub pair_law: PairLaw,
     /// Slip of the drag.
     pub drag_slip: DragSlip,
-    /// Which flux is free of divergence.
+    /// Flux that is free of divergence.
     pub continuity: Continuity,
     /// The mixture's mean flux.
     pub mean_flux: MeanFlux,

@@ -5,7 +5,7 @@
 use crate::lanes::Real;
 use serde::{Deserialize, Serialize};
 
-/// What becomes of a negative pressure.
+/// Treatment of a negative pressure.
 #[derive(Serialize, Deserialize, schemars::JsonSchema, Clone, Copy, Debug, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum Tension {

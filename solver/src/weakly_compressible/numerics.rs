@@ -7,7 +7,7 @@ use crate::weakly_compressible::walls::{Surface, WallTreatment};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Which discrete momentum equation.
+/// Discrete momentum equation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MomentumOperator {
@@ -24,7 +24,7 @@ pub enum MomentumOperator {
     PairwiseCorrected,
 }
 
-/// How the artificial viscosity's coefficient is chosen.
+/// Choice of the artificial viscosity's coefficient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ViscositySwitch {
@@ -55,7 +55,7 @@ pub enum PairPrecision {
     Single,
 }
 
-/// How a viscous law's stress enters the momentum equation.
+/// Velocity that a viscous law's stress is taken from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ViscousStep {
@@ -65,7 +65,7 @@ pub enum ViscousStep {
     Implicit,
 }
 
-/// What to do about numerics out of range.
+/// Remedy for numerics out of range.
 const DEFAULTS: &str = "see the default numerics with `bagnold show`";
 
 /// Numerical parameters.
@@ -117,7 +117,7 @@ pub struct Numerics {
     pub viscous_courant: f64,
     /// Precision of the terms of a pair.
     pub pair_precision: PairPrecision,
-    /// When the viscous stress is taken, before or after the step.
+    /// Viscous stress before or after the step.
     pub viscous_step: ViscousStep,
     /// Share of the net acceleration that an implicit viscous step may leave without its viscous answer `[-]`, both as
     /// root mean squares.

@@ -114,7 +114,7 @@ The folder receives index.html, figures/, result.json, data.csv, evaluations.csv
 #[derive(Debug, Parser)]
 #[command(name = "bagnold", version, after_help = EXAMPLES, propagate_version = true)]
 pub struct Arguments {
-    /// What to do.
+    /// Command.
     #[command(subcommand)]
     pub command: Command,
     /// Say more on standard error; twice for every detail.
@@ -178,7 +178,7 @@ pub struct ShowArguments {
     /// Name of a case, see `bagnold list`; with --picture also a TOML file that describes one.
     #[arg(value_name = "CASE|FILE.toml")]
     pub case: String,
-    /// How much the case may cost [default: the file's, else quick].
+    /// Tier: the cost of the case [default: the file's, else quick].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
     /// Draw a scene as it starts instead, with what its walls take of its bodies; no simulation.
@@ -193,7 +193,7 @@ pub struct RunArguments {
     /// Name of a case, or a TOML file that describes one or a study.
     #[arg(value_name = "CASE|FILE.toml")]
     pub target: String,
-    /// How much the case may cost [default: the file's, else quick].
+    /// Tier: the cost of the case [default: the file's, else quick].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
     /// Change one parameter; may be repeated.
@@ -208,7 +208,7 @@ pub struct RunArguments {
     /// Write the particles of every run at this interval of simulated time, for ParaView: states/*.pvd.
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     pub output_every: Option<f64>,
-    /// What of the particles is written, such as id,velocity,shear_rate,inertial_number [default: all].
+    /// Fields of the particles to write, such as id,velocity,shear_rate,inertial_number [default: all].
     #[arg(long, value_name = "FIELD,…", value_delimiter = ',', requires = "output_every")]
     pub output_fields: Vec<String>,
     /// Folder to write [default: reports/runs/CASE-TIER].
@@ -226,10 +226,10 @@ pub struct RunArguments {
     /// Size of figures.
     #[command(flatten)]
     pub figures: FigureOptions,
-    /// How much it may ask for.
+    /// Resource limits.
     #[command(flatten)]
     pub allowance: ResourceLimits,
-    /// How to compute.
+    /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }
@@ -245,7 +245,7 @@ pub struct CompletionsArguments {
     pub of: CompletionsOf,
 }
 
-/// What can be printed for a shell.
+/// Text to print for a shell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum CompletionsOf {
     /// Bash.
@@ -262,7 +262,7 @@ pub enum CompletionsOf {
 #[derive(Debug, Args)]
 #[command(after_help = REPORT_EXAMPLES)]
 pub struct ReportArguments {
-    /// How much each case may cost [default: quick, or what a study says].
+    /// Tier: the cost of each case [default: quick, or the study's].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
     /// Cases by name, separated by commas [default: all].
@@ -294,15 +294,15 @@ pub struct ReportArguments {
     /// Size of figures.
     #[command(flatten)]
     pub figures: FigureOptions,
-    /// How much it may ask for.
+    /// Resource limits.
     #[command(flatten)]
     pub allowance: ResourceLimits,
-    /// How to compute.
+    /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }
 
-/// What a report may be asked not to let pass.
+/// Findings that `--deny` turns into errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Denied {
     /// A value that has left the tolerance about what it is compared with, or is no longer measured.
@@ -322,10 +322,10 @@ pub struct CalibrateArguments {
     /// Open a calibration that is done again; an unfinished one resumes without it.
     #[arg(long)]
     pub resume: bool,
-    /// How much the runs of a case may ask for at one point.
+    /// Resource limits of the runs at one point.
     #[command(flatten)]
     pub allowance: ResourceLimits,
-    /// How to compute.
+    /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }

@@ -11,7 +11,7 @@ use crate::parameter::not_negative;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the mixing length goes with the distance from the wall.
+/// Mixing length over the distance from the wall.
 #[derive(Serialize, Deserialize, JsonSchema, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[serde(rename_all = "kebab-case")]
 pub enum MixingLengthShape {

@@ -5,7 +5,7 @@ use crate::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the dummy particles get their pressure, stress and velocity.
+/// Pressure, stress and velocity of the dummy particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WallTreatment {

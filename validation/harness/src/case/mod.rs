@@ -55,7 +55,7 @@ use bagnold_solver::material::rheology::Rheology;
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 
-/// How much a case may cost.
+/// Cost of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize, JsonSchema, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Tier {

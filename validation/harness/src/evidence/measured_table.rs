@@ -80,8 +80,7 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
         if record.len() != columns.len() {
             let row = table.lines().nth(usize::try_from(line).unwrap_or(1).saturating_sub(1)).unwrap_or_default();
             let (fields, known) = (record.len(), columns.len());
-            let rule =
-                format!("{fields} fields in a table of {known} columns; {}", row_remedy(row, fields, known));
+            let rule = format!("{fields} fields in a table of {known} columns; {}", row_remedy(row, fields, known));
             return Err(refuse(line, record.len().min(columns.len()), rule));
         }
         for (index, (column, text)) in columns.iter_mut().zip(&record).enumerate() {

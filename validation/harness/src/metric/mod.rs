@@ -59,7 +59,7 @@ impl Verdict {
     }
 }
 
-/// How sure the project is of a reference.
+/// Confidence in a reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Confidence {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct MeasuredSeries {
     /// Name of the gauge, whose first column it is.
     pub gauge: String,
-    /// Where the numbers come from.
+    /// Source of the numbers.
     pub source: String,
     /// Times `[s]` and values in the gauge's unit, positive.
     #[schemars(transform = filled("at least one row", "give time and value of every point"))]

@@ -83,14 +83,14 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     /// Bulk modulus over ρ0 g and the height of the scene `[-]`.
     #[schemars(transform = between(20.0, 1e4, "50 for grains; 200 make sound seven times as fast as a fall"))]
     pub stiffness: f64,
-    /// What becomes of a negative pressure.
+    /// Treatment of a negative pressure.
     pub tension: Tension,
     /// Largest random displacement of a particle in spacings `[-]`.
     #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
     pub jitter: f64,
     /// Seed of the displacements.
     pub seed: u64,
-    /// What happens before the clock starts.
+    /// Preparation before the clock starts.
     pub preparation: BodyPreparation,
     /// Root mean square of the speed at which settled bodies count as being at rest, over √(g H) with the scene's height H `[-]`.
     #[schemars(transform = between(1e-6, 0.1, "1e-4 is 0.1 mm/s in a scene of 0.1 m"))]
@@ -104,7 +104,7 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     pub bulk: Bulk,
     /// Sides of the domain.
     pub sides: S::Sides,
-    /// Where the material is at the start; none where an inlet brings it.
+    /// Material at the start; none where an inlet brings it.
     pub bodies: Vec<S::Body>,
     /// Pressure at the start, beside that of the weight of the material above `[Pa]`. What walls enclose on all sides keeps it; a free
     /// surface lets it go.
@@ -123,7 +123,7 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     /// Two plates beside a scene in the plane, which rub on its material; none where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side_walls: Option<SideWalls>,
-    /// What is measured.
+    /// Gauges.
     pub gauges: Vec<S::Gauge>,
     /// Measured series that gauges are compared with.
     pub measured: Vec<MeasuredSeries>,

@@ -17,7 +17,7 @@ use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What happens before the clock starts.
+/// Preparation before the clock starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BodyPreparation {

@@ -8,7 +8,7 @@ use bagnold_solver::weakly_compressible::enclosure::boundary_set::Exits;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What is at a side of the domain.
+/// Condition at a side of the domain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DomainSide {
@@ -16,7 +16,7 @@ pub enum DomainSide {
     None,
     /// A plane of symmetry at this coordinate `[m]`.
     Mirror(f64),
-    /// What crosses this coordinate `[m]` has left, and is counted.
+    /// Open side at this coordinate `[m]`: material that crosses it leaves and is counted.
     Open(f64),
     /// The flow comes in again at the other side, periodic too, at its coordinate `[m]`.
     Periodic(f64),

@@ -11,11 +11,11 @@ use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a gauge measures.
+/// Quantity that a gauge measures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum PlaneGauge {
-    /// How far the material reaches along a line: the first place behind its start where less than a thickness stands
+    /// Front of the material along a line: the first place behind its start where less than a thickness stands
     /// across it.
     Front {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
@@ -38,7 +38,7 @@ pub enum PlaneGauge {
         /// Width across the direction `[m]`.
         #[schemars(transform = positive("give it in metres, such as four spacings"))]
         width: f64,
-        /// What it is measured along, unless along gravity: x, y of any length `[-]`.
+        /// Direction of the measurement, unless along gravity: x, y of any length `[-]`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         direction: Option<PlaneVector>,
         /// Name of the wall along whose normal it is measured, unless along gravity: that of its nearest segment.

@@ -40,7 +40,7 @@ pub struct WallLine {
     /// Whether material may stand behind it, farther away than it is thick.
     #[serde(default)]
     pub both_sides: bool,
-    /// How it moves: time `[s]`, displacement along x `[m]` and along y `[m]`, linear between the rows; empty for a wall
+    /// Motion: time `[s]`, displacement along x `[m]` and along y `[m]`, linear between the rows; empty for a wall
     /// at rest.
     #[serde(default)]
     pub motion: Vec<(f64, f64, f64)>,

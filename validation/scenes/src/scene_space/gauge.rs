@@ -11,11 +11,11 @@ use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What a gauge measures.
+/// Quantity that a gauge measures.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum SpaceGauge {
-    /// How far the material reaches along a line: the first place behind its start where, on the mean over a width, less
+    /// Front of the material along a line: the first place behind its start where, on the mean over a width, less
     /// than a thickness stands across it.
     Front {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
@@ -41,7 +41,7 @@ pub enum SpaceGauge {
         /// Diameter of the circle `[m]`.
         #[schemars(transform = positive("give it in metres, such as four spacings"))]
         width: f64,
-        /// What it is measured along, unless along gravity: x, y, z of any length `[-]`.
+        /// Direction of the measurement, unless along gravity: x, y, z of any length `[-]`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         direction: Option<SpaceVector>,
         /// Name of the wall along whose normal it is measured, unless along gravity: that of its nearest triangle.

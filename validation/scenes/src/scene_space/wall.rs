@@ -36,7 +36,7 @@ pub struct SpaceWall {
     /// Whether material may stand behind it, farther away than it is thick.
     #[serde(default)]
     pub both_sides: bool,
-    /// How it moves: time `[s]`, displacement along x, y and z `[m]`, linear between the rows; empty for a wall at rest.
+    /// Motion: time `[s]`, displacement along x, y and z `[m]`, linear between the rows; empty for a wall at rest.
     #[serde(default)]
     pub motion: Vec<(f64, f64, f64, f64)>,
 }

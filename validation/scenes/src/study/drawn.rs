@@ -25,14 +25,14 @@ pub(super) struct FigureText {
     /// The varied number that is the abscissa, by the name that it has in variants.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) over: Option<String>,
-    /// Where each named variant stands on the abscissa, in place of `over`.
+    /// Abscissa of each named variant, in place of `over`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) at: BTreeMap<String, f64>,
     /// Series that are drawn.
     pub(super) series: Vec<SeriesText>,
 }
 
-/// What a figure draws: the values of a check, or what it is compared with.
+/// Content of a figure: the values of a check, or their reference.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SeriesText {

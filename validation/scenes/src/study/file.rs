@@ -23,7 +23,7 @@ pub(super) struct StudyText {
     pub(super) study: String,
     /// One line.
     pub(super) summary: String,
-    /// What is simulated and what it is judged against; paragraphs are separated by empty lines.
+    /// Description of the simulation and its references; paragraphs are separated by empty lines.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(super) description: String,
     /// The case that simulates.
@@ -49,7 +49,7 @@ pub(super) struct StudyText {
     /// Parameters that take several values, each with each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) vary: Vec<VariedParameter>,
-    /// What is measured and judged.
+    /// Checks.
     #[serde(default)]
     pub(super) checks: Vec<CheckText>,
     /// Wrong physics and wrong inputs that checks must reject.
@@ -181,7 +181,7 @@ pub(super) struct CheckText {
     pub(super) reason: Option<String>,
 }
 
-/// What is taken of a column.
+/// Value taken of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Reduction {
@@ -201,7 +201,7 @@ pub(super) enum Reduction {
     Reaches(f64),
 }
 
-/// How far a column is from a measured series.
+/// Distance of a column from a measured series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Distance {

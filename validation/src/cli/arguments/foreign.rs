@@ -27,7 +27,7 @@ every number, and submission.toml for `bagnold judge`.";
 #[derive(Debug, Args)]
 #[command(after_help = JUDGE_EXAMPLES)]
 pub struct JudgeArguments {
-    /// What the codes submit, a TOML file each.
+    /// Submissions of the codes, one TOML file each.
     #[arg(value_name = "FILE.toml", required_unless_present = "template")]
     pub files: Vec<PathBuf>,
     /// Print a commented submission for a case instead.
@@ -42,7 +42,7 @@ pub struct JudgeArguments {
     /// Write the verdicts as JUnit's XML as well: a suite for each code.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
-    /// How to compute.
+    /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }
@@ -53,13 +53,13 @@ pub struct JudgeArguments {
 pub struct ExportArguments {
     /// Name of a case.
     pub case: String,
-    /// How fine its runs are.
+    /// Tier of its runs.
     #[arg(long, value_enum, default_value_t = Tier::Quick)]
     pub tier: Tier,
     /// Folder to write.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// How to compute.
+    /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }

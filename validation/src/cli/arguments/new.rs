@@ -20,7 +20,7 @@ pub struct NewArguments {
     pub what: NewCrate,
 }
 
-/// What a new crate holds.
+/// Content of a new crate.
 #[derive(Debug, Subcommand)]
 pub enum NewCrate {
     /// Write a crate with a constitutive law of your own.
@@ -29,7 +29,7 @@ pub enum NewCrate {
     Case(Named),
 }
 
-/// What it is called, and where it goes.
+/// Name and folder of a new crate.
 #[derive(Debug, Args)]
 pub struct Named {
     /// Name of the crate, and of the law or case in files: lower-case letters, digits and hyphens.

@@ -29,7 +29,7 @@ Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some fai
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = SWEEP_EXAMPLES)]
 pub struct SweepArguments {
-    /// What to do with a sweep that was begun.
+    /// Action on a sweep that has begun.
     #[command(subcommand)]
     pub action: Option<SweepAction>,
     /// TOML file that says which cases, which parameters and which points.
@@ -38,21 +38,21 @@ pub struct SweepArguments {
     /// Folder of the sweep [default: reports/sweeps/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// What runs it.
+    /// Engine that runs it.
     #[arg(long, value_enum, default_value_t = Engine::Local)]
     pub engine: Engine,
-    /// What to ask of Slurm.
+    /// Request to Slurm.
     #[command(flatten)]
     pub cluster: Cluster,
-    /// How much each run may ask for.
+    /// Resource limits of each run.
     #[command(flatten)]
     pub allowance: ResourceLimits,
-    /// How to compute.
+    /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }
 
-/// What runs a sweep.
+/// Engine of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Engine {
     /// The threads of this machine.
@@ -61,7 +61,7 @@ pub enum Engine {
     Slurm,
 }
 
-/// What to do with a sweep that was begun.
+/// Action on a sweep that has begun.
 #[derive(Debug, Subcommand)]
 pub enum SweepAction {
     /// Gather the results of a sweep, and submit again what is missing.
@@ -72,7 +72,7 @@ pub enum SweepAction {
         /// Submit to Slurm again what is neither done nor queued.
         #[arg(long)]
         resubmit: bool,
-        /// What to ask of Slurm.
+        /// Request to Slurm.
         #[command(flatten)]
         cluster: Cluster,
     },
@@ -84,7 +84,7 @@ pub enum SweepAction {
         /// Number of the entry, from 1.
         #[arg(long, value_name = "N")]
         entry: usize,
-        /// How to compute.
+        /// Execution options.
         #[command(flatten)]
         work: ExecutionOptions,
     },
@@ -92,7 +92,7 @@ pub enum SweepAction {
     Template,
 }
 
-/// What to ask of Slurm.
+/// Request to Slurm.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Slurm")]
 pub struct Cluster {

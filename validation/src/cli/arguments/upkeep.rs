@@ -55,7 +55,7 @@ pub struct SensitivitiesArguments {
     /// File to write.
     #[arg(long, value_name = "FILE.csv")]
     pub out: PathBuf,
-    /// How much it may ask for.
+    /// Resource limits.
     #[command(flatten)]
     pub allowance: ResourceLimits,
     /// Threads and store.
@@ -66,7 +66,7 @@ pub struct SensitivitiesArguments {
 /// `bagnold store`
 #[derive(Debug, Args)]
 pub struct StoreArguments {
-    /// What to do.
+    /// Command.
     #[command(subcommand)]
     pub action: StoreAction,
     /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout
@@ -75,7 +75,7 @@ pub struct StoreArguments {
     pub store: Option<PathBuf>,
 }
 
-/// What to do with stored results.
+/// Action on stored results.
 #[derive(Debug, Clone, Copy, Subcommand)]
 pub enum StoreAction {
     /// List the versions of the program that have results, with number, size and age.
@@ -116,7 +116,7 @@ pub struct ControlsArguments {
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
 pub struct MutateArguments {
-    /// What to do instead of trying errors.
+    /// Action instead of trying errors.
     #[command(subcommand)]
     pub action: Option<MutateAction>,
     /// Errors by name, separated by commas [default: all].
