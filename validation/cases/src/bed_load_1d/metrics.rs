@@ -10,7 +10,6 @@ use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant, quantities};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::reference::one_dimension::bed_load::{LayerState, SAME_STATE};
-use crate::reference::water::{ORIGIN_DEPTH, roughness_ratio};
 use crate::shared::printed_laws;
 
 quantities! {
@@ -37,7 +36,14 @@ quantities! {
     DRAG_TO: verified("drag_to", "mm", "upper end of the range in which the drag on the grains exceeds a tenth of its peak"),
     LOGARITHMIC_SLOPE:
         verified("logarithmic_slope", "-", "slope of the water's velocity over ln z in a range of heights, over u_*/κ"),
-    VELOCITY_DEFICIT: verified("velocity_deficit", "u_*", "velocity of the water less clear water's at a height"),
+    VELOCITY_DEFICIT: stated(
+        "velocity_deficit", "u_*",
+        "velocity of the water at a height less that over the same bed at rest, which differs in nothing but that no grain moves",
+    ),
+    LAYER_SLOPE_RATIO: stated(
+        "layer_slope_ratio", "-",
+        "slope of the water's velocity over ln z from 0.5 to 3 mm above the bed, over that above the same bed at rest",
+    ),
     MOTION_DEPTH_GROWTH:
         stated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
     DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "least ratio of the decay length from a slope to the next"),
@@ -61,6 +67,9 @@ const DRAG_RANGE: f64 = 0.1;
 
 /// Ranges of height over which the slope of u_f against ln z is fitted `[mm]`.
 const LOGARITHMIC_RANGES: [(f64, f64); 4] = [(0.5, 3.0), (3.0, 8.0), (8.0, 18.0), (15.0, 43.0)];
+
+/// The slope on which the paper shows the water with and without moving grains `[-]`.
+const SHOWN_WITH_AND_WITHOUT: f64 = 0.03;
 
 /// Height below which studies of the order do not look `[m]`: nothing moves there.
 const STUDIED_ABOVE: f64 = -0.01;
@@ -86,6 +95,11 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
             order(&mut metrics, run, &study, purpose, limit);
         }
         profiles(&mut metrics, run, state);
+        if let Some((_, rest)) =
+            of(records, |purpose| *purpose == LayerPurpose::BedAtRest).find(|(run, _)| on_slope(run))
+        {
+            beside_rest(&mut metrics, run, state, rest);
+        }
         metrics.extend(regimes::metrics(run, state, MOVING));
     }
     similar(&mut metrics, records);
@@ -281,26 +295,51 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
             );
         }
     }
-    for height in [2.5e-3, 0.025] {
-        let deficit = state.at(height).fluid_velocity / run.stream.shear_velocity() - log_law(run, height);
-        let variant = variant.clone().and("height", 1e3 * height);
+}
+
+/// The water over the moving bed beside that over the same bed at rest; judged on the slope that the paper shows both of.
+fn beside_rest(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState, rest: &LayerState) {
+    let variant = run.variant();
+    let is_shown = run.stream.slope == SHOWN_WITH_AND_WITHOUT;
+    let deficit =
+        |height| (state.at(height).fluid_velocity - rest.at(height).fluid_velocity) / run.stream.shear_velocity();
+    let statements = [
+        (
+            2.5e-3,
+            None,
+            "near the bed slower than without moving grains",
+            Limit::AtMost(-0.1),
+            "slower by a tenth of u_*, so that equal velocities do not show it",
+        ),
+        (
+            0.025,
+            Some(0.0),
+            "above as fast as without moving grains",
+            Limit::Within(-0.25, 0.25),
+            "a quarter of u_*, as clear water itself is judged: 2 % of the depth mean",
+        ),
+    ];
+    for (height, expected, statement, limit, reason) in statements {
+        let source = format!("statement of the bed-load paper at 3 %: {statement}");
         metrics.push(
             VELOCITY_DEFICIT
-                .of(&variant, deficit)
-                .against(
-                    Some(0.0),
-                    "rough-wall log law of clear water, z_0 = d/30, origin 0.12 d deep",
-                    Confidence::High,
-                )
+                .of(&variant.clone().and("height", 1e3 * height), deficit(height))
+                .against(expected, &source, Confidence::Medium)
+                .gated_by(is_shown.then_some(limit), reason)
                 .with_snapshot_tolerance(0.01, 0.01),
         );
     }
-}
-
-/// u/u_* of clear water over the resting bed, k_s = d, with the origin of the law in `clear-water` and `bed-load`.
-pub(super) fn log_law(run: &BedLoad1dRun, height: f64) -> f64 {
-    let diameter = run.stream.grain_diameter;
-    libm::log(roughness_ratio() * (height / diameter + ORIGIN_DEPTH)) / run.closures.karman
+    let (low, high) = LOGARITHMIC_RANGES[0];
+    let slope = |of: &LayerState| of.logarithmic_slope(1e-3 * low, 1e-3 * high, run.closures.karman);
+    if let Some((own, without)) = slope(state).zip(slope(rest)) {
+        metrics.push(
+            LAYER_SLOPE_RATIO
+                .of(&variant, own / without)
+                .against(None, "statement of the bed-load paper at 3 %: gentler where grains move", Confidence::Medium)
+                .gated_by(is_shown.then_some(Limit::AtMost(0.8)), "gentler by a fifth than above the same bed at rest")
+                .with_snapshot_tolerance(0.01, 0.0),
+        );
+    }
 }
 
 /// What must grow from slope to slope: the smallest ratio of two neighbours.
