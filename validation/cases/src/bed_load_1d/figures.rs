@@ -27,9 +27,8 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
 /// The water over the moving bed and over the same bed at rest, a panel for each slope.
 fn with_and_without(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Figure {
     let panel = |&(run, state): &SolvedLayer<'_>| {
-        let title = format!("{}, τ* = {:.3}", percent(run), run.stream.shields_number());
         let mut panel =
-            Panel::new(&title, Axis::logarithmic("z/d [-]").between(0.02, 12.0), Axis::linear("u_f/u_* [-]"));
+            Panel::new(&percent(run), Axis::logarithmic("z/d [-]").between(0.02, 12.0), Axis::linear("u_f/u_* [-]"));
         let curve = |state: &LayerState| {
             let above = (0..state.height.len()).filter(|&k| state.height[k] > 0.0);
             let scale = run.stream.shear_velocity();

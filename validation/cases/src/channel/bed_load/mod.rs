@@ -19,7 +19,7 @@ mod tiers;
 
 pub use observation::BedLoadObservation;
 pub use parameters::{BedLoadParameters, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
-pub use run::{BedLoadFormulation, BedLoadRun, ContinuumRun};
+pub use run::{BedLoadFormulation, BedLoadRun, ContinuumRun, GrainKind};
 
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
 use crate::channel;

@@ -59,6 +59,12 @@ pub struct GrainParticles {
     pub drag: DragLaw,
     /// Smoothing length of the drag `[m]`.
     pub drag_smoothing_length: f64,
+    /// Velocity of the water at the start over that of the logarithmic law of a rough bed `[-]`.
+    #[schemars(transform = between(0.0, 3.0, "0.9 is near the steady flow"))]
+    pub start: f64,
+    /// The same of a second run, which shows whether the start is forgotten `[-]`.
+    #[schemars(transform = between(0.0, 3.0, "another than `start`, such as 0.45"))]
+    pub other_start: f64,
     /// Simulated time `[s]`.
     #[schemars(transform = between(0.1, 1e4, "a few seconds, more to be stationary"))]
     pub duration: f64,

@@ -59,6 +59,8 @@ fn grains() -> (GrainParticles, GrainParticles) {
         origin_offset: 6e-4,
         drag: DragLaw::MorsiAlexander,
         drag_smoothing_length: 3e-3,
+        start: 0.9,
+        other_start: 0.45,
         duration: 1.0,
         averaging_time: 0.6,
         numerics: ProjectionNumerics::default(),
@@ -112,6 +114,7 @@ fn quick() -> BedLoadParameters {
             runs: vec![
                 stage(Stage::Porous, &[0.03], &ROWS, &[1.0], 0.5),
                 StageRuns { averaging_time: 0.6, ..stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0], 1.2) },
+                StageRuns { averaging_time: 0.6, ..stage(Stage::Dilating, &[0.03], &COLUMNS, &[0.5], 1.2) },
             ],
             bed_depth: 0.014,
             held_depth: 0.004,
