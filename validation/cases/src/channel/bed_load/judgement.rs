@@ -20,9 +20,9 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
             BedLoadFormulation::Grains(GrainKind::AtRest, _) => balances(&mut metrics, run, record),
             BedLoadFormulation::Grains(GrainKind::OtherStart, _) => {
                 balances(&mut metrics, run, record);
-                metrics.push(transport(run, record));
+                metrics.push(transport(run, record, false));
             }
-            BedLoadFormulation::Grains(GrainKind::Fit(_), _) => metrics.push(transport(run, record)),
+            BedLoadFormulation::Grains(GrainKind::Fit(_), _) => metrics.push(transport(run, record, true)),
             BedLoadFormulation::Continuum(own) => {
                 continuum(&mut metrics, run, record, own, has_forgotten(records, run));
             }

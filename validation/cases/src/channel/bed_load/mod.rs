@@ -18,7 +18,7 @@ mod statements;
 mod tiers;
 
 pub use observation::BedLoadObservation;
-pub use parameters::{BedLoadParameters, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
+pub use parameters::{BedLoadParameters, Beside, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
 pub use run::{BedLoadFormulation, BedLoadRun, ContinuumRun, GrainKind};
 
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};

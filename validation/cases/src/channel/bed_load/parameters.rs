@@ -74,6 +74,16 @@ pub struct GrainParticles {
     pub numerics: ProjectionNumerics,
 }
 
+/// A run beside one of `stabilised`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Beside {
+    /// The same water over the same bed at rest: all grains are held.
+    AtRest,
+    /// The same from another start.
+    OtherStart,
+}
+
 /// Tenths of a millimetre in a metre.
 const TENTHS: f64 = 1e4;
 
@@ -218,6 +228,8 @@ pub struct BedLoadParameters {
     pub stabilised: GrainParticles,
     /// Volume fractions.
     pub continuum: Continuum,
+    /// Runs beside each of `stabilised`: `at-rest`, whose grains are held, and `other-start`.
+    pub beside: Vec<Beside>,
     /// Fits of `stabilised`.
     pub fit: Fit,
     /// Largest random displacement of a fluid particle in spacings `[-]`.

@@ -1,7 +1,7 @@
 //! The runs: what each depends on, and its scene.
 
 use super::observation::{BedLoadObservation, BedLoadObserver};
-use super::parameters::{BedLoadParameters, Continuum, GrainParticles};
+use super::parameters::{BedLoadParameters, Beside, Continuum, GrainParticles};
 use super::run::{BedLoadFormulation, BedLoadRun, ContinuumRun, GrainKind};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::channel::Channel;
@@ -16,7 +16,7 @@ use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 const LAYER_OFFSET: f64 = 6e-4;
 
 pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
-    let BedLoadParameters { materials, paper, stabilised, continuum, fit, jitter, seed } = parameters;
+    let BedLoadParameters { materials, paper, stabilised, beside, continuum, fit, jitter, seed } = parameters;
     let new = |formulation, slope, duration, averaging_time| BedLoadRun {
         formulation,
         slope,
@@ -33,11 +33,11 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
         runs.push(new(formulation, slope, paper.duration, paper.averaging_time));
     }
     for &slope in &stabilised.slopes {
-        for (kind, start) in [
-            (GrainKind::Stabilised, stabilised.start),
-            (GrainKind::AtRest, stabilised.start),
-            (GrainKind::OtherStart, stabilised.other_start),
-        ] {
+        let beside = beside.iter().map(|run| match run {
+            Beside::AtRest => (GrainKind::AtRest, stabilised.start),
+            Beside::OtherStart => (GrainKind::OtherStart, stabilised.other_start),
+        });
+        for (kind, start) in std::iter::once((GrainKind::Stabilised, stabilised.start)).chain(beside) {
             let grains = GrainParticles { start, ..alone(stabilised, slope) };
             let formulation = BedLoadFormulation::Grains(kind, grains);
             runs.push(new(formulation, slope, stabilised.duration, stabilised.averaging_time));
@@ -106,7 +106,9 @@ impl Run for BedLoadRun {
             BedLoadFormulation::Grains(GrainKind::Fit(law), _) => {
                 of("fit").and("yield_stress", law.yield_stress).and("viscosity", law.plastic_viscosity)
             }
-            BedLoadFormulation::Grains(kind, _) => of(kind.name()),
+            BedLoadFormulation::Grains(GrainKind::Paper, _) => of(GrainKind::Paper.name()),
+            // runs of other tiers are longer, and others of their gates hold
+            BedLoadFormulation::Grains(kind, _) => of(kind.name()).and("duration", self.duration),
             BedLoadFormulation::Continuum(ContinuumRun { stage, pair_law, start, spacing, .. }) => {
                 let named = of(stage.name());
                 let named = match pair_law {

@@ -58,8 +58,9 @@ pub(super) fn stabilised(
 ) {
     let (variant, data) = (run.variant(), &record.data);
     balances(metrics, run, record);
-    common(metrics, run, record);
-    let judged = has_forgotten(records, run) && GENTLE.is_of(run);
+    let forgotten = has_forgotten(records, run);
+    common(metrics, run, record, forgotten);
+    let judged = forgotten && GENTLE.is_of(run);
     let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
     // of the fitted slopes the transport says nothing
     if judged && bed.material == Rheology::CoulombBingham(FITTED) {

@@ -1,6 +1,6 @@
 //! What each tier runs.
 
-use super::parameters::{BedLoadParameters, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
+use super::parameters::{BedLoadParameters, Beside, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
 use super::run::BedLoadRun;
 use super::runs;
 use crate::case::{ParameterError, Parameters, Tier};
@@ -132,6 +132,7 @@ fn quick() -> BedLoadParameters {
                 ..ProjectionNumerics::default()
             },
         },
+        beside: vec![Beside::AtRest, Beside::OtherStart],
         fit: Fit {
             yield_stresses: Vec::new(),
             viscosities: Vec::new(),
@@ -152,7 +153,7 @@ fn deeper(continuum: Continuum) -> Continuum {
 fn paper(quick: BedLoadParameters) -> BedLoadParameters {
     BedLoadParameters {
         paper: GrainParticles { slopes: SLOPES.to_vec(), ..quick.paper },
-        stabilised: GrainParticles { slopes: SLOPES.to_vec(), duration: 8.0, averaging_time: 3.0, ..quick.stabilised },
+        stabilised: GrainParticles { slopes: SLOPES.to_vec(), duration: 12.0, averaging_time: 3.0, ..quick.stabilised },
         continuum: Continuum {
             runs: vec![
                 stage(Stage::Porous, &SLOPES, &ROWS, &[1.0], 4.0),
