@@ -15,41 +15,13 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
     if layers.is_empty() {
         return Vec::new();
     }
-    let mut figures = vec![with_and_without(records, &layers), profiles(&layers), transport(&layers)];
+    let mut figures = vec![super::bed_at_rest::figure(records, &layers), profiles(&layers), transport(&layers)];
     figures.extend(convergence(records, &layers));
     figures.extend(super::onset::figure(records));
     figures.extend(super::others::figure(records));
     figures.extend(super::regimes::figure(&layers, super::metrics::MOVING, percent));
     figures.extend(super::sensitivities::figure(records, &layers));
     figures
-}
-
-/// The water over the moving bed and over the same bed at rest, a panel for each slope.
-fn with_and_without(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Figure {
-    let panel = |&(run, state): &SolvedLayer<'_>| {
-        let mut panel =
-            Panel::new(&percent(run), Axis::logarithmic("z/d [-]").between(0.02, 12.0), Axis::linear("u_f/u_* [-]"));
-        let curve = |state: &LayerState| {
-            let above = (0..state.height.len()).filter(|&k| state.height[k] > 0.0);
-            let scale = run.stream.shear_velocity();
-            let of = |k: usize| (state.height[k] / run.stream.grain_diameter, state.fluid_velocity[k] / scale);
-            above.map(of).collect::<Vec<_>>()
-        };
-        panel.line("moving grains", 0, curve(state));
-        let at_rest = of(records, |purpose| *purpose == LayerPurpose::BedAtRest);
-        for (_, rest) in at_rest.filter(|(other, _)| other.stream.slope == run.stream.slope) {
-            panel.reference("the same bed at rest", curve(rest));
-        }
-        panel
-    };
-    Figure::new(
-        "with-and-without-motion",
-        "Velocity of the water over moving grains and over the same bed at rest in half-logarithmic axes, as in figures 7 and 8 of the \
-         bed-load paper (3 %) and figure 9 (5 %), whose measured points are lost. The paper prints τ* = 0.173 and 0.288, which follow \
-         from the set-up. By closures of the literature; the paper's yield stress and viscosity are not used.",
-        layers.iter().map(panel).collect(),
-    )
-    .in_columns(3)
 }
 
 fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {

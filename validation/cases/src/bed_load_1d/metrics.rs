@@ -1,6 +1,7 @@
 //! How the layers are judged.
 
 use super::BedLoad1dRecord;
+use super::bed_at_rest;
 use super::others;
 use super::records::{literature, of};
 use super::regimes;
@@ -15,7 +16,7 @@ use crate::statistics::curvature;
 
 quantities! {
     [
-        others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
+        bed_at_rest::VELOCITY_DEFICIT, bed_at_rest::LAYER_SLOPE_RATIO, others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
         others::TURBULENT_STRESS_DIFFERENCE, regimes::ROWS_IN_MOTION, regimes::POWER_LAW_MISFIT_RATIO,
         regimes::POWER_LAW_MISFIT,
         regimes::LOWEST_LAYER_EXPONENT, regimes::TRANSPORT_OVER_MEASURED, printed_laws::LAW_ERROR,
@@ -38,14 +39,6 @@ quantities! {
     DRAG_TO: verified("drag_to", "mm", "upper end of the range in which the drag on the grains exceeds a tenth of its peak"),
     LOGARITHMIC_SLOPE:
         verified("logarithmic_slope", "-", "slope of the water's velocity over ln z in a range of heights, over u_*/κ"),
-    VELOCITY_DEFICIT: stated(
-        "velocity_deficit", "u_*",
-        "velocity of the water at a height less that over the same bed at rest, which differs in nothing but that no grain moves",
-    ),
-    LAYER_SLOPE_RATIO: stated(
-        "layer_slope_ratio", "-",
-        "slope of the water's velocity over ln z from 0.5 to 3 mm above the bed, over that above the same bed at rest",
-    ),
     MOTION_DEPTH_GROWTH:
         stated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
     DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "least ratio of the decay length from a slope to the next"),
@@ -69,9 +62,6 @@ const DRAG_RANGE: f64 = 0.1;
 
 /// Ranges of height over which the slope of u_f against ln z is fitted `[mm]`.
 const LOGARITHMIC_RANGES: [(f64, f64); 4] = [(0.5, 3.0), (3.0, 8.0), (8.0, 18.0), (15.0, 43.0)];
-
-/// The slope on which the paper shows the water with and without moving grains `[-]`.
-const SHOWN_WITH_AND_WITHOUT: f64 = 0.03;
 
 /// Height below which studies of the order do not look `[m]`: nothing moves there.
 const STUDIED_ABOVE: f64 = -0.01;
@@ -100,7 +90,7 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
         if let Some((_, rest)) =
             of(records, |purpose| *purpose == LayerPurpose::BedAtRest).find(|(run, _)| on_slope(run))
         {
-            beside_rest(&mut metrics, run, state, rest);
+            metrics.extend(bed_at_rest::metrics(run, state, rest));
         }
         metrics.extend(regimes::metrics(run, state, MOVING));
     }
@@ -320,51 +310,6 @@ fn grains_beside(run: &BedLoad1dRun, state: &LayerState, range: std::ops::Range<
     let cells = state.height.iter().zip(&state.grain_velocity);
     let moving = cells.filter(|(z, velocity)| range.contains(*z) && **velocity > MOVING);
     moving.map(|(z, velocity)| (z / run.stream.grain_diameter, velocity / run.stream.shear_velocity())).collect()
-}
-
-/// The water over the moving bed beside that over the same bed at rest; judged on the slope that the paper shows both of.
-fn beside_rest(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState, rest: &LayerState) {
-    let variant = run.variant();
-    let is_shown = run.stream.slope == SHOWN_WITH_AND_WITHOUT;
-    let deficit =
-        |height| (state.at(height).fluid_velocity - rest.at(height).fluid_velocity) / run.stream.shear_velocity();
-    let statements = [
-        (
-            2.5e-3,
-            None,
-            "near the bed slower than without moving grains",
-            Limit::AtMost(-0.1),
-            "slower by a tenth of u_*, so that equal velocities do not show it",
-        ),
-        (
-            0.025,
-            Some(0.0),
-            "above as fast as without moving grains",
-            Limit::Within(-0.25, 0.25),
-            "a quarter of u_*, as clear water itself is judged: 2 % of the depth mean",
-        ),
-    ];
-    for (height, expected, statement, limit, reason) in statements {
-        let source = format!("statement of the bed-load paper at 3 %: {statement}");
-        metrics.push(
-            VELOCITY_DEFICIT
-                .of(&variant.clone().and("height", 1e3 * height), deficit(height))
-                .against(expected, &source, Confidence::Medium)
-                .gated_by(is_shown.then_some(limit), reason)
-                .with_snapshot_tolerance(0.01, 0.01),
-        );
-    }
-    let (low, high) = LOGARITHMIC_RANGES[0];
-    let slope = |of: &LayerState| of.logarithmic_slope(1e-3 * low, 1e-3 * high, run.closures.karman);
-    if let Some((own, without)) = slope(state).zip(slope(rest)) {
-        metrics.push(
-            LAYER_SLOPE_RATIO
-                .of(&variant, own / without)
-                .against(None, "statement of the bed-load paper at 3 %: gentler where grains move", Confidence::Medium)
-                .gated_by(is_shown.then_some(Limit::AtMost(0.95)), "gentler by 5 %, above any error of the cells")
-                .with_snapshot_tolerance(0.01, 0.0),
-        );
-    }
 }
 
 /// What must grow from slope to slope: the smallest ratio of two neighbours.

@@ -9,7 +9,7 @@ use super::quantities::{
     GRAIN_CURVATURE_ABOVE, GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE,
     PREDICTED_TRANSPORT, STREAM_VELOCITY, TRANSPORT, TRANSPORT_RATIO,
 };
-use super::run::{BedLoadRun, ContinuumRun, GrainKind};
+use super::run::{BedLoadRun, ContinuumRun};
 use crate::case::Run;
 use crate::channel;
 use crate::metric::{Confidence, Limit, Metric};
@@ -62,29 +62,26 @@ pub(super) fn common(
 /// Share of the difference of two starts that may be left of it `[-]`.
 const FORGOTTEN: f64 = 0.05;
 
-/// Share of the difference of two starts that is left of it in the stream's mean velocity, over the averaging window; none of a run
-/// whose like from another start was not run `[-]`.
-fn memory(records: &[BedLoadRecord], run: &BedLoadRun) -> Option<f64> {
-    let own = records.iter().find(|(other, _)| other.variant() == run.variant())?;
-    let other = records.iter().find(|(other, _)| run.has_another_start_than(other))?;
-    let [own, other] = [own, other].map(|(_, record)| &record.data);
+/// A run with the one that differs from it in its start, and the share of their difference that is left in the stream's mean velocity
+/// over the averaging window `[-]`; none without such a run.
+fn memory<'r>(records: &'r [BedLoadRecord], run: &BedLoadRun) -> Option<(&'r BedLoadRun, f64)> {
+    let (_, own) = records.iter().find(|(other, _)| other.variant() == run.variant())?;
+    let (other_run, other) = records.iter().find(|(other, _)| run.has_another_start_than(other))?;
     let mean = |data: &BedLoadObservation| data.channel.average(&data.stream_velocity).value;
-    Some(((mean(own) - mean(other)) / (own.stream_velocity.first()? - other.stream_velocity.first()?)).abs())
+    let first = |data: &BedLoadObservation| data.stream_velocity.first().copied();
+    let share = (mean(&own.data) - mean(&other.data)) / (first(&own.data)? - first(&other.data)?);
+    Some((other_run, share.abs()))
 }
 
-/// Whether a run has forgotten its start: transport and profiles of others are those of their starts.
+/// Whether a run has forgotten its start; transport and profiles are judged of such runs only.
 pub(super) fn has_forgotten(records: &[BedLoadRecord], run: &BedLoadRun) -> bool {
-    memory(records, run).is_some_and(|share| share <= FORGOTTEN)
+    memory(records, run).is_some_and(|(_, share)| share <= FORGOTTEN)
 }
 
-/// What is left of the starts, a gate for each pair of runs.
+/// Memory of the start, a gate for each pair of runs, under the name of the faster start.
 pub(super) fn forgets_start(metrics: &mut Vec<Metric>, records: &[BedLoadRecord]) {
-    for (run, _) in records.iter().filter(|(run, _)| run.formulation.kind() != Some(GrainKind::OtherStart)) {
-        let other = records.iter().find(|(other, _)| run.has_another_start_than(other));
-        let (Some(share), Some((other, _))) = (memory(records, run), other) else { continue };
-        if run.start() < other.start() {
-            continue;
-        }
+    for (run, _) in records {
+        let Some((_, share)) = memory(records, run).filter(|(other, _)| run.start() > other.start()) else { continue };
         metrics.push(
             FORGETS_START
                 .of(&run.variant(), share)
@@ -98,7 +95,7 @@ pub(super) fn forgets_start(metrics: &mut Vec<Metric>, records: &[BedLoadRecord]
     }
 }
 
-/// Whether a run is compared with the 1-D layer from whose state it starts: it was watched for long, or it does not change.
+/// Whether a run in the layer's water is compared with the layer: it was watched for long, or it does not change.
 fn is_settled(run: &BedLoadRun, data: &BedLoadObservation) -> bool {
     run.averaging_time >= JUDGED_FROM || (run.averaging_time >= SHORTEST && drift(run, data).abs() <= STEADY)
 }
@@ -198,7 +195,7 @@ pub(super) fn continuum(
             )
             .with_snapshot_tolerance(0.1, 1e-3),
     );
-    let source = "the 1-D layer of the same closures, from whose velocities the run starts";
+    let source = "the 1-D layer of the same closures; the water starts at `start` times its velocity";
     let judged = own.is_judged() && (forgotten || (own.start == 1.0 && is_settled(run, data)));
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {
         if judged && holds { metric.gated(limit, reason) } else { metric }
