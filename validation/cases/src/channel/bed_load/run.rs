@@ -96,10 +96,7 @@ impl BedLoadRun {
     pub(super) fn has_another_start_than(&self, other: &Self) -> bool {
         let is_alike = match (&self.formulation, &other.formulation) {
             (BedLoadFormulation::Grains(a, _), BedLoadFormulation::Grains(b, _)) => {
-                matches!(
-                    (a, b),
-                    (GrainKind::Stabilised, GrainKind::OtherStart) | (GrainKind::OtherStart, GrainKind::Stabilised)
-                )
+                a != b && [a, b].iter().all(|kind| matches!(kind, GrainKind::Stabilised | GrainKind::OtherStart))
             }
             (BedLoadFormulation::Continuum(a), BedLoadFormulation::Continuum(b)) => {
                 (a.stage, a.pair_law, a.spacing) == (b.stage, b.pair_law, b.spacing)
