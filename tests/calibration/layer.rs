@@ -1,7 +1,9 @@
 //! The one-dimensional layer of `bed-load-1d`: μ_2, and μ_2 with B, from velocities of water and grains.
 
 use super::coverage::{Problem, Tally, normal};
-use bagnold_reference::one_dimension::bed_load::{BedLoadLayer, Closures, GrainMotion, InitialVelocity, Stream};
+use bagnold_reference::one_dimension::bed_load::{
+    BedLoadLayer, Closures, GrainMotion, InitialVelocity, STEADY, Stream,
+};
 
 /// Relative standard uncertainty of a transport.
 const NOISE: f64 = 0.05;
@@ -44,7 +46,8 @@ fn transports([limiting_friction, dilation]: [f64; 2], cell_height: f64) -> Opti
             grain_density: 2600.0,
             grain_diameter: 5e-3,
         };
-        let layer = BedLoadLayer { stream, closures, grains: GrainMotion::Dilating, cell_height };
+        let layer =
+            BedLoadLayer { stream, closures, grains: GrainMotion::Dilating, cell_height, steady_change: STEADY };
         layer.steady(InitialVelocity::Rest).ok().map(|state| state.transport())
     };
     all.map(one).collect()

@@ -30,7 +30,7 @@ pub(crate) fn owing_tier(entry: &KnownFailure) -> Option<Tier> {
 /// The key that says what of many runs a metric is about.
 const QUANTITY: &str = "quantity";
 /// The keys that are of the metric and not of its runs.
-const OF_METRIC: [&str; 3] = [QUANTITY, "time", "station"];
+const OF_METRIC: [&str; 4] = [QUANTITY, "time", "station", "height"];
 
 /// The runs behind a metric: a metric may join several, as in `resolution=10_20_40`, and may say which `quantity` of
 /// them it is about.

@@ -1,6 +1,7 @@
 //! How the layers are judged.
 
 use super::BedLoad1dRecord;
+use super::bed_at_rest;
 use super::others;
 use super::records::{literature, of};
 use super::regimes;
@@ -10,12 +11,12 @@ use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant, quantities};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::reference::one_dimension::bed_load::{LayerState, SAME_STATE};
-use crate::reference::water::{ORIGIN_DEPTH, roughness_ratio};
 use crate::shared::printed_laws;
+use crate::statistics::curvature;
 
 quantities! {
     [
-        others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
+        bed_at_rest::VELOCITY_DEFICIT, bed_at_rest::LAYER_SLOPE_RATIO, others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
         others::TURBULENT_STRESS_DIFFERENCE, regimes::ROWS_IN_MOTION, regimes::POWER_LAW_MISFIT_RATIO,
         regimes::POWER_LAW_MISFIT,
         regimes::LOWEST_LAYER_EXPONENT, regimes::TRANSPORT_OVER_MEASURED, printed_laws::LAW_ERROR,
@@ -32,12 +33,12 @@ quantities! {
     MOVES_ABOVE: verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s"),
     TOP_OF_GRAINS: verified("top_of_grains", "mm", "height up to which there are grains"),
     DECAY_LENGTH: verified("decay_length", "mm", "length over which the velocity of the grains falls by e in the bed"),
+    GRAIN_CURVATURE: stated("grain_curvature", "u_*/d²", "curvature of the grains' velocity over the height, above or below the bed's level"),
     DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "where the drag on the grains is greatest"),
     DRAG_FROM: verified("drag_from", "mm", "lower end of the range in which the drag on the grains exceeds a tenth of its peak"),
     DRAG_TO: verified("drag_to", "mm", "upper end of the range in which the drag on the grains exceeds a tenth of its peak"),
     LOGARITHMIC_SLOPE:
         verified("logarithmic_slope", "-", "slope of the water's velocity over ln z in a range of heights, over u_*/κ"),
-    VELOCITY_DEFICIT: verified("velocity_deficit", "u_*", "velocity of the water less clear water's at a height"),
     MOTION_DEPTH_GROWTH:
         stated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
     DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "least ratio of the decay length from a slope to the next"),
@@ -86,6 +87,11 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
             order(&mut metrics, run, &study, purpose, limit);
         }
         profiles(&mut metrics, run, state);
+        if let Some((_, rest)) =
+            of(records, |purpose| *purpose == LayerPurpose::BedAtRest).find(|(run, _)| on_slope(run))
+        {
+            metrics.extend(bed_at_rest::metrics(run, state, rest));
+        }
         metrics.extend(regimes::metrics(run, state, MOVING));
     }
     similar(&mut metrics, records);
@@ -270,6 +276,22 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
         millimetres(DRAG_FROM, Some(drag.from)),
         millimetres(DRAG_TO, Some(drag.to)),
     ]);
+    for (side, curved, limit) in [
+        ("above", curvature(&grains_beside(run, state, 0.0..state.top_of_grains())), Limit::AtMost(0.0)),
+        ("below", curvature(&grains_beside(run, state, -run.stream.bed_depth..0.0)), Limit::AtLeast(0.0)),
+    ] {
+        metrics.push(
+            GRAIN_CURVATURE
+                .of(&variant.clone().and("side", side), curved.unwrap_or(f64::NAN))
+                .against(
+                    None,
+                    "statement of the bed-load paper: concave above the bed's level (−), convex below (+)",
+                    Confidence::Medium,
+                )
+                .gated_by(is_bed_load(run).then_some(limit), "the sign is what the paper states")
+                .with_snapshot_tolerance(0.01, 0.0),
+        );
+    }
     for (from, to) in LOGARITHMIC_RANGES {
         if let Some(slope) = state.logarithmic_slope(1e-3 * from, 1e-3 * to, run.closures.karman) {
             let variant = variant.clone().and("height", from..=to);
@@ -281,26 +303,13 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
             );
         }
     }
-    for height in [2.5e-3, 0.025] {
-        let deficit = state.at(height).fluid_velocity / run.stream.shear_velocity() - log_law(run, height);
-        let variant = variant.clone().and("height", 1e3 * height);
-        metrics.push(
-            VELOCITY_DEFICIT
-                .of(&variant, deficit)
-                .against(
-                    Some(0.0),
-                    "rough-wall log law of clear water, z_0 = d/30, origin 0.12 d deep",
-                    Confidence::High,
-                )
-                .with_snapshot_tolerance(0.01, 0.01),
-        );
-    }
 }
 
-/// u/u_* of clear water over the resting bed, k_s = d, with the origin of the law in `clear-water` and `bed-load`.
-pub(super) fn log_law(run: &BedLoad1dRun, height: f64) -> f64 {
-    let diameter = run.stream.grain_diameter;
-    libm::log(roughness_ratio() * (height / diameter + ORIGIN_DEPTH)) / run.closures.karman
+/// (z/d, u_s/u_*) of the moving grains in a range of heights `[m]`.
+fn grains_beside(run: &BedLoad1dRun, state: &LayerState, range: std::ops::Range<f64>) -> Vec<(f64, f64)> {
+    let cells = state.height.iter().zip(&state.grain_velocity);
+    let moving = cells.filter(|(z, velocity)| range.contains(*z) && **velocity > MOVING);
+    moving.map(|(z, velocity)| (z / run.stream.grain_diameter, velocity / run.stream.shear_velocity())).collect()
 }
 
 /// What must grow from slope to slope: the smallest ratio of two neighbours.

@@ -1,5 +1,6 @@
 //! Steady bed load in one dimension: water over grains that dilate, with closures of the literature.
 
+mod bed_at_rest;
 mod figures;
 mod grain_units;
 mod laws;
@@ -43,7 +44,7 @@ impl Case for BedLoad1d {
         depth: grains with μ(I), a solid fraction that falls with I, and drag; water with a mixing length that grows \
         where grains leave it room. No parameter is fitted. The transport is judged against a formula that was fitted \
         to flume experiments, on three slopes; that the steady state is one, is reached, balances and converges is \
-        verified. The onset of motion is set beside Shields' curve over the grain size, and the layer beside a grain \
+        verified. The water over the moving bed is compared with that over the same bed at rest. The onset of motion is set beside Shields' curve over the grain size, and the layer beside a grain \
         simulation and a measured sheet flow. The solver uses no particles and is the reference for two-phase particles with the same closures: it \
         shares their physics, so that agreement of the two verifies and does not validate. Sensitivities (paper tier) \
         tell which closure the transport hangs on.";

@@ -6,7 +6,7 @@ use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, quantities};
 use crate::reference::bed_load::{MEASURED_BAND, MeasuredBedLoad};
-use crate::reference::one_dimension::bed_load::Closures;
+use crate::reference::one_dimension::bed_load::{Closures, STEADY};
 use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 
 quantities! {
@@ -51,6 +51,7 @@ pub(super) fn runs(measured: &[MeasuredBedLoad], closures: Closures) -> Vec<BedL
         stream: of.stream(),
         closures,
         cell_height: CELL_HEIGHT,
+        steady_change: STEADY,
     };
     let mut runs: Vec<BedLoad1dRun> = measured.iter().map(|of| new(of, closures)).collect();
     let suspended = measured.iter().filter(|of| **of == MeasuredBedLoad::SheetFlow);

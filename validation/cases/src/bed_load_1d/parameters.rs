@@ -38,6 +38,9 @@ pub struct BedGrains {
     /// Diameter d `[m]`.
     #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
     pub diameter: f64,
+    /// Diameter of the grains of the bed at rest that the moving bed is compared with, over d `[-]`; 1 is the same bed.
+    #[schemars(transform = positive("1 compares with the same bed, 2 with a bed of twice the roughness"))]
+    pub rest_diameter: f64,
 }
 
 /// Parameters of the case.
@@ -53,6 +56,9 @@ pub struct BedLoad1dParameters {
     /// Height of a cell `[m]`.
     #[schemars(transform = positive("give it in metres, such as 2.5e-4"))]
     pub cell_height: f64,
+    /// Change of a step, of velocities over u_* and of fractions, below which a layer counts as steady `[-]`.
+    #[schemars(transform = positive("1e-11 is hardly more than rounding; 1e-3 stops on the way"))]
+    pub steady_change: f64,
     /// Speed of the water and the upper grains in the second start `[m/s]`.
     #[schemars(transform = up_to(100.0, "give it in m/s, such as 2; a state is called steady only if both starts lead there"))]
     pub fast_start: f64,

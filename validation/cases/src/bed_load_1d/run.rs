@@ -9,8 +9,8 @@ use crate::observation::{Outcome, Recorded, state_hash};
 use crate::reference::bed_load::MeasuredBedLoad;
 use crate::reference::one_dimension::LayerError;
 use crate::reference::one_dimension::bed_load::{
-    Approach, BedLoadLayer, Closures, GrainMotion, InitialVelocity, LayerState, SAME_STATE, STEADY,
-    SolidFractionProfile, Stream,
+    Approach, BedLoadLayer, Closures, GrainMotion, InitialVelocity, LayerState, SAME_STATE, SolidFractionProfile,
+    Stream,
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -40,6 +40,8 @@ pub enum LayerPurpose {
     Literature,
     /// The same from a fast start at this speed `[m/s]`.
     FastStart(f64),
+    /// The water over the bed at rest that the moving bed is compared with.
+    BedAtRest,
     /// The order of convergence with dilation.
     DilatingOrder,
     /// The order of convergence with a given fraction.
@@ -72,6 +74,8 @@ pub struct BedLoad1dRun {
     pub closures: Closures,
     /// Height of a cell `[m]`.
     pub cell_height: f64,
+    /// Change of a step below which it counts as steady `[-]`.
+    pub steady_change: f64,
 }
 
 /// What a run leaves behind.
@@ -108,6 +112,7 @@ impl Run for BedLoad1dRun {
         match self.purpose {
             LayerPurpose::Literature => slope.and("start", "rest"),
             LayerPurpose::FastStart(_) => slope.and("start", "fast"),
+            LayerPurpose::BedAtRest => slope.and("grains", "at-rest"),
             LayerPurpose::DilatingOrder | LayerPurpose::FrozenOrder => {
                 slope.and("grains", self.purpose.grains()).and("cell_height", self.cell_height)
             }
@@ -173,7 +178,9 @@ impl Run for BedLoad1dRun {
                     done.difference
                 ),
             },
-            None => Outcome::Stopped { criterion: format!("a step changes u/u_* and φ by less than {STEADY:e}") },
+            None => Outcome::Stopped {
+                criterion: format!("a step changes u/u_* and φ by less than {:e}", self.steady_change),
+            },
             Some(reason) => Outcome::Diverged {
                 message: format!("no steady state after {} steps: {reason}", done.steps),
                 expected: false,
@@ -225,7 +232,11 @@ impl BedLoad1dRun {
     fn has_both_starts(&self) -> bool {
         matches!(
             self.purpose,
-            LayerPurpose::Sensitivity(_) | LayerPurpose::Similar | LayerPurpose::Onset | LayerPurpose::Measured(_)
+            LayerPurpose::BedAtRest
+                | LayerPurpose::Sensitivity(_)
+                | LayerPurpose::Similar
+                | LayerPurpose::Onset
+                | LayerPurpose::Measured(_)
         )
     }
 
@@ -280,9 +291,13 @@ impl BedLoad1dRun {
     fn layer(&self) -> Result<BedLoadLayer, LayerError> {
         let grains = match self.purpose {
             LayerPurpose::FrozenOrder => GrainMotion::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
+            LayerPurpose::BedAtRest => {
+                GrainMotion::Resting(SolidFractionProfile::flat_bed(self.closures.largest_fraction)?)
+            }
             _ => GrainMotion::Dilating,
         };
-        Ok(BedLoadLayer { stream: self.stream, closures: self.closures, grains, cell_height: self.cell_height })
+        let Self { stream, closures, cell_height, steady_change, .. } = *self;
+        Ok(BedLoadLayer { stream, closures, grains, cell_height, steady_change })
     }
 }
 

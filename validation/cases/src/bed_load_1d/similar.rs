@@ -5,7 +5,7 @@ use super::parameters::BedLoad1dParameters;
 use super::run::{BedLoad1dRun, LayerPurpose, check_sliding};
 use crate::case::ParameterError;
 use crate::reference::bed_load::critical_shields_number;
-use crate::reference::one_dimension::bed_load::{Closures, Stream};
+use crate::reference::one_dimension::bed_load::{Closures, STEADY, Stream};
 
 /// A stream of a Shields number over grains of a diameter `[m]`, with the materials of the case.
 fn stream(lengths: &GrainUnits, parameters: &BedLoad1dParameters, shields_number: f64, diameter: f64) -> Stream {
@@ -27,6 +27,7 @@ pub(super) fn runs(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
         stream: stream(lengths, parameters, shields_number, diameter),
         closures,
         cell_height: diameter / lengths.cells_per_diameter,
+        steady_change: STEADY,
     };
     let mut runs = Vec::new();
     if similar.shields_number > 0.0 {

@@ -7,7 +7,7 @@ use super::run::{BedLoad1dRun, LayerPurpose, check_sliding};
 use super::{others, similar};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::reference::bed_load::MeasuredBedLoad;
-use crate::reference::one_dimension::bed_load::Closures;
+use crate::reference::one_dimension::bed_load::{Closures, STEADY, Stream};
 use crate::setup::rules;
 
 impl Parameters for BedLoad1dParameters {
@@ -18,11 +18,12 @@ impl Parameters for BedLoad1dParameters {
             slopes: vec![0.02, 0.03, 0.05],
             gravity: 9.81,
             cell_height: 2.5e-4,
+            steady_change: STEADY,
             fast_start: 2.0,
             dilating_cell_heights: vec![1e-3, 5e-4, 2.5e-4],
             frozen_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4],
             water: WaterStream { depth: 0.046, density: 1000.0, kinematic_viscosity: 1e-6 },
-            grains: BedGrains { bed_depth: 0.04, held_depth: 0.0, density: 2600.0, diameter: 5e-3 },
+            grains: BedGrains { bed_depth: 0.04, held_depth: 0.0, density: 2600.0, diameter: 5e-3, rest_diameter: 1.0 },
             closures: Closures::default(),
             sensitivities: Sensitivities::chosen(),
             similar: LayerConditions::NONE,
@@ -86,12 +87,16 @@ fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
             stream: parameters.stream(slope),
             closures,
             cell_height,
+            steady_change: parameters.steady_change,
         };
         let own = parameters.closures;
         runs.push(new(LayerPurpose::Literature, own, parameters.cell_height));
         if parameters.fast_start > 0.0 {
             runs.push(new(LayerPurpose::FastStart(parameters.fast_start), own, parameters.cell_height));
         }
+        let at_rest = new(LayerPurpose::BedAtRest, own, parameters.cell_height);
+        let grain_diameter = parameters.grains.rest_diameter * at_rest.stream.grain_diameter;
+        runs.push(BedLoad1dRun { stream: Stream { grain_diameter, ..at_rest.stream }, ..at_rest });
         runs.extend(
             parameters.dilating_cell_heights.iter().map(|&height| new(LayerPurpose::DilatingOrder, own, height)),
         );

@@ -86,11 +86,11 @@ const FLOWS: [Flow; 4] = [
         figures: &[("bed-load", "transport"), ("bed-load-1d", "transport")],
         claims: &[
             Claim {
-                case: "bed-load",
-                metric: "predicted_transport",
-                of: |_| true,
-                value: over_reference,
-                says: "Grains that dilate are carried at {range} times the rate by the dashed fit of {works} (slopes: {number}).",
+                case: "bed-load-1d",
+                metric: "transport_ratio",
+                of: |variant| has(variant, "start=rest"),
+                value: |metric| metric.value,
+                says: "A layer of grains that dilate, in one dimension, carries {range} times the rate by the dashed fit of {works} (slopes: {number}).",
             },
             Claim {
                 case: "bed-load",

@@ -9,7 +9,7 @@ use crate::channel::Channel;
 use crate::checkpoint::is_interrupted;
 use crate::reference::one_dimension::LayerError;
 use crate::reference::one_dimension::bed_load::{
-    BedLoadLayer, GrainMotion, LayerState, SolidFractionProfile, SteadyStates, Stream,
+    BedLoadLayer, GrainMotion, LayerState, STEADY, SolidFractionProfile, SteadyStates, Stream,
 };
 use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
@@ -60,7 +60,7 @@ impl ContinuumRun {
     /// The 1-D layer that the run is verified against.
     pub(super) fn layer(&self, stream: Stream) -> Result<LayerState, ParameterError> {
         let closures = self.continuum.closures;
-        let layer = |grains| BedLoadLayer { stream, closures, grains, cell_height: LAYER_CELL };
+        let layer = |grains| BedLoadLayer { stream, closures, grains, cell_height: LAYER_CELL, steady_change: STEADY };
         let refused = |error: LayerError| {
             let rule = "such that the 1-D layer has one steady state";
             ParameterError::field("continuum.closures", error.to_string(), rule, "see bed-load-1d")

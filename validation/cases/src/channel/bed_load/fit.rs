@@ -1,7 +1,7 @@
 //! The fits of `stabilised`: yield stress and viscosity from the transport on two slopes, judged on the third.
 
 use super::BedLoadRecord;
-use super::run::BedLoadFormulation;
+use super::run::GrainKind;
 use crate::metric::Variant;
 use crate::reference::bed_load::TransportFormula;
 
@@ -99,11 +99,11 @@ pub(super) fn held_out(records: &[BedLoadRecord]) -> Vec<HeldOut> {
 fn surfaces(records: &[BedLoadRecord]) -> Vec<TransportSurface> {
     let mut points = Vec::new();
     for (run, record) in records {
-        if let BedLoadFormulation::Fit { law, .. } = &run.formulation {
+        if let Some(GrainKind::Fit(law)) = run.formulation.kind() {
             let transport = record.data.transport_in_window();
             let mean = transport.iter().sum::<f64>() / transport.len() as f64;
             let shields = run.stream().shields_number();
-            points.push((run.slope, shields, *law, libm::log(mean.max(1e-9))));
+            points.push((run.slope, shields, law, libm::log(mean.max(1e-9))));
         }
     }
     let distinct = |values: Vec<f64>| {

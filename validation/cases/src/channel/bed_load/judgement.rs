@@ -2,9 +2,9 @@
 
 use super::BedLoadRecord;
 use super::fit::{self, held_out};
-use super::metrics::{continuum, printed, transport};
+use super::metrics::{balances, continuum, forgets_start, has_forgotten, printed, transport};
 use super::quantities::{FIT_AT_BORDER, FIT_MISFIT, FITTED_VISCOSITY, FITTED_YIELD_STRESS, HELD_OUT_TRANSPORT_RATIO};
-use super::run::BedLoadFormulation;
+use super::run::{BedLoadFormulation, GrainKind};
 use super::statements;
 use crate::metric::{Limit, Metric};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
@@ -13,12 +13,22 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, record) in records {
         match &run.formulation {
-            BedLoadFormulation::Paper(_) => printed(&mut metrics, run, record),
-            BedLoadFormulation::Stabilised(grains) => statements::stabilised(&mut metrics, run, record, grains),
-            BedLoadFormulation::Fit { .. } => metrics.push(transport(run, record)),
-            BedLoadFormulation::Continuum(own) => continuum(&mut metrics, run, record, own),
+            BedLoadFormulation::Grains(GrainKind::Paper, _) => printed(&mut metrics, run, record),
+            BedLoadFormulation::Grains(GrainKind::Stabilised, grains) => {
+                statements::stabilised(&mut metrics, records, run, record, grains);
+            }
+            BedLoadFormulation::Grains(GrainKind::AtRest, _) => balances(&mut metrics, run, record),
+            BedLoadFormulation::Grains(GrainKind::OtherStart, _) => {
+                balances(&mut metrics, run, record);
+                metrics.push(transport(run, record, false));
+            }
+            BedLoadFormulation::Grains(GrainKind::Fit(_), _) => metrics.push(transport(run, record, true)),
+            BedLoadFormulation::Continuum(own) => {
+                continuum(&mut metrics, run, record, own, has_forgotten(records, run));
+            }
         }
     }
+    forgets_start(&mut metrics, records);
     statements::say_what_is_missing(records);
     statements::growth(&mut metrics, records);
     for held in held_out(records) {

@@ -1,23 +1,23 @@
 //! What is measured of a run, and how that is judged.
 
+use super::BedLoadRecord;
 use super::observation::BedLoadObservation;
 use super::parameters::Stage;
 use super::profiles;
 use super::quantities::{
-    DECAY_LENGTH, DRAG_PEAK_HEIGHT, DRAG_RATIO, END_TIME, FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS,
+    DECAY_LENGTH, DRAG_PEAK_HEIGHT, DRAG_RATIO, END_TIME, FLUID_VELOCITY_MEAN, FLUID_VELOCITY_RMS, FORGETS_START,
     GRAIN_CURVATURE_ABOVE, GRAIN_CURVATURE_BELOW, GRAIN_VELOCITY_RMS, HIGHEST_PARTICLE, LAST_TRANSPORT, MOVES_ABOVE,
     PREDICTED_TRANSPORT, STREAM_VELOCITY, TRANSPORT, TRANSPORT_RATIO,
 };
-use super::run::BedLoadRun;
-use super::run::ContinuumRun;
+use super::run::{BedLoadRun, ContinuumRun};
 use crate::case::Run;
 use crate::channel;
 use crate::metric::{Confidence, Limit, Metric};
 use crate::observation::Recorded;
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 
-/// Averaging time from which on a flow is taken to be settled enough to be judged `[s]`.
-pub(super) const JUDGED_FROM: f64 = 1.5;
+/// Averaging time from which on a run beside the 1-D layer is judged whether it still changes or not `[s]`.
+const JUDGED_FROM: f64 = 1.5;
 /// Shortest averaging time of a flow that is judged because it no longer changes `[s]`.
 const SHORTEST: f64 = 0.5;
 /// Largest change of the stream's velocity over U/(2 g i) of such a flow `[-]`.
@@ -26,31 +26,77 @@ const STEADY: f64 = 0.02;
 /// Spacing below which the transport of dilating grains is judged more closely `[m]`.
 const FINE: f64 = 6e-4;
 
-pub(super) fn transport(run: &BedLoadRun, record: &Recorded<BedLoadObservation>) -> Metric {
+/// The transport, beside the formula where the run has forgotten its start.
+pub(super) fn transport(run: &BedLoadRun, record: &Recorded<BedLoadObservation>, forgotten: bool) -> Metric {
     let formula = TransportFormula::WongParker;
-    channel::observed(TRANSPORT, &run.variant(), record.data.channel.average(&record.data.transport), 1.0).against(
-        Some(formula.transport(run.stream().shields_number())),
-        formula.name(),
-        formula.confidence(),
-    )
+    let rate = channel::observed(TRANSPORT, &run.variant(), record.data.channel.average(&record.data.transport), 1.0);
+    let expected = || formula.transport(run.stream().shields_number());
+    if forgotten { rate.against(Some(expected()), formula.name(), formula.confidence()) } else { rate }
+}
+
+/// Balances of a run of one particle a grain.
+pub(super) fn balances(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+    let (variant, outer) = (run.variant(), record.clone().map(|data| data.channel));
+    metrics.extend([channel::particles_lost(&variant, &outer), channel::momentum_residual(&variant, &outer)]);
 }
 
 /// What every run reports.
-pub(super) fn common(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+pub(super) fn common(
+    metrics: &mut Vec<Metric>,
+    run: &BedLoadRun,
+    record: &Recorded<BedLoadObservation>,
+    forgotten: bool,
+) {
     let variant = run.variant();
     let data = &record.data;
     let mean = run.clear_water().mean_velocity();
-    metrics.push(transport(run, record));
+    metrics.push(transport(run, record, forgotten));
     metrics.push(
         channel::observed(STREAM_VELOCITY, &variant, data.channel.average(&data.stream_velocity), 1.0 / mean)
-            .exactly(1.0, "clear water over a fixed bed"),
+            .exactly(1.0, "the logarithmic law of a rough bed"),
     );
     metrics.push(channel::velocity_drift(&variant, drift(run, data), "stream's velocity"));
     metrics.extend(channel::iterations(&variant, &data.channel, [None; 2]));
 }
 
-/// Whether a run is judged: it was watched for long, or it does not change.
-pub(super) fn is_settled(run: &BedLoadRun, data: &BedLoadObservation) -> bool {
+/// Share of the difference of two starts that may be left of it `[-]`.
+const FORGOTTEN: f64 = 0.05;
+
+/// A run with the one that differs from it in its start, and the share of their difference that is left in the stream's mean velocity
+/// over the averaging window `[-]`; none without such a run.
+fn memory<'r>(records: &'r [BedLoadRecord], run: &BedLoadRun) -> Option<(&'r BedLoadRun, f64)> {
+    let (_, own) = records.iter().find(|(other, _)| other.variant() == run.variant())?;
+    let (other_run, other) = records.iter().find(|(other, _)| run.has_another_start_than(other))?;
+    let mean = |data: &BedLoadObservation| data.channel.average(&data.stream_velocity).value;
+    let first = |data: &BedLoadObservation| data.stream_velocity.first().copied();
+    let share = (mean(&own.data) - mean(&other.data)) / (first(&own.data)? - first(&other.data)?);
+    Some((other_run, share.abs()))
+}
+
+/// Whether a run has forgotten its start; transport and profiles are judged of such runs only.
+pub(super) fn has_forgotten(records: &[BedLoadRecord], run: &BedLoadRun) -> bool {
+    memory(records, run).is_some_and(|(_, share)| share <= FORGOTTEN)
+}
+
+/// Memory of the start, a gate for each pair of runs, under the name of the faster start.
+pub(super) fn forgets_start(metrics: &mut Vec<Metric>, records: &[BedLoadRecord]) {
+    for (run, _) in records {
+        let Some((_, share)) = memory(records, run).filter(|(other, _)| run.start() > other.start()) else { continue };
+        metrics.push(
+            FORGETS_START
+                .of(&run.variant(), share)
+                .against(Some(0.0), "a steady flow does not depend on its start", Confidence::Exact)
+                .gated(
+                    Limit::AtMost(FORGOTTEN),
+                    "a twentieth of starts that differ by half of the stream leaves 0.25 u_*, the width of the gates of its profile",
+                )
+                .with_snapshot_tolerance(0.02, 0.005),
+        );
+    }
+}
+
+/// Whether a run in the layer's water is compared with the layer: it was watched for long, or it does not change.
+fn is_settled(run: &BedLoadRun, data: &BedLoadObservation) -> bool {
     run.averaging_time >= JUDGED_FROM || (run.averaging_time >= SHORTEST && drift(run, data).abs() <= STEADY)
 }
 
@@ -82,7 +128,7 @@ pub(super) fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Reco
     );
 }
 
-/// What is reported of the grains; of settled flows the shape of their profile is judged by the paper's statement.
+/// What is reported of the grains; of flows that have forgotten their start the shape of their profile is judged by the paper's statement.
 pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoadObservation, judged: bool) {
     let variant = run.variant();
     let layer = data.layer.as_ref();
@@ -130,13 +176,14 @@ pub(super) fn continuum(
     run: &BedLoadRun,
     record: &Recorded<BedLoadObservation>,
     own: &ContinuumRun,
+    forgotten: bool,
 ) {
     let stage = own.stage;
     let variant = run.variant();
     let data = &record.data;
     let Some(layer) = &data.layer else { return };
     metrics.push(channel::particles_lost(&variant, &record.clone().map(|data| data.channel)));
-    common(metrics, run, record);
+    common(metrics, run, record, forgotten);
     metrics.push(
         channel::MOMENTUM_RESIDUAL
             .of(&variant, data.channel.momentum.residual())
@@ -148,8 +195,8 @@ pub(super) fn continuum(
             )
             .with_snapshot_tolerance(0.1, 1e-3),
     );
-    let source = "the 1-D layer of the same closures";
-    let judged = is_settled(run, data) && own.is_judged();
+    let source = "the 1-D layer of the same closures; the water starts at `start` times its velocity";
+    let judged = own.is_judged() && (forgotten || (own.start == 1.0 && is_settled(run, data)));
     let gated = |metric: Metric, holds: bool, limit, reason: &str| {
         if judged && holds { metric.gated(limit, reason) } else { metric }
     };
@@ -187,7 +234,7 @@ pub(super) fn continuum(
         Limit::Within(0.95, 1.05),
         "grains take over the stress of the water whatever their profile is; a twentieth for bins that the bed's top cuts",
     ));
-    if judged && stage == Stage::Dilating {
+    if stage == Stage::Dilating && forgotten {
         let formula = TransportFormula::WongParker;
         let expected = formula.transport(run.stream().shields_number());
         let predicted = channel::observed(PREDICTED_TRANSPORT, &variant, data.channel.average(&data.transport), 1.0);
@@ -204,5 +251,5 @@ pub(super) fn continuum(
     };
     let metric = channel::observed(TRANSPORT_RATIO, &variant, ratio, 1.0 / layer.transport()).exactly(1.0, source);
     metrics.push(gated(metric, true, Limit::Within(1.0 - within, 1.0 + within), reason));
-    grains(metrics, run, data, judged && stage == Stage::Dilating);
+    grains(metrics, run, data, forgotten && stage == Stage::Dilating);
 }

@@ -18,8 +18,8 @@ mod statements;
 mod tiers;
 
 pub use observation::BedLoadObservation;
-pub use parameters::{BedLoadParameters, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
-pub use run::{BedLoadFormulation, BedLoadRun, ContinuumRun};
+pub use parameters::{BedLoadParameters, Beside, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
+pub use run::{BedLoadFormulation, BedLoadRun, ContinuumRun, GrainKind};
 
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
 use crate::channel;
@@ -43,8 +43,10 @@ impl Case for BedLoad {
         the grains' weight, and two parameters that are fitted on two slopes and judged on the third. `continuum` \
         resolves the grains' layer by its solid fraction, with closures of the literature; it is verified \
         against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
-        that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. The \
-        quick tier is too short to be stationary and says so: it judges conservation.";
+        that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. Water \
+        over moving grains is compared with `at-rest`, the same run with all grains held. A second start shows whether a run \
+        has forgotten its own (`forgets_start`). The quick tier is too short for that: it judges conservation, and whether \
+        dilating grains keep the layer's water and make its transport.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Parameters = BedLoadParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;

@@ -54,10 +54,10 @@ pub(super) struct BedLoadObserver {
 impl BedLoadObserver {
     pub(super) fn new(run: &BedLoadRun, channel: &Channel<'_>) -> Self {
         let spacing = channel.sediment.as_ref().map_or(channel.fluid.spacing, |sediment| sediment.spacing);
-        let bin = spacing.min(0.5 * run.materials.grain_diameter);
         let stream = run.stream();
-        let bins = ((stream.bed_depth + stream.flow_depth) / bin).ceil() as usize;
-        let profile = BlockProfile::new(-stream.bed_depth, bin, bins);
+        // a row of grains lies in the middle of its bin
+        let bins = ((stream.bed_depth + stream.flow_depth) / spacing).ceil() as usize;
+        let profile = BlockProfile::new(-stream.bed_depth, spacing, bins);
         Self {
             unit: stream.transport_unit(),
             length: channel.fluid.length(),

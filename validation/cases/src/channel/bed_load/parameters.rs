@@ -59,6 +59,12 @@ pub struct GrainParticles {
     pub drag: DragLaw,
     /// Smoothing length of the drag `[m]`.
     pub drag_smoothing_length: f64,
+    /// Velocity of the water at the start over that of the logarithmic law of a rough bed `[-]`.
+    #[schemars(transform = between(0.0, 3.0, "0.9 is near the steady flow"))]
+    pub start: f64,
+    /// The same of a second run, which shows whether the start is forgotten `[-]`.
+    #[schemars(transform = between(0.0, 3.0, "another than `start`, such as 0.45"))]
+    pub other_start: f64,
     /// Simulated time `[s]`.
     #[schemars(transform = between(0.1, 1e4, "a few seconds, more to be stationary"))]
     pub duration: f64,
@@ -66,6 +72,16 @@ pub struct GrainParticles {
     pub averaging_time: f64,
     /// Numerics.
     pub numerics: ProjectionNumerics,
+}
+
+/// A run beside one of `stabilised`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Beside {
+    /// The same water over the same bed at rest: all grains are held.
+    AtRest,
+    /// The same from another start.
+    OtherStart,
 }
 
 /// Tenths of a millimetre in a metre.
@@ -212,6 +228,8 @@ pub struct BedLoadParameters {
     pub stabilised: GrainParticles,
     /// Volume fractions.
     pub continuum: Continuum,
+    /// Runs beside each of `stabilised`: `at-rest`, whose grains are held, and `other-start`.
+    pub beside: Vec<Beside>,
     /// Fits of `stabilised`.
     pub fit: Fit,
     /// Largest random displacement of a fluid particle in spacings `[-]`.

@@ -98,15 +98,20 @@ fn root(pair: [&ProfilePoint; 2], function: impl Fn(&ProfilePoint) -> f64) -> Op
     (low * high <= 0.0 && low != high).then(|| pair[0].height + span * low / (low - high))
 }
 
-/// Difference to clear water at a height, over u_* `[-]`.
-pub(super) fn deficit(run: &BedLoadRun, points: &[ProfilePoint], height: f64) -> f64 {
-    let law = run.clear_water();
-    let at = |z: f64| {
+/// Velocity of the water at a height, over u_* `[-]`.
+pub(super) fn velocity_at(run: &BedLoadRun, points: &[ProfilePoint], z: f64) -> f64 {
+    let at = || {
         let upper = points.iter().position(|point| point.height >= z)?;
         let (a, b) = (points.get(upper.checked_sub(1)?)?, &points[upper]);
         Some(a.velocity + (b.velocity - a.velocity) * (z - a.height) / (b.height - a.height))
     };
-    at(height).map_or(f64::NAN, |velocity| (velocity - law.velocity(height)) / law.friction_velocity())
+    at().map_or(f64::NAN, |velocity| velocity / run.clear_water().friction_velocity())
+}
+
+/// Semi-logarithmic slope next to the bed over that of the outer flow, of the lines through all heights that fit best `[-]`.
+pub(super) fn slope_ratio(run: &BedLoadRun, points: &[ProfilePoint]) -> Option<f64> {
+    let fit = layers(run, points, number_of_layers(run, points).max(2))?;
+    Some(fit.slopes.first()? / fit.slopes.last()?)
 }
 
 /// Length over which the grains' velocity falls by e below z = 0 `[m]`.
@@ -206,7 +211,9 @@ mod tests {
         assert_eq!(number_of_layers(&run, &points), 1);
         let fit = layers(&run, &points, 2).expect("enough points");
         assert!((fit.slopes[0] / fit.slopes[1] - 1.0).abs() < 1e-6, "{fit:?}");
-        assert!(deficit(&run, &points, 0.023).abs() < 1e-9);
+        let law_at = law.velocity(0.023) / law.friction_velocity();
+        assert!((velocity_at(&run, &points, 0.023) - law_at).abs() < 1e-9);
+        assert!((slope_ratio(&run, &points).expect("enough points") - 1.0).abs() < 1e-6);
         let border = 7e-3;
         assert!((height_of(&run, log_height(&run, border)) - border).abs() < 1e-15);
     }

@@ -10,7 +10,11 @@ quantities! {
     TRANSPORT_RATIO:
         verified("transport_ratio", "-", "q* over that of the 1-D layer, or of the formula on the slope held out"),
     STREAM_VELOCITY:
-        verified("stream_velocity", "-", "mean velocity of the water above the bed over that of clear water"),
+        verified("stream_velocity", "-", "mean velocity of the water above the bed over that of the logarithmic law of a rough bed"),
+    FORGETS_START: verified(
+        "forgets_start", "-",
+        "difference of the stream's mean velocities of two runs that differ in their starts, over that of the starts",
+    ),
     END_TIME: verified("end_time", "s", "when the printed set-up ended"),
     HIGHEST_PARTICLE: verified("highest_particle", "h", "greatest height of a particle of the printed set-up"),
     LAST_TRANSPORT: validated("last_transport", "-", "q* where the printed set-up ended"),
@@ -40,11 +44,11 @@ quantities! {
         "semi_log_slope", "-",
         "slope of the water's velocity over ln(z + z_0) in a range of heights, over u_*/κ",
     ),
-    LAYER_SLOPE_RATIO: stated("layer_slope_ratio", "-", "slope of the water's velocity over ln z next to the bed, over that of the outer flow"),
+    LAYER_SLOPE_RATIO: stated("layer_slope_ratio", "-", "slope of the water's velocity over ln z next to the bed over that of the outer flow, over the same ratio above the same bed at rest"),
     NEAR_BED_DEFICIT:
-        stated("near_bed_deficit", "u_*", "velocity of the water less clear water's half a grain above the bed"),
-    RELATIVE_DEFICIT: stated("relative_deficit", "u_*", "water's velocity less clear water's, half a grain above the bed, less the same difference at half the depth"),
-    OUTER_DEFICIT: stated("outer_deficit", "u_*", "velocity of the water less clear water's at half the depth"),
+        stated("near_bed_deficit", "u_*", "velocity of the water half a grain above the bed less that over the same bed at rest, a run with all grains held"),
+    RELATIVE_DEFICIT: stated("relative_deficit", "u_*", "near-bed deficit less outer deficit"),
+    OUTER_DEFICIT: stated("outer_deficit", "u_*", "velocity of the water at half the depth less that over the same bed at rest, a run with all grains held"),
     SHEARED_UP_TO: verified("sheared_up_to", "mm", "upper border of the layer that the moving grains shear"),
     SHEARED_FROM: verified("sheared_from", "mm", "lower border of the layer that the moving grains shear"),
     NUMBER_OF_LAYERS: stated("number_of_layers", "-", "layers of different semi-logarithmic slope"),

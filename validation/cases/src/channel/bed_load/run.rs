@@ -10,28 +10,44 @@ use serde::Serialize;
 #[derive(Debug, Clone, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BedLoadFormulation {
-    /// As printed.
-    Paper(GrainParticles),
-    /// By the recipe.
-    Stabilised(GrainParticles),
-    /// By the recipe, one point of the grid of the fits.
-    Fit {
-        /// Its grains, of the law of that point.
-        grains: GrainParticles,
-        /// That law.
-        law: CoulombBingham,
-    },
+    /// One particle a grain.
+    Grains(GrainKind, GrainParticles),
     /// Volume fractions.
     Continuum(ContinuumRun),
 }
 
-impl BedLoadFormulation {
-    /// The parameters of a formulation with one particle a grain.
-    pub(super) fn grains(&self) -> Option<&GrainParticles> {
+/// Which run of one particle a grain it is.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GrainKind {
+    /// As printed.
+    Paper,
+    /// By the recipe.
+    Stabilised,
+    /// By the recipe, with all grains held: the same bed at rest.
+    AtRest,
+    /// By the recipe, from another start.
+    OtherStart,
+    /// By the recipe, one point of the grid of the fits: its law.
+    Fit(CoulombBingham),
+}
+
+impl GrainKind {
+    pub(super) const fn name(self) -> &'static str {
         match self {
-            Self::Paper(grains) | Self::Stabilised(grains) | Self::Fit { grains, .. } => Some(grains),
-            Self::Continuum(_) => None,
+            Self::Paper => "paper",
+            Self::Stabilised => "stabilised",
+            Self::AtRest => "at-rest",
+            Self::OtherStart => "other-start",
+            Self::Fit(_) => "fit",
         }
+    }
+}
+
+impl BedLoadFormulation {
+    /// The kind of a run of one particle a grain.
+    pub(super) fn kind(&self) -> Option<GrainKind> {
+        if let Self::Grains(kind, _) = self { Some(*kind) } else { None }
     }
 }
 
@@ -68,15 +84,35 @@ pub struct BedLoadRun {
 }
 
 impl BedLoadRun {
+    /// Velocity of the water at the start over that of the logarithmic law or the 1-D layer `[-]`.
+    pub(super) fn start(&self) -> f64 {
+        match &self.formulation {
+            BedLoadFormulation::Grains(_, grains) => grains.start,
+            BedLoadFormulation::Continuum(own) => own.start,
+        }
+    }
+
+    /// Whether a run differs from this one in its start alone.
+    pub(super) fn has_another_start_than(&self, other: &Self) -> bool {
+        let is_alike = match (&self.formulation, &other.formulation) {
+            (BedLoadFormulation::Grains(a, _), BedLoadFormulation::Grains(b, _)) => {
+                a != b && [a, b].iter().all(|kind| matches!(kind, GrainKind::Stabilised | GrainKind::OtherStart))
+            }
+            (BedLoadFormulation::Continuum(a), BedLoadFormulation::Continuum(b)) => {
+                (a.stage, a.pair_law, a.spacing) == (b.stage, b.pair_law, b.spacing)
+            }
+            _ => false,
+        };
+        is_alike && self.slope == other.slope && self.duration == other.duration && self.start() != other.start()
+    }
+
     /// The stream of the 1-D layer.
     #[must_use]
     pub fn stream(&self) -> Stream {
         let Materials { depth, gravity, fluid_density, kinematic_viscosity, grain_density, grain_diameter } =
             self.materials;
         let (bed_depth, held_depth) = match &self.formulation {
-            BedLoadFormulation::Paper(grains)
-            | BedLoadFormulation::Stabilised(grains)
-            | BedLoadFormulation::Fit { grains, .. } => (grains.bed_depth, 0.0),
+            BedLoadFormulation::Grains(_, grains) => (grains.bed_depth, 0.0),
             BedLoadFormulation::Continuum(own) => (own.continuum.bed_depth, own.continuum.held_depth),
         };
         Stream {

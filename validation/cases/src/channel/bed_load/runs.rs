@@ -1,8 +1,8 @@
 //! The runs: what each depends on, and its scene.
 
 use super::observation::{BedLoadObservation, BedLoadObserver};
-use super::parameters::{BedLoadParameters, Continuum, GrainParticles};
-use super::run::{BedLoadFormulation, BedLoadRun, ContinuumRun};
+use super::parameters::{BedLoadParameters, Beside, Continuum, GrainParticles};
+use super::run::{BedLoadFormulation, BedLoadRun, ContinuumRun, GrainKind};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::channel::Channel;
 use crate::metric::{FlowRegime, Variant};
@@ -16,7 +16,7 @@ use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 const LAYER_OFFSET: f64 = 6e-4;
 
 pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
-    let BedLoadParameters { materials, paper, stabilised, continuum, fit, jitter, seed } = parameters;
+    let BedLoadParameters { materials, paper, stabilised, beside, continuum, fit, jitter, seed } = parameters;
     let new = |formulation, slope, duration, averaging_time| BedLoadRun {
         formulation,
         slope,
@@ -29,11 +29,19 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
     let alone = |grains: &GrainParticles, slope: f64| GrainParticles { slopes: vec![slope], ..grains.clone() };
     let mut runs = Vec::new();
     for &slope in &paper.slopes {
-        runs.push(new(BedLoadFormulation::Paper(alone(paper, slope)), slope, paper.duration, paper.averaging_time));
+        let formulation = BedLoadFormulation::Grains(GrainKind::Paper, alone(paper, slope));
+        runs.push(new(formulation, slope, paper.duration, paper.averaging_time));
     }
     for &slope in &stabilised.slopes {
-        let formulation = BedLoadFormulation::Stabilised(alone(stabilised, slope));
-        runs.push(new(formulation, slope, stabilised.duration, stabilised.averaging_time));
+        let beside = beside.iter().map(|run| match run {
+            Beside::AtRest => (GrainKind::AtRest, stabilised.start),
+            Beside::OtherStart => (GrainKind::OtherStart, stabilised.other_start),
+        });
+        for (kind, start) in std::iter::once((GrainKind::Stabilised, stabilised.start)).chain(beside) {
+            let grains = GrainParticles { start, ..alone(stabilised, slope) };
+            let formulation = BedLoadFormulation::Grains(kind, grains);
+            runs.push(new(formulation, slope, stabilised.duration, stabilised.averaging_time));
+        }
     }
     for list in &continuum.runs {
         for &slope in &list.slopes {
@@ -61,7 +69,8 @@ pub(super) fn runs(parameters: &BedLoadParameters) -> Vec<BedLoadRun> {
             for &slope in &fit.slopes {
                 let law = CoulombBingham { yield_stress, plastic_viscosity, ..fitted };
                 let grains = GrainParticles { material: Rheology::CoulombBingham(law), ..alone(stabilised, slope) };
-                runs.push(new(BedLoadFormulation::Fit { grains, law }, slope, fit.duration, fit.averaging_time));
+                let formulation = BedLoadFormulation::Grains(GrainKind::Fit(law), grains);
+                runs.push(new(formulation, slope, fit.duration, fit.averaging_time));
             }
         }
     }
@@ -87,18 +96,19 @@ impl Run for BedLoadRun {
     fn laws(&self) -> Vec<Rheology> {
         match &self.formulation {
             BedLoadFormulation::Continuum(own) => vec![own.law(&self.materials)],
-            _ => Vec::new(),
+            BedLoadFormulation::Grains(..) => Vec::new(),
         }
     }
 
     fn variant(&self) -> Variant {
         let of = |formulation: &str| Variant::of("formulation", formulation).and("slope", self.slope);
         match &self.formulation {
-            BedLoadFormulation::Paper(_) => of("paper"),
-            BedLoadFormulation::Stabilised(_) => of("stabilised"),
-            BedLoadFormulation::Fit { law, .. } => {
+            BedLoadFormulation::Grains(GrainKind::Fit(law), _) => {
                 of("fit").and("yield_stress", law.yield_stress).and("viscosity", law.plastic_viscosity)
             }
+            BedLoadFormulation::Grains(GrainKind::Paper, _) => of(GrainKind::Paper.name()),
+            // runs of other tiers are longer, and others of their gates hold
+            BedLoadFormulation::Grains(kind, _) => of(kind.name()).and("duration", self.duration),
             BedLoadFormulation::Continuum(ContinuumRun { stage, pair_law, start, spacing, .. }) => {
                 let named = of(stage.name());
                 let named = match pair_law {
@@ -127,12 +137,10 @@ impl Run for BedLoadRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, ParameterError> {
         match &self.formulation {
-            BedLoadFormulation::Paper(grains)
-            | BedLoadFormulation::Stabilised(grains)
-            | BedLoadFormulation::Fit { grains, .. } => {
+            BedLoadFormulation::Grains(kind, grains) => {
                 let law = self.clear_water();
-                let start = |z: f64| if z > 0.0 { 0.9 * law.velocity(z) } else { 0.0 };
-                self.observe(&self.grains_channel(grains, &start), None, progress)
+                let start = |z: f64| if z > 0.0 { grains.start * law.velocity(z) } else { 0.0 };
+                self.observe(&self.grains_channel(*kind, grains, &start), None, progress)
             }
             BedLoadFormulation::Continuum(own) => {
                 let layer = own.layer(self.stream())?;
@@ -148,9 +156,7 @@ impl BedLoadRun {
     fn size(&self) -> (f64, f64, f64) {
         let depth = self.materials.depth;
         match &self.formulation {
-            BedLoadFormulation::Paper(grains)
-            | BedLoadFormulation::Stabilised(grains)
-            | BedLoadFormulation::Fit { grains, .. } => {
+            BedLoadFormulation::Grains(_, grains) => {
                 (grains.length * (depth + grains.bed_depth), grains.spacing, grains.numerics.time_step)
             }
             BedLoadFormulation::Continuum(own) => {
@@ -176,10 +182,13 @@ impl BedLoadRun {
         Ok(record.map(|channel| observer.finish(channel, layer)))
     }
 
-    /// Clear water over a fixed bed of the same grains.
+    /// The logarithmic law of a rough bed of such grains, from which the water starts and by which velocities are scaled.
     #[must_use]
     pub fn clear_water(&self) -> RoughChannel {
-        let origin_offset = self.formulation.grains().map_or(LAYER_OFFSET, |grains| grains.origin_offset);
+        let origin_offset = match &self.formulation {
+            BedLoadFormulation::Grains(_, grains) => grains.origin_offset,
+            BedLoadFormulation::Continuum(_) => LAYER_OFFSET,
+        };
         RoughChannel {
             depth: self.materials.depth,
             slope: self.slope,

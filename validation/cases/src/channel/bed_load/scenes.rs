@@ -1,7 +1,7 @@
 //! The channel of the formulations with one particle a grain, and the water of all.
 
 use super::parameters::{GrainParticles, Materials};
-use super::run::{BedLoadFormulation, BedLoadRun};
+use super::run::{BedLoadRun, GrainKind};
 use crate::channel::{AveragingWindowEnd, Channel};
 use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
@@ -11,12 +11,13 @@ use bagnold_solver::vector::Vector;
 impl BedLoadRun {
     pub(super) fn grains_channel<'a>(
         &self,
+        kind: GrainKind,
         grains: &GrainParticles,
         velocity: &'a (dyn Fn(f64) -> f64 + Sync),
     ) -> Channel<'a> {
         let Materials { depth, gravity, fluid_density, grain_density, grain_diameter, .. } = self.materials;
         let rows = |length: f64, spacing: f64| (length / spacing).round() as usize;
-        let printed = matches!(self.formulation, BedLoadFormulation::Paper(_));
+        let printed = kind == GrainKind::Paper;
         // the printed set-up has water above the bed only, on the grains as on a floor
         let below = if printed { 0.0 } else { grains.bed_depth };
         let fluid = Lattice {
@@ -31,14 +32,16 @@ impl BedLoadRun {
             columns: rows(grains.length, grain_diameter),
             bottom: -grains.bed_depth,
         };
+        let mut free = bed.displaced(self.jitter, self.seed.wrapping_add(1));
+        let mut wall: Vec<Vector<2>> = bed.below(4).sites().collect();
+        if kind == GrainKind::AtRest {
+            wall.append(&mut free);
+        }
         let buoyant_weight = (grain_density - fluid_density) * gravity;
         let sediment = Sediment {
-            particles: ParticleSet {
-                position: bed.displaced(self.jitter, self.seed.wrapping_add(1)),
-                velocity: vec![Vector::zeros(); bed.len()],
-            },
-            filling: vec![1.0; bed.len()],
-            wall: bed.below(4).sites().collect(),
+            filling: vec![1.0; free.len()],
+            particles: ParticleSet { velocity: vec![Vector::zeros(); free.len()], position: free },
+            wall,
             spacing: grain_diameter,
             smoothing_ratio: grains.numerics.smoothing_ratio,
             density: grain_density,

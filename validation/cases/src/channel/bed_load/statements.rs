@@ -1,22 +1,22 @@
 //! `stabilised` against what Kazemi et al. state of the flow, and against the transport formula on the slope held out.
 
 use super::BedLoadRecord;
-use super::metrics::{JUDGED_FROM, common, grains, is_settled};
+use super::metrics::{balances, common, grains, has_forgotten};
 use super::observation::BedLoadObservation;
-use super::parameters::{GrainParticles, Stage};
+use super::parameters::GrainParticles;
 use super::profiles::{self, LAYERS};
 use super::quantities::{
     LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT, RELATIVE_DEFICIT,
     SEMI_LOG_SLOPE, SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH, TRANSPORT_RATIO,
 };
-use super::run::{BedLoadFormulation, BedLoadRun};
+use super::run::{BedLoadRun, GrainKind};
 use super::tiers::FITTED;
 use crate::case::Run;
-use crate::channel;
+use crate::channel::{self, ProfilePoint};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Quantity, Value, Variant};
 use crate::observation::Recorded;
 use crate::reference::bed_load::{LAYER_STATEMENTS, MEASURED_BAND, TransportFormula};
-use crate::statistics::Segmented;
+use crate::statistics::{FittedValue, Segmented};
 use bagnold_solver::material::rheology::Rheology;
 
 /// A slope `[-]` that the paper makes statements of.
@@ -36,25 +36,14 @@ impl Stated {
     }
 }
 
-/// Says which statements nothing is judged by, for want of a run of their slope.
+/// Says that nothing is judged by the paper's statements, for want of a run of their slope.
 pub(super) fn say_what_is_missing(records: &[BedLoadRecord]) {
     let runs = || records.iter().map(|(run, _)| run);
-    let of_the_recipe = || runs().filter(|run| matches!(run.formulation, BedLoadFormulation::Stabilised(_)));
-    let gentle = of_the_recipe().find(|run| GENTLE.is_of(run));
-    if of_the_recipe().next().is_some() && gentle.is_none() {
+    let of_the_recipe = || runs().filter(|run| run.formulation.kind() == Some(GrainKind::Stabilised));
+    if of_the_recipe().next().is_some() && !of_the_recipe().any(|run| GENTLE.is_of(run)) {
         tracing::warn!(
             "no run of `stabilised` has the slope {} that the paper's statements are of: its profile and transport are \
              observed, but not judged",
-            GENTLE.slope
-        );
-    }
-    // a run too short to be judged has said so
-    let long_enough = gentle.is_some_and(|run| run.averaging_time >= JUDGED_FROM);
-    if long_enough && !of_the_recipe().any(|run| STEEP.is_of(run)) {
-        tracing::warn!(
-            "no run of `stabilised` has the slope {} beside {}: that transport and sheared layer grow with the slope is \
-             not judged",
-            STEEP.slope,
             GENTLE.slope
         );
     }
@@ -62,15 +51,16 @@ pub(super) fn say_what_is_missing(records: &[BedLoadRecord]) {
 
 pub(super) fn stabilised(
     metrics: &mut Vec<Metric>,
+    records: &[BedLoadRecord],
     run: &BedLoadRun,
     record: &Recorded<BedLoadObservation>,
     bed: &GrainParticles,
 ) {
     let (variant, data) = (run.variant(), &record.data);
-    let outer = record.clone().map(|data| data.channel);
-    metrics.extend([channel::particles_lost(&variant, &outer), channel::momentum_residual(&variant, &outer)]);
-    common(metrics, run, record);
-    let judged = is_settled(run, data) && GENTLE.is_of(run);
+    balances(metrics, run, record);
+    let forgotten = has_forgotten(records, run);
+    common(metrics, run, record, forgotten);
+    let judged = forgotten && GENTLE.is_of(run);
     let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
     // of the fitted slopes the transport says nothing
     if judged && bed.material == Rheology::CoulombBingham(FITTED) {
@@ -92,38 +82,42 @@ pub(super) fn stabilised(
     let stated = |metric: Metric, value: Option<f64>, statement: &str| {
         metric.against(value, &format!("statement of the paper: {statement}"), Confidence::Medium)
     };
-    let pieces = profiles::number_of_layers(run, &profile.points()).max(2);
-    let ratio = profiles::layers(run, &profile.points(), pieces).and_then(|fit| {
-        let (lowest, uppermost) = (fit.slopes.first()?, fit.slopes.last()?);
-        Some(lowest / uppermost)
-    });
-    let ratio = LAYER_SLOPE_RATIO.of(&variant, ratio.unwrap_or(f64::NAN)).with_snapshot_tolerance(0.1, 0.0);
-    let reason = "a lower layer whose semi-logarithmic slope is smaller by a fifth, of the lines through all heights that fit best";
-    metrics.push(
-        stated(ratio, None, "two layers at 3 %, the lower one less steep").gated_by(gate(Limit::AtMost(0.8)), reason),
-    );
     layers(metrics, run, record);
-    let near = observed(NEAR_BED_DEFICIT, profile.estimate(|points| profiles::deficit(run, points, 2.5e-3)), 1.0);
-    let middle = 0.5 * run.materials.depth;
-    let far = observed(OUTER_DEFICIT, profile.estimate(|points| profiles::deficit(run, points, middle)), 1.0);
-    let relative =
-        profile.estimate(|points| profiles::deficit(run, points, 2.5e-3) - profiles::deficit(run, points, middle));
-    let relative = observed(RELATIVE_DEFICIT, relative, 1.0);
+    let is_at_rest =
+        |(other, _): &&BedLoadRecord| other.formulation.kind() == Some(GrainKind::AtRest) && other.slope == run.slope;
+    if let Some((_, rest)) = records.iter().find(is_at_rest) {
+        let rest = &rest.data.channel.profile;
+        // the errors of both means are independent
+        let difference = |of: &dyn Fn(&[ProfilePoint]) -> f64| {
+            let [own, rest] = [profile, rest].map(|profile| profile.estimate(of));
+            let error = own.standard_error.hypot(rest.standard_error);
+            FittedValue { value: own.value - rest.value, standard_error: error }
+        };
+        let (low, middle) = (2.5e-3, 0.5 * run.materials.depth);
+        let at = |height: f64| move |points: &[ProfilePoint]| profiles::velocity_at(run, points, height);
+        let relative = |points: &[ProfilePoint]| at(low)(points) - at(middle)(points);
+        let near = observed(NEAR_BED_DEFICIT, difference(&at(low)), 1.0);
+        let far = observed(OUTER_DEFICIT, difference(&at(middle)), 1.0);
+        let relative = observed(RELATIVE_DEFICIT, difference(&relative), 1.0);
+        let ratios = [profile, rest].map(|profile| profiles::slope_ratio(run, &profile.points()).unwrap_or(f64::NAN));
+        let ratio = LAYER_SLOPE_RATIO.of(&variant, ratios[0] / ratios[1]).with_snapshot_tolerance(0.1, 0.0);
+        metrics.extend([
+            stated(ratio, None, "gentler where grains move than above")
+                .gated_by(gate(Limit::AtMost(0.8)), "gentler by a fifth than above the same bed at rest"),
+            stated(near, None, "near the bed slower than without moving grains"),
+            stated(far, Some(0.0), "above as fast as without moving grains").gated_by(
+                gate(Limit::Within(-0.25, 0.25)),
+                "a quarter of u_*, as clear water itself is judged: 2 % of the depth mean",
+            ),
+            stated(relative, None, "near the bed slower than without moving grains, above as fast").gated_by(
+                gate(Limit::AtMost(-0.1)),
+                "slower near the bed than above by a tenth of u_*, so that a flow that is slow as a whole does not show it",
+            ),
+        ]);
+    }
     let above = profile.estimate(|points| profiles::sheared_borders(run, points).1);
     let below = profile.estimate(|points| profiles::sheared_borders(run, points).0);
-    metrics.extend([
-        stated(near, None, "near the bed slower than clear water"),
-        stated(far, Some(0.0), "above as fast as clear water").gated_by(
-            gate(Limit::Within(-0.25, 0.25)),
-            "a quarter of u_*, as clear water itself is judged: 2 % of the depth mean",
-        ),
-        stated(relative, None, "near the bed slower than clear water, above as fast as it").gated_by(
-            gate(Limit::AtMost(-0.1)),
-            "slower near the bed than above by a tenth of u_*, so that a flow that is slow as a whole does not show it",
-        ),
-        observed(SHEARED_UP_TO, above, 1e3),
-        observed(SHEARED_FROM, below, 1e3),
-    ]);
+    metrics.extend([observed(SHEARED_UP_TO, above, 1e3), observed(SHEARED_FROM, below, 1e3)]);
     // particles of grains are too few for a curvature
     grains(metrics, run, data, false);
 }
@@ -163,27 +157,18 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
     }
 }
 
-/// More transport and a thicker sheared layer at 5 % than at 3 %: of one particle per grain, and of grains that dilate.
+/// More transport and a thicker sheared layer at 5 % than at 3 %, of flows that have forgotten their start.
 pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[BedLoadRecord]) {
     let pair = |is_own: &dyn Fn(&BedLoadRun) -> bool| {
         let of = |stated: Stated| records.iter().find(|(run, _)| stated.is_of(run) && is_own(run));
         of(GENTLE).zip(of(STEEP))
     };
-    let stabilised = |run: &BedLoadRun| {
-        matches!(run.formulation, BedLoadFormulation::Stabilised(_)) && run.averaging_time >= JUDGED_FROM
-    };
-    let dilating = |run: &BedLoadRun| match &run.formulation {
-        BedLoadFormulation::Continuum(own) => own.stage == Stage::Dilating && own.start == 1.0,
-        _ => false,
-    };
+    let stabilised =
+        |run: &BedLoadRun| run.formulation.kind() == Some(GrainKind::Stabilised) && has_forgotten(records, run);
     if let Some((gentle, steep)) = pair(&stabilised) {
         metrics.push(transport_growth(gentle, steep));
         // the thickness of one row of grains is the grains', whatever the slope
         metrics.push(thickness_growth("stabilised", gentle, steep));
-    }
-    if let Some((gentle, steep)) = pair(&dilating) {
-        let growth = thickness_growth("dilating", gentle, steep);
-        metrics.push(growth.gated(Limit::AtLeast(1.05), "larger by more than the scatter of repeats, 3 %"));
     }
 }
 

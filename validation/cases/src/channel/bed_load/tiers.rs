@@ -1,6 +1,6 @@
 //! What each tier runs.
 
-use super::parameters::{BedLoadParameters, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
+use super::parameters::{BedLoadParameters, Beside, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
 use super::run::BedLoadRun;
 use super::runs;
 use crate::case::{ParameterError, Parameters, Tier};
@@ -59,6 +59,8 @@ fn grains() -> (GrainParticles, GrainParticles) {
         origin_offset: 6e-4,
         drag: DragLaw::MorsiAlexander,
         drag_smoothing_length: 3e-3,
+        start: 0.9,
+        other_start: 0.45,
         duration: 1.0,
         averaging_time: 0.6,
         numerics: ProjectionNumerics::default(),
@@ -112,6 +114,7 @@ fn quick() -> BedLoadParameters {
             runs: vec![
                 stage(Stage::Porous, &[0.03], &ROWS, &[1.0], 0.5),
                 StageRuns { averaging_time: 0.6, ..stage(Stage::Dilating, &SLOPES, &COLUMNS, &[1.0], 1.2) },
+                StageRuns { averaging_time: 0.6, ..stage(Stage::Dilating, &[0.03], &COLUMNS, &[0.5], 1.2) },
             ],
             bed_depth: 0.014,
             held_depth: 0.004,
@@ -129,6 +132,7 @@ fn quick() -> BedLoadParameters {
                 ..ProjectionNumerics::default()
             },
         },
+        beside: vec![Beside::AtRest, Beside::OtherStart],
         fit: Fit {
             yield_stresses: Vec::new(),
             viscosities: Vec::new(),
@@ -149,7 +153,7 @@ fn deeper(continuum: Continuum) -> Continuum {
 fn paper(quick: BedLoadParameters) -> BedLoadParameters {
     BedLoadParameters {
         paper: GrainParticles { slopes: SLOPES.to_vec(), ..quick.paper },
-        stabilised: GrainParticles { slopes: SLOPES.to_vec(), duration: 8.0, averaging_time: 3.0, ..quick.stabilised },
+        stabilised: GrainParticles { slopes: SLOPES.to_vec(), duration: 12.0, averaging_time: 3.0, ..quick.stabilised },
         continuum: Continuum {
             runs: vec![
                 stage(Stage::Porous, &SLOPES, &ROWS, &[1.0], 4.0),

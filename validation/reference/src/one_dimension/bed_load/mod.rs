@@ -20,7 +20,8 @@
 //! and [`Stream::outside_bed_load`] says where the layer is not one of bed load (`domain.rs`).
 //!
 //! ```text
-//! let layer = BedLoadLayer { stream, closures: Closures::default(), grains: Grains::Dilating, cell_height: 2.5e-4 };
+//! let layer =
+//!     BedLoadLayer { stream, closures: Closures::default(), grains: Grains::Dilating, cell_height: 2.5e-4, steady_change: STEADY };
 //! let state = layer.steady_states()?.single()?;    // from rest and from a fast start
 //! let there = state.at(-1e-3);    // φ, both velocities, p′, both stresses, l and K at z = −1 mm
 //! let frozen = BedLoadLayer { grains: Grains::Frozen(SolidFraction::of_cells(&state)), ..layer };
@@ -61,6 +62,8 @@ pub struct BedLoadLayer {
     pub grains: GrainMotion,
     /// Height of a cell `[m]`; both depths and the held depth are whole multiples of it.
     pub cell_height: f64,
+    /// Change of a step, of velocities over u_* and of fractions, below which a state counts as steady `[-]`; usually [`STEADY`].
+    pub steady_change: f64,
 }
 
 /// Motion of the grains.
@@ -113,7 +116,7 @@ pub struct Approach {
 /// Largest number of time steps; a few hundred are usual.
 pub const LARGEST_STEPS: usize = 12_000;
 
-/// Change of a step, of velocities over u_* and of fractions, below which a state is steady `[-]`.
+/// Change of a step at which both starts of every layer have met `[-]`: hardly more than rounding.
 pub const STEADY: f64 = 1e-11;
 
 /// Time step over h/u_*: only a means to the steady state.
@@ -171,7 +174,7 @@ impl BedLoadLayer {
             let change = column.step(Stride { time_step, towards_secant });
             steps += 1;
             let (velocity_change, fraction_change) = (change.velocity / shear_velocity, change.fraction);
-            let steady = velocity_change < STEADY && fraction_change < STEADY;
+            let steady = velocity_change < self.steady_change && fraction_change < self.steady_change;
             let unsteady = if !change.velocity.is_finite() {
                 column = last_good;
                 Some("a velocity is no longer a finite number".to_owned())
@@ -218,6 +221,7 @@ impl BedLoadLayer {
             ("kinematic_viscosity", stream.kinematic_viscosity),
             ("grain_diameter", stream.grain_diameter),
             ("cell_height", self.cell_height),
+            ("steady_change", self.steady_change),
             ("static_friction", closures.static_friction),
             ("reference_inertia", closures.reference_inertia),
             ("regularisation_rate", closures.regularisation_rate),

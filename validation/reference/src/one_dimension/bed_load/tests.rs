@@ -18,7 +18,13 @@ pub(super) fn stream(slope: f64) -> Stream {
 }
 
 fn layer(slope: f64, grains: GrainMotion) -> BedLoadLayer {
-    BedLoadLayer { stream: stream(slope), closures: Closures::default(), grains, cell_height: 5e-4 }
+    BedLoadLayer {
+        stream: stream(slope),
+        closures: Closures::default(),
+        grains,
+        cell_height: 5e-4,
+        steady_change: STEADY,
+    }
 }
 
 /// No roughness.
@@ -248,7 +254,7 @@ fn a_resting_bed_is_a_rough_wall() {
     let closures = Closures::default();
     let bed = GrainMotion::Resting(SolidFractionProfile::flat_bed(0.6).expect("valid"));
     let water = Stream { slope: 0.0033, flow_depth: 0.1, bed_depth: 0.02, ..stream(0.02) };
-    let state = BedLoadLayer { stream: water, closures, grains: bed, cell_height: 1.25e-4 };
+    let state = BedLoadLayer { stream: water, closures, cell_height: 1.25e-4, ..layer(0.02, bed) };
     let state = state.steady(InitialVelocity::Rest).expect("steady");
     let shear_velocity = (water.driving() * water.flow_depth).sqrt();
     let height = 0.03;
@@ -265,9 +271,8 @@ fn the_onset_does_not_depend_on_the_start() {
         Stream { grain_density: 2650.0, grain_diameter: 2e-3, flow_depth: 0.04, bed_depth: 0.012, ..stream(0.02) };
     let layer = BedLoadLayer {
         stream: Stream { slope: slope(0.061), ..grains },
-        closures: Closures::default(),
-        grains: GrainMotion::Dilating,
         cell_height: 1e-4,
+        ..layer(0.02, GrainMotion::Dilating)
     };
     let states = layer.steady_states().expect("steady");
     assert!(states.difference < SAME_STATE, "{}", states.difference);
