@@ -50,7 +50,8 @@ impl Gate {
             for column in 0..self.rows {
                 let along = |cells: usize| (cells as f64 + 0.5) * spacing;
                 let position = Vector::<2>::new(self.position + along(column), self.edge + along(row));
-                let depth = |wall: &Wall<2>| -wall.distance(&position);
+                // in half spacings: a corner is as near to two faces, and rounding must not choose between them
+                let depth = |wall: &Wall<2>| (-wall.distance(&position) / (0.5 * spacing)).round();
                 let nearest = (0..walls.len()).min_by(|&a, &b| depth(&walls[a]).total_cmp(&depth(&walls[b])));
                 particles.push(WallParticle { position, wall: first_wall + nearest.unwrap_or(0) });
             }

@@ -165,7 +165,7 @@ fn histories(records: &[&CollapseRecord]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let (data, a, scale) = (&record.data, run.initial_height(), run.time_scale());
         let time = || data.time.iter().map(|t| t / scale);
-        let way = time().zip(data.front.iter().map(|front| (front - 1.0) / a));
+        let way = time().zip(data.rows_front.iter().map(|front| (front - 1.0) / a));
         let initial = data.potential_energy.first().copied().unwrap_or(f64::NAN);
         let share = time().zip(data.kinetic_energy.iter().map(|kinetic| kinetic / initial));
         front.line(&label(run), slot, way);
@@ -177,7 +177,7 @@ fn histories(records: &[&CollapseRecord]) -> Figure {
     }
     Figure::new(
         &of_material("histories", records),
-        "The front's way over the aspect ratio and the kinetic energy over the initial potential energy, in times of \
+        "The way of the front at a thickness of 0.05 r0 over the aspect ratio and the kinetic energy over the initial potential energy, in times of \
          free fall √(h0/g). Deposits come to rest. Points are other codes under the same law.",
         vec![front, energy],
     )

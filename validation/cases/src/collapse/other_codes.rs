@@ -18,7 +18,7 @@ const SAME_LAW: f64 = 0.15;
 const REASON: &str =
     "15 %, twice the standard deviation of the run-outs that four methods give of one column of these grains (7.5 %)";
 
-/// Time at which columns are compared, over √(h_0/g) `[-]`: a third of the energy is dissipated, and the front has two thirds of its way.
+/// Time at which columns are compared, over √(h_0/g) `[-]`: later the other codes are known less well, earlier laws differ by less.
 pub(super) const MID_COLLAPSE: f64 = 2.0;
 /// Speed of the gate in the table `[m/s]`.
 const GATE_SPEED: f64 = 1.3;
@@ -79,7 +79,7 @@ impl<'a> Beside<'a> {
     pub(super) fn metrics(&self, variant: &Variant, time: f64, is_judged: bool) -> Vec<Metric> {
         let variant = Variant::of("free_fall_times", time).followed_by(variant);
         let energy = self.own(&self.collapse.kinetic_energy, time) / self.energy_scale;
-        let front = self.own(&self.collapse.front, time);
+        let front = self.own(&self.collapse.rows_front, time);
         let of = |metric: Metric, is_energy: bool, start: f64| {
             let (mean, uncertainty) = self.codes.at(self.flow, is_energy, time)?;
             let width = SAME_LAW * (mean - start);
@@ -87,8 +87,8 @@ impl<'a> Beside<'a> {
                 .against(Some(mean), &self.codes.source, self.codes.confidence)
                 .known_to(
                     Origin::Numerical,
-                    Some(uncertainty * (mean - start)),
-                    "half of the spacing and of the step of the other codes, and how far they are apart",
+                    Some(uncertainty),
+                    "the other codes: their spacing and step, and how far they are apart",
                 )
                 .with_snapshot_tolerance(1e-2, 1e-3);
             Some(metric.gated_by(is_judged.then_some(Limit::Within(mean - width, mean + width)), REASON))
@@ -99,7 +99,7 @@ impl<'a> Beside<'a> {
             .collect()
     }
 
-    /// The codes' points in a panel over t/√(h_0/g), each changed by a function; an error bar is twice the code's uncertainty.
+    /// The codes' points in a panel over t/√(h_0/g), each changed by a linear function; an error bar is twice the code's uncertainty.
     pub(super) fn draw(
         &self,
         panel: &mut Panel,
@@ -108,9 +108,11 @@ impl<'a> Beside<'a> {
         change: impl Fn((f64, f64)) -> (f64, f64),
     ) {
         for (place, series) in self.codes.of(self.flow, is_energy).enumerate() {
-            let points: Vec<(f64, f64)> = series.points.iter().map(|&point| change(point)).collect();
-            let bars = points.iter().map(|point| 2.0 * series.uncertainty * point.1).collect();
-            panel.points(&series.code, slot + 4 * place, points).error = bars;
+            let points: Vec<(f64, f64)> = series.points.iter().map(|&(time, value, _)| change((time, value))).collect();
+            let bar = |&(time, value, standard): &(f64, f64, f64)| {
+                change((time, value + 2.0 * standard)).1 - change((time, value)).1
+            };
+            panel.points(&series.code, slot + 4 * place, points).error = series.points.iter().map(bar).collect();
         }
     }
 }

@@ -72,7 +72,7 @@ pub struct UserScene;
 impl Case for UserScene {
     const NAME: &'static str = "scene";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
-    const SUMMARY: &'static str = "a scene of one's own in the plane: bodies of material, walls of segments, inlets, open sides, gauges; judged by its balances";
+    const SUMMARY: &'static str = "user-defined 2-D scene: bodies of material, walls of segments, inlets, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "Boxes, discs and polygons of one material under any law, by the weakly compressible model, between walls \
         that are polylines, rough or smooth, at rest or moved by a table of times. Sides of the domain are planes of \
         symmetry, periods, or open: what leaves is counted. Gauges measure the front along a line, the depth at a place, the \

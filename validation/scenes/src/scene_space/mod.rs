@@ -72,7 +72,7 @@ pub struct SpaceScene;
 impl Case for SpaceScene {
     const NAME: &'static str = "scene-space";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
-    const SUMMARY: &'static str = "a scene of one's own in space: bodies of material, walls from STL files or of quadrilaterals and boxes, open sides, gauges; judged by its balances";
+    const SUMMARY: &'static str = "user-defined 3-D scene: bodies of material, walls from STL files or of quadrilaterals and boxes, open sides, gauges; judged by its balances";
     const DESCRIPTION: &'static str = "Boxes, cylinders and balls of one material under any law, by the weakly compressible model, between walls of \
         triangles: meshes from STL files, quadrilaterals and boxes, rough or smooth, at rest or moved by a table of times. Sides of the \
         domain are planes of symmetry, periods, or open: what leaves is counted. Gauges measure the front along a line, the depth at \

@@ -116,7 +116,7 @@ impl AnyCase for CanonicalStudy {
         let base_tier = study.tier();
         let parameters_toml = study.complete(tier);
         // a report runs them beside the study
-        let study = study.without_controls();
+        let study = study.without_controls().with_variants_of(tier);
         let parts = study.prepare(self.cases, Some(base_tier), changes.settings, changes.limits)?;
         Ok(Box::new(StudyPlan { name: self.name, tier, study, parameters_toml, parts }))
     }

@@ -47,6 +47,8 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
         let series = panel.draw(&measured.name(), Mark::Points, colour, cloud);
         series.error = points.iter().map(|point| point[2]).collect();
         said = format!("points with their standard uncertainty: {}", measured.source());
+    } else if let CheckedQuantity::Value(_, Reduction::Slope) = &check.read {
+        // a slope has no place among the column's values
     } else if let Some((value, uncertainty)) = check.reference() {
         if let CheckedQuantity::Value(_, Reduction::Reaches(_)) = &check.read {
             let values = || first.points.iter().map(|point| point.1);

@@ -79,6 +79,9 @@ enum Scalar {
 pub(super) struct NamedVariant {
     /// Name of the variant.
     pub(super) name: String,
+    /// Lowest tier at which a canonical study runs it; the quick one, if it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) tier: Option<Tier>,
     /// Values by the dotted paths of parameters, in their units.
     #[serde(default)]
     #[schemars(with = "Fields")]
@@ -199,6 +202,8 @@ pub(super) enum Reduction {
     At(f64),
     /// The first place of the other column at which the value reaches a level from either side, linear between its rows.
     Reaches(f64),
+    /// The slope of the least-squares line over the other column.
+    Slope,
 }
 
 /// Distance of a column from a measured series.

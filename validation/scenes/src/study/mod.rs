@@ -159,6 +159,17 @@ impl Study {
         study
     }
 
+    /// The study at a tier: the quick one leaves out the variants of higher tiers, and their checks.
+    fn with_variants_of(mut self, tier: Tier) -> Self {
+        let dearer = self.text.variants.iter().filter(|named| named.tier.is_some_and(|lowest| lowest != Tier::Quick));
+        let dearer: Vec<Variant> = dearer.map(|named| Variant::of("variant", named.name.as_str())).collect();
+        if tier == Tier::Quick {
+            self.changes.retain(|changed| !dearer.iter().any(|own| changed.variant.includes(own)));
+            self.drop_checks_without_runs();
+        }
+        self
+    }
+
     /// Leaves out the checks of variants that are not run.
     fn drop_checks_without_runs(&mut self) {
         let changes = &self.changes;

@@ -7,7 +7,7 @@ use crate::input::{FieldError, nearest};
 use crate::measured::Measurements;
 use crate::metric::{Metric, Variant};
 use crate::output::Table;
-use crate::statistics::{Extrapolation, interpolated};
+use crate::statistics::{Extrapolation, interpolated, linear_fit};
 
 /// A column of the tables that a case writes, and the part of it that counts.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,6 +116,7 @@ impl RunCurve {
             Reduction::Mean => self.mean(),
             Reduction::At(place) => self.at(place),
             Reduction::Reaches(level) => self.reaches(level),
+            Reduction::Slope => linear_fit(&self.points).map(|fit| fit.slope),
         };
         found.unwrap_or(f64::NAN)
     }
@@ -229,6 +230,7 @@ mod tests {
     #[test]
     fn values_are_taken_of_a_parabola() {
         let points: Vec<(f64, f64)> = (0..=100).map(|k| f64::from(k) / 100.0).map(|t| (t, t * (1.0 - t))).collect();
+        let points_to = |end: f64| points.iter().copied().filter(|point| point.0 <= end).collect();
         let curve = curve(&points);
         assert_eq!(curve.value(Reduction::First), 0.0);
         assert_eq!(curve.value(Reduction::Largest), 0.25);
@@ -236,6 +238,8 @@ mod tests {
         assert!((curve.value(Reduction::Mean) - 1.0 / 6.0).abs() < 2e-5, "the trapezoidal rule is 1/(6 · 100²) off");
         assert!((curve.value(Reduction::At(0.255)) - 0.255 * 0.745).abs() < 3e-5);
         assert!(curve.value(Reduction::At(1.01)).is_nan() && curve.value(Reduction::At(-0.01)).is_nan());
+        let first_half = RunCurve { points: points_to(0.5), ..curve };
+        assert!((first_half.value(Reduction::Slope) - 0.5).abs() < 1e-12, "a parabola has the slope of its middle");
     }
 
     #[test]

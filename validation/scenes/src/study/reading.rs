@@ -66,8 +66,12 @@ impl Study {
                 CheckedQuantity::Value(column, reduction) => {
                     for curve in column.curves(result)? {
                         let value = curve.value(*reduction);
-                        let read = if let Reduction::Reaches(_) = reduction { &curve.over } else { &column.column };
-                        let unit = probe::unit_of(read).to_owned();
+                        let (over, own) = (probe::unit_of(&curve.over), probe::unit_of(&column.column));
+                        let unit = match reduction {
+                            Reduction::Reaches(_) => over.to_owned(),
+                            Reduction::Slope => format!("{own}/{over}"),
+                            _ => own.to_owned(),
+                        };
                         readings.push(new(&curve.run.clone(), value, &unit, Some(curve)));
                     }
                 }

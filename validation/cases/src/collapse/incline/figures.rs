@@ -61,7 +61,7 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data.collapse;
         let way = |front: &f64| (front - 1.0) * run.reservoir.reservoir_length;
-        let points = data.time.iter().copied().zip(data.front.iter().map(way));
+        let points = data.time.iter().copied().zip(data.rows_front.iter().map(way));
         front.line(&label(run), slot, points);
         let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied());
         energy.line("", slot, points);
@@ -73,7 +73,7 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
     }
     Figure::new(
         "fronts",
-        "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
+        "The way of the front at a thickness of 0.05 r0 from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
          rest; above it they run until the channel ends. Points are another code under the same law.",
         vec![front, energy],
     )

@@ -41,8 +41,8 @@ const NEAR_SURFACE: f64 = 1.0 / 3.0;
 
 /// What the gate allows beyond the band of the law's two quotations `[-]`.
 const MARGIN: f64 = 0.15;
-/// Time at which the flow is compared with other codes, over √(h_0/g) `[-]`: the grains have left the reservoir.
-const WELL_DOWN_THE_SLOPE: f64 = 5.0;
+/// Time at which the flow is compared with other codes, over √(h_0/g) `[-]`: the latest that they tell.
+const WELL_DOWN_THE_SLOPE: f64 = 4.0;
 /// Times at which the front is reported `[s]`.
 const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
 

@@ -118,7 +118,9 @@ impl Case for FlowThickness {
     const SUMMARY: &'static str = "thickness of flow on a slope, the slope at which a layer stops, and the flow rule";
     const DESCRIPTION: &'static str = "Three questions about thickness. (i) How thick is the flow of a collapse half a metre and more down the slope? \
         Thickness is the volume of the grains in a bin of 2 cm over the bin's width, as in incline-collapse; the paper's \
-        h_s (44), reconstructed from (40), (41) and (43), is drawn beside. (ii) At which slope does a layer of given \
+        h_s (44), reconstructed from (40), (41) and (43), is drawn beside and judges nothing. It is the thickness of a steady flow \
+        that discharges β √(g h_0³) per width, which the study `fed-slope` feeds; a released block discharges less and less, and what \
+        passes a station is level over the slopes. (ii) At which slope does a layer of given \
         thickness stop? Layers start with the steady profile of a steeper slope, and the slope is bisected. The local \
         μ(I) law stops every layer at tanθ = μ_s whatever its thickness; in experiments thin layers stop on steeper \
         slopes, h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s). The difference is the known limit of a local law, not an error \

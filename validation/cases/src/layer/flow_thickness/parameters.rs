@@ -64,7 +64,7 @@ impl Parameters for FlowThicknessParameters {
 
     fn of_tier(tier: Tier) -> Self {
         let collapse = InclineCollapseParameters {
-            slope_angles: if tier == Tier::Quick { vec![24.0] } else { vec![22.0, 23.0, 24.0, 25.0] },
+            slope_angles: if tier == Tier::Quick { Vec::new() } else { vec![22.0, 23.0, 24.0, 25.0] },
             other_gate_speeds: Vec::new(),
             regularised_slope_angles: Vec::new(),
             ..InclineCollapseParameters::of_tier(tier)
