@@ -3,10 +3,10 @@
 use crate::source::workspace;
 use bagnold_validation::REGISTRY;
 
-/// Row of the table: a case, the comparison in words, and the metric whose range over the chosen variants is shown.
+/// Row of the table: a case, its result in words, and the metric whose range over the chosen variants stands in their `{}`.
 struct Row {
     case: &'static str,
-    compared: &'static str,
+    says: &'static str,
     metric: &'static str,
     /// Part that a variant must have, and part that it must not have.
     with: &'static str,
@@ -15,74 +15,32 @@ struct Row {
 
 const fn row(
     case: &'static str,
-    compared: &'static str,
+    says: &'static str,
     metric: &'static str,
     with: &'static str,
     without: &'static str,
 ) -> Row {
-    Row { case, compared, metric, with, without }
+    Row { case, says, metric, with, without }
 }
 
 const ROWS: [Row; 17] = [
-    row("hydrostatic", "pressure of a layer at rest; error against the exact one", "pressure_l2", "", ""),
-    row(
-        "film",
-        "velocity of Newtonian, Bingham, Herschel–Bulkley films; error, exact",
-        "velocity_l2",
-        "particles=jittered,resolution=20",
-        "numerics",
-    ),
-    row("bagnold", "velocity of a μ(I) layer on 22–25°; error, exact", "velocity_l2", "start=rest", "material"),
-    row(
-        "column-planar",
-        "surface of a collapsed pile; distance over its height, measured",
-        "surface_distance",
-        "material=bars,",
-        "",
-    ),
-    row(
-        "column-round",
-        "run-out of a round column of sand; simulated over measured",
-        "run_out_ratio",
-        "material=sand",
-        "",
-    ),
-    row(
-        "incline-collapse",
-        "run-out on 10° and 16°; fits to experiments: 0.54–0.68 and 1.2–1.5 m",
-        "front_displacement",
-        "gate=1.3",
-        "",
-    ),
-    row("flow-thickness", "slope at which thin layers stop; too flat by, measured", "experimental_excess", "", ""),
-    row("nonlocal-shear", "velocity of creep beside a flow; error, exact", "velocity_l2", "", ""),
-    row(
-        "water-column",
-        "height of a collapsing water column; error, measured",
-        "height_error",
-        "bed=smooth,tension=cut",
-        "",
-    ),
-    row("still-water", "pressure of incompressible water at rest; error, exact", "pressure_l2", "", ""),
-    row("water-film", "velocity of a laminar film; error, exact", "velocity_l2", "", ""),
-    row("clear-water", "mean velocity over a rough bed; simulated over logarithmic law", "mean_velocity", "", ""),
-    row("settling", "settling velocity of one grain, all drag laws; error, exact", "terminal_velocity_error", "", ""),
-    row(
-        "bed-load-1d",
-        "transport on 2, 3 and 5 %; simulated over Wong & Parker's fit",
-        "transport_ratio",
-        "start=rest",
-        "",
-    ),
-    row(
-        "bed-load",
-        "transport of dilating grains; particles over 1-D solution",
-        "transport_ratio",
-        "formulation=dilating",
-        "",
-    ),
-    row("scene", "your 2-D geometry; balances of mass, momentum and energy", "", "", ""),
-    row("scene-space", "your 3-D geometry; the balances", "", "", ""),
+    row("hydrostatic", "pressure at rest {} off exact", "pressure_l2", "", ""),
+    row("film", "velocity {} off exact", "velocity_l2", "particles=jittered,resolution=20", "numerics"),
+    row("bagnold", "velocity on 22–25° {} off exact", "velocity_l2", "start=rest", "material"),
+    row("column-planar", "surface of a pile {} off measured", "surface_distance", "material=bars,", ""),
+    row("column-round", "run-out {} of measured", "run_out_ratio", "material=sand", ""),
+    row("incline-collapse", "run-out {}; experiments 0.54–0.68, 1.2–1.5 m", "front_displacement", "gate=1.3", ""),
+    row("flow-thickness", "thin layers stop {} too flat", "experimental_excess", "", ""),
+    row("nonlocal-shear", "velocity {} off exact", "velocity_l2", "", ""),
+    row("water-column", "height {} off measured", "height_error", "bed=smooth,tension=cut", ""),
+    row("still-water", "pressure {} off exact", "pressure_l2", "", ""),
+    row("water-film", "velocity {} off exact", "velocity_l2", "", ""),
+    row("clear-water", "mean velocity {} of the logarithmic law", "mean_velocity", "", ""),
+    row("settling", "settling velocity {} off exact", "terminal_velocity_error", "", ""),
+    row("bed-load-1d", "transport {} of Wong & Parker's fit", "transport_ratio", "start=rest", ""),
+    row("bed-load", "transport {} of the 1-D layer", "transport_ratio", "formulation=dilating", ""),
+    row("scene", "balances of your 2-D geometry", "", "", ""),
+    row("scene-space", "balances of your 3-D geometry", "", "", ""),
 ];
 
 /// (name, variant, value, unit, verdict) of all metrics of a case.
@@ -101,15 +59,18 @@ fn gates(metrics: &[[String; 5]]) -> (usize, usize) {
     (of("pass"), of("pass") + of("fail"))
 }
 
-/// Two significant digits.
-fn short(value: f64) -> String {
+/// Two decimals of a ratio, two significant digits of other values.
+fn short(value: f64, unit: &str) -> String {
+    if unit.is_empty() {
+        return format!("{value:.2}");
+    }
     let digits = (1.0 - value.abs().log10().floor()).clamp(0.0, 4.0) as usize;
     format!("{value:.digits$}")
 }
 
 fn results() -> String {
-    let mut lines = vec!["| case | compared | result | gates passed |".to_owned(), "|---|---|---|---|".to_owned()];
-    for Row { case, compared, metric, with, without } in &ROWS {
+    let mut lines = vec!["| case | result | gates passed |".to_owned(), "|---|---|---|".to_owned()];
+    for Row { case, says, metric, with, without } in &ROWS {
         let metrics = baseline(case);
         let is_shown = |own: &&[String; 5]| {
             let has = |part: &str| part.split(',').all(|part| own[1].contains(part));
@@ -119,16 +80,19 @@ fn results() -> String {
         let values: Vec<f64> = shown.iter().map(|own| own[2].parse::<f64>().expect("a number").abs()).collect();
         let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &value| (a.min(value), b.max(value)));
         let unit = shown.first().map_or("", |own| own[3].as_str()).replace('-', "");
-        let range =
-            if short(least) == short(most) { short(most) } else { format!("{}–{}", short(least), short(most)) };
-        let result = if values.is_empty() { "balances hold".to_owned() } else { format!("{range} {unit}") };
+        let range = if short(least, &unit) == short(most, &unit) {
+            short(most, &unit)
+        } else {
+            format!("{}–{}", short(least, &unit), short(most, &unit))
+        };
+        let result = says.replace("{}", format!("{range} {unit}").trim());
         let (held, all) = gates(&metrics);
-        lines.push(format!("| `{case}` | {compared} | {} | {held}/{all} |", result.trim()));
+        lines.push(format!("| `{case}` | {result} | {held}/{all} |"));
     }
     let studies: Vec<(usize, usize)> = REGISTRY.studies().map(|study| gates(&baseline(study.name()))).collect();
     let (held, all) = studies.iter().fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
     lines.push(format!(
-        "| {} studies | flows with exact solutions, in scene files | [list](docs/src/cases.md) | {held}/{all} |",
+        "| {} studies | flows with exact solutions ([list](docs/src/cases.md)) | {held}/{all} |",
         studies.len()
     ));
     lines.join("\n")

@@ -35,7 +35,7 @@ pub struct PlaneInlet {
 
 impl setting::SceneInlet<2> for PlaneInlet {
     const GIVEN_BY: &'static str = "to";
-    const TURN: &'static str = "reverse the inlet (`from` and `to`)";
+    const TURN: &'static str = "reverse the inlet (`from`, `to`)";
 
     fn name(&self) -> &str {
         &self.name
