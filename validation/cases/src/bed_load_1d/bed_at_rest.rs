@@ -94,7 +94,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
         "with-and-without-motion",
         "Velocity of the water over moving grains and over the same bed at rest in half-logarithmic axes, as in figures 7 and 8 of the \
          bed-load paper (3 %) and figure 9 (5 %), whose measured points are lost. The paper prints τ* = 0.173 and 0.288, which follow \
-         from the set-up. By closures of the literature; the paper's yield stress of 1220 Pa and viscosity of 0.26 Pa·s are not used.",
+         from the set-up. In the paper the water is slower near the bed and equal above; here it is faster above at 2 and 3 %. By closures of the literature; the paper's yield stress of 1220 Pa and viscosity of 0.26 Pa·s are not used.",
         layers.iter().map(panel).collect(),
     )
     .in_columns(3)

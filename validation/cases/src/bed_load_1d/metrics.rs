@@ -213,7 +213,7 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
                 .against(Some(0.0), identity, Confidence::Exact)
                 .gated(
                     Limit::AtMost(largest),
-                    "holds in any steady state whatever the closures are: what is left is how near to steady a layer counts as",
+                    "exact in a steady state for any closure; a smaller `steady_change` brings it down",
                 )
                 .with_snapshot_tolerance(1.0, 0.1 * largest),
         );

@@ -42,7 +42,7 @@ impl Case for BedLoad1d {
         "bed load over the depth, two phases with closures of the literature, without particles";
     const DESCRIPTION: &'static str = "Water flows down a slope over a bed of grains and drags the upper ones along. Both phases are continua over the \
         depth: grains with μ(I), a solid fraction that falls with I, and drag; water with a mixing length that grows \
-        where grains leave it room. No parameter is fitted. The transport is judged against a formula that was fitted \
+        where grains leave it room. No parameter is fitted; one is chosen, the length over which the roughness of the bed fades. The transport is judged against a formula that was fitted \
         to flume experiments, on three slopes; that the steady state is one, is reached, balances and converges is \
         verified. The water over the moving bed is compared with that over the same bed at rest. The onset of motion is set beside Shields' curve over the grain size, and the layer beside a grain \
         simulation and a measured sheet flow. The solver uses no particles and is the reference for two-phase particles with the same closures: it \

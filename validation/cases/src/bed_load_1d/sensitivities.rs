@@ -126,11 +126,10 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
     }
     (!panels.is_empty()).then(|| Figure {
         name: "sensitivities".to_owned(),
-        caption: "Transport over that of Wong & Parker's formula when one closure is replaced, the others kept. Drag laws: \
-                  1 Morsi–Alexander, 2 Schiller–Naumann, 3 Wen–Yu, 4 Ergun, 5 Gidaspow, 6 Di Felice; mixing lengths: 1 \
-                  integral over the room between the grains, 2 κ z √(1 − z/h), 3 κ z. The mixing length decides: eddies \
-                  that do not feel the grains triple the transport; limiting friction and dilation follow. So does the length over \
-                  which the roughness of the bed fades, which no literature gives, at 2 % above all."
+        caption: "Transport over that of Wong & Parker's formula when one closure is replaced, the others kept, a panel for each closure \
+                  that the tier varies. No literature gives the length over which the roughness of the bed fades. Where they are drawn, \
+                  drag laws are 1 Morsi–Alexander, 2 Schiller–Naumann, 3 Wen–Yu, 4 Ergun, 5 Gidaspow, 6 Di Felice, and mixing lengths \
+                  1 integral over the room between the grains, 2 κ z √(1 − z/h), 3 κ z."
             .to_owned(),
         panels,
         columns: 2,

@@ -178,7 +178,7 @@ fn histories(records: &[&CollapseRecord]) -> Figure {
     Figure::new(
         &of_material("histories", records),
         "The way of the front at a thickness of 0.05 r0 over the aspect ratio and the kinetic energy over the initial potential energy, in times of \
-         free fall √(h0/g). Deposits come to rest. Points are other codes under the same law.",
+         free fall √(h0/g). Deposits come to rest. Points are other codes under the same law, in the colour of their column or, of a second code, in one of their own; bars are twice their uncertainty. The front at the start is that of the first bin.",
         vec![front, energy],
     )
 }

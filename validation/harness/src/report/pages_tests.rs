@@ -149,7 +149,7 @@ fn the_first_page_opens_with_a_panel_for_each_flow_that_the_report_has() {
     assert!(page.find("<section class=\"flow\"") < page.find("<table"));
     assert!(page.contains("Velocity profiles differ by 0.25 % (L2) from"));
     assert!(
-        page.contains("Columns on a plane run out 1.10 times as far as by the fits of an experiment")
+        page.contains("Columns of sand on a plane run out 1.10 times as far as by the fit of an experiment")
             && page.contains("(columns: 1)")
     );
     assert!(

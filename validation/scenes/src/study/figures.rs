@@ -14,7 +14,11 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
     let Some(first) = readings.iter().find_map(|reading| reading.curve.as_ref()) else { return Ok(()) };
     let heading = column.heading();
     let signs = heading.replace('+', "plus").replace('−', "minus");
-    let name = name_of(&format!("{}-{signs}", column.table));
+    let mut name = name_of(&format!("{}-{signs}", column.table));
+    // a column over another one than an earlier check takes has axes of its own
+    if figures.iter().any(|figure| figure.name == name && figure.panels[0].x.label != first.over) {
+        name = name_of(&format!("{name}-over-{}", first.over));
+    }
     let place = figures.iter().position(|figure| figure.name == name).unwrap_or_else(|| {
         let panel = Panel::new("", Axis::linear(&first.over), Axis::linear(&heading));
         let caption = format!("{heading} over {}, as simulated", first.over);
@@ -63,7 +67,8 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
             let edges = [ends.0, ends.1].map(|x| (x, value - uncertainty, value + uncertainty));
             panel.band("", edges);
         }
-        said = format!("dashed: reference of {}, shaded by its standard uncertainty", check.name);
+        let shaded = if uncertainty.is_some() { ", shaded by its standard uncertainty" } else { "" };
+        said = format!("dashed: reference of {}{shaded}", check.name);
     }
     if !said.is_empty() {
         figure.caption += &format!("; {said}");

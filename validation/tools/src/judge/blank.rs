@@ -22,8 +22,8 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
     );
     let variants: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run).to_string()).collect();
     text.push_str(
-        "# One table [[run]] for each run that the code has. Keys that are the code's own business, such as the resolution,\n\
-         # may be left out as long as one run is meant. The runs of this tier:\n",
+        "# One table [[run]] for each run that the code has: the name of the run here whose inputs it has. Name as many keys\n\
+         # as tell it from the others. The runs of this tier:\n",
     );
     for variant in &variants {
         let _ = writeln!(text, "#   \"{variant}\"");

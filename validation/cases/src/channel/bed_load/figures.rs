@@ -103,7 +103,8 @@ fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         panel
     };
     let caption = "Mean velocity of the water in half-logarithmic axes over moving grains and over the same bed at rest (the run with \
-        all grains held), as in figures 7 and 8 (3 %) and 9 (5 %) of the paper; bars are statistical errors from blocks of time. ";
+        all grains held), as in figures 7 and 8 (3 %) and 9 (5 %) of the paper; bars are statistical errors from blocks of time. The bed at rest is that of one particle a grain. \
+        In the paper the water over moving grains is slower near the bed and equal above; here it is not. ";
     Figure::new("water", &format!("{caption}{PRINTED}"), slopes.iter().map(panel).collect()).in_columns(3)
 }
 
@@ -131,9 +132,9 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         drags.push(drag);
     }
     let caption = "Mean velocity of the grains, as in figures 10 (3 %) and 11 (5 %) of the paper, and drag on them per volume, as in its \
-        figures 12 and 13, over the height. The paper's velocities are concave above the bed's level and convex below, its drag peaks \
+        figures 12 and 13, over the height. The paper's velocities as functions of the height are concave above the bed's level and convex below, its drag peaks \
         beside the bed and is less on the topmost grains. With one particle a grain a row moves as a whole and none rises: its \
-        points are rows, its drag is greatest in the topmost. Grains that dilate are binned in half millimetres, in which their rows show. ";
+        points are rows, its drag is greatest in the topmost. Grains that dilate are binned in half millimetres, in which their rows show. Dashed is the 1-D layer. ";
     let columns = slopes.len();
     velocities.extend(drags);
     Figure::new("sediment", &format!("{caption}{PRINTED}"), velocities).in_columns(columns)
@@ -189,15 +190,25 @@ fn has_judged_law(run: &BedLoadRun) -> bool {
     matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.is_judged())
 }
 
+fn is_dilating(run: &BedLoadRun) -> bool {
+    stage_of(run) == Some(Stage::Dilating) && has_judged_law(run)
+}
+
+/// Whether the water begins with the velocity of the 1-D layer.
+fn begins_as_layer(run: &BedLoadRun) -> bool {
+    matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.start == 1.0)
+}
+
 /// Whether a run belongs to a kind.
 type RunFilter = fn(&BedLoadRun) -> bool;
 
 fn transport(records: &[BedLoadRecord]) -> Figure {
     let mut panel = transport_panel::formulas();
-    let kinds: [(&str, usize, RunFilter); 4] = [
+    let kinds: [(&str, usize, RunFilter); 5] = [
         ("Bingham grains, fitted elsewhere", 0, |run| run.formulation.kind() == Some(GrainKind::Stabilised)),
         ("grains of a given solid fraction", 2, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
-        ("grains that dilate", 5, |run| stage_of(run) == Some(Stage::Dilating) && has_judged_law(run)),
+        ("grains that dilate", 5, |run| is_dilating(run) && begins_as_layer(run)),
+        ("the same from half of its velocity, not steady", 4, |run| is_dilating(run) && !begins_as_layer(run)),
         ("other laws between pairs", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
     ];
     for (name, slot, belongs) in kinds {

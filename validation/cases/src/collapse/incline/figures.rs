@@ -61,20 +61,19 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data.collapse;
         let way = |front: &f64| (front - 1.0) * run.reservoir.reservoir_length;
-        let points = data.time.iter().copied().zip(data.rows_front.iter().map(way));
+        let points = data.time.iter().copied().zip(data.front.iter().map(way));
         front.line(&label(run), slot, points);
         let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied());
         energy.line("", slot, points);
         if let Some(beside) = Beside::of_slope(run, data) {
-            let (time_scale, length, scale) = (beside.time_scale, run.reservoir.reservoir_length, beside.energy_scale);
-            beside.draw(&mut front, false, slot, |(time, front)| (time * time_scale, (front - 1.0) * length));
+            let (time_scale, scale) = (beside.time_scale, beside.energy_scale);
             beside.draw(&mut energy, true, slot, |(time, energy)| (time * time_scale, energy * scale));
         }
     }
     Figure::new(
         "fronts",
-        "The way of the front at a thickness of 0.05 r0 from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
-         rest; above it they run until the channel ends. Points are another code under the same law.",
+        "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
+         rest; above it they run on, and the run ends when the first grain is near the end of the channel. Points are another code under the same law.",
         vec![front, energy],
     )
 }

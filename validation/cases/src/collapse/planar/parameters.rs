@@ -1,6 +1,6 @@
 //! The parameters.
 
-use crate::collapse::{ExperimentGrains, Release};
+use crate::collapse::{ExperimentGrains, Release, SAND_HALF_WIDTH};
 use crate::reference::grains::PublishedGrains;
 use crate::setup::{Bulk, rules};
 use bagnold_solver::material::rheology::Rheology;
@@ -134,7 +134,9 @@ pub struct ColumnPlanarParameters {
 }
 
 /// Aspect ratio above which a column is narrower and coarser: the paper's own division of half widths.
-const TALL: f64 = 3.0;
+pub(super) const TALL: f64 = 3.0;
+/// Half width of the paper's tall columns of sand `[m]`.
+const TALL_SAND_HALF_WIDTH: f64 = 0.0292;
 /// Aspect ratio above which `tall_resolution` holds.
 const COARSE: f64 = 5.0;
 /// The paper's figures 7–9: aspect ratio and times `[s]`.
@@ -181,6 +183,11 @@ impl PlanarColumns {
             bulk: Bulk::of_grains(grains.solid_fraction),
             law: Rheology::MuI(grains.law),
         }
+    }
+
+    /// Whether the half width is the user's and that of tall columns still the paper's.
+    pub(super) fn has_paper_width_of_tall_columns_alone(&self) -> bool {
+        self.half_width != SAND_HALF_WIDTH && self.tall_half_width == TALL_SAND_HALF_WIDTH
     }
 
     /// Half width of a column `[m]`.

@@ -1,7 +1,7 @@
 //! The tiers, the rules between parameters, and the runs that they ask for.
 
 use super::parameters::{
-    ColumnPlanarParameters, OtherNumerics, PlanarColumns, Regularised, SHOWN, Sensitivity, Variants,
+    ColumnPlanarParameters, OtherNumerics, PlanarColumns, Regularised, SHOWN, Sensitivity, TALL, Variants,
 };
 use super::runs;
 use crate::case::{ParameterError, Parameters, Tier};
@@ -149,6 +149,13 @@ impl Parameters for ColumnPlanarParameters {
                 continue;
             }
             let name = grains.name();
+            let is_tall = |run: &&&ColumnRun| run.material.grains == grains && run.aspect_ratio > TALL;
+            if columns.has_paper_width_of_tall_columns_alone() && runs.iter().any(|run| is_tall(&run)) {
+                let rule = "your own as well as `half_width`: columns taller than a = 3 have it";
+                let remedy = format!("set it to {}", columns.half_width);
+                let field = format!("{name}.tall_half_width");
+                return Err(ParameterError::field(&field, columns.tall_half_width, rule, &remedy));
+            }
             rules::material(&format!("{name}.law"), &columns.law)?;
             columns.bulk.check(&columns.law).map_err(|error| error.within(name))?;
             rules::viscous_step("numerics", &self.release.numerics, &columns.law)?;
