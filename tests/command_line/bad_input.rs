@@ -172,7 +172,7 @@ fn columns_that_nobody_can_wait_for_and_windows_that_do_not_fit() {
     refused(
         &place,
         &["column-round", "--set", "columns=[{aspect_ratio=1.0,resolution=900}]"],
-        "`columns[0].resolution` is 900, but must be such that no column has more than 5e6 particles; the column of aspect ratio 1 would have 5.7e8: choose a smaller resolution",
+        "`columns[0].resolution` is 900, but must be chosen for at most 5e6 particles per column; the column of aspect ratio 1 would have 5.7e8: choose a smaller resolution",
     );
     refused(
         &place,

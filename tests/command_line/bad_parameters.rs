@@ -21,11 +21,11 @@ fn a_layer_of_water_and_grains_that_cannot_be() {
         ),
         (
             "slopes=[0.03, 0.15]",
-            "`slopes[1]` is 0.15, but must be such that the slope, 0.15000, is below 0.10804, where the bed slides on its base; deepen the bed to more than 0.1643 m, or choose a gentler slope",
+            "`slopes[1]` is 0.15, but must be for a slope below 0.10804, where the bed slides (here 0.15000); deepen the bed to more than 0.1643 m, or choose a gentler slope",
         ),
         (
             "similar.shields_number=9.0",
-            "`similar.shields_number` is 9, but must be such that the slope, 0.72000, is below 0.06348, where the bed slides on its base; no bed of these grains lies on such a slope: choose a gentler one",
+            "`similar.shields_number` is 9, but must be for a slope below 0.06348, where the bed slides (here 0.72000); no bed of these grains lies on such a slope: choose a gentler one",
         ),
         (
             "onset.relative_depth=12.33",
@@ -221,7 +221,13 @@ fn a_gate_with_operators_or_walls_that_know_no_smooth_ones() {
     );
     refused(
         &place,
-        &["flow-thickness", "--set", "collapse.numerics.momentum_operator=\"pairwise-corrected\""],
+        &[
+            "flow-thickness",
+            "--set",
+            "collapse.slope_angles=[24.0]",
+            "--set",
+            "collapse.numerics.momentum_operator=\"pairwise-corrected\"",
+        ],
         &operator("collapse.", "pairwise-corrected"),
     );
     let walls = |path: &str| {
@@ -230,7 +236,17 @@ fn a_gate_with_operators_or_walls_that_know_no_smooth_ones() {
         )
     };
     refused(&place, &["incline-collapse", "--set", "numerics.wall_treatment=\"paper\""], &walls(""));
-    refused(&place, &["flow-thickness", "--set", "collapse.numerics.wall_treatment=\"paper\""], &walls("collapse."));
+    refused(
+        &place,
+        &[
+            "flow-thickness",
+            "--set",
+            "collapse.slope_angles=[24.0]",
+            "--set",
+            "collapse.numerics.wall_treatment=\"paper\"",
+        ],
+        &walls("collapse."),
+    );
 }
 
 #[test]
@@ -244,7 +260,17 @@ fn an_implicit_step_without_a_viscous_law_or_its_divergence() {
     for case in ["hydrostatic", "bagnold", "column-planar", "column-round", "incline-collapse"] {
         refused(&place, &[case, "--set", "numerics.viscous_step=\"implicit\""], &plastic(""));
     }
-    refused(&place, &["flow-thickness", "--set", "collapse.numerics.viscous_step=\"implicit\""], &plastic("collapse."));
+    refused(
+        &place,
+        &[
+            "flow-thickness",
+            "--set",
+            "collapse.slope_angles=[24.0]",
+            "--set",
+            "collapse.numerics.viscous_step=\"implicit\"",
+        ],
+        &plastic("collapse."),
+    );
     refused(
         &place,
         &["film", "--set", "numerics.viscous_step=\"implicit\"", "--set", "numerics.momentum_operator=\"pairwise\""],

@@ -313,8 +313,8 @@ fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFractionPro
 /// Refuses a layer whose bed slides on its base.
 pub(super) fn check_sliding(field: &str, value: f64, run: &BedLoad1dRun) -> Result<(), ParameterError> {
     match run.layer().and_then(|layer| layer.check()) {
-        Err(LayerError::BedSlides { limit, remedy, .. }) => {
-            let rule = format!("below {limit:.5}, where the bed slides on its base");
+        Err(LayerError::BedSlides { slope, limit, remedy }) => {
+            let rule = format!("for a slope below {limit:.5}, where the bed slides (here {slope:.5})");
             Err(ParameterError::field(field, value, &rule, &remedy))
         }
         _ => Ok(()),

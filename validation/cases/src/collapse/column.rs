@@ -177,6 +177,14 @@ impl ColumnRun {
         (self.initial_height() * self.half_width / self.release.gravity).sqrt()
     }
 
+    /// Whether it is one of the tall columns of the paper's sand that are coarser than those that laws judge.
+    pub(super) fn is_for_exponents(&self) -> bool {
+        self.material == Material::SAND
+            && self.geometry == Geometry::Planar
+            && self.aspect_ratio > 5.0
+            && self.resolution < 20
+    }
+
     /// Whether there are enough rows over the height for a gate.
     #[must_use]
     pub fn is_resolved(&self) -> bool {

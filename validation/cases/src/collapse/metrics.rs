@@ -16,7 +16,7 @@ use super::quantities::{
 };
 use crate::case::Run;
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, Quantity, Variant};
 use crate::reference::collapse::{COLLAPSE_DURATION, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use crate::setup::energy_ledger;
 use bagnold_solver::material::rheology::Rheology;
@@ -49,7 +49,16 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
                 height: numerical(Collapse::final_height),
                 spread,
             };
-            let own = of_column(run, &record.data, known);
+            let mut own = of_column(run, &record.data, known);
+            // columns that only exponents are fitted to are too coarse for more
+            if run.is_for_exponents() {
+                let observed = |metric: Metric| Metric { reference: None, gate: None, ..metric };
+                let is_compared = |metric: &Metric| metric.kind == MetricKind::Validation;
+                own = own
+                    .into_iter()
+                    .map(|metric| if is_compared(&metric) { observed(metric) } else { metric })
+                    .collect();
+            }
             match pile_of(run).filter(|_| !run.is_of_own_grains()) {
                 Some(pile) => {
                     // points of its own experiment stand in the place of other experiments' laws

@@ -229,10 +229,10 @@ mod tests {
         assert_eq!(of(1e5, 3600.0).problem(&LIMITS), None);
         let (rule, remedy) = of(1e8, 1.0).problem(&LIMITS).expect("too large");
         assert_eq!(rule, "less demanding (limit 16 GiB of memory)");
-        assert!(remedy.starts_with("1.0e8 particles would take 340 GiB"), "{remedy}");
+        assert!(remedy.starts_with("1.0e8 particles need 340 GiB"), "{remedy}");
         let (rule, remedy) = of(1.0, 1e9).problem(&LIMITS).expect("too long");
         assert_eq!(rule, "less demanding (limit 100 core hours)");
-        assert!(remedy.starts_with("1.0e15 particle-steps would take 2.8e5 hours"), "{remedy}");
+        assert!(remedy.starts_with("1.0e15 particle-steps need 2.8e5 core hours"), "{remedy}");
         for cost in [f64::NAN, f64::INFINITY] {
             assert!(of(cost, 1.0).problem(&LIMITS).is_some() && of(1.0, cost).problem(&LIMITS).is_some());
             assert!(of(1.0, 1.0).and(of(cost, cost)).problem(&LIMITS).is_some());

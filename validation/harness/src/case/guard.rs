@@ -224,7 +224,7 @@ mod tests {
         assert_eq!(
             message,
             "`steps` is [900000, 10], but must be less demanding (limit 0.00001 core hours); 9.0e5 \
-             particle-steps would take 0.00018 hours: ask for less, or allow more with --most-hours"
+             particle-steps need 0.00018 core hours: reduce it or raise --most-hours"
         );
         assert_eq!(refused(&["steps=[900000, 10]"], LIMITS), "taken");
     }
@@ -241,7 +241,7 @@ mod tests {
         let small = of(&[Variant::of("steps", 10)]).expect_err("both of that name are chosen");
         assert!(small.starts_with("`steps[2]` is 10, but must be unique"), "{small}");
         let large = of(&[Variant::of("steps", 900_000)]).expect_err("the long one is chosen");
-        assert!(large.contains("such that the runs take at most"), "{large}");
+        assert!(large.contains("but must be less demanding"), "{large}");
         let settings = ["steps=[900000, 10]".to_owned()];
         let only = [Variant::of("steps", 10)];
         let changes = Changes { settings: &settings, limits, only: &only, ..Changes::default() };
@@ -252,7 +252,7 @@ mod tests {
     #[test]
     fn a_tier_that_is_beyond_a_limit_is_named_itself() {
         let message = refused(&[], Limits { core_hours: 1e-12, ..LIMITS });
-        assert!(message.starts_with("`tier` is quick, but must be such that the runs take"), "{message}");
+        assert!(message.starts_with("`tier` is quick, but must be less demanding"), "{message}");
     }
 
     #[test]

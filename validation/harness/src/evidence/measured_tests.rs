@@ -50,8 +50,8 @@ fn a_bad_number_is_located() {
 #[test]
 fn a_bad_table_is_located() {
     let cases = [
-        ("y [m],u [m/s]\n1,2\n1\n", "line 10, column 1: the row has 1 fields"),
-        ("y [m],u [m/s]\n1,2,3\n", "line 9, column 2: the row has 3 fields"),
+        ("y [m],u [m/s]\n1,2\n1\n", "line 10, column 1: 1 fields in a table"),
+        ("y [m],u [m/s]\n1,2,3\n", "line 9, column 2: 3 fields in a table"),
         ("y [m],y [mm]\n1,2\n", "line 8, column 2: the name `y` is used twice"),
         ("y [m],u [m/s\n1,2\n", "line 8, column 2: `u [m/s` does not end"),
         ("y [],u [m/s]\n1,2\n", "line 8, column 1: `y []` has an empty unit"),
