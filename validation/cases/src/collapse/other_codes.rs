@@ -7,7 +7,7 @@ use super::quantities::{FRONT, KINETIC_ENERGY};
 use super::reservoir::Reservoir;
 use super::slope::SlopeRun;
 use crate::figure::Panel;
-use crate::metric::{Limit, Metric, Origin, Variant};
+use crate::metric::{Limit, Metric, MetricKind, Origin, Variant};
 use crate::reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
 use crate::reference::grains::GLASS_BEADS;
 use crate::statistics::{Extrapolation, interpolated};
@@ -93,10 +93,13 @@ impl<'a> Beside<'a> {
                 .with_snapshot_tolerance(1e-2, 1e-3);
             Some(metric.gated_by(is_judged.then_some(Limit::Within(mean - width, mean + width)), REASON))
         };
-        [of(KINETIC_ENERGY.of(&variant, energy), true, 0.0), of(FRONT.of(&variant, front), false, 1.0)]
-            .into_iter()
-            .flatten()
-            .collect()
+        [
+            of(KINETIC_ENERGY.of(&variant, energy), true, 0.0),
+            of(FRONT.of(&variant, front).of_kind(MetricKind::Verification), false, 1.0),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
     }
 
     /// The codes' points in a panel over t/√(h_0/g), each changed by a linear function; an error bar is twice the code's uncertainty.
