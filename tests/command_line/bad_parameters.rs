@@ -209,44 +209,19 @@ fn a_roughness_that_no_wall_has() {
 #[test]
 fn a_gate_with_operators_or_walls_that_know_no_smooth_ones() {
     let place = Place::new();
-    let operator = |path: &str, value: &str| {
-        format!(
-            "`{path}numerics.momentum_operator` is {value}, but must be \"single-divergence\" or \"uncorrected-divergence\" with a smooth wall, such as a gate; the pairwise operators know rough walls only; choose one of these, or leave the gate out"
-        )
-    };
-    refused(
-        &place,
-        &["incline-collapse", "--set", "numerics.momentum_operator=\"pairwise\""],
-        &operator("", "pairwise"),
-    );
-    refused(
-        &place,
-        &[
-            "flow-thickness",
-            "--set",
-            "collapse.slope_angles=[24.0]",
-            "--set",
-            "collapse.numerics.momentum_operator=\"pairwise-corrected\"",
-        ],
-        &operator("collapse.", "pairwise-corrected"),
-    );
-    let walls = |path: &str| {
-        format!(
-            "`{path}numerics.wall_treatment` is paper, but must be \"extrapolated\" with a smooth wall, such as a gate; the paper's walls are rough; choose this, or leave the gate out"
-        )
-    };
-    refused(&place, &["incline-collapse", "--set", "numerics.wall_treatment=\"paper\""], &walls(""));
-    refused(
-        &place,
-        &[
-            "flow-thickness",
-            "--set",
-            "collapse.slope_angles=[24.0]",
-            "--set",
-            "collapse.numerics.wall_treatment=\"paper\"",
-        ],
-        &walls("collapse."),
-    );
+    let operators = "must be \"single-divergence\" or \"uncorrected-divergence\" with a smooth wall, such as a gate; the pairwise operators know rough walls only; choose one of these, or leave the gate out";
+    let walls = "must be \"extrapolated\" with a smooth wall, such as a gate; the paper's walls are rough; choose this, or leave the gate out";
+    for (field, value, rule) in [
+        ("numerics.momentum_operator", "pairwise", operators),
+        ("numerics.momentum_operator", "pairwise-corrected", operators),
+        ("numerics.wall_treatment", "paper", walls),
+    ] {
+        let message = |path: &str| format!("`{path}{field}` is {value}, but {rule}");
+        refused(&place, &["incline-collapse", "--set", &format!("{field}=\"{value}\"")], &message(""));
+        let setting = format!("collapse.{field}=\"{value}\"");
+        let slope = "collapse.slope_angles=[24.0]";
+        refused(&place, &["flow-thickness", "--set", slope, "--set", &setting], &message("collapse."));
+    }
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod falling_rows;
 mod known_failures;
 mod long_runs;
 mod perturbation;
+mod reference_values;
 mod run_out;
 mod scene_preparation;
 mod scene_texts;

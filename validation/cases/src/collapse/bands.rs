@@ -20,7 +20,7 @@ pub(super) const SAME_LAW_REASON: &str = "the same material law solved by anothe
 /// How far results may lie from an experiment's law that tells no scatter of its points, at most `[-]`.
 pub(super) const WIDEST: f64 = 0.15;
 
-/// How far results may lie from Lube's law `[-]`: as far as Lajeunesse's does, at least `least` over it and [`WIDEST`] at most.
+/// Largest distance of results from Lube's law, relative `[-]`: as far as Lajeunesse's does, at least `least` over it and [`WIDEST`] at most.
 fn apart(laws: &[CollapseLaw], a: f64, least: f64) -> Option<f64> {
     let [lube, other] =
         [CollapseLawSource::Lube, CollapseLawSource::Lajeunesse].map(|author| author.law(laws).value(a));

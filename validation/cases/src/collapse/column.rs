@@ -28,6 +28,8 @@ const POINTS: f64 = 40.0;
 pub(super) const PICTURES: [f64; 4] = [0.0, 0.75, 1.5, 2.5];
 /// Time between the frames of the animation over √(h_0/g) `[-]`.
 const FRAME_INTERVAL: f64 = 0.1;
+/// Aspect ratio above which planar columns have a resolution of their own `[-]`.
+pub(crate) const TALLEST_FINE: f64 = 5.0;
 
 /// The column's cross-section.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -177,11 +179,11 @@ impl ColumnRun {
         (self.initial_height() * self.half_width / self.release.gravity).sqrt()
     }
 
-    /// Whether it is one of the tall columns of the paper's sand that are coarser than those that laws judge.
+    /// Whether only exponents are fitted to it: a tall column of the paper's sand that is too coarse for a law.
     pub(super) fn is_for_exponents(&self) -> bool {
         self.material == Material::SAND
             && self.geometry == Geometry::Planar
-            && self.aspect_ratio > 5.0
+            && self.aspect_ratio > TALLEST_FINE
             && self.resolution < 20
     }
 

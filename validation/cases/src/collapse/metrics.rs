@@ -38,7 +38,7 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
         let (run, record) = column;
         let beside = Beside::of_column(run, &record.data).filter(|_| run.purpose == ColumnPurpose::Law);
         if let Some(beside) = beside {
-            metrics.extend(beside.metrics(&run.variant(), MID_COLLAPSE, run.has_published_law()));
+            metrics.extend(beside.metrics(&run.variant(), MID_COLLAPSE));
         }
         // no experiment has round columns of these grains
         let is_compared = (run.geometry, run.material) != (Geometry::Round, Material::LAGREE);

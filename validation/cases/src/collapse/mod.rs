@@ -35,6 +35,7 @@ mod velocity_profile;
 mod watch;
 mod wedge;
 
+pub(crate) use column::TALLEST_FINE;
 pub use column::{ColumnPurpose, ColumnRun, Geometry};
 pub use deposit::{BIN_WIDTH, Collapse};
 pub use fronts::{FRONT_THICKNESS, Fronts};

@@ -1,5 +1,7 @@
-//! Collapses beside the same law by other codes, over time: the kinetic energy tells how much friction rises with the rate, which fronts at rest do not.
+//! Collapses beside other codes under the same law, over time. The kinetic energy tells how much friction rises with the rate; fronts at rest do
+//! not.
 
+use super::bands::SAME_LAW;
 use super::column::{ColumnRun, Geometry};
 use super::deposit::Collapse;
 use super::material::Material;
@@ -7,23 +9,23 @@ use super::quantities::{FRONT, KINETIC_ENERGY};
 use super::reservoir::Reservoir;
 use super::slope::SlopeRun;
 use crate::figure::Panel;
-use crate::metric::{Limit, Metric, MetricKind, Origin, Variant};
+use crate::metric::{Limit, Metric, MetricKind, Origin, Quantity, Variant};
 use crate::reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
 use crate::reference::grains::GLASS_BEADS;
 use crate::statistics::{Extrapolation, interpolated};
 use bagnold_solver::material::rheology::Rheology;
 
-/// How far the same law by another method may lie `[-]`.
-const SAME_LAW: f64 = 0.15;
 const REASON: &str =
     "15 %, twice the standard deviation of the run-outs that four methods give of one column of these grains (7.5 %)";
 
 /// Time at which columns are compared, over √(h_0/g) `[-]`: later the other codes are known less well, earlier laws differ by less.
 pub(super) const MID_COLLAPSE: f64 = 2.0;
-/// Speed of the gate in the table `[m/s]`.
-const GATE_SPEED: f64 = 1.3;
+/// Half width of the columns in the tables `[m]`: with the grains' diameter it sets their inertial number.
+const HALF_WIDTH: f64 = 0.1;
+/// Speed of the gate `[m/s]`, height and length of the reservoir in the table `[m]`.
+const RELEASE: (f64, f64, f64) = (1.3, 0.14, 0.2);
 
-/// A collapse, and how its times and energies are measured.
+/// A collapse that a table has, with the scales of its times and energies.
 pub(super) struct Beside<'a> {
     codes: &'a OtherCodes,
     /// Aspect ratio `[-]` or slope `[°]`, as the table has it.
@@ -36,14 +38,14 @@ pub(super) struct Beside<'a> {
 }
 
 impl<'a> Beside<'a> {
-    /// A column of Lagrée's grains; none of other grains.
+    /// A column of Lagrée's grains and of the tables' width; none of others.
     pub(super) fn of_column(run: &ColumnRun, collapse: &'a Collapse) -> Option<Self> {
         let codes = match run.geometry {
             Geometry::Planar => &*PLANAR_CODES,
             Geometry::Round => &*ROUND_CODES,
         };
         let energy_scale = *collapse.potential_energy.first()?;
-        let is_of_them = run.material == Material::LAGREE;
+        let is_of_them = run.material == Material::LAGREE && run.has_published_law() && run.half_width == HALF_WIDTH;
         is_of_them.then_some(Self {
             codes,
             flow: run.aspect_ratio,
@@ -53,10 +55,10 @@ impl<'a> Beside<'a> {
         })
     }
 
-    /// Glass beads behind the gate of the table, with the law itself; none of others.
+    /// Glass beads behind gate and in the reservoir of the table; none of others.
     pub(super) fn of_slope(run: &SlopeRun, collapse: &'a Collapse) -> Option<Self> {
         let Reservoir { initial_height, reservoir_length, gravity, .. } = run.reservoir;
-        let is_of_them = run.gate_speed == GATE_SPEED
+        let is_of_them = (run.gate_speed, initial_height, reservoir_length) == RELEASE
             && run.regularisation_rate.is_none()
             && run.law == Rheology::MuI(GLASS_BEADS.law);
         is_of_them.then_some(Self {
@@ -68,38 +70,31 @@ impl<'a> Beside<'a> {
         })
     }
 
-    /// A series of the collapse at a time over √(h_0/g).
-    fn own(&self, values: &[f64], time: f64) -> f64 {
+    /// A series of the collapse at a time over √(h_0/g); none for a run that is shorter.
+    fn own(&self, values: &[f64], time: f64) -> Option<f64> {
         let points: Vec<(f64, f64)> = self.collapse.time.iter().copied().zip(values.iter().copied()).collect();
-        interpolated(&points, time * self.time_scale, (Extrapolation::EndValue, Extrapolation::EndValue))
-            .unwrap_or(f64::NAN)
+        interpolated(&points, time * self.time_scale, (Extrapolation::Nothing, Extrapolation::Nothing))
     }
 
     /// Kinetic energy and front at a time over √(h_0/g), beside those of the codes that tell them.
-    pub(super) fn metrics(&self, variant: &Variant, time: f64, is_judged: bool) -> Vec<Metric> {
+    pub(super) fn metrics(&self, variant: &Variant, time: f64) -> Vec<Metric> {
         let variant = Variant::of("free_fall_times", time).followed_by(variant);
-        let energy = self.own(&self.collapse.kinetic_energy, time) / self.energy_scale;
-        let front = self.own(&self.collapse.rows_front, time);
-        let of = |metric: Metric, is_energy: bool, start: f64| {
+        let beside = |quantity: Quantity, values: &[f64], scale: f64, is_energy: bool, start: f64| {
             let (mean, uncertainty) = self.codes.at(self.flow, is_energy, time)?;
             let width = SAME_LAW * (mean - start);
-            let metric = metric
-                .against(Some(mean), &self.codes.source, self.codes.confidence)
-                .known_to(
-                    Origin::Numerical,
-                    Some(uncertainty),
-                    "the other codes: their spacing and step, and how far they are apart",
-                )
-                .with_snapshot_tolerance(1e-2, 1e-3);
-            Some(metric.gated_by(is_judged.then_some(Limit::Within(mean - width, mean + width)), REASON))
+            let metric = quantity.of(&variant, self.own(values, time)? / scale).of_kind(MetricKind::Verification);
+            let source = "the other codes: their spacing and step, and how far they are apart";
+            Some(
+                metric
+                    .against(Some(mean), &self.codes.source, self.codes.confidence)
+                    .known_to(Origin::Numerical, Some(uncertainty), source)
+                    .with_snapshot_tolerance(1e-2, 1e-3)
+                    .gated(Limit::Within(mean - width, mean + width), REASON),
+            )
         };
-        [
-            of(KINETIC_ENERGY.of(&variant, energy), true, 0.0),
-            of(FRONT.of(&variant, front).of_kind(MetricKind::Verification), false, 1.0),
-        ]
-        .into_iter()
-        .flatten()
-        .collect()
+        let energy = beside(KINETIC_ENERGY, &self.collapse.kinetic_energy, self.energy_scale, true, 0.0);
+        let front = beside(FRONT, &self.collapse.rows_front, 1.0, false, 1.0);
+        energy.into_iter().chain(front).collect()
     }
 
     /// The codes' points in a panel over t/√(h_0/g), each changed by a linear function; an error bar is twice the code's uncertainty.

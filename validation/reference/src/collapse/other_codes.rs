@@ -80,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn codes_are_read_by_flow_and_told_apart() {
+    fn series_are_read_by_flow() {
         for codes in [&PLANAR_CODES, &ROUND_CODES, &SLOPE_CODES] {
             for series in &codes.series {
                 assert!(series.points.is_sorted_by(|one, other| one.0 < other.0), "{series:?}");

@@ -128,7 +128,7 @@ pub(super) fn printed(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Reco
     );
 }
 
-/// What is reported of the grains; of flows that have forgotten their start the shape of their profile is judged by the paper's statement.
+/// Metrics of the grains; of flows that have forgotten their start the shape of their profile is judged by the paper's statement.
 pub(super) fn grains(metrics: &mut Vec<Metric>, run: &BedLoadRun, data: &BedLoadObservation, judged: bool) {
     let variant = run.variant();
     let layer = data.layer.as_ref();

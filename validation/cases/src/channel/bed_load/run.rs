@@ -16,7 +16,7 @@ pub enum BedLoadFormulation {
     Continuum(ContinuumRun),
 }
 
-/// Which run of one particle a grain it is.
+/// Kind of a run of one particle per grain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GrainKind {

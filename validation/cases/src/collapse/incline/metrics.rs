@@ -88,7 +88,7 @@ pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
         }
     }
     if let Some(beside) = Beside::of_slope(run, data) {
-        metrics.extend(beside.metrics(&variant, WELL_DOWN_THE_SLOPE, true));
+        metrics.extend(beside.metrics(&variant, WELL_DOWN_THE_SLOPE));
     }
     if is_of_the_figures(run) {
         metrics.extend(FIELD_TIMES.iter().filter_map(|&time| of_fields(time, run, record)).flatten());

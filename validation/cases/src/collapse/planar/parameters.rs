@@ -1,6 +1,6 @@
 //! The parameters.
 
-use crate::collapse::{ExperimentGrains, Release, SAND_HALF_WIDTH};
+use crate::collapse::{ExperimentGrains, Release, SAND_HALF_WIDTH, TALLEST_FINE};
 use crate::reference::grains::PublishedGrains;
 use crate::setup::{Bulk, rules};
 use bagnold_solver::material::rheology::Rheology;
@@ -137,8 +137,6 @@ pub struct ColumnPlanarParameters {
 pub(super) const TALL: f64 = 3.0;
 /// Half width of the paper's tall columns of sand `[m]`.
 const TALL_SAND_HALF_WIDTH: f64 = 0.0292;
-/// Aspect ratio above which `tall_resolution` holds.
-const COARSE: f64 = 5.0;
 /// The paper's figures 7–9: aspect ratio and times `[s]`.
 pub(super) const SHOWN: [(f64, &[f64]); 3] =
     [(0.9, &[0.07, 0.11, 0.3]), (2.75, &[0.04, 0.12, 0.34, 0.53]), (4.8, &[0.04, 0.2, 0.4])];
@@ -158,7 +156,7 @@ impl ColumnPlanarParameters {
     pub(super) fn resolution_field(&self, grains: ExperimentGrains, aspect_ratio: f64) -> &'static str {
         match grains {
             ExperimentGrains::Bars => "bars_resolution",
-            _ if aspect_ratio > COARSE => "tall_resolution",
+            _ if aspect_ratio > TALLEST_FINE => "tall_resolution",
             _ => "resolution",
         }
     }
@@ -167,7 +165,7 @@ impl ColumnPlanarParameters {
     pub(super) fn resolution_of(&self, grains: ExperimentGrains, aspect_ratio: f64) -> usize {
         match grains {
             ExperimentGrains::Bars => self.bars_resolution,
-            _ if aspect_ratio > COARSE => self.tall_resolution,
+            _ if aspect_ratio > TALLEST_FINE => self.tall_resolution,
             _ => self.resolution,
         }
     }

@@ -1,0 +1,137 @@
+//! Reference values that files hold as numbers, by the route that they came from: what material points extrapolate to, and the travelling front
+//! that `fed-slope` is compared with.
+
+use bagnold_reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
+use bagnold_reference::grains::GLASS_BEADS;
+use std::path::Path;
+
+fn text(path: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Kinetic energy over ½ M g h_0 of a stored run of material points at a time `[ms]`.
+fn kinetic_energy(folder: &str, time: f64) -> f64 {
+    let table = text(&format!("tests/foreign/mpm/output/{folder}/series.csv"));
+    let heading: Vec<&str> = table.lines().next().unwrap_or_default().split(';').collect();
+    let column = heading.iter().position(|name| *name == "kinetic_over_Mgh0").expect("a column of energies");
+    let point = |line: &str| -> (f64, f64) {
+        let cells: Vec<f64> = line.split(';').map(|cell| cell.parse().expect("a number")).collect();
+        (cells[0], 2.0 * cells[column])
+    };
+    let points: Vec<(f64, f64)> = table.lines().skip(1).map(point).collect();
+    let after = points.iter().position(|point| point.0 >= time).expect("a run that lasts as long");
+    let [(from, low), (to, high)] = [points[after - 1], points[after]];
+    low + (high - low) * (time - from) / (to - from)
+}
+
+/// The finest energy and once more the last difference: an error of first order in the spacing.
+#[test]
+fn energies_of_other_codes_follow_from_stored_runs() {
+    let flows: [(&OtherCodes, f64, f64, f64, &str, &str); 5] = [
+        (&PLANAR_CODES, 1.0, 0.1, 2.0, "a1-40-points", "a1-80-points"),
+        (&PLANAR_CODES, 3.0, 0.3, 2.0, "a3", "a3-40-points"),
+        (&ROUND_CODES, 0.9, 0.09, 2.0, "round-a0.9-40-points", "round-a0.9-80-points"),
+        (&ROUND_CODES, 3.0, 0.3, 2.0, "round-a3", "round-a3-40-points"),
+        (&SLOPE_CODES, 22.0, 0.14, 4.0, "slope-22-60-points", "slope-22-120-points"),
+    ];
+    for (codes, flow, height, time, coarse, fine) in flows {
+        let milliseconds = 1e3 * time * (height / 9.81_f64).sqrt();
+        let [coarse, fine] = [coarse, fine].map(|folder| kinetic_energy(folder, milliseconds));
+        let (value, _) = codes.at(flow, true, time).expect("a value");
+        let expected = 2.0 * fine - coarse;
+        assert!((value / expected - 1.0).abs() < 0.015, "{flow}: {value} instead of {expected}");
+    }
+}
+
+/// A front of the local law that travels as it is: uniform layer h_∞ `[m]`, mean velocity u `[m/s]`, and the thickness over h_∞ behind
+/// the place of half of it, by (1 + u²/(4 g cosθ h)) dh/dx = tanθ − μ(I), I ∝ h^(−3/2).
+struct TravellingFront {
+    thickness: f64,
+    velocity: f64,
+    /// Behind the place of half of the thickness, every hundredth of h_∞.
+    profile: Vec<f64>,
+}
+
+impl TravellingFront {
+    fn of(gravity: [f64; 2], discharge: f64) -> Self {
+        let (grains, slope, weight) = (GLASS_BEADS.law, -gravity[0] / gravity[1], -gravity[1]);
+        let range = grains.limiting_friction - grains.static_friction;
+        let inertia = (slope - grains.static_friction) / (grains.limiting_friction - slope);
+        let rate = 0.4 * grains.reference_inertia * inertia / grains.grain_diameter;
+        let thickness = (discharge / (rate * (GLASS_BEADS.solid_fraction * weight).sqrt())).powf(0.4);
+        let velocity = discharge / thickness;
+        let squared_froude = velocity * velocity / (weight * thickness);
+        let rise = |y: f64| {
+            let friction = grains.static_friction + range / (1.0 + y.powf(1.5) / inertia);
+            (friction - slope) / (1.0 + 0.25 * squared_froude / y)
+        };
+        let mut profile = vec![0.5];
+        for place in 0..12_000 {
+            let y = profile[place];
+            profile.push(y + 0.01 * rise(y + 0.005 * rise(y)));
+        }
+        Self { thickness, velocity, profile }
+    }
+
+    /// Mean thickness `[m]` over an interval of time `[s]` at a place that the front has come a distance `[m]` beyond at time 0.
+    fn mean_thickness(&self, beyond: f64, from: f64, to: f64) -> f64 {
+        let steps = 200;
+        let time = |step: i32| from + (f64::from(step) + 0.5) * (to - from) / f64::from(steps);
+        let behind = |time: f64| (beyond + self.velocity * time) / self.thickness;
+        let at = |step: i32| self.profile[(100.0 * behind(time(step))).round() as usize];
+        self.thickness * (0..steps).map(at).sum::<f64>() / f64::from(steps)
+    }
+}
+
+fn number(value: &toml::Value) -> f64 {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64)).expect("a number")
+}
+
+fn numbers(value: &toml::Value) -> Vec<f64> {
+    value.as_array().expect("a list").iter().map(number).collect()
+}
+
+#[test]
+fn references_of_the_fed_slope_are_those_of_its_front() {
+    let study: toml::Value = toml::from_str(&text("validation/studies/fed-slope.toml")).expect("TOML");
+    let density = GLASS_BEADS.solid_fraction * GLASS_BEADS.law.grain_density;
+    let variants = study["variants"].as_array().expect("variants");
+    assert_eq!(variants.len(), 4);
+    for variant in variants {
+        let (name, set) = (variant["name"].as_str().expect("a name"), &variant["set"]);
+        let only = format!("variant={name}");
+        let checks = study["checks"].as_array().expect("checks");
+        let check = |wanted: &str| {
+            let own =
+                |check: &&toml::Value| check["name"].as_str() == Some(wanted) && check["only"].as_str() == Some(&only);
+            checks.iter().find(own).unwrap_or_else(|| panic!("{wanted} of {name}"))
+        };
+        let gravity: [f64; 2] = numbers(&set["gravity"]).try_into().expect("two numbers");
+        let rate = number(&set["inlets"][0]["rates"][0][1]);
+        let front = TravellingFront::of(gravity, rate / density);
+        // the surface of the uppermost slice, from the tip backwards
+        let surface: Vec<Vec<f64>> =
+            set["bodies"][3]["points"].as_array().expect("points").iter().map(numbers).collect();
+        let half = 0.5 * front.thickness;
+        let pair =
+            surface.windows(2).find(|pair| pair[0][1] < half && pair[1][1] >= half).expect("half of the thickness");
+        let start = pair[0][0] + (pair[1][0] - pair[0][0]) * (half - pair[0][1]) / (pair[1][1] - pair[0][1]);
+        let station = numbers(&set["gauges"][1]["at"])[0];
+        let mean =
+            |check: &toml::Value| front.mean_thickness(start - station, number(&check["from"]), number(&check["to"]));
+        let at_thickness = check("flux_at_thickness");
+        let middle = 0.5 * (number(&at_thickness["from"]) + number(&at_thickness["to"]));
+        for (wanted, expected) in [
+            ("uniform_layer", front.thickness),
+            ("front_speed", front.velocity),
+            ("flux_at_thickness", density * front.velocity * middle),
+            ("thickness_behind_front", mean(check("thickness_behind_front"))),
+            ("thickness_near_front", mean(check("thickness_near_front"))),
+            ("flux_behind_front", density * front.velocity * mean(check("flux_behind_front"))),
+        ] {
+            let reference = number(&check(wanted)["reference"]);
+            assert!((reference / expected - 1.0).abs() < 0.01, "{name} {wanted}: {reference} instead of {expected}");
+        }
+    }
+}
