@@ -8,6 +8,8 @@ const RANGE: (f64, f64) = (0.055, 0.5);
 const POINTS: i32 = 120;
 /// Transport below which no measured run is drawn `[-]`.
 const LEAST_TRANSPORT: f64 = 1e-3;
+/// Shields number from which on the band holds `[-]`.
+const BAND_FROM: f64 = 0.1;
 /// Colour of the measured runs, behind the formulas.
 const MEASURED_SLOT: usize = 6;
 
@@ -18,10 +20,12 @@ pub(crate) fn formulas() -> Panel {
     let shields = |k: i32| RANGE.0 * libm::pow(RANGE.1 / RANGE.0, f64::from(k) / f64::from(POINTS));
     let own = TransportFormula::WongParker;
     let curve = |formula: TransportFormula| (0..=POINTS).map(shields).map(move |tau| (tau, formula.transport(tau)));
+    let most = MEASURED_TRANSPORT.iter().map(|(tau, _)| *tau).fold(0.0, f64::max);
     panel.band(
         &format!("nine tenths of the runs from τ* = 0.1 on: factor {:.2} … {:.2}", MEASURED_BAND.0, MEASURED_BAND.1),
         (0..=POINTS)
             .map(shields)
+            .filter(|tau| (BAND_FROM..=most).contains(tau))
             .map(|tau| (tau, MEASURED_BAND.0 * own.transport(tau), MEASURED_BAND.1 * own.transport(tau))),
     );
     panel.points("measured, Meyer-Peter & Müller 1948", MEASURED_SLOT, drawn);

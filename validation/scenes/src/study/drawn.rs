@@ -141,7 +141,9 @@ impl FigureText {
             let is_drawn = |value: f64| value.is_finite() && (!self.logarithmic || value > 0.0);
             if let Some(label) = &series.reference {
                 let known = |(place, metric): &(f64, &Metric)| Some((*place, metric.reference.as_ref()?.value?));
-                panel.line(label, slot, found.iter().filter_map(known).filter(|point| is_drawn(point.1)));
+                let points: Vec<_> = found.iter().filter_map(known).filter(|point| is_drawn(point.1)).collect();
+                // one place alone makes no line
+                panel.draw(label, if points.len() == 1 { Mark::OpenPoints } else { Mark::Line }, slot, points);
                 let edges = found.iter().filter_map(|(place, metric)| {
                     let value = metric.reference.as_ref()?.value?;
                     let standard = metric.uncertainty.of(&[Origin::Experiment])?;
@@ -157,7 +159,11 @@ impl FigureText {
                 panel.draw(label, Mark::Points, slot, values.filter(|point| is_drawn(point.1)));
             }
         }
-        Figure::new(&self.name, &format!("{} Points are simulated, lines are references.", self.caption), vec![panel])
+        Figure::new(
+            &self.name,
+            &format!("{} Filled points are simulated, lines and open points are references.", self.caption),
+            vec![panel],
+        )
     }
 
     /// Abscissa of a variant.
