@@ -1,5 +1,7 @@
 //! The book in `docs/`: its tutorials do what they say, and its links lead somewhere.
 
+mod reference;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -24,16 +24,16 @@ use clap::{ArgAction, Args, Parser, Subcommand};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
-  bagnold list                                 what can be run
+  bagnold list                                 all cases and studies
   bagnold run film                             one case, in seconds
-  bagnold run bagnold --tier paper --threads 4 the same at full resolution
+  bagnold run bagnold --tier paper --threads 4 one case at full resolution
   bagnold show film > my.toml                  parameters to edit
   bagnold run my.toml --out results            run the edited file
   bagnold report                               all cases, judged on one page: reports/index.html
-  bagnold judge mine.toml                      another code's results under the same gates
-  bagnold examples --out examples              calibrations, scenes, sweeps to begin with
+  bagnold judge mine.toml                      results of another code under the same gates
+  bagnold examples --out examples              sample calibrations, scenes, sweeps
 
-Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
+Exit codes: 0 all gates pass, 1 a gate fails, 2 bad input, 3 a run diverged.";
 
 const RUN_EXAMPLES: &str = "Examples:
   bagnold run film
@@ -45,17 +45,17 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run column-planar --only material=sand,aspect_ratio=3 --output-every 0.01
   bagnold run my-study.toml
 
-A file names its case with `case = \"film\"` and takes from the tier what it leaves out; `bagnold show film`
-prints a complete one. Values of --set are TOML; fields inside tables are reached by dots.
+A file names its case with `case = \"film\"`; the tier supplies the fields that it omits. `bagnold show film`
+prints a complete file. Values of --set are TOML; dots reach fields inside tables.
 
-Measurements for --overlay are a table of three columns, named as the axes of a figure are, with units:
+Measurements for --overlay are a table of three columns, named like the axes of a figure, with units:
 
   # source: own flume, May
   # limit: 2                       largest root mean square residual; without it nothing is judged
   y/h [-],u [cm/s],uncertainty [cm/s]
   0.3,8.6,0.3
 
-A study, a file with `study = \"NAME\"`, says beside its base what is measured and judged:
+A study is a file with `study = \"NAME\"`. It names a base and the checks of its results:
 
   study = \"my-flume\"
   summary = \"glass beads in my flume\"
@@ -68,12 +68,12 @@ A study, a file with `study = \"NAME\"`, says beside its base what is measured a
   at_most = 2.0
   reason = \"two standard uncertainties of the camera\"
 
-`# figure:`, `# panel:` and `# curve:` say which is meant where there are several. --output-every, or in a file
-[output] with every and fields, writes states/RUN.pvd and states/RUN-walls.pvd; such runs are simulated from their start.
+`# figure:`, `# panel:` and `# curve:` select one of several. --output-every, or [output] with `every` and `fields`
+in a file, writes states/RUN.pvd and states/RUN-walls.pvd; such runs start anew.
 The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
 snapshots/*.pvd for ParaView.
 
-Exit codes: 0 all gates hold, 1 a gate fails, 2 bad input, 3 a run diverged.";
+Exit codes: 0 all gates pass, 1 a gate fails, 2 bad input, 3 a run diverged.";
 
 const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
@@ -82,9 +82,10 @@ const REPORT_EXAMPLES: &str = "Examples:
   bagnold report --figure 85mm,9pt,300dpi      figures for a column of a journal
   bagnold report --suite my-flume
 
-The report is one self-contained folder: open its index.html, which leads to a page of every case. What fails comes first.
+The report is one self-contained folder. Its index.html links to a page of every case; failures come first.
 
-Exit codes: 0 all gates hold, 1 a gate fails or, with --deny drift, a value has drifted, 2 bad input, 3 a run diverged.";
+Exit codes: 0 all gates pass, 1 a gate fails or, with --deny drift, a value differs from its baseline,
+2 bad input, 3 a run diverged.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:
   bagnold examples --out examples
@@ -92,7 +93,7 @@ const CALIBRATE_EXAMPLES: &str = "Examples:
   bagnold calibrate my.toml --out mine
   bagnold run mine/calibrated.toml
 
-A file with one parameter and one fitted datum; [[hold_out]] has the form of [[fit]]:
+A file with one parameter and one fitted value; [[hold_out]] has the form of [[fit]]:
 
   title = \"static friction of our sand\"
 
@@ -110,17 +111,17 @@ A file with one parameter and one fitted datum; [[hold_out]] has the form of [[f
 data may also name a CSV: { table = \"profile-…\", x = \"y [m]\", y = \"u [m/s]\", file = \"mine.csv\" }.
 The folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml.";
 
-/// Granular and sediment flows by smoothed particle hydrodynamics, judged against exact solutions and experiments.
+/// Simulates granular and sediment flows by smoothed particle hydrodynamics and judges them against exact solutions and experiments.
 #[derive(Debug, Parser)]
 #[command(name = "bagnold", version, after_help = EXAMPLES, propagate_version = true)]
 pub struct Arguments {
     /// Command.
     #[command(subcommand)]
     pub command: Command,
-    /// Say more on standard error; twice for every detail.
+    /// Verbose output; repeat (-vv) for debug output.
     #[arg(short, long, global = true, action = ArgAction::Count, conflicts_with = "quiet")]
     pub verbose: u8,
-    /// Print no progress and no warnings on standard error.
+    /// Suppress progress and warnings.
     #[arg(short, long, global = true)]
     pub quiet: bool,
 }
@@ -128,35 +129,35 @@ pub struct Arguments {
 /// The commands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// List the cases.
+    /// List the cases and studies.
     List,
-    /// Print a case's parameters as a TOML file that `run` takes.
+    /// Print the parameters of a case as a TOML file for `run`.
     Show(ShowArguments),
-    /// Print the JSON Schema of a case's TOML file, or of a study's, with which editors complete and check it.
+    /// Print the JSON Schema of a case or study file, for completion and checks in editors.
     Schema(SchemaArguments),
     /// Simulate one case and judge it.
     Run(RunArguments),
-    /// Judge other codes' results on a case as our own are judged.
+    /// Judge results of other codes by the gates of a case.
     Judge(JudgeArguments),
-    /// Write what another code needs to run a case.
+    /// Write the inputs that another code needs to run a case.
     Export(ExportArguments),
-    /// Put results that were written earlier beside each other.
+    /// Compare folders of earlier runs or reports.
     Compare(CompareArguments),
-    /// Write the calibrations, scenes, studies and sweeps that ship with bagnold, to run or to edit.
+    /// Write sample calibrations, scenes, studies and sweeps.
     Examples(ExamplesArguments),
-    /// Write a crate with a law or a case of your own, ready to build.
+    /// Write a crate with a user-defined law or case, ready to build.
     New(NewArguments),
-    /// Print a shell's completions, or the manual page.
+    /// Print shell completions or the manual page.
     Completions(CompletionsArguments),
-    /// Simulate many cases and write one page about them.
+    /// Simulate all cases and write a validation report.
     Report(ReportArguments),
-    /// Find the parameters that agree best with data, and judge them on data held out.
+    /// Fit parameters to data and judge them on validation data.
     Calibrate(CalibrateArguments),
-    /// Simulate cases at many points of their parameters, here or on a cluster.
+    /// Simulate cases at many parameter values, locally or on a cluster.
     Sweep(Box<SweepArguments>),
-    /// List what is stored, or delete what is old or too much of it.
+    /// List stored results, or delete old ones.
     Store(StoreArguments),
-    /// Check bits, gates and sensitivity tables of Bagnold itself, for its developers.
+    /// Check bits, gates and sensitivity tables (for developers of Bagnold).
     #[command(subcommand)]
     Dev(DevCommand),
 }
@@ -167,7 +168,7 @@ pub struct SchemaArguments {
     /// Name of a case, see `bagnold list`, or `study` for the file of a study.
     #[arg(value_name = "CASE|study")]
     pub case: String,
-    /// Tier whose parameters are a case's defaults.
+    /// Tier that supplies the defaults.
     #[arg(long, value_enum, default_value_t = Tier::Quick)]
     pub tier: Tier,
 }
@@ -175,13 +176,13 @@ pub struct SchemaArguments {
 /// `bagnold show`
 #[derive(Debug, Args)]
 pub struct ShowArguments {
-    /// Name of a case, see `bagnold list`; with --picture also a TOML file that describes one.
+    /// Name of a case, see `bagnold list`; with --picture also a case file.
     #[arg(value_name = "CASE|FILE.toml")]
     pub case: String,
     /// Tier: the cost of the case [default: the file's, else quick].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
-    /// Draw a scene as it starts instead, with what its walls take of its bodies; no simulation.
+    /// Draw the initial state of a scene instead, with the material that its walls remove; no simulation.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     pub picture: Option<PathBuf>,
 }
@@ -190,7 +191,7 @@ pub struct ShowArguments {
 #[derive(Debug, Args)]
 #[command(after_help = RUN_EXAMPLES)]
 pub struct RunArguments {
-    /// Name of a case, or a TOML file that describes one or a study.
+    /// Name of a case, or a TOML file of a case or study.
     #[arg(value_name = "CASE|FILE.toml")]
     pub target: String,
     /// Tier: the cost of the case [default: the file's, else quick].
@@ -199,28 +200,28 @@ pub struct RunArguments {
     /// Change one parameter; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
-    /// Do the runs with these keys only, such as material=sand,aspect_ratio=3; may be repeated.
+    /// Select runs by their keys, such as material=sand,aspect_ratio=3; may be repeated.
     #[arg(long, value_name = "key=value,…")]
     pub only: Vec<crate::metric::Variant>,
-    /// Draw measurements into the case's figure with their axes, and say how far the case is from them; may be repeated.
+    /// Draw measurements into the figure with their axes and compute the difference; may be repeated.
     #[arg(long, value_name = "FILE.csv")]
     pub overlay: Vec<PathBuf>,
-    /// Write the particles of every run at this interval of simulated time, for ParaView: states/*.pvd.
+    /// Write the particles of every run at this interval of simulated time, for ParaView (states/*.pvd).
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     pub output_every: Option<f64>,
-    /// Fields of the particles to write, such as id,velocity,shear_rate,inertial_number [default: all].
+    /// Particle fields to write, such as id,velocity,shear_rate,inertial_number [default: all].
     #[arg(long, value_name = "FIELD,…", value_delimiter = ',', requires = "output_every")]
     pub output_fields: Vec<String>,
     /// Folder to write [default: reports/runs/CASE-TIER].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Print metrics.json on standard output, and nothing else there.
+    /// Print only metrics.json on standard output.
     #[arg(long)]
     pub json: bool,
-    /// Write the verdicts as JUnit's XML as well, for CI systems: one test per gate.
+    /// Also write the verdicts as JUnit XML, one test per gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
-    /// Say on standard error where the time went: stages, the longest runs, memory.
+    /// Print wall time, processor time and peak memory on standard error.
     #[arg(long)]
     pub profile: bool,
     /// Size of figures.
@@ -240,7 +241,7 @@ pub struct RunArguments {
   bagnold completions bash > ~/.local/share/bash-completion/completions/bagnold
   bagnold completions man > ~/.local/share/man/man1/bagnold.1")]
 pub struct CompletionsArguments {
-    /// For what.
+    /// Shell, or `man` for the manual page.
     #[arg(value_enum)]
     pub of: CompletionsOf,
 }
@@ -265,30 +266,29 @@ pub struct ReportArguments {
     /// Tier: the cost of each case [default: quick, or the study's].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
-    /// Cases by name, separated by commas [default: all].
+    /// Comma-separated names of cases [default: all].
     #[arg(long, value_name = "CASE,…", value_delimiter = ',')]
     pub cases: Vec<String>,
-    /// A folder of studies of your own, in place of the cases.
+    /// Folder of user-defined studies that replace the cases.
     #[arg(long, value_name = "DIR", conflicts_with = "cases")]
     pub suite: Option<PathBuf>,
     /// Folder to write [default: reports, or reports/suites/NAME].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Accept these values: later reports and the drift test are compared with them. They go to tests/snapshots of the
-    /// checkout that one works in, else to snapshots in the current folder, which goes before what bagnold carries; those of a
-    /// suite to snapshots in its folder.
+    /// Save these values as the new baseline (tests/snapshots in a checkout, otherwise ./snapshots; for a suite,
+    /// snapshots/ in its folder).
     #[arg(long)]
     pub accept: bool,
-    /// Compare with an earlier report's folder instead of the accepted values.
+    /// Compare with the folder of an earlier report instead of the baseline.
     #[arg(long, value_name = "DIR", conflicts_with = "accept")]
     pub against: Option<PathBuf>,
-    /// End with exit code 1 for this as well.
+    /// Also end with exit code 1 in this case.
     #[arg(long, value_enum, value_name = "WHAT", conflicts_with = "accept")]
     pub deny: Option<Denied>,
-    /// Write the verdicts as JUnit's XML as well, for CI systems: one test per gate.
+    /// Also write the verdicts as JUnit XML, one test per gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
-    /// Say on standard error where the time went: stages, the longest runs, memory.
+    /// Print wall time, processor time and peak memory on standard error.
     #[arg(long)]
     pub profile: bool,
     /// Size of figures.
@@ -305,7 +305,7 @@ pub struct ReportArguments {
 /// Findings that `--deny` turns into errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Denied {
-    /// A value that has left the tolerance about what it is compared with, or is no longer measured.
+    /// A value differs from its baseline by more than its tolerance, or is missing.
     Drift,
 }
 
@@ -313,13 +313,13 @@ pub enum Denied {
 #[derive(Debug, Args)]
 #[command(after_help = CALIBRATE_EXAMPLES)]
 pub struct CalibrateArguments {
-    /// TOML file that says which parameters, which cases and which data.
+    /// TOML file with parameters, cases and data.
     #[arg(value_name = "FILE.toml")]
     pub file: PathBuf,
     /// Folder to write [default: reports/calibrations/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Open a calibration that is done again; an unfinished one resumes without it.
+    /// Reopen a finished calibration; an unfinished one resumes without this option.
     #[arg(long)]
     pub resume: bool,
     /// Resource limits of the runs at one point.

@@ -12,11 +12,11 @@ quantities! {
     shared pub(super)
     VELOCITY_DEFICIT: stated(
         "velocity_deficit", "u_*",
-        "velocity of the water at a height less that over the same bed at rest, which differs in nothing but that no grain moves",
+        "water velocity at a height minus the velocity over the same bed with all grains fixed",
     ),
     LAYER_SLOPE_RATIO: stated(
         "layer_slope_ratio", "-",
-        "slope of the water's velocity over ln z from 0.5 to 3 mm above the bed, over that above the same bed at rest",
+        "slope du/d(ln z) of the water from 0.5 to 3 mm above the bed, over the slope above the same bed with all grains fixed",
     ),
 }
 

@@ -21,20 +21,20 @@ quantities! {
         regimes::POWER_LAW_MISFIT,
         regimes::LOWEST_LAYER_EXPONENT, regimes::TRANSPORT_OVER_MEASURED, printed_laws::LAW_ERROR,
     ]
-    TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over that of the formula, or of a published layer"),
+    TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over q* of the formula or of a published layer"),
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
     MEAN_FLUID_VELOCITY: verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity"),
-    STRESS_BALANCE_ERROR: verified("stress_balance_error", "-", "what both stresses do not carry of the weight above"),
+    STRESS_BALANCE_ERROR: verified("stress_balance_error", "-", "largest imbalance of the stresses of both phases with the weight component above, over the bed stress"),
     DRAG_BALANCE_ERROR:
-        verified("drag_balance_error", "-", "what the drag does not balance of the grains' stress and weight"),
+        verified("drag_balance_error", "-", "largest imbalance of drag, grain stress and grain weight, over the bed stress"),
     START_DIFFERENCE:
         verified("start_difference", "-", "difference between the steady states from rest and from a fast start"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence with the height of a cell"),
     MOVES_ABOVE: verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s"),
     TOP_OF_GRAINS: verified("top_of_grains", "mm", "height up to which there are grains"),
-    DECAY_LENGTH: verified("decay_length", "mm", "length over which the velocity of the grains falls by e in the bed"),
+    DECAY_LENGTH: verified("decay_length", "mm", "e-folding length of the grain velocity in the bed"),
     GRAIN_CURVATURE: stated("grain_curvature", "u_*/d²", "curvature of the grains' velocity over the height, above or below the bed's level"),
-    DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "where the drag on the grains is greatest"),
+    DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "height of the largest drag on the grains"),
     DRAG_FROM: verified("drag_from", "mm", "lower end of the range in which the drag on the grains exceeds a tenth of its peak"),
     DRAG_TO: verified("drag_to", "mm", "upper end of the range in which the drag on the grains exceeds a tenth of its peak"),
     LOGARITHMIC_SLOPE:
@@ -43,12 +43,12 @@ quantities! {
         stated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
     DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "least ratio of the decay length from a slope to the next"),
     DRAG_DEPTH_GROWTH: stated("drag_depth_growth", "-", "least ratio, from a slope to the next, of the depth down to which the drag exceeds a tenth of its peak"),
-    ONSET_RATIO: validated("onset_ratio", "-", "Shields number at which grains move over that of Shields' curve"),
-    ONSET: validated("onset", "-", "Shields number at which grains move"),
+    ONSET_RATIO: validated("onset_ratio", "-", "Shields number at the onset of motion over Shields' curve"),
+    ONSET: validated("onset", "-", "Shields number at the onset of motion"),
     ONSET_OVER_MEASURED:
-        validated("onset_over_measured", "-", "Shields number at which grains move over the median of the measured thresholds of grains of its size"),
+        validated("onset_over_measured", "-", "Shields number at the onset of motion over the median of thresholds measured with grains of this size"),
     TRANSPORT_SENSITIVITY:
-        verified("transport_sensitivity", "-", "q* with a replaced closure over that of the literature's"),
+        verified("transport_sensitivity", "-", "q* with one closure replaced, over q* with the closures of the literature"),
 }
 
 /// Speed above which a grain counts as moving `[m/s]`.

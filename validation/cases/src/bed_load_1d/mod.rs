@@ -40,14 +40,17 @@ impl Case for BedLoad1d {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "bed load over the depth, two phases with closures of the literature, without particles";
-    const DESCRIPTION: &'static str = "Water flows down a slope over a bed of grains and drags the upper ones along. Both phases are continua over the \
-        depth: grains with μ(I), a solid fraction that falls with I, and drag; water with a mixing length that grows \
-        where grains leave it room. No parameter is fitted; one is chosen, the length over which the roughness of the bed fades. The transport is judged against a formula that was fitted \
-        to flume experiments, on three slopes; that the steady state is one, is reached, balances and converges is \
-        verified. The water over the moving bed is compared with that over the same bed at rest. The onset of motion is set beside Shields' curve over the grain size, and the layer beside a grain \
-        simulation and a measured sheet flow. The solver uses no particles and is the reference for two-phase particles with the same closures: it \
-        shares their physics, so that agreement of the two verifies and does not validate. Sensitivities (paper tier) \
-        tell which closure the transport hangs on.";
+    const DESCRIPTION: &'static str = "\
+        Setup. Water flows down a slope and drags the upper grains of a bed along. Both phases are continua over the \
+        depth, without particles. Grains have μ(I), a solid fraction that falls with I, and drag; water has a mixing \
+        length that grows where grains leave room. No parameter is fitted to the transport. One is chosen: the \
+        length over which bed roughness fades.\n\n\
+        Judged. Transport on three slopes against a formula fitted to flume experiments. Two starts must reach one \
+        steady state, balance and converge. Water over the moving bed against water over the same bed at rest. \
+        Velocity of grains, transport of sheet flow and the onset of motion (Shields' curve) against measurements.\n\n\
+        Observed only. Depth of the moving layer, the decay of grain velocity with depth, and sensitivities to each \
+        closure (paper tier). The layer is also the reference of `bed-load`. Both share their closures, so their \
+        agreement verifies the particles and does not validate the physics.";
     type Parameters = BedLoad1dParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 

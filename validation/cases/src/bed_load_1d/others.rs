@@ -11,16 +11,16 @@ use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 
 quantities! {
     shared pub(super)
-    FRACTION_DIFFERENCE: validated("fraction_difference", "-", "root mean square of the solid fraction less the published one, over its heights"),
+    FRACTION_DIFFERENCE: validated("fraction_difference", "-", "√⟨(φ − φ_published)²⟩ over the published heights"),
     GRAIN_VELOCITY_DIFFERENCE: validated(
         "grain_velocity_difference", "%",
-        "root mean square of the grains' velocity less the published one, over its largest",
+        "√⟨(u_s − u_published)²⟩ over the largest published velocity",
     ),
     FLUID_VELOCITY_DIFFERENCE:
-        validated("fluid_velocity_difference", "%", "root mean square of the water's velocity less the published one, over its largest"),
+        validated("fluid_velocity_difference", "%", "√⟨(u_f − u_published)²⟩ over the largest published velocity"),
     TURBULENT_STRESS_DIFFERENCE: validated(
         "turbulent_stress_difference", "%",
-        "root mean square of the water's stress less the published one, over that on the bed",
+        "√⟨(τ_f − τ_published)²⟩ over the bed stress",
     ),
 }
 

@@ -11,7 +11,7 @@ use crate::statistics::{linear_fit, power_law};
 
 quantities! {
     shared pub(super)
-    ROWS_IN_MOTION: stated("rows_in_motion", "-", "rows of packed grains that all grains faster than 1 cm/s would make"),
+    ROWS_IN_MOTION: stated("rows_in_motion", "-", "number of packed rows formed by all grains faster than 1 cm/s"),
     POWER_LAW_MISFIT_RATIO: stated(
         "power_law_misfit_ratio", "-",
         "rms misfit of the water's velocity among moving grains to a power of the height over that to its logarithm",
@@ -20,7 +20,7 @@ quantities! {
     LOWEST_LAYER_EXPONENT: validated("lowest_layer_exponent", "-", "exponent of the power of the height that fits the water's velocity in the lowest layer"),
     TRANSPORT_OVER_MEASURED: validated(
         "transport_over_measured", "-",
-        "q* over the median of measured runs of about the same Shields number",
+        "q* over the median of measured runs at nearly equal Shields number",
     ),
 }
 

@@ -36,12 +36,15 @@ impl Case for NonlocalShearFlows {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "grains that creep beside a flow: a chute, a dragged bed and a heap between side walls under the nonlocal law";
-    const DESCRIPTION: &'static str = "Three flows of glass beads, periodic along rough walls, whose stresses the balance of momentum gives: a \
-        vertical chute, a bed under gravity below a plate that drags it, and a heap on a slope between side walls, whose friction stops it below its surface. Where the shear stress over the pressure is below μ_s a local \
-        law is at rest. Under the nonlocal law the shear decays there over a few grains, as it does in experiments. The steady \
-        flow is an ordinary differential equation, solved without particles; particles begin a tenth too fast and are compared with it at the pressure \
-        that they have: the length over which the velocity falls by e below the depth at which the local law is at rest, the layer \
-        that shears at a wall of the chute, the velocities, the traction of the plate. The heap flows under the local law too, whose profile is exact.";
+    const DESCRIPTION: &'static str = "\
+        Setup. Three steady flows of glass beads under the nonlocal law, periodic along rough walls: a vertical \
+        chute, a bed dragged by a plate under gravity, and a heap on a slope between side walls. The momentum \
+        balance fixes their stresses. A local law is at rest where the stress ratio is below μ_s; the nonlocal law \
+        shears there over a few grains. Particles start 10 % too fast and are compared with the ordinary \
+        differential equation of the steady flow, at the pressure that they have.\n\n\
+        Judged. Velocities, the e-folding length of the creeping zone, the width of the shear layer at a wall of the \
+        chute, and the traction on the plate. The heap also runs under the local law, whose profile is exact.\n\n\
+        Observed only. Velocities at the surface and in the plug, and the decay length deep in the bed.";
     type Parameters = NonlocalShearParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 

@@ -7,21 +7,21 @@ quantities! {
     [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PARTICLES_LOST: accounted("particles_lost", "-", "particles that ended behind a wall"),
     OVERFILLING: verified(
-        "overfilling", "%", "volume m/ρ of all particles over that of the channel, less 1, by which they bear more on the walls than their own pressure"
+        "overfilling", "%", "total volume m/ρ of all particles over the volume of the channel, minus 1"
     ),
     PRESSURE_UNEVENNESS: verified(
-        "pressure_unevenness", "%", "largest deviation of a row's pressure from that of the balance of momentum, over the mean"
+        "pressure_unevenness", "%", "largest deviation of the pressure of a row from the momentum balance, over the mean"
     ),
-    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
+    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 error of the velocity profile, √(Σ(u − u_ref)²/Σu_ref²)"),
     WALL_LAYER: verified(
-        "wall_layer", "diameters", "distance from the wall within which the velocity less that of the middle falls by e"
+        "wall_layer", "diameters", "e-folding distance from the wall of the velocity relative to the middle"
     ),
-    PLUG_VELOCITY_ERROR: verified("plug_velocity_error", "%", "velocity in the middle of a chute over the exact one, less 1"),
+    PLUG_VELOCITY_ERROR: verified("plug_velocity_error", "%", "u_middle/u_exact − 1 of a chute"),
     FRICTION_ERROR: verified(
-        "friction_error", "%", "friction of the walls at which the model would have the same velocity in the middle, over theirs, less 1"
+        "friction_error", "%", "wall friction that gives the model the same velocity in the middle, over the imposed friction, minus 1"
     ),
-    TRACTION_ERROR: verified("traction_error", "%", "mean shear stress over that of the plate's velocity, less 1"),
-    SURFACE_VELOCITY_ERROR: verified("surface_velocity_error", "%", "velocity of the uppermost row of a heap over the exact one there, less 1"),
+    TRACTION_ERROR: verified("traction_error", "%", "mean shear stress over the exact stress at the velocity of the plate, minus 1"),
+    SURFACE_VELOCITY_ERROR: verified("surface_velocity_error", "%", "u/u_exact − 1 of the uppermost row of a heap"),
     FLOWING_DEPTH: verified(
         "flowing_depth", "diameters", "depth at which the velocity of a heap is a hundredth of that of its surface"
     ),
@@ -29,13 +29,13 @@ quantities! {
         "observed_order", "-", "order of convergence of velocity_l2 under the local law from one resolution to the next"
     ),
     DECAY_LENGTH: verified(
-        "decay_length", "diameters", "length over which the velocity falls by e, below the depth at which the local law is at rest"
+        "decay_length", "diameters", "e-folding length of the velocity below the depth at which the local law is at rest"
     ),
     TAIL_STRAIGHTNESS: verified(
         "tail_straightness", "-", "R² of a straight line through the logarithm of the velocity over that depth"
     ),
     DEEP_DECAY_LENGTH: validated(
-        "deep_decay_length", "diameters", "length over which the velocity falls by e in the deeper half of the tail"
+        "deep_decay_length", "diameters", "e-folding length of the velocity in the deeper half of the tail"
     ),
 }
 

@@ -39,21 +39,21 @@ impl Case for Settling {
     const NAME: &'static str = "settling";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a grain alone and a uniform suspension sink in a fluid, by every drag law";
-    const DESCRIPTION: &'static str = "One grain sinks through a box of fluid that is periodic in both directions and that is pushed up by as much as \
-        the grain weighs. Its slip against the fluid around it, in the mean over a window after the start, must be the \
-        root of the balance of submerged weight and drag; the momentum of both phases must close in every step to \
-        rounding. Formulation paper: the bed-load paper's operators and the drag from each pair's own slip; stabilised: \
-        the default operators and the drag from the grain's slip against the mean of the fluid around it. The slip that \
-        is judged is the one that the drag is taken from: in the mean form |⟨u_f⟩ − u_s|, in the pair form the U whose \
-        drag is the mean of the pairs' drag, C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|. Where the fluid moves unevenly within the \
-        kernel U lies above the slip of the means, by half the variance in Newton's regime; that one and the root mean \
-        square are observed. Formulation continuum: a uniform suspension sinks in a periodic column under the full \
-        gravity. One pore pressure makes the flux of the mixture free of divergence and pushes both phases, and a \
-        uniform pressure gradient takes out its mean, as the floor of a vessel does. Slip and sinking velocity must be \
-        those of the balance of the submerged weight and K; at φ = 0.002 they are those of a sphere alone. The solid \
-        fraction is given and stays uniform: with slip and without a stress between the grains, two phases of one \
-        pressure are unstable at short waves. The kernel of the drag, two or three spacings wide, holds them back for \
-        the time of a run, not for ever; the unevenness of the grains' velocities is observed.";
+    const DESCRIPTION: &'static str = "\
+        Setup, one grain (`paper`, `stabilised`). A grain settles in a doubly periodic box of fluid. An upward body \
+        force on the fluid balances the weight of the grain. `paper` uses the operators of the bed-load paper and \
+        drag per pair of particles; `stabilised` uses the default operators and the mean fluid velocity near the \
+        grain.\n\n\
+        Setup, suspension (`continuum`). A suspension of given, uniform solid fraction settles in a periodic column \
+        under gravity. One pore pressure makes the mixture flux divergence-free. A uniform pressure gradient removes \
+        the mean flux, as the floor of a vessel would.\n\n\
+        Judged. The mean slip velocity must balance drag and submerged weight. It is the slip that the drag is \
+        computed from: |⟨u_f⟩ − u_s|, or for pair drag the U with C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|. Momentum of both \
+        phases must close to rounding in every step. At φ = 0.002 the suspension must settle like a single sphere. \
+        Hindered settling against measurements.\n\n\
+        Observed only. Hindered settling beside Richardson & Zaki. Slip of the means and root-mean-square slip of \
+        pair drag. The scatter of grain velocities: two phases with one pressure are ill-posed at short waves, and \
+        the drag kernel (two or three spacings wide) suppresses this for the duration of the run only.";
     type Parameters = SettlingParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 

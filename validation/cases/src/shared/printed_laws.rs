@@ -6,7 +6,7 @@ use crate::metric::{Confidence, Limit, Metric, Variant, quantities};
 
 quantities! {
     shared pub(crate)
-    LAW_ERROR: verified("law_error", "%", "value of a law over that of the printed law, less 1"),
+    LAW_ERROR: verified("law_error", "%", "value of a law over the printed law, minus 1"),
 }
 
 /// One metric per law: its value at the place that the table describes, over the table's.

@@ -11,11 +11,11 @@ use crate::statistics::{Extrapolation, interpolated};
 quantities! {
     [ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WORK]
     FRONT_ERROR: validated("front_error", "%", "root mean square of the front's relative error at the measured times"),
-    FRONT_DELAY: validated("front_delay", "√(a/2g)", "delay of the measured front that fits best"),
-    DELAYED_FRONT_ERROR: validated("delayed_front_error", "%", "error of the front at the measured times less the delay of the measured front"),
-    HEIGHT_ERROR: validated("height_error", "%", "root mean square of the height at the wall less the measured one, over that at first"),
+    FRONT_DELAY: validated("front_delay", "√(a/2g)", "best-fit delay of the measured front"),
+    DELAYED_FRONT_ERROR: validated("delayed_front_error", "%", "error of the front, with measured times shifted by `front_delay`"),
+    HEIGHT_ERROR: validated("height_error", "%", "√⟨(h − h_measured)²⟩ of the height at the wall, over the initial height"),
     DELAYED_HEIGHT_ERROR:
-        validated("delayed_height_error", "%", "root mean square of the height at the wall less the measured one, at the measured times less the delay that the front tells"),
+        validated("delayed_height_error", "%", "√⟨(h − h_measured)²⟩ of the height at the wall, with measured times shifted by the delay of the front"),
 }
 
 /// A row of twenty over the width of a column twice as high, of its height `[%]`.

@@ -25,14 +25,15 @@ impl Case for WaterColumn {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "a column of water that collapses on a bed: no wall may feed energy into it, and its front runs as measured";
-    const DESCRIPTION: &'static str = "A column of water of 1 mPa·s, twice as high as wide, is released beside a symmetry plane, by the weakly \
-        compressible model. Grains hide what a wall feeds into the flow, because they \
-        dissipate it at once; water shows it. The energy ledger must close and the total energy may not rise, on smooth \
-        and on rough beds, with and without tension. A square column behind a gate that is lifted at 4.53 m/s has to run as fast as \
-        the measured one (Lobovský et al. 2014). The height at the wall of a column that is released at once falls as Martin & Moyce (1952) \
-        measured it; its front is shown beside theirs, which starts later. The \
-        momentum equation is the uncorrected divergence, whose forces do the same work as the density that continuity \
-        steps: with the kernel correction the same column gains 1.4 % of the work of gravity.";
+    const DESCRIPTION: &'static str = "\
+        Setup. A column of water (1 mPa·s), twice as high as wide, is released beside a symmetry plane by the weakly \
+        compressible model, on smooth and on rough beds, with and without tension. Grains would dissipate energy \
+        that a wall feeds in; water shows it. Another column, square, stands behind a gate that is lifted at 4.53 \
+        m/s. The momentum equation uses the uncorrected divergence, which is adjoint to the continuity equation.\n\n\
+        Judged. The energy ledger closes and total energy does not rise. The front of the gated column against \
+        Lobovský et al. (2014). The height at the wall against Martin & Moyce (1952).\n\n\
+        Observed only. The front beside that of Martin & Moyce, which starts later. With kernel-corrected forces the \
+        same column gains 1.4 % of the work of gravity.";
     type Parameters = WaterColumnParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;

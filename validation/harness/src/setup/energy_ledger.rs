@@ -6,11 +6,11 @@ use crate::observation::EnergyBook;
 quantities! {
     shared pub
     ENERGY_RESIDUAL:
-        accounted("energy_residual", "%", "largest change of the energy that its ledger does not explain, over a scale"),
-    ENERGY_RISE: accounted("energy_rise", "%", "largest rise of the total energy above its least before, over a scale"),
-    WALL_WORK: accounted("wall_work", "%", "work of walls over that scale: of those at rest an error, or slip along them"),
+        accounted("energy_residual", "%", "largest change of energy minus the sum of its sources, over the energy scale of the case"),
+    ENERGY_RISE: accounted("energy_rise", "%", "largest rise of total energy above its earlier minimum, over the energy scale of the case"),
+    WALL_WORK: accounted("wall_work", "%", "work of walls over the energy scale; for walls at rest an error, or slip along them"),
     CORRECTION_WORK:
-        accounted("correction_work", "%", "energy fed in by the kernel correction of the forces, over that scale"),
+        accounted("correction_work", "%", "energy added by the kernel correction of the forces, over the energy scale"),
 }
 
 /// Scale that energies are compared with.

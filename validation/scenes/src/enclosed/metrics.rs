@@ -19,23 +19,23 @@ const MOST_UNSOLVED: f64 = 0.5;
 const FARTHEST: f64 = 0.7;
 
 quantities! { shared pub(super)
-    MASS_RESIDUAL: accounted("mass_residual", "%", "mass in the scene and beyond its open sides, less that of the start and of what came in"),
+    MASS_RESIDUAL: accounted("mass_residual", "%", "mass inside plus outflow minus initial mass minus inflow, over the total"),
     MOMENTUM_RESIDUAL:
-        accounted("momentum_residual", "%", "impulse without a cause among gravity, walls and sides, over that of gravity or of what comes"),
+        accounted("momentum_residual", "%", "impulse not explained by gravity, walls and sides, over the impulse of gravity or of the inflow"),
     FORCE_RESIDUAL:
-        accounted("force_residual", "%", "impulse of all walls, wall by wall, less that of all particles, over that of gravity or of what comes"),
-    UNSOLVED: accounted("unsolved", "%", "impulse that implicit viscous steps leave out, over that of gravity"),
+        accounted("force_residual", "%", "sum of the impulses of all walls minus that of all particles, over the impulse of gravity or of the inflow"),
+    UNSOLVED: accounted("unsolved", "%", "residual impulse of the implicit viscous steps, over the impulse of gravity"),
     VISCOUS_ITERATIONS: accounted("viscous_iterations", "-", "iterations of an implicit viscous step, mean over all steps"),
-    THROUGH_WALLS: accounted("through_walls", "-", "particles that are behind a wall at the end"),
-    MASS_LEFT: accounted("mass_left", "%", "mass that has left by open sides"),
-    CUT_OFF: accounted("cut_off", "%", "material of the bodies that is behind walls or at them, and is left out at the start"),
+    THROUGH_WALLS: accounted("through_walls", "-", "number of particles behind a wall at the end"),
+    MASS_LEFT: accounted("mass_left", "%", "outflow through open sides over the initial mass and inflow"),
+    CUT_OFF: accounted("cut_off", "%", "share of the bodies removed at the start because it lies behind or at walls"),
     FEED_ERROR:
-        accounted("feed_error", "-", "largest difference of the mass that an inlet has fed from the integral of its rate, over a row"),
+        accounted("feed_error", "-", "largest difference between inflow and the integral of its rate, over the mass of one row"),
     FINAL_RMS_SPEED:
         accounted("final_rms_speed", "m/s", "root mean square of the speed in the scene, mean over the last tenth of the run"),
     ARTIFICIAL_VISCOSITY:
-        accounted("artificial_viscosity", "Pa s", "viscosity that the artificial viscosity adds to that of a liquid or of cohesive soil"),
-    FRONT: accounted("front", "m", "how far the material reaches along a gauge's line at the end"),
+        accounted("artificial_viscosity", "Pa s", "α ρ c h/(4 (D + 2)), viscosity added by the artificial viscosity"),
+    FRONT: accounted("front", "m", "distance of the front along the line of a gauge at the end"),
     DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
     GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
 }

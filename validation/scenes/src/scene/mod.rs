@@ -46,10 +46,10 @@ impl Dimension<2> for Plane {
     const ADD_A_BODY: &'static str = "add a box, a disc or a polygon of material";
     const COST: f64 = 1.0;
     const MEAN_FORCE: Quantity =
-        Quantity::accounted("mean_force", "N/m", "force of the flow on a gauge's wall, its mean over the run");
+        Quantity::accounted("mean_force", "N/m", "time average of the force of the flow on the wall of a gauge");
     const MASS_CROSSED: Quantity =
-        Quantity::accounted("mass_crossed", "kg/m", "mass that has crossed a gauge's line up to the end");
-    const MASS_FED: Quantity = Quantity::accounted("mass_fed", "kg/m", "mass that an inlet has fed up to the end");
+        Quantity::accounted("mass_crossed", "kg/m", "mass that crosses the line of a gauge until the end");
+    const MASS_FED: Quantity = Quantity::accounted("mass_fed", "kg/m", "inflow through an inlet until the end");
     const FLUX_UNIT: &'static str = "kg/(m s)";
 
     fn of_tier(tier: Tier) -> PlaneParameters {
@@ -73,12 +73,15 @@ impl Case for UserScene {
     const NAME: &'static str = "scene";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "user-defined 2-D scene: bodies of material, walls of segments, inlets, open sides, gauges; judged by its balances";
-    const DESCRIPTION: &'static str = "Boxes, discs and polygons of one material under any law, by the weakly compressible model, between walls \
-        that are polylines, rough or smooth, at rest or moved by a table of times. Sides of the domain are planes of \
-        symmetry, periods, or open: what leaves is counted. Gauges measure the front along a line, the depth at a place, the \
-        force on a wall and the flux through a line, and are written as series. There is no reference but what the file \
-        itself gives: a scene is judged by its balances of mass, momentum and energy, and by nothing having passed a wall. \
-        The scene of the tiers is a column of glass beads that collapses onto a step and falls over its edge.";
+    const DESCRIPTION: &'static str = "\
+        Setup. Boxes, discs and polygons of one material under any law, by the weakly compressible model. Walls are \
+        polylines, rough or smooth, at rest or moved by a table of times. Sides of the domain are symmetry planes, \
+        periodic, or open; outflow is counted. Gauges measure the front along a line, the depth at a place, the \
+        force on a wall and the flux through a line, as time series. The scene of the tiers is a column of glass \
+        beads that collapses onto a step and falls over its edge.\n\n\
+        Judged. Balances of mass, momentum and energy, and walls that let nothing pass. The file itself gives any \
+        further reference.\n\n\
+        Observed only. All gauges.";
     type Parameters = PlaneParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Plane, 2>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];

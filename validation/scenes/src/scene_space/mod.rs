@@ -46,10 +46,10 @@ impl Dimension<3> for Space {
     const ADD_A_BODY: &'static str = "add a box, a cylinder or a sphere of material";
     const COST: f64 = 4.0;
     const MEAN_FORCE: Quantity =
-        Quantity::accounted("mean_force", "N", "force of the flow on a gauge's wall, its mean over the run");
+        Quantity::accounted("mean_force", "N", "time average of the force of the flow on the wall of a gauge");
     const MASS_CROSSED: Quantity =
-        Quantity::accounted("mass_crossed", "kg", "mass that has crossed a gauge's parallelogram up to the end");
-    const MASS_FED: Quantity = Quantity::accounted("mass_fed", "kg", "mass that an inlet has fed up to the end");
+        Quantity::accounted("mass_crossed", "kg", "mass that crosses the parallelogram of a gauge until the end");
+    const MASS_FED: Quantity = Quantity::accounted("mass_fed", "kg", "inflow through an inlet until the end");
     const FLUX_UNIT: &'static str = "kg/s";
 
     fn of_tier(tier: Tier) -> SpaceParameters {
@@ -73,13 +73,16 @@ impl Case for SpaceScene {
     const NAME: &'static str = "scene-space";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "user-defined 3-D scene: bodies of material, walls from STL files or of quadrilaterals and boxes, open sides, gauges; judged by its balances";
-    const DESCRIPTION: &'static str = "Boxes, cylinders and balls of one material under any law, by the weakly compressible model, between walls of \
-        triangles: meshes from STL files, quadrilaterals and boxes, rough or smooth, at rest or moved by a table of times. Sides of the \
-        domain are planes of symmetry, periods, or open: what leaves is counted. Gauges measure the front along a line, the depth at \
-        a place, the force on a wall and the flux through a parallelogram, and are written as series. There is no reference but what \
-        the file itself gives: a scene is judged by its balances of mass, momentum and energy, and by nothing having passed a \
-        wall. The scene of the tiers is half a column of glass beads that collapses in a channel with rough side walls and falls \
-        over the edge at its end.";
+    const DESCRIPTION: &'static str = "\
+        Setup. Boxes, cylinders and balls of one material under any law, by the weakly compressible model. Walls are \
+        triangles: STL meshes, quadrilaterals and boxes, rough or smooth, at rest or moved by a table of times. \
+        Sides of the domain are symmetry planes, periodic, or open; outflow is counted. Gauges measure the front \
+        along a line, the depth at a place, the force on a wall and the flux through a parallelogram, as time \
+        series. The scene of the tiers is half a column of glass beads that collapses in a channel with rough side \
+        walls and falls over the edge at its end.\n\n\
+        Judged. Balances of mass, momentum and energy, and walls that let nothing pass. The file itself gives any \
+        further reference.\n\n\
+        Observed only. All gauges.";
     type Parameters = SpaceParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Space, 3>();
     const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];

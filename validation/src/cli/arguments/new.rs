@@ -8,14 +8,14 @@ const EXAMPLES: &str = "Examples:
   cd my-law
   cargo run -- run film.toml --out film
 
-The crate is the program bagnold with one more law or case. It builds as it is: a law or case with its source, a test against an
-exact solution, case files and a README that says what to do next.";
+The crate builds the program bagnold with one more law or case. It contains the law or case, a test against an exact
+solution, case files and a README with the next steps.";
 
 /// `bagnold new`
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct NewArguments {
-    /// Of what.
+    /// Content of the crate.
     #[command(subcommand)]
     pub what: NewCrate,
 }
@@ -23,19 +23,19 @@ pub struct NewArguments {
 /// Content of a new crate.
 #[derive(Debug, Subcommand)]
 pub enum NewCrate {
-    /// Write a crate with a constitutive law of your own.
+    /// Write a crate with a constitutive law.
     Law(Named),
-    /// Write a crate with a case of your own.
+    /// Write a crate with a case.
     Case(Named),
 }
 
 /// Name and folder of a new crate.
 #[derive(Debug, Args)]
 pub struct Named {
-    /// Name of the crate, and of the law or case in files: lower-case letters, digits and hyphens.
+    /// Name of the crate and of its law or case: lower-case letters, digits and hyphens.
     #[arg(value_name = "NAME")]
     pub name: String,
-    /// Folder to make [default: NAME].
+    /// Folder to create [default: NAME].
     #[arg(long, value_name = "FOLDER")]
     pub out: Option<PathBuf>,
 }

@@ -29,16 +29,16 @@ Exit codes: 0 every run has numbers, 1 some are missing, 2 bad input, 3 some fai
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, after_help = SWEEP_EXAMPLES)]
 pub struct SweepArguments {
-    /// Action on a sweep that has begun.
+    /// Action on an existing sweep.
     #[command(subcommand)]
     pub action: Option<SweepAction>,
-    /// TOML file that says which cases, which parameters and which points.
+    /// TOML file with cases, parameters and points.
     #[arg(value_name = "FILE.toml", required = true)]
     pub file: Option<PathBuf>,
     /// Folder of the sweep [default: reports/sweeps/FILE].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Engine that runs it.
+    /// Execution engine.
     #[arg(long, value_enum, default_value_t = Engine::Local)]
     pub engine: Engine,
     /// Request to Slurm.
@@ -57,26 +57,26 @@ pub struct SweepArguments {
 pub enum Engine {
     /// The threads of this machine.
     Local,
-    /// A Slurm cluster that shares the sweep's folder: one task per run.
+    /// A Slurm cluster that shares the folder of the sweep: one task per run.
     Slurm,
 }
 
-/// Action on a sweep that has begun.
+/// Action on an existing sweep.
 #[derive(Debug, Subcommand)]
 pub enum SweepAction {
-    /// Gather the results of a sweep, and submit again what is missing.
+    /// Collect the results of a sweep; resubmit missing runs on request.
     Collect {
         /// Folder of the sweep.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
-        /// Submit to Slurm again what is neither done nor queued.
+        /// Resubmit runs to Slurm that are neither finished nor queued.
         #[arg(long)]
         resubmit: bool,
         /// Request to Slurm.
         #[command(flatten)]
         cluster: Cluster,
     },
-    /// Run one entry of a sweep's manifest, as the tasks of a cluster do.
+    /// Run one entry of the manifest, as a task of a cluster does.
     Task {
         /// Folder of the sweep.
         #[arg(value_name = "DIR")]
@@ -88,7 +88,7 @@ pub enum SweepAction {
         #[command(flatten)]
         work: ExecutionOptions,
     },
-    /// Print the Slurm script that ships with bagnold, to be edited for --template.
+    /// Print the default Slurm script, to edit for --template.
     Template,
 }
 
@@ -96,7 +96,7 @@ pub enum SweepAction {
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Slurm")]
 pub struct Cluster {
-    /// Partition [default: the cluster's].
+    /// Partition [default: default partition of the cluster].
     #[arg(long, value_name = "NAME")]
     pub partition: Option<String>,
     /// Time limit of one run, such as 01:30:00.
@@ -108,10 +108,10 @@ pub struct Cluster {
     /// Cores of one run [default: 1].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub cpus: Option<u16>,
-    /// Runs at the same time, at most.
+    /// Largest number of simultaneous runs.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub throttle: Option<u32>,
-    /// Job script to use instead of the one that `bagnold sweep template` prints.
+    /// Job script that replaces the one printed by `bagnold sweep template`.
     #[arg(long, value_name = "FILE")]
     pub template: Option<PathBuf>,
 }

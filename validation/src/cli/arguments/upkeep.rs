@@ -6,35 +6,35 @@ use std::path::PathBuf;
 
 const MUTATE_EXAMPLES: &str = "Examples:
   bagnold dev mutate
-  bagnold dev mutate list                                the errors, and the cases that ought to see them
-  bagnold dev mutate --errors von-karman,gravity-value   some of them
-  bagnold dev mutate trial von-karman clear-water        one case with one error, as `bagnold run` shows it
-  bagnold dev mutate drawn --count 100 --seed 1          100 errors by rule, drawn from all expressions of the solver
+  bagnold dev mutate list                                the mutations and the cases that should kill them
+  bagnold dev mutate --errors von-karman,gravity-value   two of them
+  bagnold dev mutate trial von-karman clear-water        one case with one mutation
+  bagnold dev mutate drawn --count 100 --seed 1          100 random mutations of the solver
 
-Works in a checkout: a copy of the program, in target/mutations, is built with the errors of
-validation/tools/mutations.toml; this program has none of them. Each error is caught by a gate that
-held without it, by a run that stops, only by the snapshot of accepted values, or by nothing.
+Requires a checkout: a copy of the program in target/mutations is built with the mutations of
+validation/tools/mutations.toml. A mutation is killed by a gate, by a run that stops, by the
+baseline values alone, or survives.
 
-Exit codes: 0 enough errors are caught, and by gates; 1 too few; 2 bad input, or no checkout.";
+Exit codes: 0 enough mutations are killed by gates, 1 too few, 2 bad input or no checkout.";
 
 /// `bagnold dev`
 #[derive(Debug, Subcommand)]
 pub enum DevCommand {
-    /// Run every case for a moment and compare the final states with the committed hashes, bit by bit.
+    /// Run every case briefly and compare the final states with the committed hashes.
     Verify(VerifyArguments),
-    /// Run a case with each input at both ends of its stated range: the table that uncertainties by inputs come from.
+    /// Run a case with each input at both ends of its range and write the table for input uncertainties.
     Sensitivities(SensitivitiesArguments),
-    /// Try the controls that a report does not run, and renew the tables of what became of them.
+    /// Run the controls that a report leaves out and write the tables of their outcomes.
     Controls(ControlsArguments),
-    /// Put errors into a copy of the solver, one at a time, and say which gates notice.
+    /// Run mutations in a copy of the solver, one at a time, and report which gates kill them.
     Mutate(MutateArguments),
 }
 
 /// `bagnold dev verify`
 #[derive(Debug, Args)]
-#[command(after_help = "Exit codes: 0 the same bits, 1 other bits, 2 bad input.")]
+#[command(after_help = "Exit codes: 0 bitwise identical, 1 different, 2 bad input.")]
 pub struct VerifyArguments {
-    /// List of short runs to use instead of the committed one.
+    /// List of short runs that replaces the committed one.
     #[arg(long, value_name = "FILE.toml")]
     pub file: Option<PathBuf>,
     /// Write the list with the hashes of this program.
@@ -45,8 +45,8 @@ pub struct VerifyArguments {
 /// `bagnold dev sensitivities`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The ranges and their sources stand in reference-data/CASE/uncertainty.toml; the program carries the tables of
-validation/harness/sensitivities, from which a report takes the uncertainty by the inputs."
+    after_help = "Ranges and sources are in reference-data/CASE/uncertainty.toml. Reports take input uncertainties from the tables in
+validation/harness/sensitivities, which are part of the program."
 )]
 pub struct SensitivitiesArguments {
     /// Name of a case, see `bagnold list`.
@@ -58,7 +58,7 @@ pub struct SensitivitiesArguments {
     /// Resource limits.
     #[command(flatten)]
     pub allowance: ResourceLimits,
-    /// Threads and store.
+    /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }
@@ -69,8 +69,8 @@ pub struct StoreArguments {
     /// Command.
     #[command(subcommand)]
     pub action: StoreAction,
-    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout
-    /// that one works in, else the user's cache].
+    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout, else the
+    /// cache folder of the user].
     #[arg(long, value_name = "DIR", global = true)]
     pub store: Option<PathBuf>,
 }
@@ -78,15 +78,15 @@ pub struct StoreArguments {
 /// Action on stored results.
 #[derive(Debug, Clone, Copy, Subcommand)]
 pub enum StoreAction {
-    /// List the versions of the program that have results, with number, size and age.
+    /// List stored results by program version: number, size, age.
     List,
     /// Delete entries, the oldest first.
     #[command(group = clap::ArgGroup::new("limit").required(true).multiple(true))]
     Prune {
-        /// Delete what is older.
+        /// Delete entries older than this.
         #[arg(long, value_name = "DAYS", value_parser = positive, allow_negative_numbers = true, group = "limit")]
         days: Option<f64>,
-        /// Delete the oldest until the rest is no larger.
+        /// Delete the oldest entries until the total size falls below this.
         #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true, group = "limit")]
         size: Option<f64>,
     },
@@ -95,19 +95,19 @@ pub enum StoreAction {
 /// `bagnold dev controls`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Works in a checkout: errors of the solver are tried in the copy that `bagnold dev mutate` builds. The controls stand in
-validation/harness/controls/CASE.toml, what became of them in validation/harness/controls/tried/CASE.csv; a report shows both.
+    after_help = "Requires a checkout: errors of the solver run in the copy that `bagnold dev mutate` builds. Controls are in
+validation/harness/controls/CASE.toml, their outcomes in validation/harness/controls/tried/CASE.csv; a report shows both.
 
-Exit codes: 0 written, or the same; 1 other than the tables; 2 bad input, or no checkout."
+Exit codes: 0 written or unchanged, 1 different from the tables, 2 bad input or no checkout."
 )]
 pub struct ControlsArguments {
-    /// Cases by name, separated by commas [default: all].
+    /// Comma-separated names of cases [default: all].
     #[arg(long, value_name = "CASE,…", value_delimiter = ',')]
     pub cases: Vec<String>,
     /// Compare with the tables instead of writing them.
     #[arg(long)]
     pub check: bool,
-    /// Threads and store.
+    /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,
 }
@@ -116,16 +116,16 @@ pub struct ControlsArguments {
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
 pub struct MutateArguments {
-    /// Action instead of trying errors.
+    /// Another action.
     #[command(subcommand)]
     pub action: Option<MutateAction>,
-    /// Errors by name, separated by commas [default: all].
+    /// Comma-separated names of mutations [default: all].
     #[arg(long, value_name = "ERROR,…", value_delimiter = ',')]
     pub errors: Vec<String>,
-    /// Only errors found by rule, each of which a gate must kill.
+    /// Only mutations generated by rule, each of which a gate must kill.
     #[arg(long, conflicts_with = "errors")]
     pub generated: bool,
-    /// Only errors that tests must notice: for each element of a paper that rests on tests alone.
+    /// Only mutations that tests must kill: one for each statement of a paper that rests on tests alone.
     #[arg(long, conflicts_with = "generated")]
     pub tests: bool,
     /// Folder to write.
@@ -139,24 +139,24 @@ pub struct MutateArguments {
 const DRAWN_HELP: &str =
     "Rules: + for -, * for /, < for <=, && for ||, a sign or a ! dropped or added, 1 for 0, twice or half of a number,
 one term or factor dropped, min for max, [j] for [i], a condition negated. Tests, constants, types and
-macros stay as they are. An error that does not compile, or that no case reaches, is replaced by the next.
+macros are left unchanged. A mutation that does not compile, or that no case reaches, is replaced.
 
-Cases run the cheapest first, until a gate or a stop has killed the error. The same command continues
-after an interruption: findings are kept in target/mutations, by seed and sources.
+The cheapest cases run first, until the mutation is killed. After an interruption, the same command
+continues; findings are stored in target/mutations, by seed and sources.
 
-Exit codes: 0 every error was tried; 2 bad input, or no checkout.";
+Exit codes: 0 all mutations were run, 2 bad input or no checkout.";
 
 /// `bagnold dev mutate drawn`
 #[derive(Debug, Args)]
 #[command(after_help = DRAWN_HELP)]
 pub struct DrawnArguments {
-    /// Number of errors that compile and are reached.
+    /// Number of mutations that compile and are reached.
     #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u16).range(1..=10_000))]
     pub count: u16,
     /// Seed of the draw, decimal or hexadecimal.
     #[arg(long, value_name = "SEED", default_value = "0x22b011ce", value_parser = seed)]
     pub seed: u64,
-    /// Run tests with errors that no gate has killed: the solver's unit tests, invariants, convergence, determinism.
+    /// Run the tests of the solver with mutations that survive all gates.
     #[arg(long)]
     pub tests: bool,
     /// Folder to write.
@@ -175,13 +175,13 @@ fn seed(text: &str) -> Result<u64, String> {
 /// Actions of `bagnold dev mutate` beside trying errors.
 #[derive(Debug, Subcommand)]
 pub enum MutateAction {
-    /// List the errors and the cases that ought to see them.
+    /// List the mutations and the cases that should kill them.
     List,
-    /// Draw errors by rule, and run each through the cases of the quick tier that reach it.
+    /// Draw mutations by rule and run each through the quick-tier cases that reach it.
     Drawn(DrawnArguments),
-    /// Run one case at the quick tier with one error; the store is neither read nor written.
+    /// Run one quick-tier case with one mutation, without reading or writing the store.
     Trial {
-        /// Name of the error, or `none`.
+        /// Name of the mutation, or `none`.
         error: String,
         /// Name of the case.
         case: String,

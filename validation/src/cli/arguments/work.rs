@@ -8,10 +8,10 @@ use std::time::Duration;
 /// Resource limits of runs; more is rejected before anything is allocated.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub struct ResourceLimits {
-    /// Memory that the runs may ask for [default: $BAGNOLD_MOST_MEMORY, else that of the machine].
+    /// Memory limit of the runs [default: $BAGNOLD_MOST_MEMORY, else the memory of the machine].
     #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true)]
     pub most_memory: Option<f64>,
-    /// Hours of one core that the runs of a case may ask for [default: $BAGNOLD_MOST_HOURS, else 10000].
+    /// Limit of estimated core hours of a case [default: $BAGNOLD_MOST_HOURS, else 10000].
     #[arg(long, value_name = "HOURS", value_parser = positive, allow_negative_numbers = true)]
     pub most_hours: Option<f64>,
 }
@@ -27,14 +27,14 @@ pub struct ExecutionOptions {
     /// Threads to use [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
-    /// Simulate even what is stored or unfinished from an earlier run of the same program.
+    /// Ignore stored and unfinished runs.
     #[arg(long)]
     pub fresh: bool,
-    /// Seconds between two checkpoints of a run [default: 60, up to 120 where one costs over 1 %].
+    /// Seconds between two checkpoints of a run [default: 60; up to 120 if a checkpoint costs over 1 %].
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
     pub checkpoint_interval: Option<Duration>,
-    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout
-    /// that one works in, else the user's cache].
+    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout, else the
+    /// cache folder of the user].
     #[arg(long, value_name = "DIR")]
     pub store: Option<PathBuf>,
 }
@@ -49,7 +49,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
 /// Size of figures.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub struct FigureOptions {
-    /// Size of figures for a paper: width, height of the axis labels' letters, resolution of the PNG, such as
+    /// Figures for a paper: width, font size of the axis labels, resolution of the PNG, such as
     /// 85mm,9pt,300dpi [default: for the screen, 1600 px wide].
     #[arg(long, value_name = "MM,PT,DPI")]
     pub figure: Option<FigureFormat>,

@@ -39,14 +39,17 @@ impl Case for BedLoad {
     const NAME: &'static str = "bed-load";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "water over a bed that moves: profiles, drag and transport, in three formulations";
-    const DESCRIPTION: &'static str = "Turbulent water over a bed of 5 mm grains. `stabilised` has one particle a grain, a yield stress that grows with \
-        the grains' weight, and two parameters that are fitted on two slopes and judged on the third. `continuum` \
-        resolves the grains' layer by its solid fraction, with closures of the literature; it is verified \
-        against the 1-D layer of bed-load-1d in three stages: grains at rest, grains that move at a given fraction, grains \
-        that dilate. `paper` is the set-up as printed, which fails in documented ways: its metrics are observations. Water \
-        over moving grains is compared with `at-rest`, the same run with all grains held. A second start shows whether a run \
-        has forgotten its own (`forgets_start`). The quick tier is too short for that: it judges conservation, and whether \
-        dilating grains keep the layer's water and make its transport.";
+    const DESCRIPTION: &'static str = "\
+        Setup. Turbulent water flows over a bed of 5 mm grains, in three formulations. `stabilised` has one particle \
+        per grain, a yield stress proportional to the weight of the grains, and two parameters that are fitted on \
+        two slopes. `continuum` resolves the grain layer by its solid fraction, with closures from the literature, \
+        in three stages: fixed grains, moving grains at a given fraction, dilating grains. `paper` is the printed \
+        set-up. The run `at-rest` holds all grains fixed; a second start differs in its velocity.\n\n\
+        Judged. Conservation in both tiers. `continuum` against the 1-D layer of `bed-load-1d` (verification). \
+        Transport of `stabilised` on the third slope, in the paper tier. `forgets_start` fails while the two starts \
+        still differ.\n\n\
+        Observed only. All metrics of `paper`, which fails in documented ways. Transport and profiles of runs that \
+        still depend on their start.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Parameters = BedLoadParameters;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;

@@ -8,34 +8,34 @@ quantities! {
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
     PREDICTED_TRANSPORT: validated("predicted_transport", "-", "q* of grains that dilate, whose closures are not fitted to transport"),
     TRANSPORT_RATIO:
-        verified("transport_ratio", "-", "q* over that of the 1-D layer, or of the formula on the slope held out"),
+        verified("transport_ratio", "-", "q* over q* of the 1-D layer, or of the formula on the validation slope"),
     STREAM_VELOCITY:
         verified("stream_velocity", "-", "mean velocity of the water above the bed over that of the logarithmic law of a rough bed"),
     FORGETS_START: verified(
         "forgets_start", "-",
-        "difference of the stream's mean velocities of two runs that differ in their starts, over that of the starts",
+        "difference of the mean stream velocities of two runs with different starts, over the difference of the starts",
     ),
-    END_TIME: verified("end_time", "s", "when the printed set-up ended"),
+    END_TIME: verified("end_time", "s", "end time of the printed set-up"),
     HIGHEST_PARTICLE: verified("highest_particle", "h", "greatest height of a particle of the printed set-up"),
-    LAST_TRANSPORT: validated("last_transport", "-", "q* where the printed set-up ended"),
+    LAST_TRANSPORT: validated("last_transport", "-", "q* at the end of the printed set-up"),
     DECAY_LENGTH: verified(
         "decay_length", "mm",
-        "length over which the velocity of the grains falls by e below the top of the bed",
+        "e-folding length of the grain velocity below the top of the bed",
     ),
     MOVES_ABOVE: verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s"),
     GRAIN_CURVATURE_ABOVE:
         stated("grain_curvature_above", "u_*/d²", "curvature of the grains' profile above the top of the bed"),
     GRAIN_CURVATURE_BELOW: stated("grain_curvature_below", "u_*/d²", "curvature of the grains' profile below the top of the bed"),
-    DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "where the drag on the grains is greatest"),
-    DRAG_RATIO: verified("drag_ratio", "-", "force of the water on the grains over the 1-D layer's"),
+    DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "height of the largest drag on the grains"),
+    DRAG_RATIO: verified("drag_ratio", "-", "drag on the grains over the drag in the 1-D layer"),
     FLUID_VELOCITY_RMS:
-        verified("fluid_velocity_rms", "u_*", "root mean square of the water's velocity less the 1-D layer's"),
+        verified("fluid_velocity_rms", "u_*", "√⟨(u_f − u_layer)²⟩ over the depth"),
     FLUID_VELOCITY_MEAN:
-        verified("fluid_velocity_mean", "-", "depth mean of the water's velocity over the 1-D layer's"),
+        verified("fluid_velocity_mean", "-", "depth-averaged water velocity over that of the 1-D layer"),
     GRAIN_VELOCITY_RMS:
-        verified("grain_velocity_rms", "u_*", "root mean square of the grains' velocity less the 1-D layer's"),
+        verified("grain_velocity_rms", "u_*", "√⟨(u_s − u_layer)²⟩ over the moving grains"),
     HELD_OUT_TRANSPORT_RATIO:
-        validated("held_out_transport_ratio", "-", "q* over the formula's on a slope held out of the fits"),
+        validated("held_out_transport_ratio", "-", "q* over q* of the formula on the validation slope"),
     FITTED_YIELD_STRESS: verified("fitted_yield_stress", "Pa", "yield stress that fits the other slopes"),
     FITTED_VISCOSITY: verified("fitted_viscosity", "Pa·s", "plastic viscosity that fits the other slopes"),
     FIT_MISFIT: verified("fit_misfit", "-", "root mean square of ln(q*/q* of the formula) on the fitted slopes"),
@@ -46,9 +46,9 @@ quantities! {
     ),
     LAYER_SLOPE_RATIO: stated("layer_slope_ratio", "-", "slope of the water's velocity over ln z next to the bed over that of the outer flow, over the same ratio above the same bed at rest"),
     NEAR_BED_DEFICIT:
-        stated("near_bed_deficit", "u_*", "velocity of the water half a grain above the bed less that over the same bed at rest, a run with all grains held"),
-    RELATIVE_DEFICIT: stated("relative_deficit", "u_*", "near-bed deficit less outer deficit"),
-    OUTER_DEFICIT: stated("outer_deficit", "u_*", "velocity of the water at half the depth less that over the same bed at rest, a run with all grains held"),
+        stated("near_bed_deficit", "u_*", "water velocity half a grain above the bed minus the velocity over the same bed with all grains fixed"),
+    RELATIVE_DEFICIT: stated("relative_deficit", "u_*", "near-bed deficit minus outer deficit"),
+    OUTER_DEFICIT: stated("outer_deficit", "u_*", "water velocity at half the depth minus the velocity over the same bed with all grains fixed"),
     SHEARED_UP_TO: verified("sheared_up_to", "mm", "upper border of the layer that the moving grains shear"),
     SHEARED_FROM: verified("sheared_from", "mm", "lower border of the layer that the moving grains shear"),
     NUMBER_OF_LAYERS: stated("number_of_layers", "-", "layers of different semi-logarithmic slope"),

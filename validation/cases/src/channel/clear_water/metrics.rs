@@ -14,11 +14,11 @@ quantities! {
         channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR, channel::VELOCITY_DRIFT,
         channel::HEIGHT_CHANGE, channel::PRESSURE_L2, printed_laws::LAW_ERROR,
     ]
-    STATIONARY_AFTER: verified("stationary_after", "s", "when the depth mean had become stationary by the criterion"),
-    VELOCITY_RMS: verified("velocity_rms", "u_*", "root mean square of the velocity less the logarithmic law"),
+    STATIONARY_AFTER: verified("stationary_after", "s", "time at which the depth average becomes stationary by the criterion"),
+    VELOCITY_RMS: verified("velocity_rms", "u_*", "√⟨(u − u_log)²⟩ over 0.1 h … 0.9 h"),
     SEMI_LOG_SLOPE:
         verified("semi_log_slope", "-", "slope of the velocity over the logarithm of the height, over u_*/κ"),
-    MEAN_VELOCITY: verified("mean_velocity", "-", "depth mean of the velocity over that of the logarithmic law"),
+    MEAN_VELOCITY: verified("mean_velocity", "-", "depth-averaged velocity over that of the logarithmic law"),
 }
 
 /// What the spacing moves a quantity by, times the rows over the depth: of first order, from 3 % runs of 23, 33 and 46 rows

@@ -25,12 +25,16 @@ impl Case for ClearWater {
     const NAME: &'static str = "clear-water";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "turbulent clear water over a fixed rough bed against the logarithmic law";
-    const DESCRIPTION: &'static str = "Water over a fixed bed of 5 mm grains on the slopes of the bed-load paper, with a mixing length for what the \
-        particles do not resolve and the law of a rough wall for the bed. The closure carries the stress of a uniform \
-        flow with exactly the logarithmic law, so that the whole profile has a reference. In the paper tier the flow \
-        starts 20 % too slow and is averaged once it is stationary: once its depth mean changes by less than 0.5 % over \
-        U/(2 g i) three times in a row. The quick tier starts from the law itself, is too short to be stationary and \
-        says so: it judges the balance of momentum only, and reports the rest with its drift.";
+    const DESCRIPTION: &'static str = "\
+        Setup. Water flows over a fixed bed of 5 mm grains on slopes of 2, 3 and 5 %. A mixing length stands for \
+        unresolved turbulence, and the bed follows the law of a rough wall. This closure reproduces the logarithmic \
+        law exactly in uniform flow. The paper tier starts 20 % too slow and averages a stationary flow: the depth \
+        average changes by less than 0.5 % over U/(2 g i), three times in a row. The quick tier starts from the \
+        logarithmic law and must keep it.\n\n\
+        Judged. Velocity profile, its slope over the logarithm of height, depth average and bed friction against the \
+        law; the momentum balance.\n\n\
+        Observed only. Pressure, depth and the drift of the depth-averaged velocity. Velocities of a run that starts \
+        apart from the law and does not become stationary.";
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
     type Parameters = ClearWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;

@@ -9,7 +9,7 @@ quantities! {
     [channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::HEIGHT_CHANGE, channel::PRESSURE_L2]
     RMS_VERTICAL_VELOCITY: verified("rms_vertical_velocity", "m/s", "root mean square of the vertical velocity"),
     BLOW_UP_TIME:
-        verified("blow_up_time", "s", "when a column without stabilisation threw a particle above 1.2 h or diverged"),
+        verified("blow_up_time", "s", "time at which a particle of the column without stabilisation passes 1.2 h, or at which it diverges"),
 }
 
 /// Time after which the water is expected to be at rest `[s]`.

@@ -24,11 +24,14 @@ impl Case for StillWater {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "a displaced column of incompressible water at rest: height, vertical velocity, pressure";
-    const DESCRIPTION: &'static str = "Water of displaced particles over a closed floor must come to rest with its height and with the hydrostatic \
-        pressure. On strongly displaced particles the compact Laplacian of the bed-load paper alone corrects too much, \
-        with alternating sign: the same column without the stabilisation of the pressure Poisson equation blows up at \
-        once, which shows that the test can fail. A profile alone would not show it early; height and vertical velocity \
-        do.";
+    const DESCRIPTION: &'static str = "\
+        Setup. A column of perturbed water particles stands on a closed floor, by the incompressible projection \
+        step. A second run leaves out the stabilisation of the pressure Poisson equation: the compact Laplacian of \
+        the bed-load paper alone over-corrects with alternating sign.\n\n\
+        Judged. Mean height and hydrostatic pressure, averaged over the last window. Vertical velocity, in runs long \
+        enough to come to rest (paper tier). The run without stabilisation must diverge, which shows that the test \
+        can fail.\n\n\
+        Observed only. Vertical velocity of shorter runs, and iterations of the solvers.";
     type Parameters = StillWaterParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 

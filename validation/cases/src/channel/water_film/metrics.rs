@@ -10,10 +10,10 @@ use crate::statistics::{FittedValue, log_log_slope};
 
 quantities! {
     [channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::HEIGHT_CHANGE, channel::BED_SHEAR]
-    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
+    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 error of the velocity profile, √(Σ(u − u_ref)²/Σu_ref²)"),
     LONGEST_WAVE: accounted("longest_wave", "-", "amplitude of the longest wave along the film in the velocity, over its mean"),
     VELOCITY_L2_OWN_DEPTH:
-        verified("velocity_l2_own_depth", "%", "relative L2 of the velocity profile against the film of the particles' own depth"),
+        verified("velocity_l2_own_depth", "%", "relative L2 error of the velocity profile against a film of the measured depth"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of `velocity_l2`"),
     OBSERVED_ORDER_OWN_DEPTH:
         verified("observed_order_own_depth", "-", "order of convergence of `velocity_l2_own_depth`"),

@@ -25,11 +25,15 @@ impl Case for WaterFilm {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "a laminar film by the incompressible model against its exact profile, with the order of convergence";
-    const DESCRIPTION: &'static str = "A Newtonian film down a slope of 3 % over a bed that it sticks to, by the incompressible projection step. The \
-        viscosity is chosen for a surface velocity of 0.5 m/s at a depth of 46 mm: Reynolds number 37, Froude number \
-        0.74, far from water and laminar, so that an exact profile exists. The film starts from it and must keep it for \
-        several relaxation times 4h²/(π²ν): what remains is the error of the wall, of the viscous pairs and of the depth \
-        that the particles take.";
+    const DESCRIPTION: &'static str = "\
+        Setup. A Newtonian film flows down a slope of 3 % over a no-slip bed, by the incompressible projection step. \
+        The viscosity gives a surface velocity of 0.5 m/s at a depth of 46 mm (Reynolds number 37, Froude number \
+        0.74). The film starts from the exact laminar profile and runs for several relaxation times 4h²/(π²ν).\n\n\
+        Judged. Velocity profile against the exact film, the momentum balance, and the order of convergence where \
+        three resolutions are run. The errors come from the wall, the viscous pair terms and the depth that the \
+        particles take.\n\n\
+        Observed only. Bed friction, change of depth, and the profile against the film of the depth that the \
+        particles take.";
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
     type Parameters = WaterFilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;

@@ -25,14 +25,16 @@ impl Case for InclineCollapse {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "grains released by a gate on a slope: front, thickness and final run-out against experiments";
-    const DESCRIPTION: &'static str = "A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a rough slope. \
-        The gate is pulled up normal to the slope and the grains run down the channel. Below the friction angle they \
-        come to rest, and the front's way from the gate is compared with x_f = h_0 2k/(tanδ − tanθ), k = 0.4 to 0.5, the \
-        fit of Mangeney et al. (2010) as later works quote it, taken with tanδ = μ_s of the run. Above the friction \
-        angle the local μ(I) law knows no deposit: the flow thins as long as the channel lasts. The front is that at a \
-        thickness of 0.02 r_0 as in column-planar: thickness in rows of particles, from the thickest place down the slope, what lies in \
-        fewer than four rows as a wedge of its volume. With another law of the grains than μ(I), whose contact friction takes the place of μ_s, the fit does not \
-        gate.";
+    const DESCRIPTION: &'static str = "\
+        Setup. A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a \
+        rough slope. The gate is lifted normal to the slope. Front: place where the thickness falls to 0.02 r_0, \
+        defined as in `column-planar`.\n\n\
+        Judged. Front and kinetic energy over time against other codes and measurements. Below the friction angle, \
+        the final run-out against x_f = h_0 2k/(tan δ − tan θ) with k = 0.4 to 0.5 and tan δ = μ_s, the fit of \
+        Mangeney et al. (2010) as quoted by later works.\n\n\
+        Observed only. Profiles of viscosity and shear over the depth. Run-outs above the friction angle, where the \
+        local μ(I) law has no deposit and the flow thins as long as the channel lasts. The fit under any other law \
+        than μ(I); the wall contact friction then replaces μ_s.";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign_slope::EXTERNAL_SCHEMA;
     type Parameters = InclineCollapseParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;

@@ -23,14 +23,18 @@ impl Case for ColumnPlanar {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "planar columns of μ(I) grains: run-out, height and stopping time against the published laws";
-    const DESCRIPTION: &'static str = "Half a column of dry grains stands against a free-slip symmetry plane on a rough horizontal bed and is released \
-        at once. It falls, spreads and comes to rest. Run-out is the distance of the front at a thickness of \
-        0.02 r_0 less the initial half width, over it. Thickness is counted in whole rows of particles, from the thickest place outwards, and what \
-        lies in fewer than four rows counts as a wedge of its volume, so that single grains do not make the run-out; \
-        height is the thickness of the innermost bin. The sand is that of the collapse paper's \
-        Table 2; the other grains are those of Lagrée, Staron & Popinet (2011), whose grain diameter the source does \
-        not give. The coefficients of the published laws depend on the material, their exponents much less. With another \
-        law than μ(I) the published laws are shown and do not gate.";
+    const DESCRIPTION: &'static str = "\
+        Setup. Half a column of dry grains stands against a free-slip symmetry plane on a rough horizontal bed and \
+        is released at once. The sand is that of Table 2 of the collapse paper; the other grains are those of \
+        Lagrée, Staron & Popinet (2011), whose grain diameter is not published.\n\n\
+        Definitions. Run-out: distance of the front at a thickness of 0.02 r_0, minus the initial half width, over \
+        the half width. Thickness is counted in whole rows of particles, outwards from the thickest place. Fewer \
+        than four rows at the toe are replaced by a wedge of the same volume, so that isolated grains do not set the \
+        run-out. Height: thickness of the innermost bin.\n\n\
+        Judged. Run-out, height, stopping time and exponents against the published laws; fronts and kinetic energy \
+        over time against other codes; the shape of a pile of bars against measurements; balances.\n\n\
+        Observed only. The undisturbed core, the failure surface and the profile of the flowing layer. The published \
+        laws under any other law than μ(I): their coefficients depend on the material, their exponents much less.";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign::EXTERNAL_SCHEMA;
     type Parameters = ColumnPlanarParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;

@@ -21,11 +21,15 @@ impl Case for ColumnRound {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "round columns of sand in three dimensions: run-out against the axisymmetric experiment's law";
-    const DESCRIPTION: &'static str = "A quarter of a cylinder of dry sand stands between two free-slip symmetry planes on a rough horizontal bed and is \
-        released at once. Run-out and height are defined as in column-planar, with the area of the bed that carries a thickness in \
-        place of a length and two rows in place of four, and quarter rings of width 0.1 r_0 as bins. The run-out law of Lube et al. (2004) was measured on such columns; the collapse paper compared its \
-        planar runs with it. The height law of the same source is unverified and does not gate. With another \
-        law than μ(I) the published laws are shown and do not gate.";
+    const DESCRIPTION: &'static str = "\
+        Setup. A quarter of a cylinder of dry grains stands between two free-slip symmetry planes on a rough \
+        horizontal bed and is released at once. Run-out and height are defined as in `column-planar`, with three \
+        differences: the area of the bed that carries a thickness replaces a length, two rows replace four, and the \
+        bins are quarter rings of width 0.1 r_0.\n\n\
+        Judged. Run-out against the law of Lube et al. (2004), measured on round columns; kinetic energy over time \
+        against another code; balances.\n\n\
+        Observed only. The height law of the same source, which is unverified. The published laws under any other \
+        law than μ(I).";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign::EXTERNAL_SCHEMA;
     type Parameters = ColumnRoundParameters;
     const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;

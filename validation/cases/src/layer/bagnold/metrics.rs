@@ -15,10 +15,10 @@ use crate::statistics::log_log_slope;
 
 quantities! {
     [layer::PARTICLES_LOST, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
-    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile against Bagnold's"),
+    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 error of the velocity profile against Bagnold's"),
     SURFACE_VELOCITY_ERROR: verified("surface_velocity_error", "%", "relative error of the topmost bin's velocity"),
     IMPLIED_STRESS_ERROR: verified("implied_stress_error", "%", "mean of |μ(I)/tanθ − 1| over 0.1 h … 0.9 h"),
-    WALL_SLIP: verified("wall_slip", "%", "velocity at the bed less that of the exact profile, over u(h)"),
+    WALL_SLIP: verified("wall_slip", "%", "(u(0) − u_exact(0))/u(h)"),
     RELATIVE_HEIGHT: verified("relative_height", "-", "twice the mean height over the nominal one at the end"),
     VELOCITY_L2_MEASURED_HEIGHT:
         verified("velocity_l2_measured_height", "%", "velocity_l2 against the profile of the measured height"),
@@ -32,7 +32,7 @@ quantities! {
     RISE_TIME: verified("rise_time", "s", "time at which the depth mean reaches 99 % of the steady one"),
     COMPRESSION_RATIO: verified(
         "compression_ratio", "-",
-        "rise of the density of a layer that sinks under its weight, over what the fall of its mean height makes of it",
+        "density rise of a layer that sinks under its weight, over the rise that follows from the fall of its mean height",
     ),
     ARREST_TIME: verified("arrest_time", "s", "time at which the depth mean has fallen to 1 % of its start"),
     REST_RMS_SPEED: verified("rest_rms_speed", "m/s", "largest root mean square of the speed over the last 0.2 s"),

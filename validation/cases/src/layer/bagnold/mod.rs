@@ -30,14 +30,17 @@ impl Case for Bagnold {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "μ(I) grains on an incline: Bagnold's velocity profile, its approach, arrest below and runaway above";
-    const DESCRIPTION: &'static str = "A layer of glass beads with the μ(I) rheology on an incline, periodic along the slope, over a no-slip bed. \
-        From rest the displaced particles are settled first and carry the shear stress of the static friction limit. \
-        Between the static and the limiting friction angle the steady velocity follows Bagnold's profile (36)–(37), \
-        exact for the model; the way to it from rest is compared with an independent one-dimensional solver. \
-        Below that band the layer must come to rest, above it must accelerate without end. \
-        Bagnold's flow makes an error of the friction coefficient eight (25°) to twenty (22°) times as large in the \
-        velocity (dln I/dln μ), so the implied stress error \
-        |μ(I)/tanθ − 1| stands beside the velocity error.";
+    const DESCRIPTION: &'static str = "\
+        Setup. A layer of glass beads with the μ(I) rheology lies on an incline, periodic along the slope, over a \
+        no-slip bed. Perturbed particles at rest are relaxed first and carry the shear stress of the static friction \
+        limit.\n\n\
+        Judged. Between the static and the limiting friction angle, the steady velocity against Bagnold's profile, \
+        equations (36)–(37), exact for the model. The approach to it from rest against an independent 1-D solver. \
+        Below that range the layer must stop; above it, it must accelerate. Density against the compression of a \
+        level layer (continuity). The stress error |μ(I)/tan θ − 1|: an error of the friction coefficient appears in \
+        the velocity 8 (25°) to 20 (22°) times as large (dln I/dln μ).\n\n\
+        Observed only. The velocity error over the measured instead of the nominal height, and the time to reach the \
+        steady velocity.";
     const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
     type Parameters = BagnoldParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;

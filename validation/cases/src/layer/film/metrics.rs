@@ -14,19 +14,19 @@ use crate::statistics::{linear_fit, log_log_slope, relative_l2};
 
 quantities! {
     [layer::PARTICLES_LOST, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
-    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 of the velocity profile"),
+    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 error of the velocity profile, √(Σ(u − u_ref)²/Σu_ref²)"),
     FLUX_ERROR: verified("flux_error", "%", "error of the depth-integrated velocity"),
     VELOCITY_L2_COMPRESSIBLE:
-        verified("velocity_l2_compressible", "%", "relative L2 of the velocity profile against the weakly compressible Newtonian film"),
+        verified("velocity_l2_compressible", "%", "relative L2 error of the velocity profile against the weakly compressible Newtonian film"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of the Newtonian film"),
     DISPLACEMENT_FLOOR: verified(
         "displacement_floor", "%",
-        "velocity of displaced particles less that on the lattice, root mean square over the surface velocity",
+        "√⟨(u_perturbed − u_lattice)²⟩ over the surface velocity",
     ),
-    HEIGHT_ERROR: verified("height_error", "%", "mean height of displaced particles over that on the lattice, less 1"),
+    HEIGHT_ERROR: verified("height_error", "%", "mean height of perturbed particles over the mean height on the lattice, minus 1"),
     SKIN_DIFFERENCE:
-        verified("skin_difference", "%", "relative L2 of the velocities with a wider skin of the neighbour lists less those without"),
-    PLUG_EDGE_ERROR: verified("plug_edge_error", "spacings", "height of the plug's edge less the exact one"),
+        verified("skin_difference", "%", "relative L2 difference between velocities with a wider and a narrower skin of the neighbour lists"),
+    PLUG_EDGE_ERROR: verified("plug_edge_error", "spacings", "height of the edge of the plug minus the exact height"),
 }
 
 const EXACT: &str = "exact solution of the film";

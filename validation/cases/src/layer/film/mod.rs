@@ -28,12 +28,14 @@ impl Case for Film {
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "Newtonian, Bingham and Herschel–Bulkley films on an incline against their exact profiles";
-    const DESCRIPTION: &'static str = "A viscous film on an incline, periodic along the slope, over a no-slip bed. The Newtonian film starts from rest; \
-        the two yield-stress films, regularised after Papanastasiou and so with a long viscous relaxation, start from \
-        their exact profile and must keep it. Velocity profile, flux and the edge of the plug are compared with the \
-        exact solutions of the unregularised laws: the regularisation's creep of the plug is part of the error. The \
-        Newtonian film is also run with the collapse paper's operators and walls, which are observed and do not gate. Any other \
-        law, under `material`, is compared with its steady film, integrated over the depth, and does not gate.";
+    const DESCRIPTION: &'static str = "\
+        Setup. A viscous film flows down an incline, periodic along the slope, over a no-slip bed. The Newtonian \
+        film starts from rest. The Bingham and Herschel–Bulkley films, regularised after Papanastasiou, have long \
+        relaxation times and start from their exact profiles.\n\n\
+        Judged. Velocity profile, discharge and the edge of the plug against exact solutions of the unregularised \
+        laws, so that creep of the plug counts as error. The order of convergence of the Newtonian film.\n\n\
+        Observed only. The Newtonian film with the operators and walls of the collapse paper. Any other law given \
+        under `material`, compared with its steady film, integrated over the depth.";
     const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
     type Parameters = FilmParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;

@@ -22,12 +22,12 @@ quantities! {
     LARGEST_THICKNESS: stated("largest_thickness", "cm", "largest thickness of the flow at a station"),
     STOPPING_ANGLE: verified("stopping_angle", "°", "slope at which a layer stops"),
     EXPERIMENTAL_EXCESS:
-        validated("experimental_excess", "°", "slope at which layers stop in experiments, less the one found"),
+        validated("experimental_excess", "°", "stopping slope in experiments minus the computed stopping slope"),
     FLOW_COEFFICIENT: verified("flow_coefficient", "-", "β of (42) from the steady flows"),
     PROFILE_L2: verified("profile_l2", "%", "relative L2 error of the velocity profile of a steady flow under the nonlocal law"),
     FLUIDITY_FROUDE: verified("froude_number", "-", "depth mean of the velocity over √(gh) of a steady flow under the nonlocal law"),
     FLOW_COEFFICIENT_PUBLISHED:
-        verified("flow_coefficient_published", "-", "β of (42) from the steady flows, against the published one that the I_0 of the beads was made of by (41)"),
+        verified("flow_coefficient_published", "-", "β of (42) from the steady flows, against the published β from which the I_0 of the beads follows by (41)"),
 }
 
 /// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.

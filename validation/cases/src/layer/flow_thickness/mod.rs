@@ -116,18 +116,18 @@ impl Case for FlowThickness {
     const NAME: &'static str = "flow-thickness";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "thickness of flow on a slope, the slope at which a layer stops, and the flow rule";
-    const DESCRIPTION: &'static str = "Three questions about thickness. (i) How thick is the flow of a collapse half a metre and more down the slope? \
-        Thickness is the volume of the grains in a bin of 2 cm over the bin's width, as in incline-collapse; the paper's \
-        h_s (44), reconstructed from (40), (41) and (43), is drawn beside and judges nothing. It is the thickness of a steady flow \
-        that discharges β √(g h_0³) per width, which the study `fed-slope` feeds; a released block discharges less and less, and what \
-        passes a station is level over the slopes. (ii) At which slope does a layer of given \
-        thickness stop? Layers start with the steady profile of a steeper slope, and the slope is bisected. The local \
-        μ(I) law stops every layer at tanθ = μ_s whatever its thickness; in experiments thin layers stop on steeper \
-        slopes, h_stop(θ) = L (μ_2 − tanθ)/(tanθ − μ_s). The difference is the known limit of a local law, not an error \
-        of the solver. Under the nonlocal law, whose fluidity diffuses over a few grains, a layer stops below the slope at \
-        which its first mode grows, which is known exactly; its steady profile is compared with a solution of the same equations \
-        without particles. (iii) Does the mean velocity of steady flows follow (42), Ū/√(gh) = β h/h_stop? With (41) this is \
-        an identity of the law, so it verifies the solver and says nothing about grains.";
+    const DESCRIPTION: &'static str = "\
+        Setup. (i) Grains are released on slopes of 22 to 25°, as in `incline-collapse`; thickness at a station is \
+        the volume in a bin of 2 cm over its width. (ii) Layers start with the steady profile of a steeper slope, \
+        and a bisection finds the slope at which each thickness stops. (iii) Steady layers flow on several slopes.\n\n\
+        Judged. (ii) The stopping slope under the local law against tan θ = μ_s, and against the measured h_stop(θ) \
+        = L (μ_2 − tan θ)/(tan θ − μ_s). The latter fails for thin layers: a local law stops every thickness at one \
+        slope. The stopping slope under the nonlocal law against the exact slope at which its first mode grows, and \
+        its steady profile against a solution without particles. (iii) Mean velocity against (42), Ū/√(gh) = β \
+        h/h_stop. With (41) this is an identity of the law: it verifies the solver only.\n\n\
+        Observed only. (i) Thickness at stations beside (44) of the paper. Equation (44) describes a steady \
+        discharge of β √(g h_0³) per width, which the study `fed-slope` feeds; a released block discharges less and \
+        less.";
     type Parameters = FlowThicknessParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 

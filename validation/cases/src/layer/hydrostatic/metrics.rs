@@ -11,21 +11,21 @@ use crate::statistics::{mean, relative_l2};
 quantities! {
     [layer::PARTICLES_LOST, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PRESSURE_NOISE:
-        verified("pressure_noise", "-", "rms of the pressure less its local linear fit within 2h, over ρgH"),
-    NOISE_WITHOUT_COUPLING: verified("noise_without_coupling", "-", "pressure noise without (27) over that with it"),
-    PRESSURE_L2: verified("pressure_l2", "%", "relative L2 of the pressure against the hydrostatic one"),
-    NORMAL_STRESS_L2: verified("normal_stress_l2", "%", "relative L2 of p − s_yy against the hydrostatic pressure"),
+        verified("pressure_noise", "-", "rms of pressure minus its local linear fit within 2h, over ρ g H"),
+    NOISE_WITHOUT_COUPLING: verified("noise_without_coupling", "-", "pressure noise without the coupling (27) over the noise with it"),
+    PRESSURE_L2: verified("pressure_l2", "%", "relative L2 error of pressure against the hydrostatic profile"),
+    NORMAL_STRESS_L2: verified("normal_stress_l2", "%", "relative L2 error of p − s_yy against the hydrostatic pressure"),
     PRESSURE_RATIO_LEAST: verified("pressure_ratio_least", "-", "least pressure over the hydrostatic one"),
     PRESSURE_RATIO_MOST: verified("pressure_ratio_most", "-", "largest pressure over the hydrostatic one"),
     HEIGHT_DRIFT: verified("height_drift", "%", "change of the mean height from 1 s to 2 s"),
     ACOUSTIC_BREATHING: verified("acoustic_breathing", "%", "range of the mean height over the last 0.5 s"),
-    KERNEL_INTEGRAL_ERROR: verified("kernel_integral_error", "%", "integral of the kernel over its support, less 1"),
+    KERNEL_INTEGRAL_ERROR: verified("kernel_integral_error", "%", "integral of the kernel over its support, minus 1"),
     KERNEL_MOMENT_ERROR:
-        verified("kernel_moment_error", "%", "second moment of the kernel's gradient −∫ F r²/D dA, less 1"),
+        verified("kernel_moment_error", "%", "second moment of the kernel gradient −∫ F r²/D dA, minus 1"),
     ELASTIC_SHEAR_ERROR:
-        verified("elastic_shear_error", "%", "shear stress of grains below their yield over G γ, less 1"),
+        verified("elastic_shear_error", "%", "shear stress of grains below yield over G γ, minus 1"),
     STRESS_ROTATION_ERROR:
-        verified("stress_rotation_error", "%", "stress after an eighth of a turn less the turned stress, over its size"),
+        verified("stress_rotation_error", "%", "stress after an eighth of a turn minus the rotated initial stress, over its magnitude"),
     RMS_SPEED: verified("rms_speed", "m/s", "root mean square of the speed at the end"),
 }
 

@@ -27,12 +27,13 @@ impl Case for Hydrostatic {
     const NAME: &'static str = "hydrostatic";
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a jittered layer at rest, Newtonian and μ(I): pressure, its noise, drift";
-    const DESCRIPTION: &'static str = "A layer of displaced particles, settled without friction before the start (`preparation`), must stay at rest \
-        with the exact hydrostatic pressure of its equation of state, without the particle-scale pressure noise that weakly \
-        compressible SPH is known for. The same run without the density–pressure coupling (27) shows that the noise \
-        measure can fail. Under friction the pressure of a layer at rest is not unique (between the active and the \
-        passive state), but the stress across the layer is: p − s_yy is gated and p observed, for whatever law carries its \
-        stress along; every other law is judged by p.";
+    const DESCRIPTION: &'static str = "\
+        Setup. A layer of perturbed particles, relaxed without friction before the start (`preparation`), lies at \
+        rest, as a Newtonian liquid and as μ(I) grains. A second run leaves out the density–pressure coupling (27).\n\n\
+        Judged. Hydrostatic pressure of the equation of state, particle-scale pressure noise and drift. Grains that \
+        carry their stress are judged by p − s_yy, because friction leaves the pressure undetermined between the \
+        active and the passive state. The run without coupling must be noisy, which shows that the measure can fail.\n\n\
+        Observed only. Extremes of the pressure p of grains that carry their stress; velocities at rest.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Parameters = HydrostaticParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
