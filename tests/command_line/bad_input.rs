@@ -149,7 +149,7 @@ fn an_unknown_case() {
 }
 
 #[test]
-fn an_earlier_report_that_is_none() {
+fn missing_earlier_report() {
     let place = Place::new();
     let path = std::path::Path::new("missing").join("cases");
     place.bagnold(&["report", "--cases", "film", "--out", "out", "--against", "missing"]).assert().code(2).stdout("").stderr(
@@ -159,7 +159,7 @@ fn an_earlier_report_that_is_none() {
 }
 
 #[test]
-fn what_is_no_command_line_at_all() {
+fn invalid_command_lines() {
     let place = Place::new();
     for arguments in [&["run"][..], &["run", "film", "--tier", "papre"], &["run", "film", "--threads", "0"], &["fly"]] {
         place.bagnold(arguments).assert().code(2).stdout("");

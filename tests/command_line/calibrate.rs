@@ -190,7 +190,7 @@ fn wrong_plans_are_refused_by_name() {
 
 /// Neither another cell nor a slope that differs by rounding is another experiment.
 #[test]
-fn what_is_held_out_must_differ_in_its_physics() {
+fn validation_data_must_differ_in_physics() {
     let plan = |to: &'static str| refusal(move |text| text.replace("slope_angle = 12.0", to), str::to_owned);
     let same = |value: &str| {
         format!(

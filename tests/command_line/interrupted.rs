@@ -1,7 +1,7 @@
 //! Commands that a signal asks to end, whose checkpoints are damaged, or whose disk is full.
 
 use crate::program;
-use crate::restart::{CALIBRATE, REPORT, RUN_IN_PLANE, SWEEP, checkpoints, has_gone_on, place, what_it_said};
+use crate::restart::{CALIBRATE, REPORT, RUN_IN_PLANE, SWEEP, checkpoints, has_gone_on, output_of_the_program, place};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -30,7 +30,7 @@ fn a_signal_keeps_what_there_is_and_says_how_to_go_on() {
         let mut child = work.start(&place, "asked", "2");
         assert!(has_gone_on(&mut child, &place, "asked-store"), "{}: over before it could be asked", work.name);
         send(&child, signal);
-        let (status, said) = what_it_said(child);
+        let (status, said) = output_of_the_program(child);
         assert_eq!(status.code(), Some(code), "{}: {said}", work.name);
         let first = format!("interrupted by SIG{signal}: what is finished is kept, and a checkpoint of ");
         assert!(said.contains(&first), "{said}");
@@ -54,7 +54,7 @@ fn nohup_ignores_the_end_of_the_terminal() {
     let mut child = process.spawn().expect("started");
     assert!(has_gone_on(&mut child, &place, "out-store"));
     send(&child, "HUP");
-    let (status, said) = what_it_said(child);
+    let (status, said) = output_of_the_program(child);
     assert!(status.code().is_some_and(|code| code <= 1), "{status}: {said}");
 }
 
@@ -66,7 +66,7 @@ fn a_second_signal_ends_at_once() {
     // the second arrives while the first is being answered, or finds the program gone
     send(&child, "TERM");
     let _ = Command::new("kill").args(["-TERM", &child.id().to_string()]).stderr(Stdio::null()).status();
-    let (status, _) = what_it_said(child);
+    let (status, _) = output_of_the_program(child);
     assert_eq!(status.code(), Some(143));
 }
 
@@ -88,7 +88,7 @@ fn a_checkpoint_that_is_damaged_is_refused_and_the_one_before_continued() {
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     std::fs::write(&files[1], bytes).expect("writable");
-    let (_, said) = what_it_said(RUN_IN_PLANE.start(&place, "damaged", "1"));
+    let (_, said) = output_of_the_program(RUN_IN_PLANE.start(&place, "damaged", "1"));
     let refusal = "not continued: it is damaged; the one before it is used, or the run begins anew";
     assert!(said.contains(refusal), "{said}");
     assert!(said.contains("resumes from its checkpoint at t = "), "{said}");
@@ -152,14 +152,14 @@ fn a_full_disk_is_said_and_leaves_the_checkpoint_before() {
     child.wait().expect("ended");
     let before = checkpoints(&place, "full-store");
     let filler = disk.fill();
-    let (status, said) = what_it_said(RUN_IN_PLANE.start(&place, "full", "1"));
+    let (status, said) = output_of_the_program(RUN_IN_PLANE.start(&place, "full", "1"));
     assert!(status.code().is_some_and(|code| code <= 1), "{said}");
     assert!(said.contains("not kept (No space left on device"), "{said}");
     assert!(said.contains("those before it stay, and the run continues"), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "full"), expected);
     assert_eq!(checkpoints(&place, "full-store"), before, "what was there is there, and nothing half written");
     std::fs::remove_file(filler).expect("removable");
-    let (_, said) = what_it_said(RUN_IN_PLANE.start(&place, "full", "1"));
+    let (_, said) = output_of_the_program(RUN_IN_PLANE.start(&place, "full", "1"));
     assert!(!said.contains("WARN"), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "full"), expected);
     assert!(checkpoints(&place, "full-store").is_empty());

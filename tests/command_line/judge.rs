@@ -94,7 +94,7 @@ fn every_case_has_a_submission_to_fill_in() {
 }
 
 #[test]
-fn what_another_code_needs_is_exported() {
+fn export_contains_all_inputs() {
     let place = Place::new();
     place.bagnold(&["export", "still-water", "--out", "out", "--quiet"]).assert().code(0);
     for file in ["case.toml", "definitions.md", "submission.toml"] {

@@ -165,7 +165,7 @@ pub(crate) fn has_gone_on(child: &mut Child, place: &Place, store: &str) -> bool
     false
 }
 
-pub(crate) fn what_it_said(child: Child) -> (ExitStatus, String) {
+pub(crate) fn output_of_the_program(child: Child) -> (ExitStatus, String) {
     let output = child.wait_with_output().expect("ended");
     (output.status, String::from_utf8_lossy(&output.stderr).into_owned())
 }
@@ -187,7 +187,7 @@ fn killed(work: &Work) {
         child.wait().expect("ended");
     }
     assert!(hits > 0, "{}: over before it could be killed", work.name);
-    let (ended, said) = what_it_said(work.start(&place, "killed", "2"));
+    let (ended, said) = output_of_the_program(work.start(&place, "killed", "2"));
     assert_eq!(ended.code(), status.code(), "{}: {said}", work.name);
     assert!(!said.contains("WARN"), "{}: {said}", work.name);
     assert_eq!(work.states(&place, "killed"), expected, "{} after {hits} kills", work.name);

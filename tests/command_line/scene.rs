@@ -127,7 +127,7 @@ fn grains_in_a_box_push_its_sides_with_the_given_part_of_their_weight() {
 }
 
 #[test]
-fn what_walls_take_of_the_bodies_is_told() {
+fn material_removed_by_walls_is_reported() {
     let place = Place::new();
     let text = |lower: f64| {
         format!(

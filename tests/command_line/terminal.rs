@@ -72,7 +72,7 @@ fn a_reader_who_has_had_enough_is_no_error() {
 }
 
 #[test]
-fn nobody_need_read_standard_error() {
+fn closed_standard_error_is_accepted() {
     let place = Place::new();
     let film = |more: &[&'static str]| [&["run", "--out", "out", "--fresh"], CHEAP, more].concat();
     let cases = [

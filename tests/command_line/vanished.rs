@@ -1,6 +1,6 @@
 //! Folders that somebody removes while a command works in them.
 
-use crate::restart::{RUN_IN_PLANE, SWEEP, Work, checkpoints, has_gone_on, place, what_it_said};
+use crate::restart::{RUN_IN_PLANE, SWEEP, Work, checkpoints, has_gone_on, output_of_the_program, place};
 use std::path::Path;
 use std::process::ExitStatus;
 
@@ -16,7 +16,7 @@ fn without(work: &Work, place: &crate::program::Place, removed: &str) -> (ExitSt
     let mut child = work.start(place, "out", "1");
     assert!(has_gone_on(&mut child, place, "out-store"), "{}: over before anything could be removed", work.name);
     remove(&place.path(removed));
-    what_it_said(child)
+    output_of_the_program(child)
 }
 
 #[test]
@@ -29,7 +29,7 @@ fn an_output_folder_that_vanishes_is_named_and_the_result_is_in_the_store() {
         "error: out: cannot be written (no such file or directory); choose a folder that you may write to with --out";
     assert!(said.contains(message), "{said}");
     assert!(checkpoints(&place, "out-store").is_empty(), "the run was finished and stored");
-    let (status, said) = what_it_said(RUN_IN_PLANE.start(&place, "out", "1"));
+    let (status, said) = output_of_the_program(RUN_IN_PLANE.start(&place, "out", "1"));
     assert!(status.code().is_some_and(|code| code <= 1), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "out"), expected);
 }
@@ -41,7 +41,7 @@ fn a_sweep_whose_folder_vanishes_says_so_and_begins_anew() {
     let (status, said) = without(&SWEEP, &place, "out");
     assert_eq!(status.code(), Some(2), "{said}");
     assert!(said.contains("cannot be written (no such file or directory)"), "{said}");
-    let (status, said) = what_it_said(SWEEP.start(&place, "out", "1"));
+    let (status, said) = output_of_the_program(SWEEP.start(&place, "out", "1"));
     assert_eq!(status.code(), Some(0), "{said}");
     assert_eq!(SWEEP.states(&place, "out"), expected);
 }
@@ -53,7 +53,7 @@ fn a_store_that_vanishes_costs_no_result() {
     let (status, said) = without(&RUN_IN_PLANE, &place, "out-store");
     assert!(status.code().is_some_and(|code| code <= 1), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "out"), expected);
-    let (status, said) = what_it_said(RUN_IN_PLANE.start(&place, "out", "1"));
+    let (status, said) = output_of_the_program(RUN_IN_PLANE.start(&place, "out", "1"));
     assert!(status.code().is_some_and(|code| code <= 1), "{said}");
     assert_eq!(RUN_IN_PLANE.states(&place, "out"), expected);
 }

@@ -104,7 +104,7 @@ fn a_profile_in_other_units_is_a_run() {
 }
 
 #[test]
-fn what_is_wrong_is_refused_by_field() {
+fn invalid_value_is_refused_by_field() {
     let run = "variant = \"slope_angle=24,start=rest\"\n";
     let profile = |columns: &str| format!("{HEAD}{run}profile = {{ file = \"u.csv\", columns = {{ {columns} }} }}");
     let refused = [

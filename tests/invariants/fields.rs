@@ -228,7 +228,7 @@ fn fields_that_do_not_fit_are_refused() {
 }
 
 #[test]
-fn what_comes_in_has_the_initial_value() {
+fn inflow_has_the_initial_value() {
     let mut scene = crate::inlets::fed();
     scene.rheology = spreading(0.0, FieldBoundary::NoFlux);
     scene.flow.field = vec![1.0; scene.flow.position.len()];

@@ -186,7 +186,7 @@ fn phases_without_particles() {
 }
 
 #[test]
-fn states_and_parameters_that_are_none() {
+fn invalid_states_and_parameters() {
     assert_eq!(
         message(|scene| scene.fluid.particles.position[5][1] = f64::NAN),
         "the position of particle 5 is NaN, but must be finite"

@@ -89,7 +89,7 @@ where
 }
 
 #[test]
-fn what_is_fed_is_the_integral_of_the_rate_and_is_booked() {
+fn inflow_is_the_integral_of_the_rate() {
     let scene = fed();
     let end = 0.1;
     let exact = scene.enclosure.inlets[0].rate.mass(end) / scene.enclosure.inlets[0].row_mass();

@@ -139,7 +139,7 @@ fn a_memory_goes_with_its_particle() {
 }
 
 #[test]
-fn what_comes_in_has_the_initial_memory() {
+fn inflow_has_the_initial_memory() {
     let mut scene = crate::inlets::fed();
     scene.rheology = bonded(0.0);
     let begun = scene.flow.position.len() as u32;

@@ -142,7 +142,7 @@ fn rested(mut scene: Scene<2>, rheology: Rheology, steps: usize) -> (f64, f64) {
 }
 
 #[test]
-fn what_is_at_rest_in_a_box_rests_in_one_that_is_turned() {
+fn rest_in_a_box_holds_in_a_rotated_box() {
     let (liquid, grains) = (rested(plane_box(), SYRUP, 6000), rested(plane_box(), GRAINS, 2000));
     for degrees in [0.0, 10.0, 30.0, 45.0] {
         let (error, fastest) = rested(turned_box(degrees), SYRUP, 6000);
@@ -274,7 +274,7 @@ fn gravity_and_the_walls_of_segments_give_all_the_momentum() {
 }
 
 #[test]
-fn what_leaves_by_an_open_side_is_taken_out_and_counted() {
+fn outflow_is_removed_and_counted() {
     let mut scene = open_scene(block([14, 12], Disorder::FULL, 5));
     scene.gravity = Vector::<2>::new(0.0, -9.0);
     scene.enclosure.exits.lower = Vector::<2>::new(f64::NEG_INFINITY, -0.05);

@@ -160,7 +160,7 @@ fn a_layer_at_rest_does_not_creep_by_its_side_walls() {
 /// Material that sinks between the plates at one velocity hangs on them: dp/dy = ρ g − 2 μ_w p/W, so that its pressure tends to
 /// ρ g W/(2 μ_w) with the depth (Janssen). It sinks with a bed that is drawn down, and begins with the pressure of its whole weight.
 #[test]
-fn what_sinks_between_side_walls_has_the_pressure_of_a_silo() {
+fn settling_between_side_walls_has_janssen_pressure() {
     let (columns, rows, speed) = (12, 40, 0.1);
     let height = rows as f64 * SPACING;
     let mut scene = periodic_scene([columns, rows], Disorder { jitter: 0.05, ..Disorder::NONE }, 9);
@@ -209,7 +209,7 @@ fn what_sinks_between_side_walls_has_the_pressure_of_a_silo() {
 }
 
 #[test]
-fn side_walls_that_are_none_are_refused() {
+fn invalid_side_walls_are_refused() {
     let message = |side_walls| {
         let mut scene = open_scene(block([6, 6], Disorder::NONE, 1));
         scene.side_walls = Some(side_walls);

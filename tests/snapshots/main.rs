@@ -79,7 +79,7 @@ fn the_metrics_of_every_case_are_as_accepted() {
 /// `cargo test --test snapshots -- --ignored --nocapture` prints the list.
 #[test]
 #[ignore = "the drift test asks the same; this one shows what judges, of stored runs"]
-fn what_measured_points_judge() {
+fn measured_points_are_judged() {
     measured_points::assert_enough();
 }
 

@@ -27,7 +27,7 @@ fn length(name: &str) -> usize {
 }
 
 #[test]
-fn a_case_of_ones_own_is_run_judged_and_reported() {
+fn user_defined_case_is_run_judged_and_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).display().to_string();
     let (store, page) = (path("store"), path("page"));
@@ -39,7 +39,7 @@ fn a_case_of_ones_own_is_run_judged_and_reported() {
 }
 
 #[test]
-fn a_law_of_ones_own_is_found_by_its_key_and_run() {
+fn user_defined_law_is_found_by_its_key_and_run() {
     own_law::register_power_law().expect("its name is free");
     let left =
         |flow_index| own_law::amplitude_left(own_law::law(flow_index).expect("readable")).expect("no divergence");
@@ -53,7 +53,7 @@ fn a_law_of_ones_own_is_found_by_its_key_and_run() {
 /// A block that leans against a plane of symmetry, of a law with a field of its own: the gates of the scene hold (its energy ledger closes
 /// with what softening loses), and it runs out farther than with the peak friction and less far than with the residual one.
 #[test]
-fn a_law_of_ones_own_that_remembers_runs_a_scene() {
+fn user_defined_law_with_memory_runs_a_scene() {
     own_field_law::register_softening().expect("its name is free");
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).display().to_string();

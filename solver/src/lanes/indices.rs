@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_region_held_before_is_gone() {
+    fn previous_content_of_a_region_is_gone() {
         let mut indices = CheckedIndices::default();
         assert_eq!(refill(&mut indices, 9, &[&[[8; LANES]; 3], &[[7; LANES]; 2]], 4), 3);
         // fewer particles: an index of before would now be out of range
@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_read_back_is_what_was_written_and_checked() {
+    fn written_output_is_read_back_unchanged() {
         let mut indices = CheckedIndices::default();
         refill(&mut indices, 9, &[&[[8; LANES]; 3], &[], &[[7; LANES]; 1]], 4);
         let packed = PackedIndices::from(indices.clone());

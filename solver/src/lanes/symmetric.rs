@@ -81,7 +81,7 @@ mod tests {
     use crate::lanes::{InstructionSet, LanePass};
 
     #[test]
-    fn what_is_stored_of_a_group_is_loaded_again() {
+    fn stored_group_is_loaded_again() {
         struct RoundTrip;
         impl LanePass for RoundTrip {
             #[inline(always)]

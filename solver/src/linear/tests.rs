@@ -217,7 +217,7 @@ fn a_singular_system_names_its_row() {
 }
 
 #[test]
-fn too_few_iterations_and_numbers_that_are_none_are_errors() {
+fn too_few_iterations_and_invalid_numbers_are_errors() {
     let matrix = Dense::springs(60, |_| 1e-3, 21);
     let right: Vec<f64> = (0..60).map(|a| f64::from(a % 7)).collect();
     let few = Criterion { tolerance: 1e-12, most_iterations: 2 };

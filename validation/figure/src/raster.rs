@@ -110,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_figure_has_is_refused_and_not_left_out() {
+    fn unknown_axis_is_refused() {
         for element in [
             "<ellipse rx=\"3\"/>",
             "<path d=\"M0 0L3 3\" stroke=\"#000000\" stroke-width=\"2\"/>",

@@ -40,7 +40,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_picture_has_no_size() {
+    fn invalid_picture_has_no_size() {
         assert_eq!(size_of(Path::new("no/such.png")), None);
     }
 }

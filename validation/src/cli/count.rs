@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_done_before_does_not_count_for_the_rate() {
+    fn earlier_work_does_not_count_for_the_rate() {
         let begin = Instant::now();
         let counted = |done| Counted { what: "runs".to_owned(), doing: "a".to_owned(), all: 4, done, before: 2, begin };
         assert_eq!(counted(2).text(), "2/4 runs  time left not known yet  a");

@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_measured_here_counts_before_what_was_measured_elsewhere() {
+    fn local_speed_replaces_the_shipped_speed() {
         let (mut known, mut shipped) = (Speeds::default(), Speeds::default());
         let expected = expectation(&[4.0, 2.0]);
         assert_eq!(expected.seconds_by(&known, &shipped, 1.0, 1), 6.0, "nothing is known: the nominal times");

@@ -167,7 +167,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_was_done_before_does_not_count_for_the_rate() {
+    fn earlier_work_does_not_count_for_the_rate() {
         let run = RunState {
             name: String::new(),
             weight: 1.0,

@@ -234,7 +234,7 @@ fn stress_strain_and_pressure_solve_their_equations_together() {
 
 /// Without an end of the elastic range, where the strength falls faster than the stress unloads, and under tension.
 #[test]
-fn whatever_is_allowed_gives_a_finite_state() {
+fn every_allowed_input_gives_a_finite_state() {
     for (peak_friction, kept) in [(0.0, 1.0), (0.6, 1.0), (0.6, 0.5), (1.0, 0.9)] {
         for (dilation, dilation_strain) in [(4e-15, None), (0.5, None), (0.5, Some(1e-12)), (0.4, Some(0.3))] {
             for (peak_cohesion, softening_strain) in [(0.0, 1.0), (10.0, 1e-15), (1e9, 0.1)] {

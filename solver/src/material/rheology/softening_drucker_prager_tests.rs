@@ -83,7 +83,7 @@ fn simple_shear_follows_the_exact_curve_up_to_the_turn_of_the_elastic_stress() {
 
 /// At H ≥ G strength drops to its residual at once, in whatever step the peak is passed.
 #[test]
-fn what_softens_faster_than_it_unloads_drops_to_its_residual() {
+fn softening_faster_than_unloading_drops_to_the_residual() {
     for modulus in [100.0, 40.0] {
         for (count, (stress, strain)) in
             path(&Tensor::<2>::new(0.375, 0.0, 0.0, -0.375), modulus, 1200).iter().enumerate()
@@ -215,7 +215,7 @@ fn no_pressure_no_stress_and_no_step_no_strain() {
 
 /// The ends of what the parameters' rules allow, in all combinations, with steps from none to all of the strength.
 #[test]
-fn whatever_is_allowed_gives_a_finite_state_that_never_hardens() {
+fn every_allowed_input_gives_a_finite_state_without_hardening() {
     for peak_friction in [0.0, 4e-15, 0.6, 1.0] {
         for peak_cohesion in [0.0, 4e-12, 10.0, 1e15] {
             for kept in [0.0, 0.5, 1.0] {

@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_pass_is_refused() {
+    fn impossible_gate_is_refused() {
         let of = |width: f64, rate: f64| {
             Inlet::segment("feed", Vector::<2>::new(0.0, width), Vector::<2>::zeros(), supply(rate))
                 .expect("an opening")

@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lands_from_the_least_density_is_not_pressed_together() {
+    fn landing_grains_are_not_compressed() {
         lands_without_pressure::<2>();
         lands_without_pressure::<3>();
     }

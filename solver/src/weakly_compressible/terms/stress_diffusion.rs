@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn what_one_particle_gives_the_other_takes_and_the_trace_stays_zero() {
+    fn pair_exchange_is_antisymmetric_and_traceless() {
         let (given, taken) = (bracket((&STRESS, 8.0), (&OTHER, 2.0)), bracket((&OTHER, 2.0), (&STRESS, 8.0)));
         for i in 0..3 {
             for j in 0..3 {

@@ -147,7 +147,7 @@ mod tests {
     use bagnold_solver::material::rheology::MuI;
 
     #[test]
-    fn grains_with_a_law_of_ones_own_are_not_those_of_the_table() {
+    fn grains_with_a_user_defined_law_are_not_compared_with_the_table() {
         let published = TABLE_2_SAND.law;
         let own = MuI { static_friction: published.static_friction + 0.01, ..published };
         assert_eq!(Material::SAND.title_with(&Rheology::MuI(published)), "sand of Table 2");

@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn where_all_or_nothing_moves_there_is_no_surface() {
+    fn uniform_motion_has_no_failure_surface() {
         let start: Vec<[f64; 3]> = (0..100).map(|k| [f64::from(k % 10), f64::from(k / 10), 0.0]).collect();
         let still = Wedge::between(&frame(start.clone()), &frame(start.clone()), 10.0, 1.0);
         assert_eq!((still.undisturbed, still.angle()), (1.0, None));

@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fits_passes_and_what_does_not_is_said_with_its_size() {
+    fn excessive_size_is_refused_with_its_number() {
         assert_eq!(of(1e5, 3600.0).problem(&LIMITS), None);
         let (rule, remedy) = of(1e8, 1.0).problem(&LIMITS).expect("too large");
         assert_eq!(rule, "less demanding (limit 16 GiB of memory)");

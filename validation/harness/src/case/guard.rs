@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn what_concerns_only_runs_that_are_not_chosen_is_not_refused() {
+    fn parameters_of_unselected_runs_are_not_refused() {
         let settings = ["steps=[900000, 10, 10]".to_owned()];
         let limits = Limits { core_hours: 1e-5, ..LIMITS };
         let of = |only: &[Variant]| {

@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_plan_is_refused() {
+    fn invalid_plan_is_refused() {
         for (text, expected) in [
             (
                 "output = 3",

@@ -32,7 +32,7 @@ fn the_last_two_are_kept_and_the_newest_is_continued_once() {
 }
 
 #[test]
-fn what_is_damaged_foreign_or_of_another_form_gives_way_to_the_one_before() {
+fn damaged_checkpoint_gives_way_to_the_previous_one() {
     let root = tempfile::tempdir().expect("temporary folder");
     let folder = root.path().join("run");
     let writing = Checkpoints::at(&folder, "a", None);

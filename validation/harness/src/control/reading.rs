@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn what_breaks_a_rule_is_named() {
+    fn broken_rule_names_the_field() {
         assert_eq!(parse("x.toml", ROW).expect("a control").len(), 1);
         for (text, expected) in [
             (ROW.repeat(2), "twice"),

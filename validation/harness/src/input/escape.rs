@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_terminal_obeys_is_written_out_and_all_else_stays() {
+    fn control_characters_are_escaped_and_other_text_stays() {
         for plain in ["", "a b-c_1", "μ(I) 20 … 25°, Größe 砂", "it's \"quoted\" \\"] {
             assert_eq!(escaped(plain), plain);
         }

@@ -177,7 +177,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_a_file_is_said() {
+    fn defect_of_a_file_is_named() {
         assert_eq!(refused(&binary()[..150]), "is truncated or not STL: its head announces 2 triangles, it has 1");
         assert_eq!(refused(&TEXT.as_bytes()[..78]), "is no sound STL file (EOF while expecting vertex)");
         assert!(refused(b"").starts_with("is no sound STL file"));

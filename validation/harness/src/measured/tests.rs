@@ -98,7 +98,7 @@ fn a_byte_order_mark_hides_no_limit() {
 }
 
 #[test]
-fn what_stands_on_the_horizontal_axis_is_compared_over_the_vertical_one_with_every_curve() {
+fn horizontal_values_are_compared_over_the_vertical_axis() {
     let table = "y/h [-],u [cm/s],uncertainty [cm/s]\n0.5,150,10\n1,300,10\n";
     let mut own = result();
     read(table).expect("a table").draw(&mut own).expect("drawn");
@@ -147,7 +147,7 @@ fn lengths_and_times_are_taken_where_the_axes_are_ratios_of_them() {
 }
 
 #[test]
-fn what_cannot_be_placed_is_refused_with_what_is_there() {
+fn unplaceable_curve_is_refused_with_the_available_ones() {
     assert_eq!(
         refused("t [s],back [m],uncertainty [m]\n1,1,1\n"),
         "mine.csv: `columns` is back [m] over t [s], but must be the axes of one of the case's figures, in names and kinds of units \
@@ -174,7 +174,7 @@ fn what_cannot_be_placed_is_refused_with_what_is_there() {
 }
 
 #[test]
-fn what_is_no_table_of_measurements_is_refused() {
+fn invalid_measurements_are_refused() {
     for (text, message) in [
         (
             "t [s],front [m]\n1,1\n",

@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_table_is_refused_by_line() {
+    fn invalid_table_is_refused_by_line() {
         let message = |text: &str| parse(text).expect_err("no table").to_string();
         assert_eq!(
             message(""),

@@ -392,7 +392,7 @@ mod tests {
     const BROKEN: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
     #[test]
-    fn what_is_not_a_number_passes_no_gate() {
+    fn nan_fails_every_gate() {
         let limits = [Limit::AtMost(1.0), Limit::AtLeast(-1.0), Limit::Within(-1.0, 1.0)];
         for limit in limits {
             assert!(limit.holds(0.0), "{limit:?}");

@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_quantity_declares_is_found() {
+    fn undeclared_metric_is_found() {
         const FRONT: Quantity = Quantity::verified("front", "m", "how far the front has come");
         let variant = Variant::default();
         let metrics = [FRONT.of(&variant, 1.0), Metric::observed("fornt", &variant, 1.0, "m")];

@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn what_drifts_is_not_steady_and_what_fluctuates_is() {
+    fn drift_is_unsteady_and_fluctuation_is_steady() {
         let drift = (0..1000).map(|k| (f64::from(k), 1.0 - 5e-5 * f64::from(k)));
         assert!(unsteadiness("the mean", drift, 100.0).is_some());
         let waves = (0..1000).map(|k| (f64::from(k), 1.0 + 0.3 * (0.7 * f64::from(k)).sin()));

@@ -61,7 +61,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_gain_is_the_excess_over_the_start_and_a_loss_is_none() {
+    fn energy_gain_counts_only_excess_over_the_start() {
         let time = [0.0, 1.0, 2.0];
         let gaining = Energies { time: &time, kinetic: &[0.0, 3.0, 0.0], potential: &[10.0, 8.0, 5.0] };
         assert!((gaining.largest_gain() - 0.1).abs() < 1e-15);

@@ -103,7 +103,7 @@ mod tests {
     }
 
     #[test]
-    fn what_swings_counts_each_time() {
+    fn every_swing_counts() {
         let mut book = EnergyBook::default();
         for (time, gravity, walls, kinetic) in [(0.0, 0.0, 0.0, 0.0), (1.0, 2.0, 0.5, 2.0), (3.0, -1.0, 1.5, 1.0)] {
             let ledger = EnergyLedger { gravity, walls, viscous: 0.25, ..EnergyLedger::default() };

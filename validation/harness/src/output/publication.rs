@@ -238,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_kill_left_committed_is_ended_by_the_next_claim() {
+    fn next_claim_completes_a_commit_after_a_kill() {
         for moved in 0..=2 {
             let (_root, folder, staging) = prepared(&[("store/entry", "kept")]);
             let new = names(&staging).expect("readable");
@@ -254,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_killed_process_left_is_removed_and_foreign_folders_stay() {
+    fn remains_of_a_killed_process_are_removed_and_other_folders_stay() {
         let (root, folder, _) = prepared(&[]);
         // no process has this number: the kernel's largest is 4194304
         let prefix = beside_prefix(&folder).expect("a name");

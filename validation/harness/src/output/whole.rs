@@ -86,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_a_kill_at_the_start_leaves_does_not_count() {
+    fn remains_of_a_kill_at_the_start_do_not_count() {
         let root = tempfile::tempdir().expect("temporary folder");
         let folder = root.path().join("out");
         assert!(is_unused(&folder).expect("readable"));

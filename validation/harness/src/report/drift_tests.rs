@@ -65,7 +65,7 @@ fn a_value_that_moved_within_its_fourth_digit_is_shown_with_the_digits_that_move
 }
 
 #[test]
-fn what_cannot_be_compared_comes_first() {
+fn incomparable_values_come_first() {
     let accepted = [metric("velocity_l2", 10.0), metric("gone", 1.0), metric("gci", 5.0)];
     let other_unit = Metric { unit: "m".to_owned(), ..metric("gci", 5.0) };
     let report =

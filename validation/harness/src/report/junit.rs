@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gate_is_a_test_and_an_observed_value_is_none() {
+    fn gates_become_tests_and_observed_values_do_not() {
         let observed = crate::metric::Metric { gate: None, ..gated("height", 1.0) };
         let xml = xml(&report(vec![case("film", vec![gated("velocity_l2", 0.5), gated("wall_slip", 0.9), observed])]));
         assert!(
@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn what_xml_cannot_hold_is_cleaned_and_escaped() {
+    fn invalid_xml_characters_are_removed() {
         let xml = xml(&report(vec![case("film", vec![gated("a<b&\u{1}\"", 0.9)])]));
         assert!(xml.contains("a&lt;b&amp;&quot;") && !xml.contains('\u{1}'), "{xml}");
     }

@@ -193,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_written_is_said_at_the_end() {
+    fn unwritable_files_are_reported_at_the_end() {
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("run"), "a file where a folder should be").expect("writable");
         let states = states(folder.path(), &[]);

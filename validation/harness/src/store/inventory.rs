@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_too_old_or_too_much_goes_and_nothing_else() {
+    fn prune_deletes_only_old_or_excess_entries() {
         let (root, now) = store();
         let of = |keep| prune(root.path(), keep, now).expect("writable");
         assert_eq!(of(RetentionPolicy::default()), Pruned::default());

@@ -31,7 +31,7 @@ fn a_series_of_four_uses_all_of_them() {
 }
 
 #[test]
-fn what_turns_is_told_with_a_wide_band() {
+fn oscillation_is_found_with_a_wide_band() {
     let turning = [(40, 1.0), (60, 1.2), (90, 1.1)].map(|(resolution, value)| Mean {
         resolution,
         value,

@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_ratio_is_refused() {
+    fn undefined_ratio_is_refused() {
         assert_eq!(model_bias(&compared(&[1.0, 1.1], None)), None);
         assert_eq!(model_bias(&compared(&[1.0, 1.1, 0.0], None)), None);
         assert_eq!(model_bias(&compared(&[1.0, 1.1, -0.5], None)), None);

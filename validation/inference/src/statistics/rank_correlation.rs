@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn what_says_nothing_gives_nothing() {
+    fn empty_description_gives_no_text() {
         assert_eq!(rank_correlation(&[(1.0, 1.0), (2.0, 2.0)]), None);
         assert_eq!(rank_correlation(&[(1.0, 1.0), (1.0, 2.0), (1.0, 3.0)]), None);
         assert_eq!(rank_correlation(&[(1.0, 1.0), (f64::NAN, 2.0), (1.0, 3.0)]), None);

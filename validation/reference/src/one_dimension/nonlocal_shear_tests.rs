@@ -184,7 +184,7 @@ fn without_cooperation_a_flow_ends_at_a_line() {
 }
 
 #[test]
-fn what_is_out_of_range_is_named() {
+fn value_out_of_range_names_the_field() {
     let refused = |of: NonlocalShear| of.steady(100).expect_err("it is refused").to_string();
     assert!(refused(chute(10.0, 0.7, FieldBoundary::NoFlux)).contains("below limiting_friction"));
     assert!(refused(chute(-1.0, 0.5, FieldBoundary::NoFlux)).contains("thickness"));

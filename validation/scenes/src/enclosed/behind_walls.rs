@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_far_behind_a_wall_is_behind_it() {
+    fn points_far_behind_a_wall_are_behind_it() {
         let sites = sites(-8..8, 4, None);
         let behind = permissions(false, 0.5).behind(&sites).expect("half of it");
         assert!(sites.iter().zip(&behind).all(|(site, behind)| *behind == (site.place[0] < 0.0)));

@@ -165,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn what_wraps_crosses_no_line_but_those_on_its_way() {
+    fn periodic_wrap_crosses_no_line() {
         let gauge = |text: &str| toml::from_str::<PlaneGauge>(text).expect("a gauge");
         let gauges = [
             gauge("kind = \"flux\"\nname = \"inside\"\nfrom = [0.15, 1.0]\nto = [0.15, -1.0]"),

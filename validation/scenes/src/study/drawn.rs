@@ -211,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_reference_is_known_to_is_drawn() {
+    fn reference_is_drawn_with_its_uncertainty() {
         let drawn = figure(
             "name = \"a\"\ncaption = \"A.\"\nx = \"θ [°]\"\ny = \"h [m]\"\nat = { steep = 25.0 }\n\
              [[series]]\ncheck = \"left\"\nreference = \"measured\"\n",

@@ -294,7 +294,7 @@ impl Study {
                     self.text.study,
                     check.name,
                     reading.variant,
-                    reading.why_there_is_none()
+                    reading.reason_of_absence()
                 );
             }
             let metric = |reading: &Reading| {

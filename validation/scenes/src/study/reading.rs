@@ -23,7 +23,7 @@ pub(super) struct Reading {
 
 impl Reading {
     /// Reason for a value that is not a number.
-    pub(super) fn why_there_is_none(&self) -> String {
+    pub(super) fn reason_of_absence(&self) -> String {
         let ends = |curve: &RunCurve| Some((curve.over.clone(), curve.points.first()?.0, curve.points.last()?.0));
         match self.curve.as_ref().map(ends) {
             Some(Some((over, from, to))) => {

@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_differs_is_found_in_tables_and_lists_of_tables() {
+    fn differences_are_found_in_tables_and_lists_of_tables() {
         let of = |text: &str| Some(leaves(&toml::from_str::<Table>(text).expect("TOML")));
         let text = "a = 1\nb = [1, 2]\n[law]\nmu = 0.4\n[[walls]]\nname = \"one\"\n[[walls]]\nname = \"two\"\n";
         let other = text.replace("0.4", "0.5").replace("two", "three").replace("a = 1\n", "");

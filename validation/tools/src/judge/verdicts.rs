@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_not_given_is_not_judged_whatever_its_value() {
+    fn missing_data_are_not_judged() {
         let own = [metric("front", 0.5), metric("height", 0.5), metric("noise", 0.5)];
         // the observation says 0 for what was not measured
         let theirs = foreign(

@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_found_is_kept() {
+    fn findings_are_kept() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let file = folder.path().join("drawn");
         let right = |wall_seconds| MutantRun { metrics: Vec::new(), diverged: Vec::new(), wall_seconds };

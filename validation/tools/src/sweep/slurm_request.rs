@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn what_slurm_takes_passes() {
+    fn valid_slurm_requests_pass() {
         let texts = |values: &[&str], holds: fn(&str) -> bool| {
             for value in values {
                 assert!(holds(value), "{value}");

@@ -138,7 +138,7 @@ fn a_file_finds_it_by_name_and_writes_it_back() {
 }
 
 #[test]
-fn what_is_wrong_in_a_file_is_said() {
+fn defect_in_a_file_is_named() {
     register_both();
     let problem = |text: &str| toml::from_str::<Rheology>(text).expect_err("refused").message().to_owned();
     let unknown = problem("law = \"mu-j\"");

@@ -74,7 +74,7 @@ fn file_names_are_letters_digits_points_and_dashes() {
 }
 
 #[test]
-fn what_is_no_variant_is_refused_with_its_part() {
+fn invalid_variant_is_refused_with_its_part() {
     for (text, part) in [("resolution", "resolution"), ("a=1,", ""), ("=1", "=1"), ("a=", "a="), ("a=1=2", "a=1=2")] {
         let wrong = VariantError::Part { text: text.to_owned(), part: part.to_owned() };
         assert_eq!(text.parse::<Variant>(), Err(wrong));

@@ -224,7 +224,7 @@ fn impossible_layers_are_refused() {
 }
 
 #[test]
-fn what_does_not_settle_says_so() {
+fn bodies_that_do_not_settle_are_reported() {
     // Gidaspow's law jumps at φ = 0.2: a cell there has no steady state
     let closures = Closures { drag: bagnold_solver::material::drag::DragLaw::Gidaspow, ..Closures::default() };
     let layer = BedLoadLayer { closures, ..layer(0.03, GrainMotion::Dilating) };

@@ -97,7 +97,7 @@ fn a_byte_order_mark_before_the_document_changes_nothing() {
 }
 
 #[test]
-fn what_vtk_writes_in_other_forms_is_refused_by_its_form() {
+fn unsupported_vtk_is_refused_by_its_format() {
     let parallel = "<VTKFile type=\"PUnstructuredGrid\"><PUnstructuredGrid/></VTKFile>";
     let blocks = "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet/></VTKFile>";
     for (bytes, name, said) in [

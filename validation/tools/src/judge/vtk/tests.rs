@@ -39,7 +39,7 @@ fn a_legacy_file_gives_its_arrays() {
 }
 
 #[test]
-fn what_is_no_file_of_vtk_is_refused_without_a_panic() {
+fn invalid_vtk_is_refused_without_a_panic() {
     for text in
         ["", "x,y\n1,2\n", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece/></UnstructuredGrid></VTKFile>"]
     {
@@ -102,7 +102,7 @@ fn a_count_beyond_the_file_is_refused_before_memory_is_asked_for() {
 }
 
 #[test]
-fn an_empty_appended_section_is_none() {
+fn empty_appended_section_is_ignored() {
     let text = TEXT.replace("</VTKFile>", "<AppendedData encoding=\"raw\"/></VTKFile>");
     let points = PointArrays::parse(text.as_bytes(), Path::new("a.vtu")).expect("a grid");
     assert_eq!(points.arrays["mass"], [0.5, 0.25]);
