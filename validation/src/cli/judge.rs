@@ -2,9 +2,10 @@
 
 use super::arguments::{ExportArguments, JudgeArguments};
 use super::error::ProgramError;
-use super::{Exit, say, simulation};
+use super::{Exit, say, simulation, summary};
 use crate::case::{Changes, Registry};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
+use crate::metric::Verdict;
 use crate::output::OutputFolder;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -32,18 +33,20 @@ pub(super) fn judge(
     let judgement = judge::judge(own, &entries)?;
     judge::write(&judgement, claimed.staging(), command.junit.as_deref())?;
     claimed.publish()?;
-    say(output, &summary(&judgement));
+    say(output, &verdicts(&judgement));
     say(output, &format!("written to {}\n", folder.join("index.html").display()));
     let fails = judgement.codes.iter().any(|judged| judged.counts().1 > 0);
     Ok(if exit == Exit::Held && fails { Exit::GateFailed } else { exit })
 }
 
-/// A line for each code.
-fn summary(judgement: &CodeComparison) -> String {
+/// A line for each code, and a table of its gates that fail.
+fn verdicts(judgement: &CodeComparison) -> String {
     let line = |judged: &judge::JudgedCode| {
         let (holding, failing, not_given) = judged.counts();
         let name = format!("{} {}", judged.code.name, judged.code.version);
-        format!("{}: {holding} gates hold, {failing} fail, {not_given} not given\n", name.trim())
+        let failed = judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
+        let table = summary::of_metrics(failed);
+        format!("{}: {holding} gates pass, {failing} fail, {not_given} without data\n{table}", name.trim())
     };
     judgement.codes.iter().map(line).collect()
 }

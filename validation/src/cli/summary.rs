@@ -17,6 +17,11 @@ pub(super) fn failures(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) 
     table(result.failures().map(|metric| row(metric, is_known(metric))).collect())
 }
 
+/// Metrics of another code as a table.
+pub(super) fn of_metrics<'a>(metrics: impl Iterator<Item = &'a Metric>) -> String {
+    table(metrics.map(|metric| row(metric, false)).collect())
+}
+
 /// Gates of a case that are no longer judged, a line each.
 pub(super) fn not_judged(case: &str, gates: &[(MetricKey, String)]) -> String {
     let line =
