@@ -11,7 +11,7 @@ use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::walls::{SideWalls, wall};
 use rayon::ThreadPoolBuilder;
 
-const STEPS: usize = 200;
+const STEPS: usize = 100;
 
 /// A column that starts to collapse beside a mirror plane, large enough for every parallel loop to be split.
 pub(crate) fn column<const D: usize>(cells: [usize; D]) -> Scene<D> {
@@ -41,7 +41,7 @@ where
         let mut simulation = simulation(scene.clone());
         simulation.use_instruction_set(instruction_set);
         advance(&mut simulation, STEPS);
-        assert!(simulation.neighbour_searches() > 3, "the particles are sorted anew in the run");
+        assert!(simulation.neighbour_searches() > 2, "the particles are sorted anew in the run");
         simulation.snapshot().to_bytes()
     })
 }
@@ -53,7 +53,8 @@ where
     let expected = bytes(scene, 1, InstructionSet::best());
     assert!(expected.iter().any(|&byte| byte != 0));
     assert!(bytes(scene, 3, InstructionSet::best()) == expected, "three threads change the state");
-    for instruction_set in InstructionSet::available() {
+    // several in a build that has them: `instruction_sets.rs`
+    for instruction_set in InstructionSet::available().into_iter().filter(|set| *set != InstructionSet::best()) {
         let found = bytes(scene, 2, instruction_set);
         assert!(found == expected, "{} changes the state", instruction_set.name());
     }

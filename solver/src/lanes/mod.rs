@@ -1,23 +1,26 @@
 //! Eight f64 lanes with one meaning on every instruction set: the only place with `unsafe`.
 //!
-//! A pair sum is written once against [`Lanes`] and compiled for the back ends: SSE2, AVX2 and AVX-512 on x86-64, and
-//! one of plain arrays for all other processors. The processor's best one is chosen at run time. The lane count, the absence of fused multiply–add and the meaning of
+//! A pair sum is written once against [`Lanes`] and compiled for the back ends that `build.rs` names: SSE2, AVX2 and AVX-512 on x86-64,
+//! and one of plain arrays for all other processors. A release build has all of them, any other build the one of the machine that builds.
+//! The best one of the processor is chosen at run time. The lane count, the absence of fused multiply–add and the meaning of
 //! every operation are fixed here, so every back end gives the same bits. A lane is a particle: lanes are never summed.
 //! Each back end has eight f32 lanes beside them, for what a pair is made of; sums over pairs are f64.
 
 pub mod algebra;
+#[cfg(with_avx2)]
+mod avx2;
+#[cfg(with_avx512)]
+mod avx512;
 mod indices;
-// compiled beside the others for the tests that compare them
-#[cfg(any(test, not(target_arch = "x86_64")))]
+// compiled beside the others for the tests of a release build, which compare them
+#[cfg(any(with_arrays, all(test, with_avx512)))]
 mod portable;
 mod real;
 mod single;
-#[cfg(target_arch = "x86_64")]
+#[cfg(with_sse2)]
 mod sse2;
 mod symmetric;
-#[cfg(target_arch = "x86_64")]
-mod x86;
-#[cfg(target_arch = "x86_64")]
+#[cfg(any(with_avx2, with_avx512))]
 mod x86_single;
 
 pub use indices::{CheckedIndices, LaneChunks, LaneIndices, LanePlaces};
@@ -160,38 +163,38 @@ pub trait LanePass {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Level {
-    #[cfg(any(test, not(target_arch = "x86_64")))]
+    #[cfg(any(with_arrays, all(test, with_avx512)))]
     Portable,
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(with_sse2)]
     Sse2,
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(with_avx2)]
     Avx2,
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(with_avx512)]
     Avx512,
 }
 
 /// All levels, slowest first.
 const LEVELS: &[Level] = &[
-    #[cfg(any(test, not(target_arch = "x86_64")))]
+    #[cfg(any(with_arrays, all(test, with_avx512)))]
     Level::Portable,
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(with_sse2)]
     Level::Sse2,
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(with_avx2)]
     Level::Avx2,
-    #[cfg(target_arch = "x86_64")]
+    #[cfg(with_avx512)]
     Level::Avx512,
 ];
 
 impl Level {
     fn is_available(self) -> bool {
         match self {
-            #[cfg(any(test, not(target_arch = "x86_64")))]
+            #[cfg(any(with_arrays, all(test, with_avx512)))]
             Self::Portable => true,
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(with_sse2)]
             Self::Sse2 => true,
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(with_avx2)]
             Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("popcnt"),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(with_avx512)]
             Self::Avx512 => {
                 is_x86_feature_detected!("avx512f")
                     && is_x86_feature_detected!("avx512vl")
@@ -213,22 +216,26 @@ impl InstructionSet {
     }
 
     /// The fastest that this processor has; asking allocates nothing.
+    ///
+    /// # Panics
+    /// If this build has none of this processor; a program asks [`InstructionSet::available`] at its start.
     #[must_use]
     pub fn best() -> Self {
-        Self(LEVELS.iter().rev().find(|level| level.is_available()).copied().unwrap_or(LEVELS[0]))
+        let best = LEVELS.iter().rev().find(|level| level.is_available());
+        Self(*best.expect("an instruction set of this processor: build on this machine, or with --release"))
     }
 
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
-            #[cfg(any(test, not(target_arch = "x86_64")))]
+            #[cfg(any(with_arrays, all(test, with_avx512)))]
             Level::Portable => "portable",
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(with_sse2)]
             Level::Sse2 => "SSE2",
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(with_avx2)]
             Level::Avx2 => "AVX2",
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(with_avx512)]
             Level::Avx512 => "AVX-512",
         }
     }
@@ -237,14 +244,14 @@ impl InstructionSet {
     #[inline]
     pub fn run<P: LanePass>(self, pass: P) {
         match self.0 {
-            #[cfg(any(test, not(target_arch = "x86_64")))]
+            #[cfg(any(with_arrays, all(test, with_avx512)))]
             Level::Portable => pass.run::<portable::Portable>(),
-            #[cfg(target_arch = "x86_64")]
+            #[cfg(with_sse2)]
             Level::Sse2 => pass.run::<sse2::Sse2>(),
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => x86::run_avx2(pass, self),
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => x86::run_avx512(pass, self),
+            #[cfg(with_avx2)]
+            Level::Avx2 => avx2::run(pass, self),
+            #[cfg(with_avx512)]
+            Level::Avx512 => avx512::run(pass, self),
         }
     }
 }

@@ -15,7 +15,7 @@ macro_rules! lane_wise {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                // SAFETY: values of this type exist only inside run_avx2 and run_avx512.
+                // SAFETY: values of this type exist only inside `run` of the back ends.
                 Self(unsafe { $name(self.0, other.0) })
             }
         }
@@ -27,7 +27,7 @@ impl Neg for Single {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx2 and run_avx512.
+        // SAFETY: values of this type exist only inside `run` of the back ends.
         unsafe { Self(_mm256_xor_ps(self.0, _mm256_set1_ps(-0.0))) }
     }
 }
@@ -35,31 +35,31 @@ impl Neg for Single {
 impl Real for Single {
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        // SAFETY: called from passes inside run_avx2 and run_avx512 only.
+        // SAFETY: called from passes inside `run` of the back ends only.
         Self(unsafe { _mm256_set1_ps(value as f32) })
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx2 and run_avx512.
+        // SAFETY: values of this type exist only inside `run` of the back ends.
         Self(unsafe { _mm256_sqrt_ps(self.0) })
     }
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx2 and run_avx512. MAXPS is `a > b ? a : b`.
+        // SAFETY: values of this type exist only inside `run` of the back ends. MAXPS is `a > b ? a : b`.
         Self(unsafe { _mm256_max_ps(self.0, other.0) })
     }
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx2 and run_avx512. MINPS is `a < b ? a : b`.
+        // SAFETY: values of this type exist only inside `run` of the back ends. MINPS is `a < b ? a : b`.
         Self(unsafe { _mm256_min_ps(self.0, other.0) })
     }
 
     #[inline(always)]
     fn if_less(self, a: Self, b: Self, other: Self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx2 and run_avx512.
+        // SAFETY: values of this type exist only inside `run` of the back ends.
         unsafe { Self(_mm256_blendv_ps(other.0, self.0, _mm256_cmp_ps::<_CMP_LT_OQ>(a.0, b.0))) }
     }
 
@@ -111,13 +111,13 @@ impl SingleLanes for Single {
 
     #[inline(always)]
     fn less_mask(self, other: Self) -> u32 {
-        // SAFETY: values of this type exist only inside run_avx2 and run_avx512.
+        // SAFETY: values of this type exist only inside `run` of the back ends.
         unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)).cast_unsigned() }
     }
 
     #[inline(always)]
     fn fixed_difference(self, other: Self) -> Self {
-        // SAFETY: values of this type exist only inside run_avx2 and run_avx512.
+        // SAFETY: values of this type exist only inside `run` of the back ends.
         unsafe {
             let difference = _mm256_sub_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(other.0));
             Self(_mm256_cvtepi32_ps(difference))

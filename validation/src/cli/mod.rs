@@ -46,6 +46,7 @@ use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
 use crate::store::{Store, StorePolicy};
 use arguments::{DevCommand, ExecutionOptions, ResourceLimits};
+use bagnold_solver::lanes::InstructionSet;
 use clap::Parser;
 use std::ffi::OsString;
 use std::io::{ErrorKind, Write};
@@ -69,6 +70,10 @@ pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into
     logging::start(arguments.verbose, arguments.quiet);
     if let Err(error) = interruption::listen() {
         tracing::warn!("no signal is listened to ({error}): an interruption keeps what the last checkpoints hold");
+    }
+    if InstructionSet::available().is_empty() {
+        tell("error: this program was built for processors with AVX2; build it on this machine, or with --release");
+        return Exit::BadInput.into();
     }
     match execute(&arguments, registry, &mut std::io::stdout()) {
         Ok(exit) => exit.into(),
