@@ -341,13 +341,7 @@ fn friction_and_inertia_are_found_again_from_profiles() {
     recovers_the_truth_from_profiles(12);
 }
 
-/// The same with eight rows of particles in place of twelve.
-#[test]
-fn friction_and_inertia_are_found_again_from_coarse_profiles() {
-    recovers_the_truth_from_profiles(8);
-}
-
-fn recovers_the_truth_from_profiles(rows: usize) {
+pub(crate) fn recovers_the_truth_from_profiles(rows: usize) {
     let place = Place::new();
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/calibrations/mu-i-from-profiles.toml");
     let text = std::fs::read_to_string(example)

@@ -10,6 +10,7 @@ mod installed;
 mod interrupted;
 mod judge;
 mod killed;
+mod long;
 mod mutate;
 mod nonlocal;
 mod overlay;

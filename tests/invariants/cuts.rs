@@ -180,16 +180,14 @@ fn without_friction(rows: usize, jitter: f64) -> f64 {
 
 #[test]
 fn a_cut_without_friction_falls_at_the_height_of_limit_analysis() {
-    for jitter in [0.0, 0.1] {
-        let ratio = without_friction(16, jitter);
-        assert!((ratio - 1.0).abs() < 0.05, "{ratio} with jitter {jitter}");
-    }
+    let ratio = without_friction(16, 0.1);
+    assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
 }
 
 #[test]
 #[ignore = "ten minutes: cuts of 24, 32 and 48 rows"]
 fn a_cut_without_friction_falls_at_the_same_height_at_every_resolution() {
-    for (rows, jitter) in [(24, 0.0), (32, 0.0), (32, 0.1), (48, 0.0)] {
+    for (rows, jitter) in [(16, 0.0), (24, 0.0), (32, 0.0), (32, 0.1), (48, 0.0)] {
         let ratio = without_friction(rows, jitter);
         assert!((ratio - 1.0).abs() < 0.05, "{ratio} with {rows} rows, jitter {jitter}");
     }

@@ -209,8 +209,8 @@ fn mirror_corners_and_walls_agree_with_all_images() {
 
 #[test]
 fn no_pair_is_missed_between_two_searches() {
-    let cells = [16, 14];
-    let size = Vector::<2>::new(16.0, 14.0) * SPACING;
+    let cells = [12, 10];
+    let size = Vector::<2>::new(12.0, 10.0) * SPACING;
     let mut scene = open_scene(block(cells, Disorder { speed: 1.0, stress: 0.0, ..Disorder::FULL }, 13));
     scene.domain.axes[0] = AxisBoundary::Periodic { lower: 0.0, upper: size[0] };
     scene.walls = vec![bed()];

@@ -220,9 +220,8 @@ where
 }
 
 #[test]
-fn layers_stop_where_the_model_says() {
-    let found = [8.0, 20.0].map(|grains| stops_where_it_should::<2>(grains, 20, FieldBoundary::Vanishing));
-    assert_eq!(found, [true; 2]);
+fn a_layer_stops_where_the_model_says() {
+    assert!(stops_where_it_should::<2>(8.0, 20, FieldBoundary::Vanishing));
 }
 
 #[test]
@@ -240,15 +239,10 @@ fn a_layer_in_space_stops_where_the_model_says() {
 }
 
 #[test]
-fn steady_flows_have_the_profile_of_the_model() {
-    let plane = [1.5, 3.0].map(|times| on_one_thread(|| profile_error::<2>(times, 20, 0.5)));
-    let space = on_one_thread(|| profile_error::<3>(3.0, 20, 0.15));
-    println!(
-        "L2 at 1.5 and 3 h_stop: {:.2?} % in the plane; at 3 {:.2} % in space",
-        plane.map(|e| 100.0 * e),
-        100.0 * space
-    );
-    assert!(plane[0] < 0.01 && plane[1] < 0.01 && space < 0.01, "{plane:?}, {space}");
+fn a_steady_flow_in_space_has_the_profile_of_the_model() {
+    let error = on_one_thread(|| profile_error::<3>(3.0, 20, 0.15));
+    println!("L2 at 3 h_stop: {:.2} %; 2-D flows are gated by the case flow-thickness", 100.0 * error);
+    assert!(error < 0.01, "{error}");
 }
 
 #[test]

@@ -1,0 +1,5 @@
+//! Tests that take minutes: `bash tests/long.sh`.
+
+mod calibrate;
+mod interrupted;
+mod restart;
