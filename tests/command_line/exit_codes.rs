@@ -66,6 +66,19 @@ fn one_when_a_search_is_left_undecided() {
     assert_eq!((angle.value, angle.verdict), (None, Verdict::Fail));
 }
 
+/// Laws that were measured on one material do not judge another: no gate, and no known failure that is missed.
+#[test]
+fn zero_for_a_material_that_published_laws_do_not_judge() {
+    let place = Place::new();
+    let file = "case = \"column-planar\"\n[sand]\naspect_ratios = [1.5]\nlaw = { law = \"mu-i\", friction_angle = 33.0, limiting_friction = 0.9, \
+                reference_inertia = 0.279, grain_diameter = 0.0008, grain_density = 2600.0 }\n";
+    let file = place.file("my-sand.toml", file);
+    let coarse = ["--set", "resolution=8", "--only", "material=sand,aspect_ratio=1.5"];
+    let said = place.run(&[&[file.as_str()], &coarse[..]].concat()).code(0);
+    let said = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
+    assert!(said.contains("observed") && !said.contains("NOT JUDGED"), "{said}");
+}
+
 #[test]
 fn three_when_a_run_diverges() {
     let place = Place::new();

@@ -33,7 +33,7 @@ const EXAMPLES: &str = "Examples:
   bagnold judge mine.toml                      results of another code under the same gates
   bagnold examples --out examples              sample calibrations, scenes, sweeps
 
-Exit codes: 0 all gates pass, 1 a gate fails, 2 bad input, 3 a run diverged.";
+Exit codes: 0 all gates pass except known failures, 1 a gate fails or is missing, 2 bad input, 3 a run diverged.";
 
 const RUN_EXAMPLES: &str = "Examples:
   bagnold run film
@@ -48,10 +48,11 @@ const RUN_EXAMPLES: &str = "Examples:
 A file names its case with `case = \"film\"`; the tier supplies the fields that it omits. `bagnold show film`
 prints a complete file. Values of --set are TOML; dots reach fields inside tables.
 
-Measurements for --overlay are a table of three columns, named like the axes of a figure, with units:
+Measurements for --overlay are a table of three columns, named like the axes of a figure, with units. `# limit:` is the
+largest root mean square residual; without it nothing is judged. `# figure:`, `# panel:` and `# curve:` select one of several:
 
   # source: own flume, May
-  # limit: 2                       largest root mean square residual; without it nothing is judged
+  # limit: 2
   y/h [-],u [cm/s],uncertainty [cm/s]
   0.3,8.6,0.3
 
@@ -62,18 +63,18 @@ A study is a file with `study = \"NAME\"`. It names a base and the checks of its
   base = \"flume.toml\"
   [[checks]]
   name = \"front_over_time\"
-  table = \"gauges\"                 of the tables/*.csv that the base writes
+  table = \"gauges\"                 # of the tables/*.csv that the base writes
   column = \"front: front [m]\"
   compare = \"mine.csv\"
   at_most = 2.0
   reason = \"two standard uncertainties of the camera\"
 
-`# figure:`, `# panel:` and `# curve:` select one of several. --output-every, or [output] with `every` and `fields`
+--output-every, or [output] with `every` and `fields`
 in a file, writes states/RUN.pvd and states/RUN-walls.pvd; such runs start anew.
 The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
 snapshots/*.pvd for ParaView.
 
-Exit codes: 0 all gates pass, 1 a gate fails, 2 bad input, 3 a run diverged.";
+Exit codes: 0 all gates pass except known failures, 1 a gate fails or is missing, 2 bad input, 3 a run diverged.";
 
 const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
@@ -84,7 +85,7 @@ const REPORT_EXAMPLES: &str = "Examples:
 
 The report is one self-contained folder. Its index.html links to a page of every case; failures come first.
 
-Exit codes: 0 all gates pass, 1 a gate fails or, with --deny drift, a value differs from its baseline,
+Exit codes: 0 all gates pass except known failures, 1 a gate fails or is missing or, with --deny drift, a value moved,
 2 bad input, 3 a run diverged.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:

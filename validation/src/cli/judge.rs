@@ -44,7 +44,8 @@ fn verdicts(judgement: &CodeComparison) -> String {
     let line = |judged: &judge::JudgedCode| {
         let (holding, failing, not_given) = judged.counts();
         let name = format!("{} {}", judged.code.name, judged.code.version);
-        let failed = judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
+        let failed =
+            judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
         let table = summary::of_metrics(failed);
         format!("{}: {holding} gates pass, {failing} fail, {not_given} without data\n{table}", name.trim())
     };

@@ -7,7 +7,7 @@ use super::profile::StageTimer;
 use super::{Exit, print, say, summary, tell};
 use crate::case::{CaseResult, Registry, Tier};
 use crate::measured::Measurements;
-use crate::metric::Variant;
+use crate::metric::{Metric, Variant, Verdict};
 use crate::output::{FileError, OutputFolder};
 use crate::report::{
     self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, MetricKey, Report, ReportProvenance,
@@ -31,6 +31,8 @@ pub(super) struct ResultPublication<'a> {
     pub(super) all_runs: Vec<Variant>,
     /// Whether parameters and runs are the default ones.
     pub(super) is_whole: bool,
+    /// Whether a file or a setting may have changed parameters, of which some take gates away.
+    pub(super) has_own_parameters: bool,
     /// Measurements of which the folder receives copies.
     pub(super) measured: Vec<&'a Measurements>,
     /// Whether the times of these runs tell how long others will take.
@@ -55,7 +57,11 @@ impl ResultPublication<'_> {
         publication: Publication<'_>,
         output: &mut (dyn Write + Send),
     ) -> Result<Exit, ProgramError> {
-        let Self { command, known, accepted, all_runs, is_whole, .. } = self;
+        let Self { command, mut known, accepted, all_runs, is_whole, has_own_parameters, .. } = self;
+        if has_own_parameters {
+            let judged = |key: &MetricKey| results.iter().any(|result| is_gated(result, key));
+            known.failures.retain(|failure| judged(&failure.key()));
+        }
         let Publication { claimed, store, registry, expectation, started, mut profile } = publication;
         let folder = claimed.folder().to_owned();
         let threads = rayon::current_num_threads();
@@ -72,7 +78,8 @@ impl ResultPublication<'_> {
             let is_run = |own: &Variant| result.runs.iter().any(|run| run.variant == *own);
             let gone = accepted.not_judged(&result.name, &result.metrics).into_iter();
             let is_due = |key: &MetricKey| key.variant.run_among(&all_runs).map_or(is_whole, is_run);
-            gone.filter(|(key, _)| is_due(key)).collect::<Vec<_>>()
+            let is_meant = |key: &MetricKey| has_own_parameters && loses_its_gate_by_parameters(result, key);
+            gone.filter(|(key, _)| is_due(key) && !is_meant(key)).collect::<Vec<_>>()
         };
         let page = Report {
             title: self.title,
@@ -125,6 +132,21 @@ impl ResultPublication<'_> {
     }
 }
 
+fn is_gated(result: &CaseResult, key: &MetricKey) -> bool {
+    let own = |metric: &&Metric| MetricKey::of(&result.name, metric) == *key;
+    result.metrics.iter().find(own).is_some_and(|metric| metric.verdict() != Verdict::Observed)
+}
+
+/// Whether a metric is measured, and by a steady run, but without a gate: its reference does not hold for these parameters.
+fn loses_its_gate_by_parameters(result: &CaseResult, key: &MetricKey) -> bool {
+    let is_unsteady = |metric: &Metric| {
+        metric.not_steady.is_some() && (key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant))
+    };
+    let own = |metric: &&Metric| MetricKey::of(&result.name, metric) == *key;
+    let without_gate = result.metrics.iter().find(own).is_some_and(|metric| metric.gate.is_none());
+    without_gate && !result.metrics.iter().any(is_unsteady)
+}
+
 /// A finished case as a report shows it.
 pub(super) fn case_report(result: &CaseResult, registry: Registry) -> CaseReport {
     CaseReport {
@@ -146,6 +168,6 @@ pub(super) fn case_report(result: &CaseResult, registry: Registry) -> CaseReport
 }
 
 /// Whether a failing gate is listed, and fails as listed.
-pub(super) fn is_known(known: &KnownFailures, result: &CaseResult, metric: &crate::metric::Metric) -> bool {
+pub(super) fn is_known(known: &KnownFailures, result: &CaseResult, metric: &Metric) -> bool {
     matches!(known.standing(&result.name, metric), KnownFailureStatus::Known(_))
 }

@@ -30,7 +30,8 @@ pub(super) fn run(
         only: &command.only,
         limits: command.allowance.limits(),
     };
-    let Requested { prepared, tier, overlay, output: wanted, changed } = request.prepare(registry)?;
+    let Requested { prepared, tier, overlay, output: wanted, changed, has_own_parameters } =
+        request.prepare(registry)?;
     let wanted = match command.output_every {
         Some(every) => Some(OutputPlan::new(every, command.output_fields.clone()).map_err(ParameterError::from)?),
         None => wanted,
@@ -77,6 +78,7 @@ pub(super) fn run(
         accepted,
         all_runs,
         is_whole: !changed,
+        has_own_parameters,
         known,
         measured: overlay.iter().collect(),
         // states on the way take a time of their own

@@ -56,6 +56,7 @@ pub(super) fn run(
         tier,
         accepted: Baseline::default(),
         all_runs: Vec::new(),
+        has_own_parameters: false,
         is_whole: true,
         baseline,
         known,

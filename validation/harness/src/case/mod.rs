@@ -59,9 +59,9 @@ use serde::{Serialize, de::DeserializeOwned};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize, JsonSchema, clap::ValueEnum)]
 #[serde(rename_all = "snake_case")]
 pub enum Tier {
-    /// Seconds a case.
+    /// Seconds to three minutes per case.
     Quick,
-    /// Minutes a case.
+    /// Minutes to hours per case.
     Paper,
     /// As long as it takes.
     Fine,

@@ -94,7 +94,10 @@ fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
 
 /// The first sentence of a doc comment as a remark: units and names without their backquotes, a small letter in front.
 fn remark(description: &str) -> String {
-    let sentence = description.split_once(". ").map_or(description, |(first, _)| first);
+    let is_end = |(at, _): &(usize, &str)| {
+        !["al", "e.g", "i.e", "Eq", "Fig"].iter().any(|short| description[..*at].ends_with(short))
+    };
+    let sentence = description.match_indices(". ").find(is_end).map_or(description, |(at, _)| &description[..at]);
     let text = sentence.trim_end_matches('.').replace("`[", "[").replace("]`", "]");
     let mut letters = text.chars();
     match (letters.next(), letters.clone().next()) {
@@ -113,6 +116,7 @@ mod tests {
     fn a_remark_is_the_first_sentence_with_its_unit() {
         assert_eq!(remark("Layer height h `[m]`."), "layer height h [m]");
         assert_eq!(remark("Rows of the study; empty for none. Each is run once."), "rows of the study; empty for none");
+        assert_eq!(remark("Pile of Bui et al. (2008). Observed only."), "pile of Bui et al. (2008)");
         assert_eq!(remark("C_s of the eddy viscosity (5) `[-]`."), "C_s of the eddy viscosity (5) [-]");
         assert_eq!(remark("σ of (27) `[-]`."), "σ of (27) [-]");
     }

@@ -32,6 +32,8 @@ pub struct Requested {
     pub output: Option<OutputPlan>,
     /// Whether anything may be other than as the case comes.
     pub changed: bool,
+    /// Whether a file or a setting may have changed parameters.
+    pub has_own_parameters: bool,
 }
 
 impl Request<'_> {
@@ -54,10 +56,11 @@ impl Request<'_> {
             limits: self.limits,
             only: self.only,
         };
-        let changed = file.is_some() || !self.settings.is_empty() || !self.only.is_empty();
+        let has_own_parameters = file.is_some() || !self.settings.is_empty();
+        let changed = has_own_parameters || !self.only.is_empty();
         let prepared = only(case.prepare(tier, &changes)?, self.only)?;
         let (overlay, output) = file.map(|file| (file.overlay, file.output)).unwrap_or_default();
-        Ok(Requested { prepared, tier, overlay, output, changed })
+        Ok(Requested { prepared, tier, overlay, output, changed, has_own_parameters })
     }
 }
 

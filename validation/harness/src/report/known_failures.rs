@@ -143,7 +143,9 @@ impl KnownFailures {
 }
 
 impl KnownFailure {
-    fn key(&self) -> MetricKey {
+    /// The gate that it names.
+    #[must_use]
+    pub fn key(&self) -> MetricKey {
         MetricKey { case: self.case.clone(), metric: self.metric.clone(), variant: self.variant.clone() }
     }
 }

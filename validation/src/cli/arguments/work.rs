@@ -8,10 +8,10 @@ use std::time::Duration;
 /// Resource limits of runs; more is rejected before anything is allocated.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub struct ResourceLimits {
-    /// Memory limit of the runs [default: $BAGNOLD_MOST_MEMORY, else the memory of the machine].
+    /// Reject runs that need more memory than this [default: $BAGNOLD_MOST_MEMORY, else the memory of the machine].
     #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true)]
     pub most_memory: Option<f64>,
-    /// Limit of estimated core hours of a case [default: $BAGNOLD_MOST_HOURS, else 10000].
+    /// Reject runs above this number of estimated core hours per case [default: $BAGNOLD_MOST_HOURS, else 10000].
     #[arg(long, value_name = "HOURS", value_parser = positive, allow_negative_numbers = true)]
     pub most_hours: Option<f64>,
 }
