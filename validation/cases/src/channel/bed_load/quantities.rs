@@ -13,7 +13,7 @@ quantities! {
         verified("stream_velocity", "-", "mean velocity of the water above the bed over that of the logarithmic law of a rough bed"),
     FORGETS_START: verified(
         "forgets_start", "-",
-        "difference of the mean stream velocities of two runs with different starts, over the difference of the starts",
+        "mean stream velocity: difference between runs from two starts, over that of the starts",
     ),
     END_TIME: verified("end_time", "s", "end time of the printed set-up"),
     HIGHEST_PARTICLE: verified("highest_particle", "h", "greatest height of a particle of the printed set-up"),

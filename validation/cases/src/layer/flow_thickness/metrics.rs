@@ -22,7 +22,7 @@ quantities! {
     LARGEST_THICKNESS: stated("largest_thickness", "cm", "largest thickness of the flow at a station"),
     STOPPING_ANGLE: verified("stopping_angle", "°", "slope at which a layer stops"),
     EXPERIMENTAL_EXCESS:
-        validated("experimental_excess", "°", "stopping slope in experiments minus the computed stopping slope"),
+        validated("experimental_excess", "°", "measured minus computed stopping slope"),
     FLOW_COEFFICIENT: verified("flow_coefficient", "-", "β of (42) from the steady flows"),
     PROFILE_L2: verified("profile_l2", "%", "relative L2 error of the velocity profile of a steady flow under the nonlocal law"),
     FLUIDITY_FROUDE: verified("froude_number", "-", "depth mean of the velocity over √(gh) of a steady flow under the nonlocal law"),
