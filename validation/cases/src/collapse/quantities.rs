@@ -7,8 +7,8 @@ quantities! {
     pub(crate) [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PARTICLES_LOST:
         accounted("particles_lost", "-", "particles that passed the bed, the symmetry plane or the bed's end"),
-    MOMENTUM_RESIDUAL: accounted("momentum_residual", "-", "|P − impulses of gravity and walls| over M g t"),
-    RUN_OUT: validated("run_out", "-", "(r_∞ − r_0)/r_0, r_∞ the front of the deposit at a thickness of 0.02 r_0"),
+    MOMENTUM_RESIDUAL: accounted("momentum_residual", "-", "|P − impulses of gravity and walls| over M g t: momentum P, mass M, time t"),
+    RUN_OUT: validated("run_out", "-", "(r_∞ − r_0)/r_0, r_∞ the front at a thickness of 0.02 r_0 in whole rows of particles; at the toe fewer than four rows (3-D: two) count as a wedge"),
     FINAL_HEIGHT: validated("final_height", "-", "thickness of the innermost bin over r_0"),
     STOPPING_TIME: validated("stopping_time", "√(h0/g)", "time at which the front has covered 99 % of its distance"),
     REST_TIME: verified("rest_time", "s", "time at which kinetic energy falls below 5e-7 of the energy released; infinite if it does not"),

@@ -14,7 +14,7 @@ use crate::statistics::{linear_fit, log_log_slope, relative_l2};
 
 quantities! {
     [layer::PARTICLES_LOST, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
-    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 error of the velocity profile, √(Σ(u − u_ref)²/Σu_ref²)"),
+    VELOCITY_L2: verified("velocity_l2", "%", "relative L2 error of the velocity profile, √(Σ(u − u_ref)²/Σu_ref²) over its bins"),
     FLUX_ERROR: verified("flux_error", "%", "error of the depth-integrated velocity"),
     VELOCITY_L2_COMPRESSIBLE:
         verified("velocity_l2_compressible", "%", "relative L2 error of the velocity profile against the weakly compressible Newtonian film"),
