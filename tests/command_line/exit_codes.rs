@@ -76,7 +76,8 @@ fn zero_for_a_material_that_published_laws_do_not_judge() {
     // the run of the table's sand has gates, and a known failure
     let said = place.run(&[&file, "--only", "material=sand,aspect_ratio=1.5,resolution=20"]).code(0);
     let said = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
-    assert!(said.contains("observed") && !said.contains("NOT JUDGED"), "{said}");
+    assert!(said.contains("without a reference for these parameters, so not judged: "), "{said}");
+    assert!(said.contains("run_out") && !said.contains("NOT JUDGED"), "{said}");
 }
 
 #[test]

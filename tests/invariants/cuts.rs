@@ -187,7 +187,7 @@ fn a_cut_without_friction_falls_at_the_height_of_limit_analysis() {
 #[test]
 #[ignore = "ten minutes: cuts of 24, 32 and 48 rows"]
 fn a_cut_without_friction_falls_at_the_same_height_at_every_resolution() {
-    for (rows, jitter) in [(16, 0.0), (24, 0.0), (32, 0.0), (32, 0.1), (48, 0.0)] {
+    for (rows, jitter) in [(24, 0.0), (32, 0.0), (32, 0.1), (48, 0.0)] {
         let ratio = without_friction(rows, jitter);
         assert!((ratio - 1.0).abs() < 0.05, "{ratio} with {rows} rows, jitter {jitter}");
     }
@@ -265,5 +265,16 @@ fn a_safe_cut_does_not_creep() {
         let moved = (state.position[crest] - scene.flow.position[crest]).norm() / HEIGHT;
         println!("crest moved {moved:.2e} H");
         assert!(moved < 1e-4, "{moved}");
+    }
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    #[ignore = "long: bash tests/long.sh"]
+    fn a_cut_of_a_lattice_falls_at_the_height_of_limit_analysis() {
+        let ratio = without_friction(16, 0.0);
+        assert!((ratio - 1.0).abs() < 0.05, "{ratio}");
     }
 }

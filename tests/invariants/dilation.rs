@@ -124,3 +124,15 @@ fn dilating_soil_is_the_same_on_any_number_of_threads_and_continued() {
     restart::check(&with(firm));
     determinism::check(&Scene { rheology: Rheology::SofteningDruckerPrager(SAND), ..column([13, 12, 14]) });
 }
+
+mod long {
+    use super::*;
+
+    #[test]
+    #[ignore = "long: bash tests/long.sh"]
+    fn firm_soil_is_the_same_on_any_number_of_threads_and_soft_soil_continued() {
+        let with = |law| Scene { rheology: Rheology::SofteningDruckerPrager(law), ..column([60, 50]) };
+        determinism::check(&with(SofteningDruckerPrager { peak_cohesion: 100.0, residual_cohesion: 20.0, ..SAND }));
+        restart::check(&with(SAND));
+    }
+}

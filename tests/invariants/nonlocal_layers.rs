@@ -294,3 +294,21 @@ fn without_cooperation_a_layer_flows_as_under_the_local_law() {
     println!("u_max {found:.6} against {local:.6} m/s: {:.4} %", 100.0 * (found / local - 1.0));
     assert!((found / local - 1.0).abs() < 1e-3, "{found} for {local}");
 }
+
+mod long {
+    use super::*;
+
+    #[test]
+    #[ignore = "long: bash tests/long.sh"]
+    fn a_thick_layer_stops_where_the_model_says() {
+        assert!(stops_where_it_should::<2>(20.0, 20, FieldBoundary::Vanishing));
+    }
+
+    #[test]
+    #[ignore = "long: bash tests/long.sh"]
+    fn steady_flows_have_the_profile_of_the_model() {
+        let errors = [1.5, 3.0].map(|times| on_one_thread(|| profile_error::<2>(times, 20, 0.5)));
+        println!("L2 at 1.5 and 3 h_stop: {:.2?} %", errors.map(|error| 100.0 * error));
+        assert!(errors[0] < 0.01 && errors[1] < 0.01, "{errors:?}");
+    }
+}

@@ -56,7 +56,7 @@ impl Neg for Avx2 {
 #[inline(always)]
 pub(super) fn pairs(source: FlatRecords<'_>, indices: &LaneIndices<'_>) -> [(__m256d, __m256d); 2] {
     assert!(source.records >= indices.bound && source.stride == 2, "array shorter than its index bound");
-    // SAFETY: raw < bound ≤ records, so every record lies inside the borrowed slice; called inside run and run_avx512.
+    // SAFETY: raw < bound ≤ records, so every record lies inside the borrowed slice; called inside `run` of AVX2 and AVX-512.
     unsafe {
         let load = |lane: usize| _mm_loadu_pd(source.first.add(indices.raw[lane] as usize * 2));
         let (a, b) = (_mm256_set_m128d(load(2), load(0)), _mm256_set_m128d(load(3), load(1)));

@@ -69,8 +69,8 @@ A study is a file with `study = \"NAME\"`. It names a base and the checks of its
   at_most = 2.0
   reason = \"two standard uncertainties of the camera\"
 
---output-every, or [output] with `every` and `fields`
-in a file, writes states/RUN.pvd and states/RUN-walls.pvd; such runs start anew.
+--output-every, or [output] with `every` and `fields` in a file, writes states/RUN.pvd and states/RUN-walls.pvd; such
+runs start anew.
 The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
 snapshots/*.pvd for ParaView.
 

@@ -120,7 +120,16 @@ impl ResultPublication<'_> {
             tell(profile.in_words(results, threads).trim_end_matches('\n'));
         }
         for case in &page.cases {
-            let lines = summary::not_judged(&case.name, &case.not_judged);
+            let mut lines = summary::not_judged(&case.name, &case.not_judged);
+            if has_own_parameters && let Some(result) = results.iter().find(|result| result.name == case.name) {
+                let gates = accepted.not_judged(&case.name, &case.metrics).into_iter().map(|(key, _)| key);
+                let is_run = |key: &MetricKey| {
+                    result.runs.iter().any(|run| key.variant.run_among(&all_runs) == Some(&run.variant))
+                };
+                lines += &summary::without_reference(
+                    gates.filter(|key| is_run(key) && loses_its_gate_by_parameters(result, key)),
+                );
+            }
             match lines.trim_end() {
                 "" => {}
                 lines if command.json => tell(lines),

@@ -5,6 +5,7 @@ use crate::metric::{Metric, Variant, Verdict};
 use crate::number::aligned_digits;
 use crate::observation::Outcome;
 use crate::report::MetricKey;
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 /// A case's metrics, one per line, and what went wrong in its runs.
@@ -27,6 +28,17 @@ pub(super) fn not_judged(case: &str, gates: &[(MetricKey, String)]) -> String {
     let line =
         |(key, reason): &(MetricKey, String)| format!("NOT JUDGED: {case} {} {}: {reason}\n", key.metric, key.variant);
     gates.iter().map(line).collect()
+}
+
+/// Metrics whose references hold for other parameters than these, in a line; empty without one.
+pub(super) fn without_reference(gates: impl Iterator<Item = MetricKey>) -> String {
+    let names: BTreeSet<String> = gates.map(|key| key.metric).collect();
+    let names: Vec<String> = names.into_iter().collect();
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!("without a reference for these parameters, so not judged: {}\n", names.join(", "))
+    }
 }
 
 fn table(mut rows: Vec<[String; 7]>) -> String {

@@ -95,7 +95,8 @@ fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
 /// The first sentence of a doc comment as a remark: units and names without their backquotes, a small letter in front.
 fn remark(description: &str) -> String {
     let is_end = |(at, _): &(usize, &str)| {
-        !["al", "e.g", "i.e", "Eq", "Fig"].iter().any(|short| description[..*at].ends_with(short))
+        let word = description[..*at].rsplit([' ', '(']).next().unwrap_or_default();
+        !["al", "e.g", "i.e", "Eq", "Fig"].contains(&word)
     };
     let sentence = description.match_indices(". ").find(is_end).map_or(description, |(at, _)| &description[..at]);
     let text = sentence.trim_end_matches('.').replace("`[", "[").replace("]`", "]");
@@ -117,6 +118,7 @@ mod tests {
         assert_eq!(remark("Layer height h `[m]`."), "layer height h [m]");
         assert_eq!(remark("Rows of the study; empty for none. Each is run once."), "rows of the study; empty for none");
         assert_eq!(remark("Pile of Bui et al. (2008). Observed only."), "pile of Bui et al. (2008)");
+        assert_eq!(remark("Density of the material. Grains and gaps."), "density of the material");
         assert_eq!(remark("C_s of the eddy viscosity (5) `[-]`."), "C_s of the eddy viscosity (5) [-]");
         assert_eq!(remark("σ of (27) `[-]`."), "σ of (27) [-]");
     }
