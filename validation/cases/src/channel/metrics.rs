@@ -75,7 +75,7 @@ pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation
         .of(variant, record.data.momentum.residual())
         .exactly(0.0, "change of momentum = gravity − friction of the bed, summed over every step")
         .gated(
-            Limit::Within(-1e-11, 1e-11),
+            Limit::Within(-2e-12, 2e-12),
             "pairs exchange equal and opposite impulses: the rounding of double precision, 1e-16 of each of the terms of ten thousand \
              steps, not a tolerance of a solve",
         )

@@ -18,7 +18,7 @@ use crate::case::Run;
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Quantity, Variant};
 use crate::reference::collapse::{COLLAPSE_DURATION, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
-use crate::setup::energy_ledger;
+use crate::setup::energy_ledger::{self, EnergyScale};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 
@@ -77,7 +77,7 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
             metrics.extend(super::flow_metrics::of_run(column, records));
             metrics.extend(super::statements::of_run(run, record));
         } else {
-            metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics));
+            metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics, energy_scale(run)));
         }
     }
     let ratios: Vec<(f64, &Metric)> = round.iter().map(|(ratio, metric)| (*ratio, metric)).collect();
@@ -89,15 +89,25 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
     metrics
 }
 
+/// Scale of the energy's balance: the taller a column is, the more falls within a step.
+fn energy_scale(run: &ColumnRun) -> EnergyScale {
+    if run.initial_height() <= 3.0 { EnergyScale::Fall } else { EnergyScale::Work }
+}
+
 /// Nothing is lost: no particle and, where the numerics keep account of it, no momentum.
-pub(crate) fn conservation(variant: &Variant, collapse: &Collapse, numerics: &Numerics) -> Vec<Metric> {
+pub(crate) fn conservation(
+    variant: &Variant,
+    collapse: &Collapse,
+    numerics: &Numerics,
+    scale: EnergyScale,
+) -> Vec<Metric> {
     let mut metrics = vec![
         PARTICLES_LOST
             .of(variant, collapse.lost as f64)
             .exactly(0.0, "no particle passes the bed, the symmetry plane or the bed's end")
             .gated(Limit::AtMost(0.0), "grains do not vanish"),
     ];
-    metrics.extend(energy_ledger::metrics(variant, &collapse.energy, energy_ledger::EnergyScale::Work));
+    metrics.extend(energy_ledger::metrics(variant, &collapse.energy, scale));
     // an implicit step keeps no account of what the walls gave
     if numerics.viscous_step == ViscousStep::Explicit {
         metrics.push(
@@ -181,7 +191,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
     let slope = observed(DEPOSIT_SLOPE_ANGLE, collapse.slope_angle());
     let friction = run.law.contact_friction();
     let steepest = libm::atan(friction).to_degrees();
-    let mut metrics = conservation(&variant, collapse, &run.release.numerics);
+    let mut metrics = conservation(&variant, collapse, &run.release.numerics, energy_scale(run));
     metrics.extend([
         with_uncertainty(
             of_own_grains(

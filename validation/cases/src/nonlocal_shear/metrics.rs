@@ -25,11 +25,11 @@ fn of_run((run, record): &NonlocalShearRecord) -> Vec<Metric> {
         .gated(Limit::AtMost(0.0), "a particle behind a wall is lost mass");
     let energy = match run.flow {
         ShearFlow::Chute { .. } | ShearFlow::Heap { .. } => {
-            energy_ledger::metrics(&variant, &seen.energy, EnergyScale::Work)
+            energy_ledger::metrics(&variant, &seen.energy, EnergyScale::Steady)
         }
         // the plate feeds energy in, and its work is none of an error
         ShearFlow::DraggedBed { .. } if seen.energy.total.is_empty() => Vec::new(),
-        ShearFlow::DraggedBed { .. } => vec![energy_ledger::residual(&variant, &seen.energy, EnergyScale::Work)],
+        ShearFlow::DraggedBed { .. } => vec![energy_ledger::residual(&variant, &seen.energy, EnergyScale::Steady)],
     };
     let Some(exact) = run.exact(seen) else { return [lost].into_iter().chain(energy).collect() };
     let own = match run.flow {

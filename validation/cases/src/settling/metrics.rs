@@ -56,7 +56,7 @@ fn together(run: &SuspensionRun, variant: &Variant, data: &SettlingObservation) 
     let series = &data.series;
     let (slip, alone, fluid) = (run.slip(), run.terminal_velocity(), 1.0 - run.solid_fraction);
     let error = |quantity, array: &[f64], root| error(quantity, variant, series, array, root);
-    let within = Limit::Within(-0.1, 0.1);
+    let within = Limit::Within(-0.03, 0.03);
     let reason = "a uniform suspension is a root of one equation, and displacements of its grains by a tenth of their distance change \
                   their mean velocity in second order, by some hundredths of a per cent; mean over the last 0.6 of the run";
     let mut metrics = vec![
@@ -92,8 +92,8 @@ fn momentum(variant: &Variant, error: f64) -> Metric {
         .of(variant, error)
         .exactly(0.0, "change of momentum = impulse of gravity and floor, in every step")
         .gated(
-            Limit::AtMost(2e-11),
-            "2e-11 of the grains' weight, the rounding of a thousand particles; pairs exchange equal and opposite impulses",
+            Limit::AtMost(1e-11),
+            "1e-11 of the grains' weight, the rounding of a thousand particles; pairs exchange equal and opposite impulses",
         )
         .with_snapshot_tolerance(0.0, 1e-10)
 }

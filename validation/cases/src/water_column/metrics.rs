@@ -33,7 +33,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
 
 fn of_run((run, record): &Record) -> Vec<Metric> {
     let (variant, data) = (run.variant(), &record.data);
-    let mut metrics = energy_ledger::metrics(&variant, &data.energy, EnergyScale::Work);
+    let mut metrics = energy_ledger::metrics(&variant, &data.energy, EnergyScale::Fall);
     let measured = run.measured();
     let observed = |quantity: crate::metric::Quantity, value: f64| {
         quantity.of(&variant, value).against(Some(0.0), &measured.source, measured.confidence)

@@ -34,6 +34,12 @@ fn stabilised((run, record): &StillWaterRecord) -> Vec<Metric> {
     let height = channel::height_change(&variant, data, "mean height h/2: water keeps its volume");
     let rms = data.average(&data.series.rms_vertical_velocity);
     let velocity = floored(channel::observed(RMS_VERTICAL_VELOCITY, &variant, rms, 1.0), 1e-5).exactly(0.0, "rest");
+    let short = run.duration < AT_REST_AFTER;
+    let (pressure, reason) = if short {
+        (0.35, "0.35 % of the hydrostatic profile: columns whose start dies away have 0.19 and 0.27 %")
+    } else {
+        (0.7, "0.7 % of the hydrostatic profile, averaged over the last window: columns at rest have 0.41 to 0.54 %")
+    };
     let mut metrics = vec![
         channel::particles_lost(&variant, record),
         floored(height, 1e-3)
@@ -44,11 +50,9 @@ fn stabilised((run, record): &StillWaterRecord) -> Vec<Metric> {
             // the displaced start still dies away
             Metric { snapshot_tolerance: 0.3, ..velocity }
         },
-        floored(channel::pressure_l2(&variant, data), 0.01)
-            .gated(Limit::AtMost(1.0), "1 % of the hydrostatic profile, averaged over the last window"),
+        floored(channel::pressure_l2(&variant, data), 0.01).gated(Limit::AtMost(pressure), reason),
     ];
     let known = if run.jitter > 0.2 { 1.95 } else { 1.05 };
-    let short = run.duration < AT_REST_AFTER;
     metrics.extend(channel::iterations(&variant, data, [None, short.then_some(known)]));
     metrics
 }

@@ -14,7 +14,7 @@ use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun, Station, linear_misfit
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{SLOPE_EXPERIMENT, slope_run_out};
-use crate::setup::energy_ledger;
+use crate::setup::energy_ledger::{self, EnergyScale};
 use crate::statistics::mean;
 
 quantities! {
@@ -51,7 +51,7 @@ pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
     let observed = |quantity: Quantity, variant: &Variant, value: f64| {
         quantity.of(variant, value).with_snapshot_tolerance(1e-3, 1e-3)
     };
-    let mut metrics = conservation(&variant, data, &run.reservoir.numerics);
+    let mut metrics = conservation(&variant, data, &run.reservoir.numerics, EnergyScale::Fall);
     let (angle, friction) = (run.slope_angle.to_radians(), run.law.contact_friction());
     let law = |k: f64| slope_run_out(run.reservoir.initial_height, angle, friction, k);
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;

@@ -9,7 +9,7 @@ use crate::layer::{self, LayerObservation};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Frame;
 use crate::reference::one_dimension::{BagnoldProfile, TransientHistory};
-use crate::setup::energy_ledger;
+use crate::setup::energy_ledger::{self, EnergyScale};
 use crate::shared::Arrangement;
 use crate::statistics::log_log_slope;
 
@@ -59,7 +59,9 @@ pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> 
         }
         let variant = record.0.variant();
         metrics.push(layer::particles_lost(&variant, &record.1));
-        metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, energy_ledger::EnergyScale::Work));
+        let is_sudden = record.0.purpose == BagnoldPurpose::Compression;
+        let scale = if is_sudden { EnergyScale::Work } else { EnergyScale::Steady };
+        metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, scale));
         metrics.extend(match record.0.purpose {
             BagnoldPurpose::Steady | BagnoldPurpose::Convergence => steady(record),
             // one of the study's, which is judged as a whole
@@ -97,15 +99,16 @@ fn steady(record: &BagnoldRecord) -> Vec<Metric> {
         let metric = quantity.of(&variant, value).exactly(0.0, EXACT).with_snapshot_tolerance(1e-3, 1e-4);
         metric.unless(not_steady.as_ref())
     };
-    let velocity = "the project's aim: 0.7 % at 40 rows, 1.5 % at 20";
-    let surface = "the project's aim: 1 % at 40 rows; first order, so 2 % at 20";
+    let velocity =
+        "the project's aim: 0.7 % at 40 rows; 20 rows have 0.3 to 0.6 %, from rest, jittered or on a lattice";
+    let surface = "the project's aim: 1 % at 40 rows; 20 rows have 0.3 to 0.9 %";
     let stress = "the project's aim: 0.1 % at 40 rows; a prototype had 0.14 % at 20";
-    let slip = "the project's aim: 0.3 % at 40 rows; first order, so 0.6 % at 20";
+    let slip = "the project's aim: 0.3 % at 40 rows, which 20 rows reach too";
     let gates = [
-        (VELOCITY_L2, errors.velocity_l2, 0.7, 1.5, velocity),
-        (SURFACE_VELOCITY_ERROR, errors.surface_velocity_error, 1.0, 2.0, surface),
-        (IMPLIED_STRESS_ERROR, errors.implied_stress_error, 0.1, 0.25, stress),
-        (WALL_SLIP, errors.wall_slip, 0.3, 0.6, slip),
+        (VELOCITY_L2, errors.velocity_l2, 0.7, 0.8, velocity),
+        (SURFACE_VELOCITY_ERROR, errors.surface_velocity_error, 1.0, 1.2, surface),
+        (IMPLIED_STRESS_ERROR, errors.implied_stress_error, 0.1, 0.15, stress),
+        (WALL_SLIP, errors.wall_slip, 0.3, 0.3, slip),
     ];
     let mut metrics: Vec<Metric> = gates
         .into_iter()
@@ -204,8 +207,8 @@ fn transient((run, record): &BagnoldRecord) -> Vec<Metric> {
             metric,
             run.layer.resolution,
             0.7,
-            1.5,
-            "as close as the steady profile: 0.7 % at 40 rows, 1.5 % at 20",
+            0.8,
+            "as close as the steady profile: 0.7 % at 40 rows, 0.8 % at 20",
         )
     };
     let time = particles.rise_time(steady_mean, 0.99);
@@ -225,8 +228,8 @@ fn arrest((run, record): &BagnoldRecord) -> Vec<Metric> {
         .with_snapshot_tolerance(0.01, 0.0);
     let time = match expected {
         Some(expected) => time.gated(
-            Limit::Within(0.85 * expected, 1.15 * expected),
-            "the project's aim: within 15 % of the 1-D solution",
+            Limit::Within(0.97 * expected, 1.03 * expected),
+            "as close as the velocity of the steady profile, whose decay it is: 0.2 % at 20 and at 40 rows; yielded layers end within a few steps",
         ),
         None => time,
     };

@@ -108,7 +108,7 @@ fn of_run(record: &Record) -> Vec<Metric> {
         metric.with_snapshot_tolerance(1e-3, 1e-4).unless(unsteadiness(record).as_ref())
     });
     let mut common = vec![layer::particles_lost(&variant, recorded)];
-    common.extend(energy_ledger::metrics(&variant, &recorded.data.energy, energy_ledger::EnergyScale::Work));
+    common.extend(energy_ledger::metrics(&variant, &recorded.data.energy, energy_ledger::EnergyScale::Steady));
     common.into_iter().chain(profile(record)).chain(compressible).chain(plug_edge(record)).collect()
 }
 

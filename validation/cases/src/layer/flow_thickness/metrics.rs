@@ -12,7 +12,7 @@ use crate::layer::LayerObservation;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant, quantities};
 use crate::reference::collapse::RoughIncline;
 use crate::reference::grains::GLASS_BEADS_FLOW_RULE;
-use crate::setup::energy_ledger;
+use crate::setup::energy_ledger::{self, EnergyScale};
 use crate::statistics::mean;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::material::rheology::field::FieldBoundary;
@@ -60,7 +60,7 @@ fn thicknesses(
 ) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, data) in collapses(records) {
-        metrics.extend(conservation(&run.variant(), &data.collapse, &run.reservoir.numerics));
+        metrics.extend(conservation(&run.variant(), &data.collapse, &run.reservoir.numerics, EnergyScale::Fall));
         let law = incline.flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians());
         let source = "h_s of (44) as reconstructed: the paper's estimate of the flow's thickness";
         for &station in &parameters.stations {
