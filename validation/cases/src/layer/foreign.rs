@@ -30,7 +30,7 @@ pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     description: "Velocities are compared at the heights at which they are given; a profile with fewer than two points below a fifth of the \
         depth, by which the slip at the wall is measured, is not judged. From particles the profile is a mean over all pictures \
         in the last quarter of the time, in twenty bins of equal height, each at the mean height of its particles. velocity_l2 is \
-        the root of the summed squares of the bins' errors over that of the exact velocities; implied_stress_error, which needs \
+        the root of the summed squares of the bins' errors over that of the exact velocities. implied_stress_error, which needs \
         the pressure, is the mean of |μ(I)/tanθ − 1| over 0.1 h to 0.9 h, with the shear rate by central differences between \
         neighbouring points. transient_mean_error_… compare the mean velocity over the depth with an independent one-dimensional \
         solution at a quarter, a half and three quarters of its rise time.",

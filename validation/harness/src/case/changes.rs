@@ -152,7 +152,7 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> P
         (Fault::Kind { rule, choice, .. }, Some((path, value))) => SettingError::Value {
             path: path.to_owned(),
             value: value.to_owned(),
-            rule,
+            rule: fault::without_unit(rule, value),
             remedy: fault::remedy(choice.as_ref(), case),
         }
         .into(),

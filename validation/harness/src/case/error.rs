@@ -85,7 +85,7 @@ pub enum ParameterError {
         file: PathBuf,
     },
     /// No case has this name.
-    #[error("{}unknown case `{name}`; {}`bagnold list` prints all cases", origin(.file), did_you_mean(.nearest))]
+    #[error("{}unknown case `{name}`; {}`bagnold list` prints all cases", origin(.file), instead(.name, .nearest))]
     UnknownCase {
         /// File that names it, if it was not the command line.
         file: Option<PathBuf>,
@@ -163,6 +163,12 @@ pub enum SettingError {
         /// Remedy.
         remedy: String,
     },
+}
+
+/// What was meant by the name of a case that does not exist.
+fn instead(name: &str, nearest: &Option<String>) -> String {
+    let is_file = Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    if is_file { "that is a file, which `bagnold run` reads; ".to_owned() } else { did_you_mean(nearest) }
 }
 
 impl ParameterError {

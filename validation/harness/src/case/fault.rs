@@ -31,10 +31,17 @@ pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> Param
         }
         Fault::Kind { path, value, rule, choice } => {
             let value = value.unwrap_or_else(|| "not valid".to_owned());
+            let rule = without_unit(rule, value.trim_matches('"'));
             ParameterError::field(&path, value, &rule, &remedy(choice.as_ref(), case))
         }
         Fault::Range(problem) => problem.into(),
     }
+}
+
+/// The rule that a value breaks; one that opens with a digit has a unit behind its number.
+pub(super) fn without_unit(rule: String, value: &str) -> String {
+    let has_unit = rule == "a number" && value.starts_with(|first: char| first.is_ascii_digit());
+    if has_unit { "a number without a unit".to_owned() } else { rule }
 }
 
 /// Remedy for a value of the wrong type: the nearest name of an enum, or the command that shows a valid value.

@@ -62,6 +62,10 @@ mod tests {
             message("pendlum"),
             Some("unknown case `pendlum`; did you mean `pendulum`? `bagnold list` prints all cases".to_owned())
         );
+        assert_eq!(
+            message("pendulum.toml"),
+            Some("unknown case `pendulum.toml`; that is a file, which `bagnold run` reads; `bagnold list` prints all cases".to_owned())
+        );
         assert_eq!(message("zzz"), Some("unknown case `zzz`; `bagnold list` prints all cases".to_owned()));
     }
 }

@@ -36,13 +36,17 @@ pub fn check_text(field: &str, text: &str) -> Result<(), FieldError> {
     Ok(())
 }
 
-/// The name that is most like `name`, if any is like it at all.
+/// The name that is most like `name`, if any is like it at all or has it for one of its words.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     // Jaro–Winkler forgives a wrong tail and swapped letters; below 0.7 a suggestion would be a guess.
+    let likeness = |candidate: &str| {
+        let is_word = candidate.split(['_', '-', '.']).any(|word| word == name);
+        strsim::jaro_winkler(name, candidate).max(if is_word { 0.7 } else { 0.0 })
+    };
     known
         .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(name, candidate), candidate))
+        .map(|candidate| (likeness(candidate), candidate))
         .filter(|(likeness, _)| *likeness >= 0.7)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, candidate)| candidate.to_owned())
@@ -56,6 +60,14 @@ pub fn did_you_mean(nearest: &Option<String>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_word_of_a_name_suggests_it() {
+        let known = ["incline-collapse", "slope_angle", "film"];
+        assert_eq!(nearest("collapse", known), Some("incline-collapse".to_owned()));
+        assert_eq!(nearest("angle", known), Some("slope_angle".to_owned()));
+        assert_eq!(nearest("zzz", known), None);
+    }
 
     #[test]
     fn a_name_is_short_and_can_be_printed() {

@@ -33,18 +33,28 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
     for quantity in case.quantities() {
         let _ = writeln!(text, "# {} = 0.0  # [{}] {}", quantity.name, quantity.unit, quantity.description);
     }
-    text.push_str(&files(form));
+    text.push_str(&files(form, &of_case(form.description, case)));
     Ok(text)
 }
 
+/// A description that several cases share, without the sentences that open with a metric of another case.
+pub(super) fn of_case(description: &str, case: &'static dyn AnyCase) -> String {
+    let concerns = |sentence: &&str| {
+        let first = sentence.split([' ', ',']).next().unwrap_or_default().trim_end_matches('…');
+        !first.contains('_') || case.quantities().iter().any(|quantity| quantity.name.starts_with(first))
+    };
+    let kept: Vec<&str> = description.trim_end_matches('.').split(". ").filter(concerns).collect();
+    if kept.is_empty() { String::new() } else { format!("{}.", kept.join(". ")) }
+}
+
 /// The tables of files that a form has.
-fn files(form: &ExternalSchema) -> String {
+fn files(form: &ExternalSchema, description: &str) -> String {
     let mut text = String::new();
     if form.particles.is_empty() && form.series.is_empty() && form.profile.is_empty() {
         text.push_str("\n# This case takes single numbers only.\n");
         return text;
     }
-    for line in wrapped(form.description) {
+    for line in wrapped(description) {
         let _ = write!(text, "\n# {line}");
     }
     text.push_str(

@@ -1,6 +1,6 @@
 //! Export of a case for external codes: geometry, material, initial particles, references and definitions.
 
-use super::blank::{blank, wrapped};
+use super::blank::{blank, of_case, wrapped};
 use super::error::JudgeError;
 use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema};
 use crate::evidence::shipped_tables;
@@ -78,7 +78,7 @@ fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
     }
     let form = case.form();
     if !form.description.is_empty() {
-        let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(form.description));
+        let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(&of_case(form.description, case)));
     }
     text.push_str(&items(form));
     text.push_str("\n## Numbers\n\n");

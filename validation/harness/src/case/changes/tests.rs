@@ -107,6 +107,10 @@ fn wrong_values_are_refused_with_the_type_they_should_have() {
         "layer.toml: `depth` is \"deep\", but must be a number; `bagnold show layer` prints a valid value"
     );
     assert_eq!(
+        message("", &["depth=3 mm"]),
+        "`--set depth=3 mm`: `depth` is 3 mm, but must be a number without a unit; `bagnold show layer` prints a valid value"
+    );
+    assert_eq!(
         message("rows = -3", &[]),
         "layer.toml: `rows` is -3, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
     );
