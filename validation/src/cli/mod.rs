@@ -33,6 +33,7 @@ mod terminal;
 #[cfg(test)]
 mod tests;
 mod ticker;
+mod unchanged;
 mod verify;
 
 pub use arguments::{Arguments, Command};

@@ -6,13 +6,14 @@ use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{case_report, is_known};
 use super::simulation::{announce, simulate};
-use super::{Exit, controls, say, summary, tell};
+use super::{Exit, controls, say, summary, tell, unchanged};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
 use crate::evidence::{ValidatedComparison, ValidationSet};
 use crate::output::{FileError, FolderError, OutputFolder, write_whole};
 use crate::report::{self, Baseline, CaseReport, GateList, History, Report, ReportProvenance, SpeedHistory, history};
 use crate::store::provenance;
 use crate::study::{Study, Suite};
+use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -41,6 +42,14 @@ pub(super) fn report(
     };
     let mut baseline = baseline(command, &places, &named)?;
     let out = folder(command)?;
+    let inputs = unchanged::inputs(command, &places);
+    if let Some((exit, text)) = inputs.as_ref().and_then(|inputs| unchanged::said(&out, inputs)) {
+        if !quiet {
+            tell("nothing has changed since this report was made; `--fresh` makes it anew");
+        }
+        say(output, &text);
+        return Ok(exit);
+    }
     let claimed = OutputFolder::claim(&out)?;
     let known = places.known_failures()?;
     let tiers = suite.iter().flat_map(|suite| suite.studies().iter().map(Study::tier));
@@ -90,6 +99,28 @@ pub(super) fn report(
         let kept = study.measurements().try_for_each(|measured| measured.keep(&folder));
         kept.map_err(|error| FileError::unwritable(&folder, &error))?;
     }
+    let mut text = String::new();
+    for result in &results {
+        text.push_str(&summary::heading(result));
+        text.push_str(&summary::failures(result, |metric| is_known(&known, result, metric)));
+    }
+    let _ = writeln!(text, "written to {}", out.join("index.html").display());
+    for case in &page.cases {
+        text.push_str(&summary::not_judged(&case.name, &case.not_judged));
+    }
+    let is_whole = page.cases.iter().all(|case| case.not_judged.is_empty());
+    let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric)).unless_whole(is_whole);
+    let drifted = drifted(&page);
+    text.push_str(&drifted);
+    if exit == Exit::Held && command.deny.is_none() {
+        text.push_str(&not_denied(&drifted));
+    }
+    let denied = command.deny == Some(Denied::Drift) && !drifted.is_empty();
+    let exit = if denied && exit == Exit::Held { Exit::GateFailed } else { exit };
+    if let Some(inputs) = inputs {
+        let kept = unchanged::keep(claimed.staging(), inputs, exit, &text);
+        kept.map_err(|error| FileError::unwritable(claimed.staging(), &error))?;
+    }
     claimed.publish()?;
     if suite.is_none() {
         expectation.learn(&results, store.root(), rayon::current_num_threads());
@@ -98,28 +129,11 @@ pub(super) fn report(
     if let Some(path) = &command.junit {
         report::write_junit(&page, path)?;
     }
-
-    for result in &results {
-        let is_known = |metric: &_| is_known(&known, result, metric);
-        say(output, &summary::heading(result));
-        say(output, &summary::failures(result, is_known));
-    }
-    say(output, &format!("written to {}\n", out.join("index.html").display()));
-    for case in &page.cases {
-        say(output, &summary::not_judged(&case.name, &case.not_judged));
-    }
-    let is_whole = page.cases.iter().all(|case| case.not_judged.is_empty());
-    let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric)).unless_whole(is_whole);
-    let drifted = drifted(&page);
-    say(output, &drifted);
-    if exit == Exit::Held && command.deny.is_none() {
-        say(output, &not_denied(&drifted));
-    }
+    say(output, &text);
     if command.profile {
         tell(profile.in_words(&results, rayon::current_num_threads()).trim_end_matches('\n'));
     }
-    let denied = command.deny == Some(Denied::Drift) && !drifted.is_empty();
-    Ok(if denied && exit == Exit::Held { Exit::GateFailed } else { exit })
+    Ok(exit)
 }
 
 /// The folder to write.

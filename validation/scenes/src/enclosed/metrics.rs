@@ -37,7 +37,7 @@ quantities! { shared pub(super)
         accounted("artificial_viscosity", "Pa s", "α ρ c h/(4 (D + 2)), viscosity added by the artificial viscosity"),
     FRONT: accounted("front", "m", "distance of the front along the line of a gauge at the end"),
     DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
-    GAUGE_ERROR: validated("gauge_error", "%", "root mean square of a gauge's relative error at the measured times"),
+    GAUGE_ERROR: validated("gauge_error", "%", "√⟨(g(t)/m − 1)²⟩ over the measured values m at times t; the gauge g is interpolated linearly between its rows"),
 }
 
 /// All quantities of a case of scenes, of which three have units of its own: [`Dimension::MEAN_FORCE`],

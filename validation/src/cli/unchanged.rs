@@ -1,0 +1,78 @@
+//! A report that nothing has changed since it was made: the next one says what it said.
+
+use super::Exit;
+use super::arguments::ReportArguments;
+use super::places::CommittedValues;
+use crate::observation::state_hash;
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// File of a report's folder that says what it was made from and what it said.
+const FILE: &str = "made-from.json";
+
+#[derive(Debug, Serialize, Deserialize)]
+struct Made {
+    /// Digest of what went in.
+    inputs: String,
+    /// Its files, with their lengths `[B]`.
+    files: Vec<(PathBuf, u64)>,
+    exit: u8,
+    text: String,
+}
+
+/// Digest of all that a report of the program's cases is made from: the program, the command, the committed values. None for
+/// one that is made anyway.
+pub(super) fn inputs(command: &ReportArguments, places: &CommittedValues) -> Option<String> {
+    let writes_elsewhere = command.accept || command.junit.is_some() || command.profile;
+    if writes_elsewhere || command.work.fresh || command.against.is_some() || command.suite.is_some() {
+        return None;
+    }
+    let mut all = fs::read(std::env::current_exe().ok()?).ok()?;
+    all.extend(format!("{command:?}").bytes());
+    let history = places.history_file();
+    for folder in [places.accepted_folder(), history.parent()?.to_owned()] {
+        let is_report = folder == history.parent()?;
+        for (path, _) in files_below(&folder, !is_report).ok()? {
+            if !is_report || path.extension().is_some_and(|ending| ending == "csv") {
+                all.extend(path.to_string_lossy().bytes());
+                all.extend(fs::read(folder.join(&path)).ok()?);
+            }
+        }
+    }
+    Some(state_hash(&all))
+}
+
+/// What the report in a folder said, if it was made from the same and lies there as it was written.
+pub(super) fn said(out: &Path, inputs: &str) -> Option<(Exit, String)> {
+    let made: Made = serde_json::from_str(&fs::read_to_string(out.join(FILE)).ok()?).ok()?;
+    let lies_there =
+        |(path, length): &(PathBuf, u64)| out.join(path).metadata().is_ok_and(|file| file.len() == *length);
+    let exit = [Exit::Held, Exit::GateFailed, Exit::Diverged].into_iter().find(|exit| *exit as u8 == made.exit)?;
+    (made.inputs == inputs && made.files.iter().all(lies_there)).then_some((exit, made.text))
+}
+
+/// Keeps in a report's folder what it was made from and what it says.
+pub(super) fn keep(folder: &Path, inputs: String, exit: Exit, text: &str) -> io::Result<()> {
+    let made = Made { inputs, files: files_below(folder, true)?, exit: exit as u8, text: text.to_owned() };
+    fs::write(folder.join(FILE), serde_json::to_string(&made)?)
+}
+
+/// Files in a folder, and below it if asked for, in the order of their paths from there, with their lengths `[B]`.
+fn files_below(folder: &Path, deep: bool) -> io::Result<Vec<(PathBuf, u64)>> {
+    let (mut files, mut folders) = (Vec::new(), vec![PathBuf::new()]);
+    while let Some(below) = folders.pop() {
+        for entry in fs::read_dir(folder.join(&below))? {
+            let entry = entry?;
+            let (path, kind) = (below.join(entry.file_name()), entry.metadata()?);
+            if kind.is_file() {
+                files.push((path, kind.len()));
+            } else if deep && kind.is_dir() {
+                folders.push(path);
+            }
+        }
+    }
+    files.sort();
+    Ok(files)
+}
