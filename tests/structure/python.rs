@@ -47,3 +47,23 @@ fn the_python_package_has_the_programs_version_and_types() {
         assert!(readme.contains(&format!("bagnold.{name}")), "{name} is not in python/README.md");
     }
 }
+
+#[test]
+fn profiles_name_packages_that_exist() {
+    // a renamed package would be compiled without optimisation, and run slowly without a word
+    for (path, lock) in [
+        ("Cargo.toml", "Cargo.lock"),
+        ("python/Cargo.toml", "python/Cargo.lock"),
+        ("validation/src/cli/new/template/profile.template", "Cargo.lock"),
+    ] {
+        let text = std::fs::read_to_string(workspace().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let manifest: toml::Table = toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let known = locked(lock);
+        for (profile, settings) in manifest["profile"].as_table().expect("profiles") {
+            let packages = settings.get("package").and_then(toml::Value::as_table);
+            for package in packages.into_iter().flat_map(toml::Table::keys).filter(|name| *name != "*") {
+                assert!(known.contains_key(package), "{path}: profile.{profile} names {package}");
+            }
+        }
+    }
+}

@@ -38,9 +38,12 @@ pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> Param
     }
 }
 
-/// The rule that a value breaks; one that opens with a digit has a unit behind its number.
+/// The rule that a value breaks: that it has no unit, where a word of a few letters stands behind a number.
 pub(super) fn without_unit(rule: String, value: &str) -> String {
-    let has_unit = rule == "a number" && value.starts_with(|first: char| first.is_ascii_digit());
+    let behind = value.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c)).trim_start();
+    let is_unit = behind.chars().next().is_some_and(|first| first.is_alphabetic() || "°%".contains(first));
+    let has_unit =
+        rule == "a number" && behind.len() < value.len() && behind.len() <= 8 && is_unit && !behind.contains('=');
     if has_unit { "a number without a unit".to_owned() } else { rule }
 }
 

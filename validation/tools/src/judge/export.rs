@@ -4,6 +4,7 @@ use super::blank::{blank, of_case, wrapped};
 use super::error::JudgeError;
 use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema};
 use crate::evidence::shipped_tables;
+use crate::number::four_digits;
 use crate::observation::Frame;
 use crate::output::{FileError, Table};
 use crate::result::write_snapshots;
@@ -89,8 +90,8 @@ fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
     for metric in own.metrics.iter().filter(|metric| metric.gate.is_some()) {
         let Some(gate) = &metric.gate else { continue };
         let source = metric.reference.as_ref().map(|of| format!(" Reference: {}.", of.source)).unwrap_or_default();
-        let _ =
-            writeln!(text, "- `{}` of `{}`: {:?}. {}.{source}", metric.name, metric.variant, gate.limit, gate.reason);
+        let limit = gate.limit.in_words(four_digits);
+        let _ = writeln!(text, "- `{}` of `{}`: {limit}. {}.{source}", metric.name, metric.variant, gate.reason);
     }
     text
 }
