@@ -199,3 +199,27 @@ fn a_link_to_nothing_is_no_output_folder() {
         ));
     }
 }
+
+#[test]
+fn a_report_that_nothing_has_changed_says_again_what_it_said() {
+    let place = Place::new();
+    let report = |more: &[&str]| {
+        let arguments = [&["report", "--cases", "water-film", "--out", "report"][..], more].concat();
+        let finished = place.bagnold(&arguments).assert().code(0);
+        let output = finished.get_output();
+        [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned())
+    };
+    let page = place.path("report/cases/water-film/index.html");
+    let unchanged = "nothing has changed since this report was made";
+    let [first, told] = report(&[]);
+    assert!(!told.contains(unchanged), "{told}");
+    let [second, told] = report(&[]);
+    assert!(told.contains(unchanged), "{told}");
+    assert_eq!(first, second);
+    // another command, and a page that is gone, make it anew
+    let [_, told] = report(&["--deny", "drift"]);
+    assert!(!told.contains(unchanged), "{told}");
+    std::fs::remove_file(&page).expect("a page");
+    let [_, told] = report(&["--deny", "drift"]);
+    assert!(!told.contains(unchanged) && page.is_file(), "{told}");
+}
