@@ -16,8 +16,8 @@ const FILE: &str = "made-from.json";
 struct Made {
     /// Digest of what went in.
     inputs: String,
-    /// Its files, with their lengths `[B]`.
-    files: Vec<(PathBuf, u64)>,
+    /// Its files, with digests of their contents.
+    files: Vec<(PathBuf, String)>,
     exit: u8,
     text: String,
 }
@@ -34,7 +34,7 @@ pub(super) fn inputs(command: &ReportArguments, places: &CommittedValues) -> Opt
     let history = places.history_file();
     for folder in [places.accepted_folder(), history.parent()?.to_owned()] {
         let is_report = folder == history.parent()?;
-        for (path, _) in files_below(&folder, !is_report).unwrap_or_default() {
+        for path in files_below(&folder, !is_report).unwrap_or_default() {
             if !is_report || path.extension().is_some_and(|ending| ending == "csv") {
                 all.extend(path.to_string_lossy().bytes());
                 all.extend(fs::read(folder.join(&path)).ok()?);
@@ -47,27 +47,29 @@ pub(super) fn inputs(command: &ReportArguments, places: &CommittedValues) -> Opt
 /// What the report in a folder said, if it was made from the same and lies there as it was written.
 pub(super) fn said(out: &Path, inputs: &str) -> Option<(Exit, String)> {
     let made: Made = serde_json::from_str(&fs::read_to_string(out.join(FILE)).ok()?).ok()?;
-    let lies_there =
-        |(path, length): &(PathBuf, u64)| out.join(path).metadata().is_ok_and(|file| file.len() == *length);
+    let is_whole =
+        |(path, digest): &(PathBuf, String)| fs::read(out.join(path)).is_ok_and(|own| state_hash(&own) == *digest);
     let exit = [Exit::Held, Exit::GateFailed, Exit::Diverged].into_iter().find(|exit| *exit as u8 == made.exit)?;
-    (made.inputs == inputs && made.files.iter().all(lies_there)).then_some((exit, made.text))
+    (made.inputs == inputs && made.files.iter().all(is_whole)).then_some((exit, made.text))
 }
 
 /// Keeps in a report's folder what it was made from and what it says.
 pub(super) fn keep(folder: &Path, inputs: String, exit: Exit, text: &str) -> io::Result<()> {
-    let made = Made { inputs, files: files_below(folder, true)?, exit: exit as u8, text: text.to_owned() };
+    let digest = |path: PathBuf| Ok((path.clone(), state_hash(&fs::read(folder.join(path))?)));
+    let files: io::Result<_> = files_below(folder, true)?.into_iter().map(digest).collect();
+    let made = Made { inputs, files: files?, exit: exit as u8, text: text.to_owned() };
     fs::write(folder.join(FILE), serde_json::to_string(&made)?)
 }
 
-/// Files in a folder, and below it if asked for, in the order of their paths from there, with their lengths `[B]`.
-fn files_below(folder: &Path, deep: bool) -> io::Result<Vec<(PathBuf, u64)>> {
+/// Files in a folder, and below it if asked for, in the order of their paths from there.
+fn files_below(folder: &Path, deep: bool) -> io::Result<Vec<PathBuf>> {
     let (mut files, mut folders) = (Vec::new(), vec![PathBuf::new()]);
     while let Some(below) = folders.pop() {
         for entry in fs::read_dir(folder.join(&below))? {
             let entry = entry?;
-            let (path, kind) = (below.join(entry.file_name()), entry.metadata()?);
+            let (path, kind) = (below.join(entry.file_name()), entry.file_type()?);
             if kind.is_file() {
-                files.push((path, kind.len()));
+                files.push(path);
             } else if deep && kind.is_dir() {
                 folders.push(path);
             }

@@ -48,8 +48,8 @@ use std::fmt::Debug;
 
 /// A plastic law in f64: what [`PlasticLaw`] asks for, with the same meaning.
 pub trait OpenPlasticLaw: Debug + Send + Sync {
-    /// Equivalent shear stress `[Pa]` at the end of a time step: the trial up to the yield stress. In a step of no length,
-    /// which a run begins with, it is the smaller of the trial and the yield stress.
+    /// Equivalent shear stress `[Pa]` at the end of a time step: the trial up to the yield stress. In a step of no length
+    /// nothing flows: there it is the trial, up to the shear stress of the fastest flow where the law has one.
     fn admissible_shear_stress(&self, trial: &TrialStress<f64>) -> f64;
 
     /// Equivalent shear stress `[Pa]` up to which the material is elastic, at a pressure `[Pa]`. A cohesion is allowed.
@@ -59,8 +59,8 @@ pub trait OpenPlasticLaw: Debug + Send + Sync {
     /// at rest.
     fn viscosity(&self, shear_rate: f64, pressure: f64) -> f64;
 
-    /// Friction coefficient `[-]` of a contact with a rough wall. A cohesion is no friction; with 0 the material slides along
-    /// walls like a liquid, and forces are those of a liquid.
+    /// Friction coefficient `[-]` of a contact with a rough wall. A cohesion is no friction, and a law with 0 counts as a
+    /// liquid.
     fn contact_friction(&self) -> f64;
 }
 

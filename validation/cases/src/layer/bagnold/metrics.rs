@@ -229,7 +229,7 @@ fn arrest((run, record): &BagnoldRecord) -> Vec<Metric> {
     let time = match expected {
         Some(expected) => time.gated(
             Limit::Within(0.97 * expected, 1.03 * expected),
-            "as close as the velocity of the steady profile, whose decay it is: 0.2 % at 20 and at 40 rows; yielded layers end within a few steps",
+            "within 3 % of the 1-D solution: 20 and 40 rows arrest within 0.3 % of it",
         ),
         None => time,
     };
