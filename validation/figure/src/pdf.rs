@@ -38,7 +38,7 @@ pub(super) fn page(svg: &str, unit: f64) -> Result<Vec<u8>, FigureError> {
 }
 
 fn packed(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
     encoder.write_all(bytes)?;
     encoder.finish()
 }

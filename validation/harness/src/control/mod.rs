@@ -4,7 +4,7 @@
 //! The controls of a case stand in `controls/CASE.toml`, those of a canonical study in its own file. Each is a change of
 //! parameters, which a report runs beside the case, or an error of the solver (`bagnold dev mutate list`); what became of the
 //! latter, and of changes that are too dear for a report, stands in the committed tables `controls/tried/CASE.csv` that
-//! `bagnold dev controls` renews.
+//! `bagnold dev controls` renews. A control of a canonical study is dear if the study's table has it.
 
 mod reading;
 mod series;

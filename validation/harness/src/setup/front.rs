@@ -4,7 +4,7 @@ use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// Parts that a particle's volume is spread in over a spacing to either side.
-const PARTS: i32 = 8;
+const PARTS: usize = 8;
 
 /// A line along which material reaches up to where less than a section stands across it.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,21 +26,26 @@ impl<const D: usize> FrontLine<D> {
         let (bin, length) = (0.25 * spacing, (self.to - self.from).norm());
         let along = (self.to - self.from) / length;
         let bins = (length / bin).ceil() as usize;
-        let mut area = vec![0.0; bins];
-        for part in 0..PARTS {
-            let shift = (f64::from(part) - 0.5 * f64::from(PARTS - 1)) * 2.0 / f64::from(PARTS) * spacing;
-            let shares = volumes(snapshot, |place| {
-                let way = place - self.from;
-                if self.strip.is_some_and(|(across, half)| way.dot(&across).abs() >= half) {
-                    return None;
+        let shifts: [f64; PARTS] =
+            std::array::from_fn(|part| (part as f64 - 0.5 * (PARTS as f64 - 1.0)) * 2.0 / PARTS as f64 * spacing);
+        let mut shares = vec![[0.0; PARTS]; bins];
+        for ((place, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
+            let way = place - self.from;
+            if self.strip.is_some_and(|(across, half)| way.dot(&across).abs() >= half) {
+                continue;
+            }
+            let (middle, volume) = (way.dot(&along), mass / density);
+            for (part, shift) in shifts.iter().enumerate() {
+                let place = middle + shift;
+                if place >= 0.0
+                    && place < length
+                    && let Some(parts) = shares.get_mut((place / bin) as usize)
+                {
+                    parts[part] += volume;
                 }
-                let place = way.dot(&along) + shift;
-                (place >= 0.0 && place < length).then_some((place / bin) as usize)
-            });
-            for (sum, share) in area.iter_mut().zip(shares) {
-                *sum += share / f64::from(PARTS);
             }
         }
+        let area: Vec<f64> = shares.iter().map(|parts| parts.iter().map(|part| part / PARTS as f64).sum()).collect();
         let stands = |area: &f64| *area >= self.section * bin;
         let Some(first) = area.iter().position(stands) else { return 0.0 };
         let gap = area[first..].iter().position(|area| !stands(area));
@@ -58,18 +63,4 @@ pub fn end_of_profile(thickness: &[(f64, f64)], least: f64) -> f64 {
         }
     }
     thickness.last().map_or(0.0, |bin| bin.0)
-}
-
-/// Volumes `[m^D]` of the particles by bins, of which `bin` names that of a place.
-pub fn volumes<const D: usize>(snapshot: &Snapshot<D>, bin: impl Fn(Vector<D>) -> Option<usize>) -> Vec<f64> {
-    let mut sums: Vec<f64> = Vec::new();
-    for ((place, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
-        if let Some(bin) = bin(*place) {
-            if sums.len() <= bin {
-                sums.resize(bin + 1, 0.0);
-            }
-            sums[bin] += mass / density;
-        }
-    }
-    sums
 }

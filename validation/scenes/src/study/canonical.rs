@@ -9,7 +9,7 @@ use crate::case::{
     AnyCase, CaseResult, Changes, Estimate, ExternalData, ExternalResult, ExternalSchema, ParameterError, PreparedCase,
     Progress, Registry, Tier, tables_to_add,
 };
-use crate::control::Control;
+use crate::control::{Control, ControlKind, TriedControls};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
@@ -78,7 +78,14 @@ impl AnyCase for CanonicalStudy {
     }
 
     fn controls(&self) -> Vec<Control> {
-        self.study().controls()
+        let (mut controls, tried) = (self.study().controls(), TriedControls::shipped(self.name));
+        for control in &mut controls {
+            let dear = tried.trial(control).is_some();
+            if let ControlKind::Input { in_table, .. } = &mut control.kind {
+                *in_table = dear;
+            }
+        }
+        controls
     }
 
     fn show(&self, _: Tier) -> String {
