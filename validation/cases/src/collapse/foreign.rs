@@ -1,13 +1,20 @@
 //! A column as another code gives it: the same measurements, taken by the same surveyor.
 
 use super::column::{ColumnRun, EARLIEST_REST, Geometry};
-use super::deposit::Collapse;
+use super::deposit::{Collapse, radius};
+use super::flow_metrics::PROFILE_TIME;
+use super::other_codes::MID_COLLAPSE;
 use super::quantities::{
-    BREAK_POINT, DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, HEIGHT_BY_TOP, PARTICLES_LOST, REST_TIME, RUN_OUT,
-    SCALING_EXPONENT, STOPPING_TIME,
+    BREAK_POINT, DEPOSIT_SLOPE_ANGLE, ENERGY_GAIN, FAILURE_LINE_DISTANCE, FAILURE_SURFACE_ANGLE, FAST_UPSTREAM_RATIO,
+    FASTEST_HEIGHT, FINAL_HEIGHT, FLANK_R_SQUARED, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
+    FOOT_VELOCITY_RATIO, FRONT, KINETIC_ENERGY, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL, PARTICLES_LOST, QUANTITIES,
+    REST_TIME, RUN_OUT, SCALING_EXPONENT, STOPPING_TIME, SURFACE_DISTANCE, TAIL_DECAY_LENGTH_OVER_DIAMETER,
+    TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR, TOP_DISTORTION, UNDISTURBED_SHARE,
 };
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema, ParticleFrame};
 use crate::input::FieldError;
+use crate::metric::Quantity;
+use crate::setup::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
@@ -61,9 +68,22 @@ pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
         20 to 80 % of the front's distance.",
 };
 
-/// Metrics that a deposit suffices for.
-const OF_DEPOSIT: [&str; 5] =
-    [RUN_OUT.name, FINAL_HEIGHT.name, DEPOSIT_SLOPE_ANGLE.name, SCALING_EXPONENT.name, BREAK_POINT.name];
+/// Metrics that the profile of a deposit suffices for.
+const OF_PROFILE: [&str; 7] = [
+    RUN_OUT.name,
+    FINAL_HEIGHT.name,
+    DEPOSIT_SLOPE_ANGLE.name,
+    FLANK_R_SQUARED.name,
+    SURFACE_DISTANCE.name,
+    SCALING_EXPONENT.name,
+    BREAK_POINT.name,
+];
+/// Share of the mass that may slide on alone when a heap rests `[-]`.
+const STRAY: f64 = 0.005;
+/// Time over √(h_0/g) before which a column stands as at the start: it has fallen by half a hundredth of its height `[-]`.
+const STILL: f64 = 0.1;
+/// Distance of a picture from a time of the metrics over √(h_0/g) `[-]`.
+const NEAR: f64 = 0.15;
 
 pub(crate) fn observe(run: &ColumnRun, given: &ExternalData) -> Result<ExternalObservation<Collapse>, FieldError> {
     match run.geometry {
@@ -73,7 +93,7 @@ pub(crate) fn observe(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
 }
 
 fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalObservation<Collapse>, FieldError> {
-    let unmeasured = Collapse {
+    let mut collapse = Collapse {
         top: f64::NAN,
         centroid: f64::NAN,
         quantiles: (f64::NAN, f64::NAN),
@@ -81,50 +101,44 @@ fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
         ..Collapse::default()
     };
     let mut measured = Vec::new();
-    let mut collapse = unmeasured;
-    let has_fallen = |time: f64| time >= EARLIEST_REST * run.time_scale();
+    let (r, scale) = (run.half_width, run.time_scale());
+    let has_fallen = |time: f64| time >= EARLIEST_REST * scale;
+    let (size, middle) = match run.geometry {
+        Geometry::Planar => (1.0, 0.5),
+        Geometry::Round => (std::f64::consts::FRAC_PI_4 * r, 2.0 / 3.0),
+    };
     let room = Room {
         spacing: run.spacing(),
-        reach: REACH * run.half_width * (1.0 + run.aspect_ratio),
+        reach: REACH * r * (1.0 + run.aspect_ratio),
         density: run.bulk_density,
-        size: match run.geometry {
-            Geometry::Planar => 1.0,
-            Geometry::Round => std::f64::consts::FRAC_PI_4 * run.half_width,
-        } * run.half_width
-            * run.half_width
-            * run.initial_height(),
+        size: size * r * r * run.initial_height(),
+        start: Some(Start { until: STILL * scale, width: r, height: run.initial_height() * r, middle: middle * r }),
         kind: "column",
         origin: ORIGIN,
     };
     if let Some((end, _)) = given.pictures.split_last() {
-        let snapshots: Vec<Snapshot<D>> =
+        let mut snapshots: Vec<Snapshot<D>> =
             given.pictures.iter().map(|picture| snapshot(&room, picture)).collect::<Result<_, _>>()?;
         let mut surveyor = run.surveyor();
+        if let Some(last) = snapshots.last_mut() {
+            without_stray_grains(last);
+        }
         for snapshot in &snapshots {
             surveyor.observe(snapshot);
         }
         if let Some(last) = snapshots.last() {
-            collapse = surveyor.finish(last);
-        }
-        collapse.momentum_residual = f64::NAN;
-        if has_fallen(end.time) {
-            measured.extend(OF_DEPOSIT);
-            measured.push(HEIGHT_BY_TOP.name);
+            collapse = Collapse { momentum_residual: f64::NAN, ..surveyor.finish(last) };
         }
         measured.push(PARTICLES_LOST.name);
-        let moves = ["vx", "vy"].iter().all(|name| !end.column(name).is_empty());
-        if moves && given.pictures.len() > 1 {
-            measured.push(REST_TIME.name);
-        }
-        if given.pictures.len() >= PICTURES_OF_A_HISTORY {
-            measured.push(STOPPING_TIME.name);
+        if has_fallen(end.time) {
+            measured.extend(told(run, given, &snapshots, &collapse));
         }
     }
-    let r = run.half_width;
     let (x, thickness) = (given.profile("x"), given.profile("thickness"));
     if !x.is_empty() && !thickness.is_empty() {
         collapse.deposit = x.iter().zip(thickness).map(|(x, thickness)| (x / r, thickness / r)).collect();
-        measured.extend(OF_DEPOSIT);
+        room.check_profile(x, thickness, D)?;
+        measured.extend(OF_PROFILE);
     }
     let time = given.series("time");
     if !time.is_empty() {
@@ -151,14 +165,78 @@ fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
     Ok(ExternalObservation { observation: collapse, measured })
 }
 
+/// Names of what pictures up to a deposit tell: all metrics of the case but those that need more than was given.
+fn told<const D: usize>(
+    run: &ColumnRun,
+    given: &ExternalData,
+    snapshots: &[Snapshot<D>],
+    collapse: &Collapse,
+) -> Vec<&'static str> {
+    let scale = run.time_scale();
+    let times: Vec<f64> = given.pictures.iter().map(|picture| picture.time / scale).collect();
+    let is_seen = |time: f64| times.iter().any(|own| (own - time).abs() < NEAR);
+    let moves = given.pictures.iter().all(|picture| ["vx", "vy"].iter().all(|name| !picture.column(name).is_empty()));
+    let from_start = times.first().is_some_and(|time| *time < STILL) && times.len() > 1;
+    // cells of a mesh stay where they are, and their numbers tell no grain
+    let grains = |pair: &[Snapshot<D>]| pair[0].position.len() == pair[1].position.len();
+    let is_mesh = snapshots.windows(2).all(|pair| grains(pair) && pair[0].position == pair[1].position);
+    let follows = from_start && !is_mesh && snapshots.windows(2).all(grains);
+    let rests = collapse.rest_time().is_finite();
+    // a run that was ended early does not say that it never rests
+    let is_long = times.last().is_some_and(|end| *end >= run.release.duration);
+    let of_motion = [
+        KINETIC_ENERGY,
+        ENERGY_GAIN,
+        FLOWING_LAYER_SHEAR_RATE,
+        FLOWING_LAYER_R_SQUARED,
+        FASTEST_HEIGHT,
+        LINEAR_MISFIT_RATIO,
+        TAIL_DECAY_LENGTH_OVER_DIAMETER,
+        TAIL_DECAY_LENGTH_OVER_SPACING,
+        TAIL_DECAY_LENGTH_STANDARD_ERROR,
+        FOOT_VELOCITY_RATIO,
+    ];
+    let lacks: [(bool, &[Quantity]); 6] = [
+        (true, &[ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WORK, MOMENTUM_RESIDUAL]),
+        (!(moves && from_start && is_seen(PROFILE_TIME)), &of_motion),
+        (!(from_start && is_seen(MID_COLLAPSE)), &[FRONT, KINETIC_ENERGY]),
+        (
+            !follows,
+            &[UNDISTURBED_SHARE, FAILURE_SURFACE_ANGLE, FAILURE_LINE_DISTANCE, FAST_UPSTREAM_RATIO, TOP_DISTORTION],
+        ),
+        (!(moves && from_start && (rests || is_long)), &[REST_TIME]),
+        (times.len() < PICTURES_OF_A_HISTORY, &[STOPPING_TIME]),
+    ];
+    let lacks: Vec<&str> =
+        lacks.iter().filter(|(lacks, _)| *lacks).flat_map(|(_, names)| names.iter().map(|own| own.name)).collect();
+    QUANTITIES.iter().map(|own| own.name).filter(|name| !lacks.contains(name)).collect()
+}
+
+/// Stops the fastest grains, up to a share of the mass, which slide on alone when the heap rests.
+fn without_stray_grains<const D: usize>(end: &mut Snapshot<D>) {
+    let mut order: Vec<usize> = (0..end.mass.len()).collect();
+    order.sort_by(|&a, &b| end.velocity[b].norm_squared().total_cmp(&end.velocity[a].norm_squared()));
+    let mut left = STRAY * end.mass.iter().sum::<f64>();
+    for particle in order {
+        left -= end.mass[particle];
+        if left < 0.0 {
+            break;
+        }
+        end.velocity[particle].fill(0.0);
+    }
+}
+
 /// How far from the origin a particle may be, over the sum of half width and height: further than any column spreads.
 const REACH: f64 = 50.0;
 /// Least number of pictures from which the stopping time is taken: four over √(h_0/g), five times as long.
 const PICTURES_OF_A_HISTORY: usize = 20;
 
-/// Largest factor by which material may become more or less, in volume `[-]`: grains dilate and codes lose some, but twice as
-/// much is another unit, or the whole of a column of which half is asked.
-const BULKING: f64 = 1.6;
+/// Largest factor by which material may become more or less in a collapse, in volume `[-]`: grains dilate and codes lose some.
+const BULKING: f64 = 1.2;
+/// The same at the start `[-]`.
+const SAME_SIZE: f64 = 1.03;
+/// Largest distance of the centroid at the start from the right one, over width and height `[-]`.
+const SAME_PLACE: f64 = 0.02;
 
 const ORIGIN: &str = "check the unit and the origin: it lies on the bed in the symmetry plane, and only the half (quarter) beyond it is given";
 
@@ -172,25 +250,86 @@ pub(super) struct Room {
     pub(super) density: f64,
     /// Area of all at the start, in space the volume `[m²]` or `[m³]`.
     pub(super) size: f64,
+    /// The start, if it is a block at the origin.
+    pub(super) start: Option<Start>,
     /// What collapses, in words.
     pub(super) kind: &'static str,
     /// What to do about places that are out of reach.
     pub(super) origin: &'static str,
 }
 
+/// A block at the origin before it collapses.
+pub(super) struct Start {
+    /// Last time at which it still stands `[s]`.
+    pub(super) until: f64,
+    /// Width, or radius `[m]`.
+    pub(super) width: f64,
+    /// Height `[m]`.
+    pub(super) height: f64,
+    /// Mean distance of the mass from the symmetry plane or axis `[m]`.
+    pub(super) middle: f64,
+}
+
 impl Room {
-    /// Refuses a picture whose particles have much more or less area or volume together than there was at the start.
+    /// Refuses a picture whose particles have another area or volume together than the start has.
     fn check(&self, sum: f64, axes: usize, picture: &ParticleFrame) -> Result<(), FieldError> {
-        if sum > self.size / BULKING && sum < self.size * BULKING {
-            return Ok(());
-        }
         let (size, unit) = if axes == 2 { ("area", "m^2") } else { ("volume", "m^3") };
         let given = if picture.column(size).is_empty() { "mass" } else { size };
-        let value = format!("{sum:.4e} {unit} over all particles at {} s", picture.time);
-        let start = format!("{:.4e} {unit}", self.size);
-        let rule = format!("within a factor {BULKING} of what the {} has at the start, {start}", self.kind);
-        let remedy = "check the unit, and which part of it is given";
-        Err(FieldError::new(&format!("particles.columns.{given}"), value, &rule, remedy))
+        let is_start = self.start.as_ref().is_some_and(|start| picture.time <= start.until);
+        let factor = if is_start { SAME_SIZE } else { BULKING };
+        let field = format!("particles.columns.{given}");
+        self.check_size(sum, factor, &field, &format!("{unit} over all particles at {} s", picture.time))
+    }
+
+    fn check_size(&self, sum: f64, factor: f64, field: &str, unit: &str) -> Result<(), FieldError> {
+        if sum > self.size / factor && sum < self.size * factor {
+            return Ok(());
+        }
+        let rule = format!("within a factor {factor} of what the {} has at the start, {:.4e}", self.kind, self.size);
+        let remedy = "check unit, size, solid fraction, and which part of it is given";
+        Err(FieldError::new(field, format!("{sum:.4e} {unit}"), &rule, remedy))
+    }
+
+    /// Refuses a deposit of another area or volume.
+    fn check_profile(&self, x: &[f64], thickness: &[f64], axes: usize) -> Result<(), FieldError> {
+        let around = |x: f64| if axes == 2 { 1.0 } else { std::f64::consts::FRAC_PI_2 * x };
+        let part =
+            |k: usize| 0.5 * (x[k + 1] - x[k]) * (thickness[k] * around(x[k]) + thickness[k + 1] * around(x[k + 1]));
+        // the innermost bin begins at the plane or axis
+        let inner = thickness[0] * if axes == 2 { x[0] } else { std::f64::consts::FRAC_PI_4 * x[0] * x[0] };
+        let sum = inner + (0..x.len() - 1).map(part).sum::<f64>();
+        let unit = if axes == 2 { "m^2 below it" } else { "m^3 below it" };
+        self.check_size(sum, BULKING, "profile.columns.thickness", unit)
+    }
+
+    /// Refuses a start that is another block: its centroid, and its extent to a cell of the given particles.
+    fn check_start<const D: usize>(&self, snapshot: &Snapshot<D>) -> Result<(), FieldError> {
+        let Some(start) = self.start.as_ref().filter(|start| snapshot.time <= start.until) else { return Ok(()) };
+        let cells = snapshot.mass.iter().zip(&snapshot.density).map(|(mass, density)| mass / density);
+        let sum: f64 = cells.clone().sum();
+        let cell = libm::pow(sum / snapshot.mass.len() as f64, 1.0 / D as f64);
+        let horizontal = |place: &Vector<D>| if D == 2 { place[0].abs() } else { radius(place) };
+        let vertical = |place: &Vector<D>| place[1];
+        for (field, place, size, middle) in [
+            ("x", &horizontal as &dyn Fn(&Vector<D>) -> f64, start.width, start.middle),
+            ("y", &vertical, start.height, 0.5 * start.height),
+        ] {
+            let places = snapshot.position.iter().map(place);
+            let mean = places.clone().zip(cells.clone()).map(|(place, cell)| place * cell).sum::<f64>() / sum;
+            let end = places.fold(0.0, f64::max) + 0.5 * cell;
+            let field = format!("particles.columns.{field}");
+            let at = format!("at {} s", snapshot.time);
+            let remedy = "give the start of the case, which `bagnold export` writes";
+            if (mean - middle).abs() > SAME_PLACE * size {
+                let rule = format!("{middle:.4} m within 2 % of {size:.4} m, as the {} starts", self.kind);
+                return Err(FieldError::new(&field, format!("on average {mean:.4} m {at}"), &rule, remedy));
+            }
+            if (end - size).abs() > cell + 0.01 * size {
+                let rule = format!("up to {size:.4} m within a cell of {cell:.4} m");
+                return Err(FieldError::new(&field, format!("up to {end:.4} m {at}"), &rule, remedy));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -228,14 +367,16 @@ pub(super) fn snapshot<const D: usize>(room: &Room, picture: &ParticleFrame) -> 
     let of = |columns: &[&[f64]], particle: usize| {
         Vector::<D>::from_fn(|axis, _| columns[axis].get(particle).copied().unwrap_or(f64::NAN))
     };
-    Ok(Snapshot {
+    let snapshot = Snapshot {
         time: picture.time,
         position: (0..count).map(|particle| of(&places, particle)).collect(),
         velocity: (0..count).map(|particle| of(&velocities, particle)).collect(),
         mass,
         density,
         ..Snapshot::default()
-    })
+    };
+    room.check_start(&snapshot)?;
+    Ok(snapshot)
 }
 
 #[cfg(test)]
@@ -296,10 +437,48 @@ mod tests {
         let message = observe(&run, &ExternalData { pictures: vec![picture], ..ExternalData::default() })
             .expect_err("cm²")
             .to_string();
-        assert!(message.starts_with("`particles.columns.area` is ") && message.contains(" m^2 over all particles at 1 s, but must be within a factor 1.6 of what the column has at the start"), "{message}");
-        let early = ParticleFrame { time: 0.0, ..wedge(&run) };
-        let seen = observe(&run, &ExternalData { pictures: vec![early], ..ExternalData::default() }).expect("complete");
-        assert_eq!(seen.measured, ["particles_lost"]);
+        assert!(message.starts_with("`particles.columns.area` is ") && message.contains(" m^2 over all particles at 1 s, but must be within a factor 1.2 of what the column has at the start"), "{message}");
+        let seen = observe(&run, &ExternalData { pictures: vec![block(&run, [1.0; 3])], ..ExternalData::default() });
+        assert_eq!(seen.expect("the start").measured, ["particles_lost"]);
+    }
+
+    /// The start in square cells, by factors of its width, its height and the area of a cell.
+    fn block(run: &ColumnRun, [wide, high, area]: [f64; 3]) -> ParticleFrame {
+        let (rows, spacing) = (40, run.half_width / 40.0);
+        let count = (rows as f64 * run.initial_height()).round() as usize;
+        let place = |cell: usize| (cell as f64 + 0.5) * spacing;
+        let cells: Vec<(f64, f64)> =
+            (0..rows * count).map(|cell| (wide * place(cell % rows), high * place(cell / rows))).collect();
+        let columns: [(&str, Vec<f64>); 3] = [
+            ("x", cells.iter().map(|cell| cell.0).collect()),
+            ("y", cells.iter().map(|cell| cell.1).collect()),
+            ("area", vec![area * wide * high * spacing * spacing; cells.len()]),
+        ];
+        ParticleFrame { time: 0.0, columns: columns.map(|(name, column)| (name.to_owned(), column)).into() }
+    }
+
+    #[test]
+    fn another_start_is_refused_with_both_numbers() {
+        let run = run();
+        let refused = |factors| {
+            observe(&run, &ExternalData { pictures: vec![block(&run, factors)], ..ExternalData::default() })
+                .map(|_| String::new())
+                .unwrap_or_else(|error| error.to_string())
+        };
+        assert_eq!(refused([1.0; 3]), "");
+        // smaller, of grain density given as bulk density, wider and lower, mirrored
+        assert!(
+            refused([0.8, 0.8, 1.0]).starts_with("`particles.columns.area` is 9.0"),
+            "{}",
+            refused([0.8, 0.8, 1.0])
+        );
+        assert!(refused([1.0, 1.0, 0.81]).contains("within a factor 1.03"), "{}", refused([1.0, 1.0, 0.81]));
+        let lower = refused([1.1, 1.0 / 1.1, 1.0]);
+        assert!(
+            lower.starts_with("`particles.columns.x` is on average 0.0") && lower.contains("within 2 %"),
+            "{lower}"
+        );
+        assert!(refused([-1.0, 1.0, -1.0]).starts_with("`particles.columns.x"), "{}", refused([-1.0, 1.0, -1.0]));
     }
 
     #[test]

@@ -59,6 +59,7 @@ pub(crate) fn observe(run: &SlopeRun, given: &ExternalData) -> Result<ExternalOb
         reach: REACH * run.reservoir.channel_length,
         density: run.bulk_density,
         size: r * run.reservoir.initial_height,
+        start: None,
         kind: "reservoir",
         origin: "check the unit and the origin: it lies on the bed at the back of the reservoir, x points down the slope",
     };

@@ -163,7 +163,12 @@ fn snapshot(picture: &ParticleFrame) -> Result<Snapshot<2>, FieldError> {
     };
     Ok(Snapshot {
         time: picture.time,
-        position: x.iter().zip(y).map(|(x, y)| Vector::<2>::new(*x, *y)).collect(),
+        // the points of a mesh lie on the bed, not below it
+        position: x
+            .iter()
+            .zip(y)
+            .map(|(x, y)| Vector::<2>::new(*x, if *y == 0.0 { f64::MIN_POSITIVE } else { *y }))
+            .collect(),
         velocity: vx.iter().zip(vy).map(|(vx, vy)| Vector::<2>::new(*vx, *vy)).collect(),
         stress: vec![Tensor::<2>::from_element(f64::NAN); x.len()],
         pressure: or("pressure", f64::NAN),
