@@ -16,7 +16,10 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
          material; `bagnold export {name} --tier {tier} --out DIR`\n# writes them with initial particles, references and definitions.\n\n\
          case = \"{name}\"\ntier = \"{tier}\"\n# base = \"my-case.toml\"  # a case file with the parameters, such as a scene of one's own\n\
          # with = {{ … }}          # parameters that differ from the tier's, or from those of `base`\n\n\
+         # Law of the runs: \"same\" as the case's, \"own\", or \"grains\"; only the same is judged against exact solutions.\n\
+         law = \"same\"\n# Digest of the inputs without numerics: another value is refused.\ninputs = \"{inputs}\"\n\n\
          [code]\nname = \"my code\"\nversion = \"1.0\"\n\n",
+        inputs = super::inputs::digest(prepared.parameters_toml()),
         name = case.name(),
         summary = case.summary(),
     );

@@ -39,6 +39,7 @@ pub(super) fn document(judgement: &CodeComparison) -> Value {
         json!({
             "name": judged.code.name,
             "version": judged.code.version,
+            "law": judged.law,
             "holding": holding,
             "failing": failing,
             "not_given": not_given,
@@ -46,7 +47,13 @@ pub(super) fn document(judgement: &CodeComparison) -> Value {
             "metrics": judged.metrics.iter().map(entry).collect::<Vec<_>>(),
         })
     };
-    json!({ "case": case, "tier": judgement.own.tier, "codes": judgement.codes.iter().map(code).collect::<Vec<_>>() })
+    json!({
+        "case": case,
+        "tier": judgement.own.tier,
+        "program": env!("CARGO_PKG_VERSION"),
+        "inputs": super::inputs::digest(&judgement.own.parameters_toml),
+        "codes": judgement.codes.iter().map(code).collect::<Vec<_>>(),
+    })
 }
 
 fn entry(one: &MetricComparison) -> Value {

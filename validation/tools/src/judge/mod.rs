@@ -4,6 +4,7 @@ mod blank;
 mod document;
 mod error;
 mod export;
+mod inputs;
 mod overlay;
 mod page;
 mod reading;
@@ -15,7 +16,7 @@ pub use blank::blank;
 pub use error::JudgeError;
 pub use export::export;
 pub use page::write;
-pub use submission::{Code, ForeignRun, ParticleFiles, Submission, TableFile};
+pub use submission::{Code, ForeignRun, LawOrigin, ParticleFiles, Submission, TableFile};
 pub use verdicts::MetricComparison;
 
 use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCase, Registry};
@@ -51,6 +52,8 @@ pub struct JudgedCode {
     pub code: Code,
     /// Its file.
     pub file: PathBuf,
+    /// The law of its runs.
+    pub law: LawOrigin,
     /// Metrics in our order.
     pub metrics: Vec<MetricComparison>,
 }
@@ -103,6 +106,13 @@ impl CaseSubmissions {
             registry.find(&first.case).map_err(|error| PlanError::of(error.in_file(&first.path), &first.path))?;
         let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[], ..Changes::default() };
         let all = case.prepare(first.tier, &changes).map_err(|error| PlanError::of(error, &first.path))?;
+        // the export has the tier's parameters, whatever a submission lays over them
+        let exported =
+            case.prepare(first.tier, &Changes::default()).map_err(|error| PlanError::of(error, &first.path))?;
+        for submission in &submissions {
+            inputs::check(submission.inputs.as_deref(), exported.parameters_toml())
+                .map_err(|error| error.in_file(&submission.path))?;
+        }
         // the runs of ours that any code gives something of, in our order
         let places: Vec<Vec<usize>> =
             submissions.iter().map(|submission| places(submission, all.as_ref())).collect::<Result<_, _>>()?;
@@ -144,7 +154,11 @@ fn entry(
     Ok(CodeResults { submission, variants, result })
 }
 
-/// Our run that each of a submission's is: of those that have all its keys the one with the fewest keys.
+/// Keys of runs that are the numerics of ours: a code that names none of them is compared with the first run of the case.
+const NUMERICS: [&str; 7] = ["particles", "resolution", "seed", "numerics", "top", "hourglass", "timestep"];
+
+/// Our run that each of a submission's is: of those that have all its keys the one with the fewest keys, the first of those that
+/// differ in numerics alone.
 fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<usize>, JudgeError> {
     let variants: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
     let mut places: Vec<usize> = Vec::new();
@@ -159,6 +173,12 @@ fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<us
         let keys = |place: usize| variants[place].parts().count();
         let fewest = matching.iter().map(|&place| keys(place)).min();
         let least: Vec<usize> = matching.into_iter().filter(|&place| Some(keys(place)) == fewest).collect();
+        let physics =
+            |place: usize| -> Vec<_> { variants[place].parts().filter(|(key, _)| !NUMERICS.contains(key)).collect() };
+        let least = match least[..] {
+            [first, .., last] if least.iter().all(|&place| physics(place) == physics(last)) => vec![first],
+            _ => least,
+        };
         match least[..] {
             [place] if places.contains(&place) => {
                 return Err(wrong("another run than those before", "give each run once, in one table [[run]]"));
@@ -197,9 +217,10 @@ pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison,
                 .enumerate()
                 .map(|(number, (variant, run))| (variant.clone(), run, format!("run {}", number + 1)))
                 .collect();
-            let metrics = verdicts::compare(&own.metrics, &entry.result, &numbers)
-                .map_err(|error| error.in_file(&entry.submission.path))?;
-            Ok(JudgedCode { code: entry.submission.code.clone(), file: entry.submission.path.clone(), metrics })
+            let Submission { code, path, law, .. } = &entry.submission;
+            let metrics =
+                verdicts::compare(&own.metrics, &entry.result, &numbers, *law).map_err(|error| error.in_file(path))?;
+            Ok(JudgedCode { code: code.clone(), file: path.clone(), law: *law, metrics })
         })
         .collect::<Result<_, JudgeError>>()?;
     let theirs: Vec<(&str, &[Figure])> =

@@ -53,6 +53,7 @@ fn code_row(judged: &JudgedCode) -> Value {
     json!({
         "name": judged.code.name,
         "version": judged.code.version,
+        "law": judged.law,
         "file": judged.file.display().to_string(),
         "holding": holding,
         "failing": failing,

@@ -5,7 +5,7 @@ use crate::evaluation::{PlanError, read_plan};
 use crate::input::{FieldError, check_name};
 use crate::measured::{ColumnSource, ColumnText};
 use crate::metric::Variant;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -29,6 +29,12 @@ pub struct Submission {
     pub with: toml::Table,
     /// The code.
     pub code: Code,
+    /// The law that its runs obey.
+    #[serde(default)]
+    pub law: LawOrigin,
+    /// Digest of the inputs that it was made from, as the export names it.
+    #[serde(default)]
+    pub inputs: Option<String>,
     /// Its runs.
     #[serde(rename = "run", default)]
     pub runs: Vec<ForeignRun>,
@@ -36,6 +42,19 @@ pub struct Submission {
 
 fn quick() -> Tier {
     Tier::Quick
+}
+
+/// The law of a code's runs. Against exact solutions and other codes of one law only the same law is judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LawOrigin {
+    /// The case's law with its numbers.
+    #[default]
+    Same,
+    /// Another law or other numbers.
+    Own,
+    /// None: grains, of which a law was measured at most.
+    Grains,
 }
 
 /// Another code.

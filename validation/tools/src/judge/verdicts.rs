@@ -1,6 +1,6 @@
 //! Another code's numbers under the gates of our own: what was not given is never judged.
 
-use super::submission::ForeignRun;
+use super::submission::{ForeignRun, LawOrigin};
 use crate::case::ExternalResult;
 use crate::input::{FieldError, did_you_mean, nearest};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
@@ -27,7 +27,7 @@ impl MetricComparison {
 type Numbers<'a> = [(Variant, &'a ForeignRun, String)];
 
 /// Our metrics with another code's values beside them, in our order. What is bookkeeping of our own runs appears only where
-/// the other code gave it.
+/// the other code gave it. Of another law no gate against exact solutions and codes of our law is asked.
 ///
 /// # Errors
 /// A single number that no metric of its run has.
@@ -35,6 +35,7 @@ pub(super) fn compare(
     own: &[Metric],
     foreign: &ExternalResult,
     numbers: &Numbers<'_>,
+    law: LawOrigin,
 ) -> Result<Vec<MetricComparison>, FieldError> {
     let mut given = Vec::new();
     for (variant, run, field) in numbers {
@@ -51,6 +52,8 @@ pub(super) fn compare(
             (Some(value), measured) => Some(Metric { value, ..measured.unwrap_or(metric).clone() }),
             (None, measured) => measured.cloned(),
         };
+        let is_asked = |metric: &Metric| law == LawOrigin::Same || metric.kind != MetricKind::Verification;
+        let foreign = foreign.map(|metric| if is_asked(&metric) { metric } else { Metric { gate: None, ..metric } });
         MetricComparison { own: metric.clone(), foreign }
     };
     let is_shown =
@@ -96,7 +99,7 @@ mod tests {
             vec![metric("front", 2.0), metric("height", f64::NAN), metric("noise", 0.0)],
             vec!["front", "height"],
         );
-        let compared = compare(&own, &theirs, &[]).expect("no numbers");
+        let compared = compare(&own, &theirs, &[], LawOrigin::Same).expect("no numbers");
         let verdicts: Vec<Option<Verdict>> = compared.iter().map(MetricComparison::verdict).collect();
         assert_eq!(verdicts, [Some(Verdict::Fail), None, None]);
     }
@@ -112,7 +115,9 @@ mod tests {
             profile: None,
         };
         let theirs = foreign(Vec::new(), Vec::new());
-        let of = |run: &ForeignRun| compare(&own, &theirs, &[(Variant::of("a", 1), run, "run 1".to_owned())]);
+        let of = |run: &ForeignRun| {
+            compare(&own, &theirs, &[(Variant::of("a", 1), run, "run 1".to_owned())], LawOrigin::Same)
+        };
         let compared = of(&run("front")).expect("a metric");
         assert_eq!((compared[0].verdict(), compared[0].own.value), (Some(Verdict::Pass), 0.5));
         assert_eq!(
@@ -122,9 +127,22 @@ mod tests {
     }
 
     #[test]
+    fn another_law_is_not_judged_by_exact_solutions_of_ours() {
+        let verified = metric("slope", 0.5).of_kind(MetricKind::Verification);
+        let own = [metric("front", 0.5).of_kind(MetricKind::Validation), verified];
+        let theirs =
+            foreign(own.iter().map(|own| Metric { value: 2.0, ..own.clone() }).collect(), vec!["front", "slope"]);
+        let verdicts = |law| -> Vec<_> {
+            compare(&own, &theirs, &[], law).expect("no numbers").iter().map(MetricComparison::verdict).collect()
+        };
+        assert_eq!(verdicts(LawOrigin::Same), [Some(Verdict::Fail); 2]);
+        assert_eq!(verdicts(LawOrigin::Grains), [Some(Verdict::Fail), Some(Verdict::Observed)]);
+    }
+
+    #[test]
     fn our_own_bookkeeping_is_left_out() {
         let own = [metric("lost", 0.0).of_kind(MetricKind::Bookkeeping), metric("front", 0.5)];
-        let compared = compare(&own, &foreign(Vec::new(), Vec::new()), &[]).expect("no numbers");
+        let compared = compare(&own, &foreign(Vec::new(), Vec::new()), &[], LawOrigin::Same).expect("no numbers");
         assert_eq!(compared.iter().map(|one| one.own.name.as_str()).collect::<Vec<_>>(), ["front"]);
     }
 }

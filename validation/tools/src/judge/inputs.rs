@@ -1,0 +1,51 @@
+//! Digest of the inputs that another code shares with a case.
+
+use crate::input::FieldError;
+use sha2::{Digest, Sha256};
+use toml::Table;
+
+/// Parts of the names of parameters that are a code's own business.
+const OWN_BUSINESS: [&str; 6] = ["numerics", "resolution", "jitter", "seed", "columns", "preparation"];
+/// Digits of the digest.
+const DIGITS: usize = 8;
+
+/// First digits of the SHA-256 of a case's parameters, without comments, numerics and resolutions.
+pub(super) fn digest(parameters: &str) -> String {
+    let mut fields: Table = parameters.parse().unwrap_or_default();
+    fields.retain(|name, _| !OWN_BUSINESS.iter().any(|part| name.contains(part)));
+    let text = fields.to_string();
+    crate::store::hexadecimal(&Sha256::digest(text.as_bytes()))[..DIGITS].to_owned()
+}
+
+/// Refuses a submission that was made from other inputs.
+pub(super) fn check(given: Option<&str>, parameters: &str) -> Result<(), FieldError> {
+    let own = digest(parameters);
+    match given {
+        Some(given) if given != own => {
+            let remedy = "export the case again and compare both `case.toml`";
+            Err(FieldError::new(
+                "inputs",
+                format!("\"{given}\""),
+                &format!("\"{own}\", the digest of these inputs"),
+                remedy,
+            ))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_count_and_numerics_do_not() {
+        let of = |text: &str| digest(text);
+        let own = of("slope_angle = 10.0  # [°]\nresolution = 20\n[numerics]\nkernel = \"a\"\n");
+        assert_eq!(own, of("slope_angle = 10.0\nresolution = 40\n[numerics]\nkernel = \"b\"\n"));
+        assert_ne!(own, of("slope_angle = 11.0\nresolution = 20\n"));
+        assert!(check(None, "a = 1").is_ok() && check(Some(&digest("a = 1")), "a = 1").is_ok());
+        let error = check(Some("00000000"), "a = 1").expect_err("others").to_string();
+        assert!(error.starts_with("`inputs` is \"00000000\", but must be \""), "{error}");
+    }
+}
