@@ -96,12 +96,22 @@ fn every_case_has_a_submission_to_fill_in() {
 #[test]
 fn export_contains_all_inputs() {
     let place = Place::new();
-    place.bagnold(&["export", "still-water", "--out", "out", "--quiet"]).assert().code(0);
-    for file in ["case.toml", "definitions.md", "submission.toml"] {
+    place.bagnold(&["export", "film", "--out", "out", "--quiet"]).assert().code(0);
+    for file in ["case.toml", "submission.toml", "reference/velocity-profile.csv"] {
         assert!(place.path("out").join(file).is_file(), "{file}");
     }
     let definitions = std::fs::read_to_string(place.path("out/definitions.md")).expect("written");
-    assert!(definitions.starts_with("# still-water") && definitions.contains("## Limits"), "{definitions}");
+    let limit = "- `velocity_l2` of `fluid=bingham,particles=jittered,resolution=20`: ≤ 3.";
+    assert!(definitions.contains("`herschel-bulkley`: η = τ_y") && definitions.contains(limit), "{definitions}");
+    assert!(!place.path("store").exists() && !place.path("out/particles").exists(), "nothing was simulated");
+    // a submission of other inputs than the export's is refused
+    let text = std::fs::read_to_string(place.path("out/submission.toml")).expect("written");
+    let own = text.lines().find(|line| line.starts_with("inputs = ")).expect("the digest");
+    let other = text.replace(own, "inputs = \"00000000\"").replace("# velocity_l2 = 0.0", "velocity_l2 = 0.1");
+    std::fs::write(place.path("other.toml"), other).expect("written");
+    let refused = place.bagnold(&["judge", "other.toml", "--quiet"]).assert().code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(message.contains("`inputs` is \"00000000\", but must be"), "{message}");
 }
 
 #[test]

@@ -60,13 +60,15 @@ pub(super) fn export(
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
     let case = registry.find(&command.case)?;
-    let prepared = case.prepare(command.tier, &Changes::default())?;
-    let claimed = OutputFolder::claim(&command.out)?;
-    let results = simulation::simulate(vec![prepared], &command.work.open_store(), quiet, None)?;
+    let prepare = || case.prepare(command.tier, &Changes::default());
+    let (prepared, claimed) = (prepare()?, OutputFolder::claim(&command.out)?);
+    let results = if command.simulate {
+        simulation::simulate(vec![prepare()?], &command.work.open_store(), quiet, None)?
+    } else {
+        Vec::new()
+    };
     let exit = Exit::of(&results, |_, _| true);
-    if let Some(own) = results.first() {
-        judge::export(case, own, claimed.staging())?;
-    }
+    judge::export(case, &*prepared, command.tier, results.first(), claimed.staging())?;
     claimed.publish()?;
     say(output, &format!("written to {}\n", command.out.display()));
     Ok(exit)

@@ -30,6 +30,8 @@ pub trait AnyCase: Sync {
     fn name(&self) -> &'static str;
     /// One line for `bagnold list`.
     fn summary(&self) -> &'static str;
+    /// Setup, and what is judged, in prose.
+    fn description(&self) -> &str;
     /// Quantities from which the metrics of the case are built; empty if the case does not declare them.
     fn quantities(&self) -> &'static [Quantity];
     /// Origin of the code of the case: these packages or another crate.
@@ -93,6 +95,10 @@ pub trait PreparedCase: Send + Sync {
     /// # Errors
     /// Columns that are missing beside others, of the run of that number.
     fn judge_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
+    /// Limits and references of runs of which another code gives nothing yet; empty where the case takes single numbers only.
+    fn asked(&self) -> ExternalResult {
+        ExternalResult::default()
+    }
     /// Judges and draws the records. Runs that were not simulated are left out.
     ///
     /// # Errors
@@ -107,6 +113,10 @@ impl<C: Case> AnyCase for C {
 
     fn summary(&self) -> &'static str {
         C::SUMMARY
+    }
+
+    fn description(&self) -> &str {
+        C::DESCRIPTION
     }
 
     fn quantities(&self) -> &'static [Quantity] {
@@ -276,6 +286,21 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         let mut slots: Vec<Option<Slot<RunOf<C::Parameters>>>> = plan.slots.into_iter().map(Some).collect();
         plan.slots = runs.iter().filter_map(|&run| slots.get_mut(run)?.take()).collect();
         Box::new(plan)
+    }
+
+    fn asked(&self) -> ExternalResult {
+        let nothing = ExternalData::default();
+        let seen = |run| C::from_external(run, &nothing).ok().flatten();
+        let records: Vec<RecordOf<C::Parameters>> = self
+            .slots
+            .iter()
+            .filter_map(|(run, _)| Some((run.clone(), nothing.record(seen(run)?.observation))))
+            .collect();
+        ExternalResult {
+            metrics: C::metrics(&self.parameters, &records),
+            figures: C::figures(&self.parameters, &records),
+            ..ExternalResult::default()
+        }
     }
 
     fn judge_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {

@@ -98,7 +98,7 @@ pub struct ExternalObservation<O> {
 }
 
 /// Results of an external code's runs of a case.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct ExternalResult {
     /// Numbers, of which those in `measured` may be judged.
     pub metrics: Vec<Metric>,

@@ -65,6 +65,10 @@ impl AnyCase for CanonicalStudy {
         line.and_then(|line| line.strip_suffix('"')).unwrap_or_default()
     }
 
+    fn description(&self) -> &str {
+        &self.study().text.description
+    }
+
     fn quantities(&self) -> &'static [Quantity] {
         &[]
     }
@@ -222,7 +226,7 @@ impl PreparedCase for StudyPlan {
     }
 
     fn judge_external(&self, _: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
-        Ok(ExternalResult { metrics: Vec::new(), figures: Vec::new(), tables: Vec::new(), measured: Vec::new() })
+        Ok(ExternalResult::default())
     }
 
     fn finish(self: Box<Self>) -> Result<CaseResult, ParameterError> {

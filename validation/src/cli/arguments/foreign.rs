@@ -19,8 +19,9 @@ const EXPORT_EXAMPLES: &str = "Examples:
   bagnold export column-planar --out for-my-code
   bagnold export bagnold --tier paper --out for-my-code
 
-The folder receives case.toml (geometry, material), particles/ (initial particles as CSV and VTU), reference/ (curves to
-compare with), definitions.md (definition of every number) and submission.toml for `bagnold judge`.";
+The folder receives case.toml (geometry, material), reference/ (exact and measured curves), definitions.md (laws, metrics,
+limits) and submission.toml for `bagnold judge`. --simulate adds particles/ (initial particles as CSV and VTU) and
+bagnold/ (profiles and histories).";
 
 /// `bagnold judge`
 #[derive(Debug, Args)]
@@ -58,6 +59,9 @@ pub struct ExportArguments {
     /// Folder to write.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Also simulate the case: initial particles, and profiles of Bagnold
+    #[arg(long)]
+    pub simulate: bool,
     /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,

@@ -2,8 +2,12 @@
 
 use super::blank::{blank, of_case, wrapped};
 use super::error::JudgeError;
-use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema};
+use super::inputs::digest;
+use super::laws;
+use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema, PreparedCase, Tier};
 use crate::evidence::shipped_tables;
+use crate::figure::{Mark, Series};
+use crate::metric::{Metric, MetricKind};
 use crate::number::four_digits;
 use crate::observation::Frame;
 use crate::output::{FileError, Table};
@@ -12,35 +16,65 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
 
-/// Writes `case.toml`, `definitions.md`, `submission.toml`, `particles/` and `reference/` into a folder, from the results of
-/// our own runs, whose first pictures are the initial particles.
+/// Writes `case.toml`, `definitions.md`, `submission.toml` and `reference/` into a folder. With results of our own runs also their
+/// first pictures, the initial particles, in `particles/`, and their profiles and histories in `bagnold/`.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn export(case: &'static dyn AnyCase, own: &CaseResult, folder: &Path) -> Result<(), JudgeError> {
-    let written = write(case, own, folder);
-    written.map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))?;
-    let submission = blank(case, own.tier).map_err(|error| crate::evaluation::PlanError::of(error, folder))?;
+pub fn export(
+    case: &'static dyn AnyCase,
+    prepared: &dyn PreparedCase,
+    tier: Tier,
+    own: Option<&CaseResult>,
+    folder: &Path,
+) -> Result<(), JudgeError> {
+    let put = || -> io::Result<()> {
+        inputs(case, prepared, folder)?;
+        own.map_or(Ok(()), |own| results(own, folder))
+    };
+    put().map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))?;
+    let submission = blank(case, tier).map_err(|error| crate::evaluation::PlanError::of(error, folder))?;
     std::fs::write(folder.join("submission.toml"), submission)
         .map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))
 }
 
-fn write(case: &'static dyn AnyCase, own: &CaseResult, folder: &Path) -> io::Result<()> {
-    std::fs::write(folder.join("case.toml"), &own.parameters_toml)?;
-    std::fs::write(folder.join("definitions.md"), definitions(case, own))?;
+/// What follows from the case alone.
+fn inputs(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, folder: &Path) -> io::Result<()> {
+    let asked = prepared.asked();
+    let parameters = prepared.parameters_toml();
+    let digest =
+        format!("# inputs = \"{}\": their digest without numerics, for `submission.toml`\n", digest(parameters));
+    std::fs::write(folder.join("case.toml"), digest + parameters)?;
+    std::fs::write(folder.join("definitions.md"), definitions(case, prepared, &asked.metrics))?;
+    let put = |name: &str, text: &str| {
+        let path = folder.join("reference").join(name);
+        std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
+        std::fs::write(path, text)
+    };
+    for (name, text) in shipped_tables() {
+        if let Some(own) = name.strip_prefix(case.name()).and_then(|rest| rest.strip_prefix('/')) {
+            put(own, text)?;
+        }
+    }
+    let is_reference = |series: &Series| series.mark == Mark::Reference && !series.points.is_empty();
+    for mut figure in asked.figures {
+        figure.panels.iter_mut().for_each(|panel| panel.series.retain(is_reference));
+        figure.panels.retain(|panel| !panel.series.is_empty());
+        if !figure.panels.is_empty() {
+            put(&format!("{}.csv", figure.name), &crate::figure::csv(&figure))?;
+        }
+    }
+    Ok(())
+}
+
+/// What our own runs gave.
+fn results(own: &CaseResult, folder: &Path) -> io::Result<()> {
     let particles = folder.join("particles");
     for (run, frames) in own.runs.iter().zip(&own.frames) {
         if let Some(first) = frames.first().filter(|frame| frame.time == 0.0) {
             let name = if run.variant.is_empty() { "run".to_owned() } else { run.variant.file_name() };
             write_snapshots(&particles, &name, std::slice::from_ref(first))?;
             table(&name, first).write(&particles)?;
-        }
-    }
-    for (name, text) in shipped_tables() {
-        if let Some(own) = name.strip_prefix(case.name()).and_then(|rest| rest.strip_prefix('/')) {
-            let path = folder.join("reference").join(own);
-            std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
-            std::fs::write(path, text)?;
         }
     }
     let curves = folder.join("bagnold");
@@ -66,17 +100,18 @@ fn table(name: &str, frame: &Frame) -> Table {
 }
 
 /// The exact meaning of everything, as a page of prose.
-fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
-    let mut text = format!("# {}\n\n{}\n", case.name(), paragraph(&own.description));
+fn definitions(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, asked: &[Metric]) -> String {
+    let mut text = format!("# {}\n\n{}\n", case.name(), paragraph(case.description()));
     text.push_str(
         "\nGeometry, material and gravity are in `case.toml`, in SI units, angles in degrees; every key is explained there. Of a run's \
-         keys the resolution and the numerics are a code's own business. `particles/` holds the initial particles of our runs, \
-         `bagnold/` our profiles and histories, `reference/` the measured and published ones.\n",
+         keys the resolution and the numerics are a code's own business. `reference/` holds exact, measured and published curves. With \
+         `bagnold export --simulate`, `particles/` holds the initial particles of our runs and `bagnold/` our profiles and histories.\n",
     );
     text.push_str("\n## Runs\n\n");
-    for run in &own.runs {
-        let _ = writeln!(text, "- `{}`, {} particles, {} s", run.variant, run.particles, run.simulated_time);
+    for run in 0..prepared.run_count() {
+        let _ = writeln!(text, "- `{}`", prepared.variant(run));
     }
+    text.push_str(&laws::section(prepared.parameters_toml()));
     let form = case.form();
     if !form.description.is_empty() {
         let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(&of_case(form.description, case)));
@@ -87,7 +122,7 @@ fn definitions(case: &'static dyn AnyCase, own: &CaseResult) -> String {
         let _ = writeln!(text, "- `{}` [{}]: {}", quantity.name, quantity.unit, quantity.description);
     }
     text.push_str("\n## Limits\n\n");
-    for metric in own.metrics.iter().filter(|metric| metric.gate.is_some()) {
+    for metric in asked.iter().filter(|metric| metric.kind != MetricKind::Bookkeeping) {
         let Some(gate) = &metric.gate else { continue };
         let source = metric.reference.as_ref().map(|of| format!(" Reference: {}.", of.source)).unwrap_or_default();
         let limit = gate.limit.in_words(four_digits);

@@ -5,6 +5,7 @@ mod document;
 mod error;
 mod export;
 mod inputs;
+mod laws;
 mod overlay;
 mod page;
 mod reading;
