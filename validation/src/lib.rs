@@ -12,7 +12,7 @@ use bagnold_harness::{
 };
 use bagnold_number as number;
 use bagnold_scenes::study;
-use bagnold_tools::{calibration, compare, judge, mutation, sweep};
+use bagnold_tools::{calibration, compare, judge, league, mutation, sweep};
 
 #[cfg(test)]
 #[path = "../harness/src/case/pendulum.rs"]

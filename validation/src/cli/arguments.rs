@@ -8,7 +8,7 @@ pub(super) mod upkeep;
 mod work;
 
 pub(super) use examples::ExamplesArguments;
-pub(super) use foreign::{CompareArguments, ExportArguments, JudgeArguments};
+pub(super) use foreign::{CompareArguments, ExportArguments, JudgeArguments, LeagueArguments};
 #[cfg(test)]
 pub(super) use new::Named;
 pub(super) use new::{NewArguments, NewCrate};
@@ -140,6 +140,8 @@ pub enum Command {
     Run(RunArguments),
     /// Judge results of other codes by the gates of a case.
     Judge(JudgeArguments),
+    /// Judge the stored results of other codes and write one page.
+    League(LeagueArguments),
     /// Write the inputs that another code needs to run a case.
     Export(ExportArguments),
     /// Compare folders of earlier runs or reports.

@@ -1,12 +1,14 @@
 //! `bagnold judge` and `bagnold export`: other codes' results, and what they need for them.
 
-use super::arguments::{ExportArguments, JudgeArguments};
+use super::arguments::{ExportArguments, JudgeArguments, LeagueArguments};
 use super::error::ProgramError;
 use super::{Exit, say, simulation, summary};
 use crate::case::{Changes, Registry};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
+use crate::league;
 use crate::metric::Verdict;
 use crate::output::OutputFolder;
+use crate::store::provenance::workspace;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -37,6 +39,34 @@ pub(super) fn judge(
     say(output, &format!("written to {}\n", folder.join("index.html").display()));
     let fails = judgement.codes.iter().any(|judged| judged.counts().1 > 0);
     Ok(if exit == Exit::Held && fails { Exit::GateFailed } else { exit })
+}
+
+/// Judges all submissions of a folder and writes one page.
+pub(super) fn league(
+    command: &LeagueArguments,
+    registry: Registry,
+    quiet: bool,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
+    let own = || workspace().map_or_else(|| PathBuf::from("league"), |root| root.join("validation").join("league"));
+    let files = league::submissions(&command.folder.clone().unwrap_or_else(own))?;
+    let claimed = OutputFolder::claim(&command.out)?;
+    let (prepared, entries) = league::split(league::read(&files, registry)?);
+    let results = simulation::simulate(prepared, &command.work.open_store(), quiet, None)?;
+    let judged = results.into_iter().zip(&entries).map(|(own, entries)| judge::judge(own, entries));
+    let judged: Vec<CodeComparison> = judged.collect::<Result<_, _>>()?;
+    league::write(&league::league(&judged), claimed.staging())?;
+    claimed.publish()?;
+    let mut case = "";
+    for judgement in &judged {
+        if judgement.own.name != case {
+            case = &judgement.own.name;
+            say(output, &format!("{case}\n"));
+        }
+        say(output, &verdicts(judgement));
+    }
+    say(output, &format!("written to {}\n", command.out.join("index.html").display()));
+    Ok(Exit::Held)
 }
 
 /// A line for each code, and a table of its gates that fail.

@@ -176,6 +176,9 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
         Command::New(command) => new::new(command, output),
         Command::Compare(command) => compare::compare(command, output),
         Command::Judge(command) => in_pool(&command.work, || judge::judge(command, registry, arguments.quiet, output)),
+        Command::League(command) => {
+            in_pool(&command.work, || judge::league(command, registry, arguments.quiet, output))
+        }
         Command::Export(command) => {
             in_pool(&command.work, || judge::export(command, registry, arguments.quiet, output))
         }

@@ -95,7 +95,7 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
         }
         for (run, _) in records {
             let (run_out_law, height_law) = bands::laws_of(run);
-            let gate = if legend { bands::run_out(run, run_out_law) } else { bands::height(run, height_law) };
+            let gate = if legend { bands::run_out(run, run_out_law, false) } else { bands::height(run, height_law) };
             if let Some((Limit::Within(low, high), _)) = gate {
                 let entry = if legend && panel.bands.is_empty() { "where a result must lie" } else { "" };
                 panel.band(entry, [0.93, 1.07].map(|part| (part * run.initial_height(), low, high)));

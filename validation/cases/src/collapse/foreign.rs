@@ -138,6 +138,11 @@ fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
     if !x.is_empty() && !thickness.is_empty() {
         collapse.deposit = x.iter().zip(thickness).map(|(x, thickness)| (x / r, thickness / r)).collect();
         room.check_profile(x, thickness, D)?;
+        if D == 2 && given.pictures.is_empty() {
+            let weights: Vec<f64> = (0..x.len()).map(|k| thickness[k] * width_around(x, k)).collect();
+            let moment: f64 = x.iter().zip(&weights).map(|(x, weight)| x * weight).sum();
+            collapse.centroid = moment / (weights.iter().sum::<f64>() * r);
+        }
         measured.extend(OF_PROFILE);
     }
     let time = given.series("time");
@@ -158,11 +163,19 @@ fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
         measured.retain(|name| ![REST_TIME.name, STOPPING_TIME.name].contains(name));
         if !given.series("front_of_rows").is_empty() {
             measured.push(STOPPING_TIME.name);
+            measured.push(FRONT.name);
         }
     }
     measured.sort_unstable();
     measured.dedup();
     Ok(ExternalObservation { observation: collapse, measured })
+}
+
+/// Length of the bed that a point of a profile stands for `[m]`.
+fn width_around(x: &[f64], point: usize) -> f64 {
+    let after = x.get(point + 1).unwrap_or(&x[point]);
+    let before = if point == 0 { &0.0 } else { &x[point - 1] };
+    0.5 * (after - before)
 }
 
 /// Names of what pictures up to a deposit tell: all metrics of the case but those that need more than was given.
@@ -426,7 +439,9 @@ mod tests {
         let profile: NamedColumns = [("x".to_owned(), x), ("thickness".to_owned(), thickness)].into();
         let seen = observe(&run, &ExternalData { profile, ..ExternalData::default() }).expect("complete");
         assert!((seen.observation.run_out() - 1.94).abs() < 1e-9, "{}", seen.observation.run_out());
-        assert!(seen.observation.centroid.is_nan() && !seen.measured.contains(&"height_by_top"));
+        // a triangle of the length 3 r_0
+        assert!((seen.observation.centroid - 1.0).abs() < 0.01, "{}", seen.observation.centroid);
+        assert!(!seen.measured.contains(&"height_by_top"));
     }
 
     #[test]

@@ -49,7 +49,11 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
                 height: numerical(Collapse::final_height),
                 spread,
             };
-            let mut own = of_column(run, &record.data, known);
+            let is_seed = |(other, _): &CollapseRecord| {
+                other.purpose == ColumnPurpose::Convergence
+                    && (other.material, other.aspect_ratio) == (run.material, run.aspect_ratio)
+            };
+            let mut own = of_column(run, &record.data, known, records.iter().any(is_seed));
             // columns that only exponents are fitted to are too coarse for more
             if run.is_for_exponents() {
                 let observed = |metric: Metric| Metric { reference: None, gate: None, ..metric };
@@ -154,7 +158,7 @@ pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, lo
         )
 }
 
-fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> Vec<Metric> {
+fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty, has_seeds: bool) -> Vec<Metric> {
     let spread = known.spread;
     let (variant, a) = (run.variant(), run.initial_height());
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
@@ -195,7 +199,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> 
     metrics.extend([
         with_uncertainty(
             of_own_grains(
-                by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law)),
+                by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law, has_seeds)),
                 &laws.run_out,
             ),
             known.run_out,

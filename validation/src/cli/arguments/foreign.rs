@@ -15,6 +15,15 @@ reads \"not given\" and neither passes nor fails. The folder receives index.html
 
 Exit codes: 0 all gates with data pass, 1 one fails, 2 bad input, 3 a run of ours diverged.";
 
+const LEAGUE_EXAMPLES: &str = "Examples:
+  bagnold league                                        the stored results of other codes, on one page
+  bagnold league my-codes --out compared                a folder of your own
+
+The page has a row per code and a column per case, and for each case all metrics with the distance from their reference.
+From three codes of one law on it tells their standard deviation.
+
+Exit codes: 0 judged, whatever the verdicts, 2 bad input, 3 a run of ours diverged.";
+
 const EXPORT_EXAMPLES: &str = "Examples:
   bagnold export column-planar --out for-my-code
   bagnold export bagnold --tier paper --out for-my-code
@@ -42,6 +51,20 @@ pub struct JudgeArguments {
     /// Also write the verdicts as JUnit XML, one suite per code.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Execution options.
+    #[command(flatten)]
+    pub work: ExecutionOptions,
+}
+
+/// `bagnold league`
+#[derive(Debug, Args)]
+#[command(after_help = LEAGUE_EXAMPLES)]
+pub struct LeagueArguments {
+    /// Folder with a submission per code and case, CODE/CASE/submission.toml [default: validation/league of the checkout].
+    pub folder: Option<PathBuf>,
+    /// Folder to write.
+    #[arg(long, value_name = "DIR", default_value = "reports/league")]
+    pub out: PathBuf,
     /// Execution options.
     #[command(flatten)]
     pub work: ExecutionOptions,

@@ -156,7 +156,7 @@ fn entry(
 }
 
 /// Keys of runs that are the numerics of ours: a code that names none of them is compared with the first run of the case.
-const NUMERICS: [&str; 7] = ["particles", "resolution", "seed", "numerics", "top", "hourglass", "timestep"];
+pub(crate) const NUMERICS: [&str; 7] = ["particles", "resolution", "seed", "numerics", "top", "hourglass", "timestep"];
 
 /// Our run that each of a submission's is: of those that have all its keys the one with the fewest keys, the first of those that
 /// differ in numerics alone.

@@ -1,0 +1,181 @@
+//! The league: stored results of many codes under the gates of our cases, on one page.
+//!
+//! A league is a folder with a submission for each code and case, `CODE/CASE/submission.toml`. Codes of one law tell how far apart
+//! methods are; that is what "the same to another method" is worth.
+
+mod page;
+
+pub use page::write;
+
+use crate::case::{PreparedCase, Registry, Tier};
+use crate::judge::{CaseSubmissions, CodeComparison, JudgeError, JudgedCode, LawOrigin, MetricComparison, Submission};
+use crate::metric::{Metric, MetricKind, Variant};
+use crate::output::FileError;
+use std::path::{Path, PathBuf};
+
+/// Name of a submission's file.
+const SUBMISSION: &str = "submission.toml";
+/// Folder of submissions that gates must reject.
+pub const WRONG: &str = "wrong";
+/// Fewest codes of one law whose scatter is told.
+const FEWEST: usize = 3;
+
+/// A quantity of a case with what every code gives of it.
+#[derive(Debug, Clone)]
+pub struct LeagueRow {
+    /// The case.
+    pub case: String,
+    /// Our metric, with our value.
+    pub own: Metric,
+    /// The codes' values by their place in the league, with the law of their runs.
+    pub values: Vec<(usize, LawOrigin, Metric)>,
+}
+
+/// All submissions, judged.
+#[derive(Debug, Clone)]
+pub struct League {
+    /// Names of the codes with their versions.
+    pub codes: Vec<String>,
+    /// The cases.
+    pub cases: Vec<String>,
+    /// Gates that hold, that fail, and that lack data, of a code (first) and a case (second).
+    pub counts: Vec<(usize, usize, (usize, usize, usize))>,
+    /// The quantities in the order of the cases.
+    pub rows: Vec<LeagueRow>,
+}
+
+/// The submissions of a league, in the order of their paths.
+///
+/// # Errors
+/// A folder that cannot be read or holds no submission.
+pub fn submissions(folder: &Path) -> Result<Vec<PathBuf>, JudgeError> {
+    let unreadable = |error: std::io::Error| {
+        JudgeError::from(crate::evaluation::PlanError::from(FileError::unreadable(folder, &error)))
+    };
+    let folders = |of: &Path| -> std::io::Result<Vec<PathBuf>> {
+        let entries = std::fs::read_dir(of)?.map(|entry| entry.map(|entry| entry.path()));
+        Ok(entries.collect::<std::io::Result<Vec<_>>>()?.into_iter().filter(|path| path.is_dir()).collect())
+    };
+    let mut files = Vec::new();
+    for code in folders(folder).map_err(unreadable)? {
+        if code.file_name().is_some_and(|name| name == WRONG) {
+            continue;
+        }
+        let cases = folders(&code).map_err(unreadable)?;
+        files.extend(cases.into_iter().map(|case| case.join(SUBMISSION)).filter(|file| file.is_file()));
+    }
+    files.sort();
+    if files.is_empty() { Err(JudgeError::Nothing) } else { Ok(files) }
+}
+
+/// Groups submissions of the same runs of ours, so that each is simulated once.
+///
+/// # Errors
+/// What [`CaseSubmissions::read`] refuses.
+pub fn read(files: &[PathBuf], registry: Registry) -> Result<Vec<CaseSubmissions>, JudgeError> {
+    let mut groups: Vec<((String, Tier, toml::Table), Vec<PathBuf>)> = Vec::new();
+    for file in files {
+        let Submission { case, tier, with, .. } = Submission::read(file)?;
+        let key = (case, tier, with);
+        match groups.iter_mut().find(|(other, _)| *other == key) {
+            Some((_, files)) => files.push(file.clone()),
+            None => groups.push((key, vec![file.clone()])),
+        }
+    }
+    groups.iter().map(|(_, files)| CaseSubmissions::read(files, registry)).collect()
+}
+
+/// The runs of ours, and what the codes give, apart.
+pub type Groups = (Vec<Box<dyn PreparedCase>>, Vec<Vec<crate::judge::CodeResults>>);
+
+/// Splits groups into what is simulated and what is judged.
+#[must_use]
+pub fn split(groups: Vec<CaseSubmissions>) -> Groups {
+    groups.into_iter().map(|group| (group.prepared, group.entries)).unzip()
+}
+
+/// Puts judged groups beside each other.
+#[must_use]
+pub fn league(groups: &[CodeComparison]) -> League {
+    let mut league = League { codes: Vec::new(), cases: Vec::new(), counts: Vec::new(), rows: Vec::new() };
+    for group in groups {
+        let case = place(&mut league.cases, &group.own.name);
+        for judged in &group.codes {
+            let name = format!("{} {}", judged.code.name, judged.code.version);
+            let code = place(&mut league.codes, name.trim_end());
+            league.counts.push((code, case, judged.counts()));
+            for one in judged.metrics.iter().filter(|one| one.foreign.is_some()) {
+                enter(&mut league.rows, &group.own.name, code, judged, one);
+            }
+        }
+    }
+    league
+}
+
+fn place(names: &mut Vec<String>, name: &str) -> usize {
+    names.iter().position(|own| own == name).unwrap_or_else(|| {
+        names.push(name.to_owned());
+        names.len() - 1
+    })
+}
+
+/// Enters a value; runs that differ in parameters of the case have names that tell them apart.
+fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, judged: &JudgedCode, one: &MetricComparison) {
+    let Some(foreign) = one.foreign.clone() else { return };
+    let same = |row: &&mut LeagueRow| {
+        let other = (&row.own.name, &row.own.variant);
+        row.case == case && other == (&one.own.name, &one.own.variant)
+    };
+    let entry = (code, judged.law, foreign);
+    match rows.iter_mut().find(same) {
+        Some(row) => row.values.push(entry),
+        None => rows.push(LeagueRow { case: case.to_owned(), own: one.own.clone(), values: vec![entry] }),
+    }
+}
+
+impl LeagueRow {
+    /// Whether it tells physics: a limit or a reference, or several codes, and no account of a run's own.
+    fn is_told(&self) -> bool {
+        let has_reference = self.own.gate.is_some() || self.own.reference.is_some() || self.values.len() > 1;
+        has_reference && self.own.kind != MetricKind::Bookkeeping
+    }
+
+    /// Mean of the codes of our law and ours, and their standard deviation; none of fewer than three.
+    #[must_use]
+    pub fn of_one_law(&self) -> Option<(f64, f64)> {
+        let same = self.values.iter().filter(|(_, law, _)| *law == LawOrigin::Same);
+        let values: Vec<f64> =
+            same.map(|(_, _, metric)| metric.value).chain([self.own.value]).filter(|value| value.is_finite()).collect();
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let square = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0);
+        (values.len() >= FEWEST).then_some((mean, square.sqrt()))
+    }
+
+    /// Name of our run without its numerics.
+    fn variant(&self) -> Variant {
+        let parts = self.own.variant.parts().filter(|(key, _)| !crate::judge::NUMERICS.contains(key));
+        parts.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(values: &[(LawOrigin, f64)]) -> LeagueRow {
+        let metric = |value| Metric::observed("run_out", &Variant::of("a", 1).and("resolution", 20), value, "-");
+        let values = values.iter().enumerate().map(|(code, (law, value))| (code, *law, metric(*value)));
+        LeagueRow { case: "column".to_owned(), own: metric(2.0), values: values.collect() }
+    }
+
+    #[test]
+    fn scatter_is_that_of_codes_of_one_law() {
+        let (mean, deviation) = row(&[(LawOrigin::Same, 3.0), (LawOrigin::Same, 4.0), (LawOrigin::Grains, 9.0)])
+            .of_one_law()
+            .expect("three");
+        assert_eq!((mean, deviation), (3.0, 1.0));
+        assert_eq!(row(&[(LawOrigin::Same, 3.0), (LawOrigin::Grains, 9.0)]).of_one_law(), None);
+        assert_eq!(row(&[]).variant(), Variant::of("a", 1));
+    }
+}
