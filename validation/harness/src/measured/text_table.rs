@@ -99,6 +99,11 @@ impl TextTable {
 fn words(line: &str, separator: Option<char>) -> Vec<&str> {
     match separator {
         Some(separator) => line.trim_end_matches(['\r', '\n']).split(separator).map(bare).collect(),
+        // vectors of OpenFOAM stand in parentheses
+        None if line.trim_start().starts_with(|first: char| first.is_ascii_digit() || "+-.(".contains(first)) => {
+            let is_blank = |letter: char| letter.is_whitespace() || letter == '(' || letter == ')';
+            line.split(is_blank).filter(|word| !word.is_empty()).map(bare).collect()
+        }
         None => line.split_whitespace().map(bare).collect(),
     }
 }
@@ -139,6 +144,8 @@ mod tests {
         let table = parse("# y u\n  1   2\n 3 -4e-3").expect("a table");
         assert_eq!((table.headings.join("|").as_str(), table.columns.as_slice()), ("y|u", &expected[..]));
         assert_eq!(parse("1 2\n3 4").expect("a table").headings, ["1", "2"]);
+        // probes of OpenFOAM
+        assert_eq!(parse("# Time\n0.1 (1 2 0)\n0.2 (3 4 0)").expect("a table").columns[2], [2.0, 4.0]);
     }
 
     #[test]

@@ -67,8 +67,9 @@ fn files(form: &ExternalSchema, description: &str) -> String {
     );
     if !form.particles.is_empty() {
         text.push_str(
-            "# [run.particles]\n# files = [\"t0.csv\", \"t1.csv\"]   # .csv, .txt, .vtu, .vtp, .vtk, or one .pvd\n\
-             # times = [0.0, 0.1]             # [s], one per file; a .pvd says them itself\n# [run.particles.columns]\n",
+            "# [run.particles]\n# files = [\"t0.csv\", \"t1.csv\"]   # .csv, .txt, .vtu, .vtp, .vtk, or one .pvd, or one .dump of LAMMPS\n\
+             # times = [0.0, 0.1]             # [s], one per file; a .pvd or a dump says them itself\n\
+             # time_step = 1e-5               # [s], of a dump that counts steps\n# [run.particles.columns]\n",
         );
         text.push_str(&columns(form.particles));
     }

@@ -5,6 +5,7 @@ mod document;
 mod error;
 mod export;
 mod inputs;
+mod lammps;
 mod laws;
 mod overlay;
 mod page;

@@ -1,5 +1,6 @@
 //! Reads what a submission names: files of particles, series and profiles → columns in SI units.
 
+use super::lammps;
 use super::submission::{ForeignRun, ParticleFiles, TableFile, rising, sources};
 use super::vtk::{self, PLACES, PointArrays};
 use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame};
@@ -103,6 +104,14 @@ fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> R
     let named: Vec<(f64, PathBuf)> = if files.is_collection() {
         let file = folder.join(&files.files[0]);
         let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
+        if lammps::is_dump(text.as_bytes()) {
+            let frames = lammps::pictures(&text, files.time_step, &file)?;
+            in_order(&frames.iter().map(|(time, _)| *time).collect::<Vec<_>>(), "ITEM: TIMESTEP", &file)?;
+            let picture = |(time, table): &(f64, TextTable)| {
+                Ok(ParticleFrame { time: *time, columns: of_table(table, plan, &file)? })
+            };
+            return frames.iter().map(picture).collect();
+        }
         let sets = vtk::collection(&text, &file)?;
         let times: Vec<f64> = sets.iter().map(|(time, _)| *time).collect();
         in_order(&times, "timestep", &file)?;

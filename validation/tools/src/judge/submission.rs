@@ -91,11 +91,15 @@ pub struct ForeignRun {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ParticleFiles {
-    /// The files, beside the submission: tables of numbers, `.vtu`, `.vtp` or `.vtk`, or a single `.pvd`.
+    /// The files, beside the submission: tables of numbers, `.vtu`, `.vtp` or `.vtk`, or a single `.pvd`, or a single dump of LAMMPS,
+    /// `.dump` or `.lammpstrj`.
     pub files: Vec<PathBuf>,
-    /// Times of the files `[s]`; absent with a `.pvd`, which says them.
+    /// Times of the files `[s]`; absent where a single file says them.
     #[serde(default)]
     pub times: Vec<f64>,
+    /// Length of a step `[s]` of a dump that counts steps.
+    #[serde(default)]
+    pub time_step: Option<f64>,
     /// Assignment of the files' columns to quantities.
     pub columns: BTreeMap<String, toml::Value>,
 }
@@ -187,7 +191,7 @@ impl ParticleFiles {
             return if self.times.is_empty() {
                 Ok(())
             } else {
-                wrong("times", "given".to_owned(), "absent with a collection", "the .pvd says the times")
+                wrong("times", "given".to_owned(), "absent with a single .pvd or dump", "it says the times")
             };
         }
         if self.times.len() != self.files.len() {
@@ -204,9 +208,13 @@ impl ParticleFiles {
         })
     }
 
-    /// Whether one file names the others.
+    /// Whether one file names or holds the pictures.
     pub(super) fn is_collection(&self) -> bool {
-        matches!(self.files.as_slice(), [file] if file.extension().is_some_and(|ending| ending == "pvd"))
+        let is_one = |file: &PathBuf| {
+            let ending = file.extension().and_then(|ending| ending.to_str());
+            ending.is_some_and(|ending| ["pvd", "dump", "lammpstrj"].contains(&ending))
+        };
+        matches!(self.files.as_slice(), [file] if is_one(file))
     }
 }
 
