@@ -63,11 +63,11 @@ fn an_absurd_velocity_stops_the_run_in_its_first_step() {
 
 /// A liquid that no number is large enough for.
 #[derive(Debug)]
-struct Overflowing;
+struct Overflowing(f64);
 
 impl ViscousLaw for Overflowing {
     fn viscosity(&self, _: f64, _: f64) -> f64 {
-        1e200
+        self.0
     }
 
     fn largest_viscosity(&self, _: f64) -> f64 {
@@ -79,7 +79,7 @@ impl ViscousLaw for Overflowing {
 fn not_a_number_stops_the_run_in_its_first_step() {
     let mut scene = quiet();
     // the square of the viscosity overflows, and ∞ times no velocity is not a number; no law of ours may be so stiff
-    register("overflowing", |_| Ok(OpenLaw::viscous(Overflowing))).expect("a new name");
+    register("overflowing", |_| Ok(OpenLaw::viscous(Overflowing(1e200)))).expect("a new name");
     scene.rheology = toml::from_str("law = \"overflowing\"").expect("found by its name");
     scene.numerics = Numerics { momentum_operator: MomentumOperator::Pairwise, ..scene.numerics };
     let mut simulation = simulation(scene);
@@ -89,6 +89,10 @@ fn not_a_number_stops_the_run_in_its_first_step() {
     assert_eq!((divergence.quantity, divergence.step), ("speed", 0));
     assert!(divergence.value.is_nan());
     assert!(divergence.to_string().contains("m is NaN m/s, above the 6.0000e1 m/s"), "{divergence}");
+    register("no-number", |_| Ok(OpenLaw::viscous(Overflowing(f64::NAN)))).expect("a new name");
+    let scene = Scene { rheology: toml::from_str("law = \"no-number\"").expect("found by its name"), ..quiet() };
+    let reason = crate::patches::simulation(scene).run(1.0, 0.1, |_| ControlFlow::Continue(()));
+    assert!(format!("{reason:?}").contains("; the law `no-number` gives a viscosity or stress"), "{reason:?}");
 }
 
 #[test]

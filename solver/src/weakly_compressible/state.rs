@@ -150,7 +150,12 @@ impl<const D: usize> State<D> {
 
     /// The divergence of a particle now.
     pub(crate) fn diverged(&self, OutOfRange { index, identity, quantity, value }: OutOfRange) -> Divergence<D> {
-        let (name, unit, rule) = quantity.texts();
+        let (name, unit, mut rule) = quantity.texts();
+        let law = self.model.rheology.name();
+        let mut given = self.particles.viscosity.iter().chain(self.particles.stress.iter().flatten());
+        if given.any(|number| !number.is_finite()) {
+            rule += &format!("; the law `{law}` gives a viscosity or stress that is not finite");
+        }
         Divergence {
             time: self.time,
             step: self.steps,
