@@ -144,7 +144,9 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> P
     {
         return unknown_path(case, &[&known], path, value);
     }
-    let exact = arguments.clone().find(|(path, _)| *path == fault.path());
+    // of an unknown table the whole path: `water.resolution`, and not `water`
+    let is_unknown = matches!(fault, Fault::Unknown { .. });
+    let exact = arguments.clone().find(|(path, _)| *path == fault.path() || is_unknown && is_below(path, fault.path()));
     match (fault, exact) {
         (Fault::Unknown { known: beside, .. }, Some((path, value))) => {
             unknown_path(case, &[&beside, &known], path, value)

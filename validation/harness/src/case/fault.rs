@@ -58,14 +58,15 @@ pub(super) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str) -> Stri
 const RENAMED: [(&str, &str); 1] = [("joining_room", "bed_roughness_fade_length")];
 
 /// The path that is most like one that does not exist, from the first list that has any; of a parameter that had this name before, that
-/// parameter.
+/// parameter; of one behind a prefix that does not exist, the one without.
 pub(super) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
     let (above, name) = path.rsplit_once('.').map_or(("", path), |(above, name)| (above, name));
     let now = RENAMED
         .iter()
         .find(|(old, _)| *old == name)
         .map(|(_, now)| if above.is_empty() { (*now).to_owned() } else { format!("{above}.{now}") });
-    if let Some(now) = now.filter(|now| known.iter().any(|paths| paths.contains(now))) {
+    let bare = path.split_once('.').map(|(_, bare)| bare.to_owned());
+    if let Some(now) = now.or(bare).filter(|now| known.iter().any(|paths| paths.contains(now))) {
         return Some(now);
     }
     known.iter().find_map(|paths| nearest(path, paths.iter().map(String::as_str).filter(|other| *other != path)))
