@@ -1,7 +1,7 @@
 //! Controls of a study: changes of its parameters that its checks must reject.
 
 use super::Study;
-use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
+use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier, twice_given};
 use crate::control::{Answer, Control, ControlKind};
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, check_name, check_text};
@@ -94,6 +94,12 @@ impl Study {
                     FieldError { field, remedy, ..error }.in_file(&self.file)
                 };
                 self.refuse_varied(setting).map_err(of_control)?;
+                if let Some(given) = settings.iter().find(|given| twice_given(setting, given).is_some()) {
+                    let control = format!("control `{}` in {}", control.name, self.file.display());
+                    let rule = format!("of another parameter: {control} sets `{path}` to a wrong value");
+                    let remedy = "edit a copy of the study, and remove the control there";
+                    return Err(FieldError::new("--set", given, &rule, remedy).into());
+                }
             }
             // without the control's changes the same variants have been prepared
             let cases = self.prepare_variants(registry, tier, &[settings, &set[..]].concat(), limits);
