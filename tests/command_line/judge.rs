@@ -134,6 +134,12 @@ fn two_runs_are_compared_number_by_number() {
     assert_eq!(read(&place, "same/parameters.json").as_array().map(Vec::len), Some(0));
     let figures = std::fs::read_dir(place.path("other/figures")).expect("figures").count();
     assert!(figures >= 4, "{figures} files of profile and history");
+    let finer = CHEAP.iter().map(|word| if *word == "resolution=10" { "resolution=11" } else { word });
+    let finer: Vec<&str> = ["run", "--out", "finer", "--quiet"].into_iter().chain(finer).collect();
+    place.bagnold(&finer).assert().code(0);
+    let apart = place.bagnold(&["compare", "first", "finer", "--out", "none"]).assert().code(2);
+    let message = String::from_utf8_lossy(&apart.get_output().stderr).into_owned();
+    assert!(message.contains("first and finer have no variant of a case in common"), "{message}");
     let wrong = place.bagnold(&["compare", "first", "store", "--out", "none"]).assert().code(2);
     let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
     assert!(message.contains("holds neither a run's metrics.json nor a report's"), "{message}");

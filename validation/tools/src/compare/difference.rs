@@ -50,7 +50,7 @@ pub fn differences(all: &[Results]) -> Vec<Difference> {
 }
 
 impl Results {
-    fn entries(&self) -> impl Iterator<Item = (&str, &MetricEntry)> {
+    pub(super) fn entries(&self) -> impl Iterator<Item = (&str, &MetricEntry)> {
         self.cases.iter().flat_map(|(case, own)| own.document.metrics.iter().map(|metric| (case.as_str(), metric)))
     }
 }

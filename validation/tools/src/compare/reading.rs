@@ -2,8 +2,8 @@
 
 use crate::input::{STORED, read_text, shown, text_fault};
 use crate::output::{FileError, Table};
-use crate::result::MetricsDocument;
-use std::collections::BTreeMap;
+use crate::result::{MetricEntry, MetricsDocument};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Errors that prevent a comparison.
@@ -16,7 +16,7 @@ pub enum CompareError {
         folder: PathBuf,
     },
     /// Folders that have nothing in common.
-    #[error("{} and {} have no case in common; compare runs of the same case", shown(.first), shown(.other))]
+    #[error("{} and {} have no variant of a case in common, so nothing can be compared; compare runs of the same variants", shown(.first), shown(.other))]
     NothingInCommon {
         /// The first.
         first: PathBuf,
@@ -54,15 +54,17 @@ impl Results {
     /// Reads folders, the first of which the others are compared with.
     ///
     /// # Errors
-    /// A folder without results, a damaged file, folders without a case in common.
+    /// A folder without results, a damaged file, folders without a variant in common.
     pub fn read(folders: &[PathBuf]) -> Result<Vec<Self>, CompareError> {
         let mut all: Vec<Self> = folders.iter().map(|folder| Self::of(folder)).collect::<Result<_, _>>()?;
         for (place, label) in labels(folders).into_iter().enumerate() {
             all[place].label = label;
         }
         if let Some((first, others)) = all.split_first() {
-            let shares = |other: &&Self| !other.cases.keys().any(|case| first.cases.contains_key(case));
-            if let Some(other) = others.iter().find(shares) {
+            let key = |(case, metric): (&str, &MetricEntry)| format!("{case} {} {}", metric.name, metric.variant);
+            let keys: BTreeSet<String> = first.entries().map(key).collect();
+            let is_apart = |other: &&Self| !other.entries().any(|entry| keys.contains(&key(entry)));
+            if let Some(other) = others.iter().find(is_apart) {
                 let (first, other) = (first.folder.clone(), other.folder.clone());
                 return Err(CompareError::NothingInCommon { first, other });
             }
