@@ -13,6 +13,8 @@ use crate::setup::displaced_flow;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::scene::Flow;
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
 
 /// Steps by which depths are felt, a spacing `[-]`.
 const STEPS: f64 = 8.0;
@@ -30,8 +32,11 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     ) -> Result<(Flow<D>, f64), ParameterError> {
         let Self { spacing, jitter, ref bodies, .. } = *self;
         let groups = groups(bodies, &self.sides, spacing);
-        for remark in misfits(bodies, &groups, spacing) {
-            tracing::warn!("{remark}");
+        // a scene is filled for each of its spacings and controls
+        static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+        let remarks = misfits(bodies, &groups, spacing);
+        if !remarks.is_empty() && SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(self.name.clone()) {
+            tracing::warn!("scene `{}`: {}", self.name, remarks.join("; "));
         }
         let gravity = vector(&self.gravity);
         let (up, weight) = (-self.down(), equation_of_state.reference_density * gravity.norm());
@@ -133,8 +138,7 @@ fn misfits<const D: usize>(bodies: &[impl SceneBody<D>], groups: &[LatticeGroup<
         // a body without a particle is refused elsewhere
         if share > 0.0 && (share - 1.0).abs() > MISFIT {
             remarks.push(format!(
-                "`bodies[{number}]`: its particles have {:.1} % of its mass, what the lattice of {spacing} m from the origin holds of it; put plane \
-                 faces on whole numbers of spacings, or make the spacing smaller",
+                "`bodies[{number}]`: its particles have {:.1} % of its mass; put plane faces on multiples of the spacing {spacing} m, or reduce it",
                 100.0 * share
             ));
         }
