@@ -29,14 +29,12 @@ impl BagnoldRun {
         if agitation > LARGEST_AGITATION {
             let rows = (self.layer.resolution as f64 * agitation / SAFE_AGITATION).ceil();
             return Some(format!(
-                "neighbouring rows slide past each other at {agitation:.2} √(p/ρ) (I √φ Δ/D), and beyond {LARGEST_AGITATION} \
-                 unevenness between particles was seen to change the flow by percents within seconds: take `resolution = {rows}` or a gentler slope"
+                "I √φ Δ/D is {agitation:.2}; above {LARGEST_AGITATION} layers sink and become unsteady: set `resolution = {rows}` or a gentler slope"
             ));
         }
         (froude_number > LARGEST_FROUDE_NUMBER).then(|| {
             format!(
-                "the exact mean velocity has a Froude number of {froude_number:.1}, and beyond {LARGEST_FROUDE_NUMBER} layers were \
-                 not steady: take a gentler slope or a thinner layer"
+                "the Froude number is {froude_number:.1}; above {LARGEST_FROUDE_NUMBER} layers were not steady: set a gentler slope or a thinner layer"
             )
         })
     }
@@ -63,7 +61,7 @@ mod tests {
         // I = 0.133 at 25°: 0.103 at 20 rows
         assert_eq!(coarse(20, 25.0), None);
         let reason = coarse(10, 25.0).expect("twice as coarse");
-        assert!(reason.contains("at 0.21 √(p/ρ)") && reason.contains("`resolution = 30`"), "{reason}");
+        assert!(reason.contains("Δ/D is 0.21;") && reason.contains("`resolution = 30`"), "{reason}");
         assert_eq!(coarse(10, 20.0), None, "there is no steady flow to miss");
         let mut thick = quick.clone();
         (thick.layer.layer_height, thick.layer.resolution, thick.slope_angles) = (0.1, 1000, vec![29.0]);
