@@ -113,6 +113,7 @@ fn own_data_give_parameters_a_page_and_a_case_to_run() {
     let done = place.bagnold(&["-q", "calibrate", &plan, "--out", "out"]).assert().code(0);
     let printed = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
     assert!(printed.starts_with("viscosity = 0.5"), "{printed}");
+    assert!(printed.contains("\nevaluations: ") && printed.contains(" for intervals; simulations: "), "{printed}");
     assert!(printed.contains("fit error: ") && printed.contains("held-out error: 0 σ over 1 data"), "{printed}");
     let text = std::fs::read_to_string(place.path("out/result.json")).expect("written");
     let result: serde_json::Value = serde_json::from_str(&text).expect("JSON");

@@ -3,7 +3,7 @@
 use super::arguments::CalibrateArguments;
 use super::count::CountBar;
 use super::error::ProgramError;
-use super::{Exit, say};
+use super::{Exit, say, tell};
 use crate::calibration::{CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate, write};
 use crate::case::Registry;
 use crate::number::aligned_digits;
@@ -26,12 +26,25 @@ pub(super) fn run(
         OutputFolder::adopt(Path::new("reports"))?;
     }
     let kept = CalibrationFolder::begin(&folder, &command.file, registry.origin(), command.resume)?;
+    if !quiet && plan.choices.is_empty() {
+        // other starts may take as many evaluations again, and so does a search among runs that scatter
+        let searches = (1 + usize::from(plan.budget.starts > 0)) * (1 + usize::from(plan.repeats.count > 1));
+        let grid = plan.levels.iter().product();
+        let search = if plan.levels.is_empty() { searches * plan.budget.evaluations } else { grid };
+        let each = plan.blocks.iter().filter(|block| !block.held_out).count() * plan.repeats.count;
+        let rest = format!("{} for intervals; simulations per evaluation: {each}", plan.region_evaluations);
+        tell(&format!("planned evaluations: up to {search} for the search, {rest}"));
+    }
     let bar = EvaluationBar(CountBar::new("evaluations", 0, 0, quiet));
     let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
     bar.0.clear();
     let outcome = outcome?;
     write(&outcome, &folder)?;
     say(output, &text(&outcome));
+    let beyond = outcome.evaluations.len().saturating_sub(outcome.searched);
+    let simulations = std::fs::read_dir(kept.evaluations()).map_or(0, Iterator::count);
+    let needed = format!("{} for the search, {beyond} for intervals; simulations: {simulations}", outcome.searched);
+    say(output, &format!("evaluations: {needed}\n"));
     say(output, &format!("written to {}\n", folder.join("index.html").display()));
     Ok(Exit::Held)
 }
