@@ -4,7 +4,7 @@ use super::geostatic::rankine_ratios;
 use super::parameters::Dimension;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector};
-use super::{Measurand, SceneParameters, names, sides::SceneSides};
+use super::{Measurand, SceneParameters, names, shapes, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::setup::rules;
 use bagnold_solver::vector::Vector;
@@ -27,9 +27,11 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         for (k, body) in self.bodies.iter().enumerate() {
             body.check().map_err(|error| error.within(&format!("bodies[{k}]")))?;
         }
+        let (lower, upper) = shapes::around(self.bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent())));
         for (k, wall) in self.walls.iter().enumerate() {
-            let sound =
-                wall.check(self.spacing).and_then(|()| check_motion(&wall.facet_wall().motion, S::Wall::GIVEN_BY));
+            let sound = wall
+                .check(self.spacing, (upper - lower).max())
+                .and_then(|()| check_motion(&wall.facet_wall().motion, S::Wall::GIVEN_BY));
             sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
         }
         self.check_scales()?;

@@ -56,11 +56,11 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// Its length or area `[m^(D-1)]`.
     fn measure(&self) -> f64;
 
-    /// Refuses a wall that is none at this spacing `[m]`.
+    /// Refuses a wall that is none at this spacing `[m]`, or in another unit than bodies of this size `[m]`.
     ///
     /// # Errors
     /// The field that breaks a rule. How it moves is checked elsewhere.
-    fn check(&self, spacing: f64) -> Result<(), ParameterError>;
+    fn check(&self, spacing: f64, bodies: f64) -> Result<(), ParameterError>;
 }
 
 /// An opening by which material comes in.

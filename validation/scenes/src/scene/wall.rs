@@ -89,7 +89,7 @@ impl setting::SceneWall<2> for WallLine {
         self.facet_wall().facets.iter().map(|facet| (facet.corners[1] - facet.corners[0]).norm()).sum()
     }
 
-    fn check(&self, spacing: f64) -> Result<(), ParameterError> {
+    fn check(&self, spacing: f64, _: f64) -> Result<(), ParameterError> {
         let least = if self.closed { 3 } else { 2 };
         if self.points.len() < least || self.measure() <= spacing {
             let rule = if self.closed {

@@ -4,6 +4,7 @@ use super::SpaceVector;
 use crate::case::ParameterError;
 use crate::enclosed::setting::{self, shown, vector};
 use crate::enclosed::{DomainSide, shapes, sides};
+use bagnold_number::four_digits;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion};
 use bagnold_solver::weakly_compressible::walls::Surface;
@@ -99,13 +100,21 @@ impl setting::SceneWall<3> for SpaceWall {
     }
 
     /// Refuses walls without an area, quadrilaterals that are not plane and empty boxes.
-    fn check(&self, spacing: f64) -> Result<(), ParameterError> {
+    fn check(&self, spacing: f64, bodies: f64) -> Result<(), ParameterError> {
         let refused = |field: &str, value: String, rule: &str, remedy: &str| {
             Err(ParameterError::field(field, value, rule, remedy))
         };
         if !self.mesh.is_empty() && self.triangles.is_empty() {
             let rule = "read with the case file that names it";
             return refused("mesh", format!("\"{}\"", self.mesh), rule, "name it in a case file, or give `triangles`");
+        }
+        let (lower, upper) = shapes::around(self.corners().into_iter().flatten());
+        let size = (upper - lower).max();
+        // a file in millimetres is 1000 times too large
+        if !self.mesh.is_empty() && bodies > 0.0 && !(bodies / 200.0..=200.0 * bodies).contains(&size) {
+            let rule = format!("comparable to the bodies, {} m wide", four_digits(bodies));
+            let remedy = "STL files are read in metres: convert millimetres";
+            return refused("mesh", format!("{} m wide", four_digits(size)), &rule, remedy);
         }
         for (k, (a, b, c, d)) in self.quads.iter().enumerate() {
             let [a, b, c, d] = [a, b, c, d].map(vector::<3>);
@@ -189,22 +198,22 @@ mod tests {
         let facet_wall = wall.facet_wall();
         assert_eq!(facet_wall.facets.len(), 12);
         assert!(facet_wall.facets.iter().all(|facet| facet.height(&middle) < -0.4));
-        assert!((wall.measure() - 22.0).abs() < 1e-12 && wall.check(0.1).is_ok());
+        assert!((wall.measure() - 22.0).abs() < 1e-12 && wall.check(0.1, 1.0).is_ok());
     }
 
     #[test]
     fn invalid_walls_name_the_field() {
         let o = (0.0, 0.0, 0.0);
         let bent = SpaceWall::of_quads("bent", vec![(o, (1.0, 0.0, 0.0), (1.0, 1.0, 0.2), (0.0, 1.0, 0.0))]);
-        assert!(bent.check(0.1).expect_err("bent").to_string().starts_with("`quads[0]` is not plane"));
+        assert!(bent.check(0.1, 1.0).expect_err("bent").to_string().starts_with("`quads[0]` is not plane"));
         let unread = SpaceWall { mesh: "a.stl".to_owned(), ..SpaceWall::of_quads("unread", Vec::new()) };
         assert_eq!(
-            unread.check(0.1).expect_err("unread").to_string(),
+            unread.check(0.1, 1.0).expect_err("unread").to_string(),
             "`mesh` is \"a.stl\", but must be read with the case file that names it; name it in a case file, or give `triangles`"
         );
-        assert!(SpaceWall::of_quads("none", Vec::new()).check(0.1).is_err());
+        assert!(SpaceWall::of_quads("none", Vec::new()).check(0.1, 1.0).is_err());
         let inverse =
             SpaceWall { boxes: vec![((1.0, 0.0, 0.0), (0.0, 1.0, 1.0))], ..SpaceWall::of_quads("box", Vec::new()) };
-        assert!(inverse.check(0.1).expect_err("no inside").to_string().starts_with("`boxes[0]` is (0, 1, 1)"));
+        assert!(inverse.check(0.1, 1.0).expect_err("no inside").to_string().starts_with("`boxes[0]` is (0, 1, 1)"));
     }
 }
