@@ -147,7 +147,7 @@ fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[Draw
         "small": small,
         "sentences": flow.claims.iter().filter_map(|claim| sentence(claim, &cases)).collect::<Vec<_>>(),
         "verdict": verdict(&compared, &cases),
-        "controls": cases.iter().filter_map(|case| rejected_inputs(case)).collect::<Vec<_>>(),
+        "controls": cases.iter().filter_map(|case| Some(json!({ "case": case.name, "text": rejected_inputs(case)? }))).collect::<Vec<_>>(),
         "cases": cases.iter().map(|case| &case.name).collect::<Vec<_>>(),
     }))
 }
