@@ -4,7 +4,7 @@ use super::Record;
 use super::comparison::NumericsSet;
 use super::runs::FilmRun;
 use crate::case::Run;
-use crate::layer::{self, Top};
+use crate::layer::{self, BINS, Top};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;
 use crate::reference::film::SteadyFilm;
@@ -175,8 +175,11 @@ fn skin_difference(records: &[Record]) -> Option<Metric> {
 
 fn profile(record: &Record) -> Vec<Metric> {
     let run = &record.0;
-    // first order in the spacing at the bed, so that 20 rows have twice the error of 40
-    let limit = match (run.film(), run.layer.resolution) {
+    // first order in the spacing at the bed, so that 20 rows have twice the error of 40; a code that gives more points than our bins has as many
+    // rows
+    let points = record.1.data.profile.height.len();
+    let rows = if points > BINS { run.layer.resolution.max(points) } else { run.layer.resolution };
+    let limit = match (run.film(), rows) {
         (SteadyFilm::Newtonian(_), 10..) if run.top == Top::Mirror => Some((
             3.0,
             "3 % at ten rows, where the free film is 1.3 % off: a mirror that lets shear through bends the profile",
