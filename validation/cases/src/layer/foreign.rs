@@ -37,7 +37,8 @@ pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 };
 
 /// Metrics that a velocity profile suffices for.
-const OF_PROFILE: [&str; 8] = [
+const OF_PROFILE: [&str; 9] = [
+    "plug_edge_error",
     "velocity_l2",
     "velocity_l2_compressible",
     "surface_velocity_error",

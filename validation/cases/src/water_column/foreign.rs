@@ -1,6 +1,6 @@
 //! A collapse of water as another code, or a paper about one, gives it: the front over time.
 
-use super::metrics::{DELAYED_FRONT_ERROR, FRONT_DELAY, FRONT_ERROR};
+use super::metrics::{DELAYED_FRONT_ERROR, DELAYED_HEIGHT_ERROR, FRONT_DELAY, FRONT_ERROR, HEIGHT_ERROR};
 use super::parameters::{ColumnObservation, WaterColumnRun};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
@@ -13,6 +13,7 @@ pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
         ExternalColumn::new("front", "m", "distance of the front from the symmetry plane or the back wall"),
         ExternalColumn::new("relative_time", "-", "the same time, t √(2g/a), as figures of the experiment have it"),
         ExternalColumn::new("relative_front", "-", "the same distance over the width, x/a"),
+        ExternalColumn::new("height", "m", "thickness at the symmetry plane or the back wall"),
     ],
     profile: &[],
     description: "a is the column's width. Of time and of front one column each is enough. Where particles are at hand, the front \
@@ -43,8 +44,13 @@ pub(super) fn observe(
         (true, true) => Ok(None),
         (false, false) => {
             as_long_as_measured(run, &time)?;
-            let observation = ColumnObservation { time, front, ..ColumnObservation::default() };
-            let measured = vec![FRONT_ERROR.name, FRONT_DELAY.name, DELAYED_FRONT_ERROR.name];
+            let start = run.column.width * run.column.aspect_ratio;
+            let height: Vec<f64> = given.series("height").iter().map(|height| height / start).collect();
+            let mut measured = vec![FRONT_ERROR.name, FRONT_DELAY.name, DELAYED_FRONT_ERROR.name];
+            if !height.is_empty() {
+                measured.extend([HEIGHT_ERROR.name, DELAYED_HEIGHT_ERROR.name]);
+            }
+            let observation = ColumnObservation { time, front, height, ..ColumnObservation::default() };
             Ok(Some(ExternalObservation { observation, measured }))
         }
         (no_time, _) => {
@@ -94,6 +100,13 @@ mod tests {
     #[test]
     fn a_front_in_metres_and_seconds_is_the_one_over_width_and_time_scale() {
         let (time, front): (Vec<f64>, Vec<f64>) = WATER_FRONT.points.iter().copied().unzip();
+        let flat = seen(&[
+            ("relative_time", time.clone()),
+            ("relative_front", front.clone()),
+            ("height", vec![0.1; time.len()]),
+        ]);
+        let flat = flat.expect("complete").expect("a front");
+        assert!(flat.measured.contains(&"height_error") && flat.observation.height.len() == time.len());
         let plain = seen(&[("relative_time", time.clone()), ("relative_front", front.clone())]).expect("complete");
         let plain = plain.expect("a front").observation;
         assert_eq!((&plain.time, &plain.front), (&time, &front));
