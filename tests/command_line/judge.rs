@@ -128,6 +128,14 @@ fn two_runs_are_compared_number_by_number() {
     place.bagnold(&["compare", "first", "thicker", "--out", "other", "--deny-differences"]).assert().code(1);
     let lines = read(&place, "other/differences.json");
     assert!(lines[0]["tolerances"].as_f64() > Some(1.0), "{}", lines[0]);
+    // a folder of another version of the gates
+    let text = std::fs::read_to_string(place.path("thicker/metrics.json")).expect("written");
+    let moved = text.replacen("\"at_most\": 0.0", "\"at_most\": 1.0", 1);
+    assert_ne!(moved, text, "a limit of zero");
+    std::fs::write(place.path("thicker/metrics.json"), moved).expect("written");
+    let told = place.bagnold(&["compare", "first", "thicker", "--out", "moved"]).assert().code(0);
+    let line = "limits of 1 gates differ: the verdicts come from different versions of the gates";
+    assert!(String::from_utf8_lossy(&told.get_output().stdout).contains(line));
     let parameters = read(&place, "other/parameters.json");
     assert_eq!(parameters[0]["path"], "newtonian.viscosity", "{parameters}");
     assert_eq!((parameters[0]["values"][1].as_str(), parameters.as_array().map(Vec::len)), (Some("1.1"), Some(1)));

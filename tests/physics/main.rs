@@ -5,6 +5,7 @@
 mod controls;
 mod falling_rows;
 mod known_failures;
+mod league;
 mod long_runs;
 mod perturbation;
 mod reference_values;

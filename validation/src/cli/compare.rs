@@ -24,6 +24,14 @@ pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send
     let moved = compare::write(&all, claimed.staging())?;
     claimed.publish()?;
     say(output, &format!("{moved} numbers differ by more than their tolerance\n"));
+    let limits =
+        all.split_first().map_or(0, |(first, others)| others.iter().map(|other| first.moved_limits(other)).sum());
+    if limits > 0 {
+        say(
+            output,
+            &format!("limits of {limits} gates differ: the verdicts come from different versions of the gates\n"),
+        );
+    }
     say(output, &format!("written to {}\n", command.out.join("index.html").display()));
     Ok(if moved > 0 && command.deny_differences { Exit::GateFailed } else { Exit::Held })
 }

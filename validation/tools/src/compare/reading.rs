@@ -1,6 +1,7 @@
 //! Reads folders of `bagnold run` and `bagnold report`.
 
 use crate::input::{STORED, read_text, shown, text_fault};
+use crate::metric::Limit;
 use crate::output::{FileError, Table};
 use crate::result::{MetricEntry, MetricsDocument};
 use std::collections::{BTreeMap, BTreeSet};
@@ -70,6 +71,14 @@ impl Results {
             }
         }
         Ok(all)
+    }
+
+    /// Number of gates that another folder judges by another limit.
+    #[must_use]
+    pub fn moved_limits(&self, other: &Self) -> usize {
+        let key = |(case, metric): (&str, &MetricEntry)| format!("{case} {} {}", metric.name, metric.variant);
+        let limits: BTreeMap<String, Option<Limit>> = other.entries().map(|one| (key(one), one.1.limit)).collect();
+        self.entries().filter(|own| limits.get(&key(*own)).is_some_and(|limit| *limit != own.1.limit)).count()
     }
 
     fn of(folder: &Path) -> Result<Self, CompareError> {
