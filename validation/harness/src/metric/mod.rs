@@ -363,7 +363,8 @@ impl Metric {
     #[must_use]
     pub fn with_snapshot_tolerance(mut self, relative: f64, floor: f64) -> Self {
         self.snapshot_tolerance = relative;
-        self.snapshot_floor = floor;
+        // what has no value has no scatter either, and JSON has no word for it
+        self.snapshot_floor = if floor.is_finite() { floor } else { 0.0 };
         self
     }
 

@@ -189,8 +189,11 @@ mod tests {
     fn an_entry_is_read_back_as_written() {
         let metric = Metric::observed("final_height", &Variant::default(), 0.1 + 0.2, "m")
             .gated(Limit::Within(0.2, 0.4), "band");
-        let entry = MetricEntry::from(&metric);
-        let text = serde_json::to_string(&entry).expect("serialises");
-        assert_eq!(serde_json::from_str::<MetricEntry>(&text).expect("reads back"), entry);
+        // also one whose scatter is not a number, because it has no value
+        let nothing = Metric { value: f64::NAN, ..metric.clone() }.with_snapshot_tolerance(0.1, f64::NAN);
+        for entry in [metric, nothing].map(|metric| MetricEntry::from(&metric)) {
+            let text = serde_json::to_string(&entry).expect("serialises");
+            assert_eq!(serde_json::from_str::<MetricEntry>(&text).expect("reads back"), entry);
+        }
     }
 }
