@@ -1,5 +1,6 @@
 //! The book in `docs/`: its tutorials do what they say, and its links lead somewhere.
 
+mod league;
 mod reference;
 
 use std::collections::BTreeSet;

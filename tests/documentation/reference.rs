@@ -14,7 +14,7 @@ use std::fmt::Write;
 const NOTICE: &str = "<!-- Generated; `cargo test --test documentation` tells when it is out of date. -->\n\n";
 
 /// Compares a page with its text; a page that differs is written to `target/reference`.
-fn assert_page(name: &str, text: &str) {
+pub(crate) fn assert_page(name: &str, text: &str) {
     let text = format!("{NOTICE}{}\n", text.trim_end());
     let page = book().join(name);
     if std::fs::read_to_string(&page).is_ok_and(|old| old == text) {
@@ -27,7 +27,7 @@ fn assert_page(name: &str, text: &str) {
 }
 
 /// A cell of a table: one line without bars.
-fn cell(text: &str) -> String {
+pub(crate) fn cell(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ").replace('|', "\\|")
 }
 

@@ -135,7 +135,8 @@ fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, judged: &JudgedCode
 
 impl LeagueRow {
     /// Whether it tells physics: a limit or a reference, or several codes, and no account of a run's own.
-    fn is_told(&self) -> bool {
+    #[must_use]
+    pub fn is_told(&self) -> bool {
         let has_reference = self.own.gate.is_some() || self.own.reference.is_some() || self.values.len() > 1;
         has_reference && self.own.kind != MetricKind::Bookkeeping
     }
@@ -153,7 +154,8 @@ impl LeagueRow {
     }
 
     /// Name of our run without its numerics.
-    fn variant(&self) -> Variant {
+    #[must_use]
+    pub fn variant(&self) -> Variant {
         let parts = self.own.variant.parts().filter(|(key, _)| !crate::judge::NUMERICS.contains(key));
         parts.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()))
     }

@@ -82,5 +82,5 @@ fn cell(metric: &Metric, law: Value) -> Value {
         let share = 100.0 * (metric.value / reference - 1.0);
         format!("{}{} %", if share > 0.0 { "+" } else { "" }, two_digits(share))
     });
-    json!({ "class": class, "symbol": symbol, "value": four_digits(metric.value), "number": metric.value, "off": off, "law": law })
+    json!({ "class": class, "symbol": symbol, "value": if metric.value.is_finite() { four_digits(metric.value) } else { "–".to_owned() }, "number": metric.value, "off": off, "law": law })
 }

@@ -1,0 +1,99 @@
+//! The page of the book on other codes, from their stored results.
+
+use crate::reference::{assert_page, cell};
+use bagnold_harness::case::{Silent, execute};
+use bagnold_harness::metric::{Metric, Verdict};
+use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_tools::judge::{LawOrigin, judge};
+use bagnold_tools::league::{League, LeagueRow, league, read, split, submissions};
+use bagnold_validation::REGISTRY;
+use std::fmt::Write;
+use std::path::Path;
+
+const HEAD: &str = "# Other codes under the same gates
+
+Public codes computed some of the cases from the same inputs. Their stored results are measured and
+judged as those of Bagnold. `bagnold league` writes the page with all sources;
+`validation/league/README.md` tells how to run a deck and how to add a code.
+
+## Gates that pass, fail and lack data
+
+";
+
+const VALUES: &str = "
+✓ passes, ✗ fails, ○ is not judged. The standard deviation is that of Bagnold and of the codes of
+the same law: by so much two methods differ under one law.
+";
+
+fn stored() -> League {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/league");
+    let files = submissions(&folder).unwrap_or_else(|error| panic!("{error}"));
+    let (prepared, entries) = split(read(&files, *REGISTRY).unwrap_or_else(|error| panic!("{error}")));
+    let own = execute(prepared, &Store::open(StorePolicy::Use), &Silent).unwrap_or_else(|error| panic!("{error}"));
+    let judged = own.into_iter().zip(&entries).map(|(own, entries)| judge(own, entries));
+    league(&judged.collect::<Result<Vec<_>, _>>().unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// Three significant digits.
+fn number(value: f64) -> String {
+    let digits = if value == 0.0 { 2.0 } else { 2.0 - value.abs().log10().floor() };
+    format!("{value:.0$}", digits.max(0.0) as usize)
+}
+
+fn value(metric: &Metric) -> String {
+    if !metric.value.is_finite() {
+        return "–".to_owned();
+    }
+    let symbol = match metric.verdict() {
+        Verdict::Pass => "✓",
+        Verdict::Fail => "✗",
+        Verdict::Observed => "○",
+    };
+    format!("{symbol} {}", number(metric.value))
+}
+
+fn row(row: &LeagueRow, codes: &[usize]) -> String {
+    let theirs = codes.iter().map(|code| {
+        let own = row.values.iter().find(|(own, _, _)| own == code);
+        own.map_or_else(String::new, |(_, law, metric)| {
+            value(metric) + if *law == LawOrigin::Same { "" } else { " (other law)" }
+        })
+    });
+    let theirs: Vec<String> = theirs.collect();
+    let scatter = row.of_one_law().map(|(_, deviation)| number(deviation)).unwrap_or_default();
+    let limit = row.own.gate.as_ref().map(|gate| gate.limit.in_words(number)).unwrap_or_default();
+    let name = format!("`{}` [{}] {}", row.own.name, row.own.unit, row.variant());
+    format!("| {} | {limit} | {} | {} | {scatter} |", cell(&name), value(&row.own), theirs.join(" | "))
+}
+
+#[test]
+fn the_page_on_other_codes_is_that_of_the_stored_results() {
+    let league = stored();
+    let mut text = HEAD.to_owned();
+    let _ = writeln!(text, "| code | {} |\n|---|{}", league.cases.join(" | "), "---|".repeat(league.cases.len()));
+    for (code, name) in league.codes.iter().enumerate() {
+        let cells = (0..league.cases.len()).map(|case| {
+            let own = league.counts.iter().filter(|(own, of, _)| (*own, *of) == (code, case));
+            let sum = own.fold((0, 0, 0), |sum, (_, _, add)| (sum.0 + add.0, sum.1 + add.1, sum.2 + add.2));
+            if sum == (0, 0, 0) { String::new() } else { format!("{} / {} / {}", sum.0, sum.1, sum.2) }
+        });
+        let _ = writeln!(text, "| {name} | {} |", cells.collect::<Vec<_>>().join(" | "));
+    }
+    text.push_str(VALUES);
+    for case in &league.cases {
+        let rows: Vec<&LeagueRow> = league.rows.iter().filter(|row| row.case == *case && row.is_told()).collect();
+        let gives = |code: &usize| rows.iter().any(|row| row.values.iter().any(|value| value.0 == *code));
+        let codes: Vec<usize> = (0..league.codes.len()).filter(gives).collect();
+        let heads: Vec<&str> = codes.iter().map(|code| league.codes[*code].as_str()).collect();
+        let line = "---|".repeat(codes.len());
+        let _ = write!(
+            text,
+            "\n## {case}\n\n| metric | limit | Bagnold | {} | standard deviation |\n|---|---|---|{line}---|\n",
+            heads.join(" | ")
+        );
+        for own in rows {
+            let _ = writeln!(text, "{}", row(own, &codes));
+        }
+    }
+    assert_page("other-codes.md", &text);
+}
