@@ -40,7 +40,7 @@ sed "s/^BOXES LINKS/$((wide * high)) $(((wide - 1) * high + wide * (high - 1)))/
     s/ASPECT/$aspect/; s/VISCOSITY/3./; s/END/$end/" "$deck/column.gfs" > column.gfs
 boxes >> column.gfs
 gerris2D column.gfs > log 2>&1 || { tail -n 5 log >&2; exit 1; }
-gerris2D -V 2>&1 | head -n 1 > version.txt
+gerris2D -V 2>&1 | sed -n 1p > version.txt
 
 cell=$(awk "BEGIN { print 1.25 / 2^$level }")
 # Thickness over the bed in metres, r_0 = 0.1 m: sums of the cells' shares of grains.

