@@ -31,6 +31,15 @@ const REST: [&str; 3] = ["reference-data", "Cargo.lock", "Cargo.toml"];
 /// Folders of shipped plans.
 const PLANS: [&str; 4] = ["calibrations", "examples/scenes", "examples/studies", "sweeps"];
 
+/// Endings of the files of decks of other codes; some have none.
+const DECKS: [&str; 10] =
+    ["", "sh", "py", "toml", "gfs", "column", "chute", "bingham", "herschel_bulkley", "newtonian"];
+
+/// Whether a file of the league is a deck's, or the submission beside it.
+fn is_of_deck(name: &str) -> bool {
+    !name.starts_with("wrong/") && (name.contains("/deck/") || name.ends_with("/submission.toml"))
+}
+
 fn main() {
     let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let workspace = package.parent().map(Path::to_path_buf).unwrap_or_default();
@@ -56,6 +65,8 @@ fn main() {
     }
     // no result depends on the plans
     embed("studies", &texts(&package, &["studies"], &["toml"]));
+    let league = texts(&package, &["league"], &DECKS);
+    embed("decks", &league.into_iter().filter(|(name, _)| is_of_deck(name)).collect::<Vec<_>>());
     embed("plans", &texts(&package, &PLANS, &["toml", "csv", "stl"]));
     for name in ["Cargo.lock", "Cargo.toml"] {
         let file = workspace.join(name);

@@ -104,6 +104,13 @@ fn export_contains_all_inputs() {
     let limit = "- `velocity_l2` of `fluid=bingham,particles=jittered,resolution=20`: ≤ 3.";
     assert!(definitions.contains("`herschel-bulkley`: η = τ_y") && definitions.contains(limit), "{definitions}");
     assert!(!place.path("store").exists() && !place.path("out/particles").exists(), "nothing was simulated");
+    // with the deck of a code comes the submission that reads its results
+    place.bagnold(&["export", "film", "--for", "openfoam", "--out", "deck", "--quiet"]).assert().code(0);
+    let own = std::fs::read_to_string(place.path("deck/submission.toml")).expect("written");
+    assert!(own.contains("results/newtonian-profile.csv") && place.path("deck/deck/run.sh").is_file(), "{own}");
+    let refused = place.bagnold(&["export", "film", "--for", "newton", "--out", "none", "--quiet"]).assert().code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(message.contains("`--for` is newton, but must be a code with a deck of film at the tier quick: openfoam"));
     // a submission of other inputs than the export's is refused
     let text = std::fs::read_to_string(place.path("out/submission.toml")).expect("written");
     let own = text.lines().find(|line| line.starts_with("inputs = ")).expect("the digest");

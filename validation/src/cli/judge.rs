@@ -2,7 +2,7 @@
 
 use super::arguments::{ExportArguments, JudgeArguments, LeagueArguments};
 use super::error::ProgramError;
-use super::{Exit, say, simulation, summary};
+use super::{Exit, decks, say, simulation, summary};
 use crate::case::{Changes, Registry};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
@@ -99,6 +99,9 @@ pub(super) fn export(
     };
     let exit = Exit::of(&results, |_, _| true);
     judge::export(case, &*prepared, command.tier, results.first(), claimed.staging())?;
+    if let Some(code) = &command.code {
+        decks::write(code, case, command.tier, claimed.staging())?;
+    }
     claimed.publish()?;
     say(output, &format!("written to {}\n", command.out.display()));
     Ok(exit)

@@ -6,6 +6,7 @@ mod compare;
 mod completions;
 mod controls;
 mod count;
+mod decks;
 mod display;
 mod error;
 mod examples;

@@ -27,6 +27,7 @@ Exit codes: 0 judged, whatever the verdicts, 2 bad input, 3 a run of ours diverg
 const EXPORT_EXAMPLES: &str = "Examples:
   bagnold export column-planar --out for-my-code
   bagnold export bagnold --tier paper --out for-my-code
+  bagnold export film --for openfoam --out film         also deck/run.sh and the matching submission.toml
 
 The folder receives case.toml (geometry, material), reference/ (exact and measured curves), definitions.md (laws, metrics,
 limits) and submission.toml for `bagnold judge`. --simulate adds particles/ (initial particles as CSV and VTU) and
@@ -82,6 +83,9 @@ pub struct ExportArguments {
     /// Folder to write.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// Also write the deck of this code with run.sh: openfoam, gerris or lammps.
+    #[arg(long = "for", value_name = "CODE")]
+    pub code: Option<String>,
     /// Also simulate the case: initial particles, and profiles of Bagnold
     #[arg(long)]
     pub simulate: bool,

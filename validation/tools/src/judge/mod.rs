@@ -17,6 +17,7 @@ mod vtk;
 pub use blank::blank;
 pub use error::JudgeError;
 pub use export::export;
+pub use inputs::inputs_of;
 pub use page::write;
 pub use submission::{Code, ForeignRun, LawOrigin, ParticleFiles, Submission, TableFile};
 pub use verdicts::MetricComparison;
@@ -109,11 +110,9 @@ impl CaseSubmissions {
         let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[], ..Changes::default() };
         let all = case.prepare(first.tier, &changes).map_err(|error| PlanError::of(error, &first.path))?;
         // the export has the tier's parameters, whatever a submission lays over them
-        let exported =
-            case.prepare(first.tier, &Changes::default()).map_err(|error| PlanError::of(error, &first.path))?;
+        let exported = inputs_of(case, first.tier).map_err(|error| PlanError::of(error, &first.path))?;
         for submission in &submissions {
-            inputs::check(submission.inputs.as_deref(), exported.parameters_toml())
-                .map_err(|error| error.in_file(&submission.path))?;
+            inputs::check(submission.inputs.as_deref(), &exported).map_err(|error| error.in_file(&submission.path))?;
         }
         // the runs of ours that any code gives something of, in our order
         let places: Vec<Vec<usize>> =
