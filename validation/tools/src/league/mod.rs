@@ -119,17 +119,21 @@ fn place(names: &mut Vec<String>, name: &str) -> usize {
     })
 }
 
-/// Enters a value; runs that differ in parameters of the case have names that tell them apart.
+/// Enters a value. A run of ours with parameters of a submission has a row of its own.
 fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, judged: &JudgedCode, one: &MetricComparison) {
     let Some(foreign) = one.foreign.clone() else { return };
-    let same = |row: &&mut LeagueRow| {
-        let other = (&row.own.name, &row.own.variant);
-        row.case == case && other == (&one.own.name, &one.own.variant)
-    };
     let entry = (code, judged.law, foreign);
-    match rows.iter_mut().find(same) {
+    let mut own = one.own.clone();
+    let named = |row: &LeagueRow, own: &Metric| {
+        row.case == case && (&row.own.name, &row.own.variant) == (&own.name, &own.variant)
+    };
+    let same = |row: &LeagueRow, own: &Metric| named(row, own) && row.own.value.to_bits() == own.value.to_bits();
+    if rows.iter().any(|row| named(row, &own) && !same(row, &own)) {
+        own.variant = own.variant.and("parameters", judged.code.name.as_str());
+    }
+    match rows.iter_mut().find(|row| same(row, &own)) {
         Some(row) => row.values.push(entry),
-        None => rows.push(LeagueRow { case: case.to_owned(), own: one.own.clone(), values: vec![entry] }),
+        None => rows.push(LeagueRow { case: case.to_owned(), own, values: vec![entry] }),
     }
 }
 
