@@ -112,10 +112,7 @@ fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> R
             };
             return frames.iter().map(picture).collect();
         }
-        let sets = vtk::collection(&text, &file)?;
-        let times: Vec<f64> = sets.iter().map(|(time, _)| *time).collect();
-        in_order(&times, "timestep", &file)?;
-        sets
+        vtk::collection(&text, &file)?
     } else {
         files.times.iter().copied().zip(files.files.iter().map(|file| folder.join(file))).collect()
     };
@@ -123,18 +120,39 @@ fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> R
         let rule = format!("at most {MOST_PICTURES}");
         return Err(FieldError::new("particles.files", named.len(), &rule, "give fewer pictures").into());
     }
-    named
-        .into_iter()
-        .map(|(time, file)| {
-            let ending = file.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
-            let columns = if vtk::ENDINGS.contains(&ending.as_str()) {
-                of_points(&PointArrays::parse(&read_bytes(&file)?, &file)?, plan, &file)?
-            } else {
-                of_table(&read_text_table(&file)?, plan, &file)?
-            };
-            Ok(ParticleFrame { time, columns })
-        })
-        .collect()
+    let mut seen: Vec<ParticleFrame> = Vec::new();
+    for (time, file) in in_pieces(named)? {
+        let columns = if vtk::ENDINGS.contains(&ending(&file).as_str()) {
+            of_points(&PointArrays::parse(&read_bytes(&file)?, &file)?, plan, &file)?
+        } else {
+            of_table(&read_text_table(&file)?, plan, &file)?
+        };
+        match seen.last_mut().filter(|last| last.time == time) {
+            Some(last) => {
+                columns.into_iter().for_each(|(name, more)| last.columns.entry(name).or_default().extend(more))
+            }
+            None => seen.push(ParticleFrame { time, columns }),
+        }
+    }
+    Ok(seen)
+}
+
+fn ending(file: &Path) -> String {
+    file.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase()
+}
+
+/// Files with those that only name pieces replaced by the pieces.
+fn in_pieces(named: Vec<(f64, PathBuf)>) -> Result<Vec<(f64, PathBuf)>, PlanError> {
+    let mut files = Vec::new();
+    for (time, file) in named {
+        if vtk::PARALLEL.contains(&ending(&file).as_str()) {
+            let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
+            files.extend(vtk::pieces(&text, &file)?.into_iter().map(|piece| (time, piece)));
+        } else {
+            files.push((time, file));
+        }
+    }
+    Ok(files)
 }
 
 fn read_bytes(file: &Path) -> Result<Vec<u8>, PlanError> {

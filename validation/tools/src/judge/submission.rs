@@ -91,7 +91,7 @@ pub struct ForeignRun {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ParticleFiles {
-    /// The files, beside the submission: tables of numbers, `.vtu`, `.vtp` or `.vtk`, or a single `.pvd`, or a single dump of LAMMPS,
+    /// The files, beside the submission: tables of numbers, `.vtu`, `.vtp`, `.vtk`, or pieces of these by `.pvtu`, `.pvtp` or `.vtm`; a single `.pvd` or `.series`; a single dump of LAMMPS,
     /// `.dump` or `.lammpstrj`.
     pub files: Vec<PathBuf>,
     /// Times of the files `[s]`; absent where a single file says them.
@@ -212,7 +212,7 @@ impl ParticleFiles {
     pub(super) fn is_collection(&self) -> bool {
         let is_one = |file: &PathBuf| {
             let ending = file.extension().and_then(|ending| ending.to_str());
-            ending.is_some_and(|ending| ["pvd", "dump", "lammpstrj"].contains(&ending))
+            ending.is_some_and(|ending| ["pvd", "series", "dump", "lammpstrj"].contains(&ending))
         };
         matches!(self.files.as_slice(), [file] if is_one(file))
     }

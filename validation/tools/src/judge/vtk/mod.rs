@@ -17,7 +17,7 @@ use crate::input::FieldError;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-pub(super) use collection::collection;
+pub(super) use collection::{PARALLEL, collection, pieces};
 
 /// Points with their arrays, each value by value; vectors are parted into `name:0`, `name:1`, `name:2`.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -61,6 +61,26 @@ fn a_collection_names_files_beside_itself() {
 }
 
 #[test]
+fn a_collection_as_codes_write_it_is_put_in_order() {
+    let set =
+        |time: &str, part: &str, file: &str| format!("<DataSet timestep=\"{time}\" part=\"{part}\" file=\"{file}\"/>");
+    // out of order, in parts, by Windows, and written again by a restart
+    let sets =
+        [set("1", "0", "b.vtu"), set("0", "0", "a\\0.vtu"), set("0", "1", "a\\1.vtu"), set("1", "0", "c.vtu")].concat();
+    let text = format!("<VTKFile><Collection>{sets}</Collection></VTKFile>");
+    let files = |text: &str, name: &str| collection(text, Path::new(name)).expect("a collection");
+    let expected = [(0.0, "a/0.vtu"), (0.0, "a/1.vtu"), (1.0, "c.vtu")].map(|(time, name)| (time, PathBuf::from(name)));
+    assert_eq!(files(&text, "all.pvd"), expected);
+    let series = "{\"file-series-version\": \"1.0\", \"files\": [{\"name\": \"a.vtm\", \"time\": 0.5}]}";
+    assert_eq!(files(series, "out/a.vtm.series"), [(0.5, PathBuf::from("out/a.vtm"))]);
+    assert!(collection("{\"files\": [{\"name\": \"a.vtm\"}]}", Path::new("a.series")).is_err());
+    let parallel = "<VTKFile><PUnstructuredGrid><Piece Source=\"a_0.vtu\"/><Piece Source=\"a_1.vtu\"/></PUnstructuredGrid></VTKFile>";
+    let named = pieces(parallel, Path::new("out/a.pvtu")).expect("pieces");
+    assert_eq!(named, [PathBuf::from("out/a_0.vtu"), PathBuf::from("out/a_1.vtu")]);
+    assert!(pieces("<VTKFile/>", Path::new("a.pvtu")).is_err() && pieces("no", Path::new("a.vtm")).is_err());
+}
+
+#[test]
 fn text_and_base_64_give_the_same_points() {
     let points = PointArrays::parse(TEXT.as_bytes(), Path::new("a.vtu")).expect("a grid");
     assert_eq!(points.arrays["Points:1"], [1.0, 3.0]);
