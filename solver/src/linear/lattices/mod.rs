@@ -28,7 +28,7 @@ const MOST_CELLS: usize = 4096;
 /// Corners of a cell in space.
 const CORNERS: usize = 8;
 /// Cells, nodes or particles of a task at least.
-const LEAST_TASK: usize = 1024;
+const LEAST_TASK: usize = 128;
 
 /// One lattice; cells and nodes follow each other along the first axis first.
 #[derive(Debug, Clone)]
