@@ -77,7 +77,9 @@ fn verdicts(judgement: &CodeComparison) -> String {
         let failed =
             judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
         let table = summary::of_metrics(failed);
-        format!("{}: {holding} gates pass, {failing} fail, {not_given} without data\n{table}", name.trim())
+        let nothing =
+            if holding + failing == 0 { "no gate was judged: the page names the data that each needs\n" } else { "" };
+        format!("{}: {holding} gates pass, {failing} fail, {not_given} without data\n{nothing}{table}", name.trim())
     };
     judgement.codes.iter().map(line).collect()
 }

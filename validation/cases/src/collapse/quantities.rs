@@ -7,8 +7,8 @@ quantities! {
     pub(crate) [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PARTICLES_LOST:
         accounted("particles_lost", "-", "particles that passed the bed, the symmetry plane or the bed's end"),
-    MOMENTUM_RESIDUAL: accounted("momentum_residual", "-", "largest over the pictures of |P − J_w − M g t|/(M g t), Euclidean norm: momentum P, impulse of the walls J_w, mass M, time t"),
-    RUN_OUT: validated("run_out", "-", "(r_∞ − r_0)/r_0, r_∞ the front at a thickness of 0.02 r_0 in whole rows of particles; at the toe fewer than four rows (3-D: two) count as a wedge"),
+    MOMENTUM_RESIDUAL: accounted("momentum_residual", "-", "largest over the pictures of |P − J − M g t|/(M g t), Euclidean norm: momentum P, impulse J of bed, symmetry planes, gate and contacts, mass M, time t"),
+    RUN_OUT: validated("run_out", "-", "(r_∞ − r_0)/r_0, counted from the initial edge; r_∞ is the front at a thickness of 0.02 r_0. Thickness is counted in rows of particles; a toe of fewer than four rows (3-D: two) is replaced by a wedge of the same volume"),
     FINAL_HEIGHT: validated("final_height", "-", "thickness of the innermost bin over r_0"),
     STOPPING_TIME: validated("stopping_time", "√(h0/g)", "time at which the front has covered 99 % of its distance"),
     REST_TIME: verified("rest_time", "s", "time at which kinetic energy falls below 5e-7 of the energy released; infinite if it does not"),

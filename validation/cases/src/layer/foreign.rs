@@ -27,8 +27,8 @@ pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
         ExternalColumn::new("velocity", "m/s", "velocity down the slope there, a mean over the last part of the run"),
         ExternalColumn::new("pressure", "Pa", "pressure there"),
     ],
-    description: "Velocities are compared at the heights at which they are given; a profile with fewer than two points below a fifth of the \
-        depth, by which the slip at the wall is measured, is not judged. From particles the profile is a mean over all pictures \
+    description: "Velocities are compared at the heights at which they are given; a profile needs two points below a fifth of the \
+        depth, by which the slip at the wall is measured. From particles the profile is a mean over all pictures \
         in the last quarter of the time, in twenty bins of equal height, each at the mean height of its particles. velocity_l2 is \
         the root of the summed squares of the bins' errors over that of the exact velocities. implied_stress_error, which needs \
         the pressure, is the mean of |μ(I)/tanθ − 1| over 0.1 h to 0.9 h, with the shear rate by central differences between \
@@ -60,6 +60,11 @@ const OF_HISTORY: [&str; 7] = [
 ];
 /// How high a particle may be, over the layer's height.
 const REACH: f64 = 50.0;
+/// Where the highest point of a profile lies, over the layer's height.
+const LOWEST_TOP: f64 = 0.2;
+const HIGHEST_TOP: f64 = 2.0;
+/// Share of the depth near the bed in which the slip at the wall is measured.
+const NEAR_BED: f64 = 0.2;
 /// What is wrong with places that are out of reach.
 const ORIGIN: &str = "check the unit and the origin: y is the height above the bed";
 /// Share of the time at the end whose pictures make the profile.
@@ -95,6 +100,7 @@ pub(crate) fn observe(
     }
     let (height, velocity) = (given.profile("height"), given.profile("velocity"));
     if !height.is_empty() && !velocity.is_empty() {
+        check_heights(height, layer.layer.layer_height)?;
         observation.profile = profile(given);
         measured.extend(OF_PROFILE);
     }
@@ -109,6 +115,23 @@ pub(crate) fn observe(
     measured.sort_unstable();
     measured.dedup();
     Ok(ExternalObservation { observation, measured })
+}
+
+/// Refuses heights of another layer, or too few near the bed for the slip at the wall.
+fn check_heights(height: &[f64], depth: f64) -> Result<(), FieldError> {
+    let field = "profile.columns.height";
+    if let Some(highest) =
+        height.last().filter(|highest| !(LOWEST_TOP * depth..=HIGHEST_TOP * depth).contains(*highest))
+    {
+        let rule = format!("up to the surface at {depth} m");
+        return Err(FieldError::new(field, format!("up to {highest} m"), &rule, "check the unit"));
+    }
+    let near = height.iter().filter(|height| **height < NEAR_BED * depth).count();
+    if near < 2 {
+        let rule = format!("two points at least below {} m, a fifth of the depth", NEAR_BED * depth);
+        return Err(FieldError::new(field, format!("{near} points there"), &rule, "give points nearer to the bed"));
+    }
+    Ok(())
 }
 
 /// Profile of a layer as far as it was given.

@@ -6,11 +6,11 @@ use crate::observation::EnergyBook;
 quantities! {
     shared pub
     ENERGY_RESIDUAL:
-        accounted("energy_residual", "%", "largest change of energy minus the sum of its sources, over the energy scale of the case"),
-    ENERGY_RISE: accounted("energy_rise", "%", "largest rise of total energy above its earlier minimum, over the energy scale of the case"),
-    WALL_WORK: accounted("wall_work", "%", "work of walls over the energy scale; for walls at rest an error, or slip along them"),
+        accounted("energy_residual", "%", "largest |E − E_0 − W_g − W_w − W_s + Q| over the scale: energy E, work of gravity, walls and sources W, dissipation Q; the scale is the largest of these works and of Q"),
+    ENERGY_RISE: accounted("energy_rise", "%", "largest rise of total energy above its earlier minimum, over the scale of energy_residual"),
+    WALL_WORK: accounted("wall_work", "%", "work of walls over the scale of energy_residual; for walls at rest an error, or slip along them"),
     CORRECTION_WORK:
-        accounted("correction_work", "%", "energy added by the kernel correction of the forces, over the energy scale"),
+        accounted("correction_work", "%", "energy added by the kernel correction of the forces, over the scale of energy_residual"),
 }
 
 /// Scale that energies are compared with.

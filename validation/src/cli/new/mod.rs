@@ -48,6 +48,12 @@ pub(super) fn new(command: &NewArguments, output: &mut (dyn Write + Send)) -> Re
         say(output, &format!("{}\n", folder.join(path).display()));
     }
     say(output, &format!("`cargo run -- list` in {} builds it; README.md there has the rest\n", folder.display()));
+    if let Some(checkout) = checkout {
+        say(
+            output,
+            &format!("it uses the sources in {}; to use others, change the paths in Cargo.toml\n", checkout.display()),
+        );
+    }
     Ok(Exit::Held)
 }
 
