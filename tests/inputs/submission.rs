@@ -11,12 +11,14 @@ use bagnold_validation::REGISTRY;
 
 const ROWS: u32 = 30;
 
-/// Columns that rise from 0 to a hundredth, times to one second, and shares of `size`.
-fn columns(items: &[ExternalColumn], size: f64) -> NamedColumns {
+/// Columns that rise from 0 to a hundredth, times to one second, shares of `size`, and a deposit of that size.
+fn columns(items: &[ExternalColumn], is_planar: bool, size: f64) -> NamedColumns {
     let ramp: Vec<f64> = (0..ROWS).map(|row| f64::from(row) / 2900.0).collect();
     let shares = vec![size / f64::from(ROWS); ROWS as usize];
     let column = |name| match name {
         "area" | "volume" => shares.clone(),
+        "thickness" if is_planar => vec![size / 0.01; ROWS as usize],
+        "thickness" => vec![size / (std::f64::consts::FRAC_PI_4 * 1e-4); ROWS as usize],
         // a front must reach as far in time as the measurement
         "time" => ramp.iter().map(|value| 100.0 * value).collect(),
         _ => ramp.clone(),
@@ -40,17 +42,17 @@ fn size_of(case: &str, run: usize) -> f64 {
 fn parts(form: &'static ExternalSchema, is_planar: bool, size: f64) -> Vec<ExternalData> {
     let particles: Vec<ExternalColumn> =
         form.particles.iter().filter(|item| !(is_planar && item.name == "z")).copied().collect();
-    let picture = |time: f64| ParticleFrame { time, columns: columns(&particles, size) };
+    let picture = |time: f64| ParticleFrame { time, columns: columns(&particles, is_planar, size) };
     let mut parts = Vec::new();
     if !form.series.is_empty() {
-        parts.push(ExternalData { series: columns(form.series, size), ..ExternalData::default() });
+        parts.push(ExternalData { series: columns(form.series, is_planar, size), ..ExternalData::default() });
     }
     if !form.profile.is_empty() {
-        parts.push(ExternalData { profile: columns(form.profile, size), ..ExternalData::default() });
+        parts.push(ExternalData { profile: columns(form.profile, is_planar, size), ..ExternalData::default() });
     }
     if !particles.is_empty() {
         parts.push(ExternalData { pictures: vec![picture(0.5)], ..ExternalData::default() });
-        parts.push(ExternalData { pictures: vec![picture(0.0), picture(0.5)], ..ExternalData::default() });
+        parts.push(ExternalData { pictures: vec![picture(0.2), picture(0.5)], ..ExternalData::default() });
     }
     parts
 }

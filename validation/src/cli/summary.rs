@@ -1,16 +1,30 @@
 //! Results as a compact table for the terminal.
 
 use crate::case::CaseResult;
-use crate::metric::{Metric, Variant, Verdict};
+use crate::metric::{Metric, PredictionInterval, Variant, Verdict};
 use crate::number::aligned_digits;
 use crate::observation::Outcome;
 use crate::report::MetricKey;
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-/// A case's metrics, one per line, and what went wrong in its runs.
+/// A case's metrics, one per line, what went wrong in its runs, and what is predicted.
 pub(super) fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
-    heading(result) + &table(result.metrics.iter().map(|metric| row(metric, is_known(metric))).collect())
+    let table = table(result.metrics.iter().map(|metric| row(metric, is_known(metric))).collect());
+    heading(result) + &table + &predictions(&result.metrics)
+}
+
+/// Intervals of the true values of user-defined materials, a line each.
+fn predictions(metrics: &[Metric]) -> String {
+    let line = |metric: &Metric| {
+        let PredictionInterval { lower, upper, comparisons, .. } = metric.prediction.as_ref()?;
+        let (lower, upper) = (aligned_digits(*lower), aligned_digits(*upper));
+        let (name, unit) = (&metric.name, &metric.unit);
+        Some(format!(
+            "95 % interval of `{name}` [{unit}] from the errors of {comparisons} comparisons: {lower} … {upper}\n"
+        ))
+    };
+    metrics.iter().filter_map(line).collect()
 }
 
 /// The metrics of a case whose gates do not hold; empty if all hold.

@@ -29,7 +29,7 @@ impl BagnoldRun {
         if agitation > LARGEST_AGITATION {
             let rows = (self.layer.resolution as f64 * agitation / SAFE_AGITATION).ceil();
             return Some(format!(
-                "I √φ Δ/D is {agitation:.2}; above {LARGEST_AGITATION} layers sink and become unsteady: set `resolution = {rows}` or a gentler slope"
+                "N = I √φ Δ/D is {agitation:.2}; above {LARGEST_AGITATION} layers sink and become unsteady: set `resolution = {rows}` or a gentler slope"
             ));
         }
         (froude_number > LARGEST_FROUDE_NUMBER).then(|| {

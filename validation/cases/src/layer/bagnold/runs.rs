@@ -251,7 +251,8 @@ impl BagnoldRun {
 
     /// Why what it leaves behind is not of a steady flow; none where it is.
     pub(super) fn unsteadiness(&self, data: &LayerObservation) -> Option<String> {
-        data.unsteadiness(self.averaging_time)
+        let reason = data.unsteadiness(self.averaging_time)?;
+        Some(self.beyond_limits().map_or(reason.clone(), |cause| format!("{reason}; {cause}")))
     }
 
     fn profile_at(&self, angle: f64) -> BagnoldProfile {
