@@ -56,7 +56,10 @@ fn row(row: &LeagueRow, codes: &[usize]) -> String {
     let theirs = codes.iter().map(|code| {
         let own = row.values.iter().find(|(own, _, _)| own == code);
         own.map_or_else(String::new, |(_, law, metric)| {
-            value(metric) + if *law == LawOrigin::Same { "" } else { " (other law)" }
+            let limit = metric.gate.as_ref().map(|gate| gate.limit);
+            let other = limit.filter(|limit| row.own.gate.as_ref().is_none_or(|own| own.limit != *limit));
+            let other = other.map(|limit| format!(" (limit {})", limit.in_words(number))).unwrap_or_default();
+            value(metric) + &other + if *law == LawOrigin::Same { "" } else { " (other law)" }
         })
     });
     let theirs: Vec<String> = theirs.collect();
@@ -73,9 +76,8 @@ fn the_page_on_other_codes_is_that_of_the_stored_results() {
     let _ = writeln!(text, "| code | {} |\n|---|{}", league.cases.join(" | "), "---|".repeat(league.cases.len()));
     for (code, name) in league.codes.iter().enumerate() {
         let cells = (0..league.cases.len()).map(|case| {
-            let own = league.counts.iter().filter(|(own, of, _)| (*own, *of) == (code, case));
-            let sum = own.fold((0, 0, 0), |sum, (_, _, add)| (sum.0 + add.0, sum.1 + add.1, sum.2 + add.2));
-            if sum == (0, 0, 0) { String::new() } else { format!("{} / {} / {}", sum.0, sum.1, sum.2) }
+            let counts = league.count(code, case);
+            counts.map_or_else(String::new, |(pass, fail, open)| format!("{pass} / {fail} / {open}"))
         });
         let _ = writeln!(text, "| {name} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }

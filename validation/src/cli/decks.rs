@@ -9,11 +9,16 @@ use std::path::Path;
 
 include!(concat!(env!("OUT_DIR"), "/decks.rs"));
 
-/// Writes the deck of a code for a case into a folder; its submission replaces the blank one.
-pub(super) fn write(code: &str, case: &'static dyn AnyCase, tier: Tier, folder: &Path) -> Result<(), ProgramError> {
+/// Files of the deck of a code for a case, by their names, and the submission that replaces the blank one.
+pub(super) fn find(
+    code: &str,
+    case: &'static dyn AnyCase,
+    tier: Tier,
+) -> Result<Vec<(&'static str, &'static str)>, ProgramError> {
     let cell = format!("{code}/{}/", case.name());
     let files: Vec<(&str, &str)> =
         FILES.iter().filter_map(|(name, text)| Some((name.strip_prefix(&cell)?, *text))).collect();
+    let refuse = |rule: &str, remedy: &str| Err(ParameterError::field("--for", code, rule, remedy).into());
     if !files.iter().any(|(name, _)| *name == "deck/run.sh") || tier != Tier::Quick {
         let has_deck = |name: &&str| name.ends_with(&format!("/{}/deck/run.sh", case.name()));
         let codes: BTreeSet<&str> =
@@ -23,17 +28,18 @@ pub(super) fn write(code: &str, case: &'static dyn AnyCase, tier: Tier, folder: 
             [] => format!("absent: no code has a deck of {}", case.name()),
             _ => format!("a code with a deck of {} at the tier quick: {}", case.name(), codes.join(", ")),
         };
-        let remedy = "leave it out, and write the deck from case.toml and definitions.md";
-        return Err(ParameterError::field("--for", code, &rule, remedy).into());
+        return refuse(&rule, "leave it out, and write the deck from case.toml and definitions.md");
     }
+    let today = format!("inputs = \"{}\"", judge::inputs_of(case, tier)?);
+    if files.iter().any(|(name, text)| *name == "submission.toml" && !text.contains(&today)) {
+        return refuse(&format!("a deck of today's {today}"), "compare case.toml with the numbers of the deck");
+    }
+    Ok(files)
+}
+
+/// Writes the files of a deck into a folder.
+pub(super) fn write(files: &[(&str, &str)], folder: &Path) -> Result<(), ProgramError> {
     for (name, text) in files {
-        let today = judge::inputs_of(case, tier)?;
-        if name == "submission.toml" && !text.contains(&format!("inputs = \"{today}\"")) {
-            let rule = format!("a deck of today's inputs, {today}");
-            return Err(
-                ParameterError::field("--for", code, &rule, "compare case.toml with the numbers of the deck").into()
-            );
-        }
         let file = folder.join(name);
         std::fs::create_dir_all(file.parent().unwrap_or(folder))
             .and_then(|()| std::fs::write(&file, text))

@@ -37,7 +37,9 @@ pub(super) fn judge(
     claimed.publish()?;
     say(output, &verdicts(&judgement));
     say(output, &format!("written to {}\n", folder.join("index.html").display()));
-    let fails = judgement.codes.iter().any(|judged| judged.counts().1 > 0);
+    // what was not judged is no success either
+    let mut counts = judgement.codes.iter().map(judge::JudgedCode::counts);
+    let fails = counts.any(|(held, failed, open)| failed > 0 || (held == 0 && open > 0));
     Ok(if exit == Exit::Held && fails { Exit::GateFailed } else { exit })
 }
 
@@ -77,8 +79,11 @@ fn verdicts(judgement: &CodeComparison) -> String {
         let failed =
             judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
         let table = summary::of_metrics(failed);
-        let nothing =
-            if holding + failing == 0 { "no gate was judged: the page names the data that each needs\n" } else { "" };
+        let nothing = if holding + failing == 0 && not_given > 0 {
+            "no gate was judged: the page names the data that each needs\n"
+        } else {
+            ""
+        };
         format!("{}: {holding} gates pass, {failing} fail, {not_given} without data\n{nothing}{table}", name.trim())
     };
     judgement.codes.iter().map(line).collect()
@@ -92,6 +97,7 @@ pub(super) fn export(
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
     let case = registry.find(&command.case)?;
+    let deck = command.code.as_ref().map_or(Ok(Vec::new()), |code| decks::find(code, case, command.tier))?;
     let prepare = || case.prepare(command.tier, &Changes::default());
     let (prepared, claimed) = (prepare()?, OutputFolder::claim(&command.out)?);
     let results = if command.simulate {
@@ -101,9 +107,7 @@ pub(super) fn export(
     };
     let exit = Exit::of(&results, |_, _| true);
     judge::export(case, &*prepared, command.tier, results.first(), claimed.staging())?;
-    if let Some(code) = &command.code {
-        decks::write(code, case, command.tier, claimed.staging())?;
-    }
+    decks::write(&deck, claimed.staging())?;
     claimed.publish()?;
     say(output, &format!("written to {}\n", command.out.display()));
     Ok(exit)

@@ -13,7 +13,7 @@ A submission names the case, the code, its runs and the data of each run: partic
 time series, a profile, or single numbers. Metrics are computed from them as from our own runs. A metric without data
 reads \"not given\" and neither passes nor fails. The folder receives index.html, metrics.json, figures/ and tables/.
 
-Exit codes: 0 all gates with data pass, 1 one fails, 2 bad input, 3 a run of ours diverged.";
+Exit codes: 0 all gates with data pass, 1 one fails or none has data, 2 bad input, 3 a run of ours diverged.";
 
 const LEAGUE_EXAMPLES: &str = "Examples:
   bagnold league                                        the stored results of other codes, on one page

@@ -59,6 +59,13 @@ pub(super) fn pictures(text: &str, step: Option<f64>, file: &Path) -> Result<Vec
             _ => {}
         }
     }
+    if found.is_empty() {
+        return Err(wrong("ITEM: ATOMS", "missing", "given once at least", "dump atoms as text"));
+    }
+    let is_sorted = |(_, table): &(f64, TextTable)| table.headings.iter().any(|heading| heading == "id");
+    if found.len() > 1 && !found.iter().all(is_sorted) {
+        return Err(wrong("ITEM: ATOMS", "without `id`", "with the number of each atom", "dump the column id too"));
+    }
     Ok(found)
 }
 
@@ -94,6 +101,9 @@ mod tests {
     fn a_dump_that_is_cut_short_or_tells_no_time_is_refused() {
         let message = |text: &str, step| pictures(text, step, Path::new("a.dump")).expect_err("refused").to_string();
         assert!(message(DUMP, None).contains("`particles.time_step` is missing"), "{}", message(DUMP, None));
+        let unnumbered = DUMP.replace("ATOMS id x y", "ATOMS n x y");
+        assert!(message(&unnumbered, Some(1.0)).contains("without `id`"), "{}", message(&unnumbered, Some(1.0)));
+        assert!(message("ITEM: TIMESTEP\n0\n", Some(1.0)).contains("`ITEM: ATOMS` is missing"));
         let short = DUMP.rsplit_once("2 0.7").expect("a row").0;
         assert!(
             message(short, Some(1.0)).contains("1 atoms at step 500, but must be 2 atoms"),

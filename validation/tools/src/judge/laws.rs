@@ -46,7 +46,9 @@ const FORMULAS: [(&str, &str); 9] = [
 /// The laws that parameters name, with their formulas; empty where they name none.
 pub(super) fn section(parameters: &str) -> String {
     let is_named = |name: &str| {
-        parameters.contains(&format!("law = \"{name}\""))
+        // grains without a choice of laws, and laws that are written by μ(I)
+        (name == "mu-i" && parameters.contains("reference_inertia"))
+            || parameters.contains(&format!("law = \"{name}\""))
             || parameters.contains(&format!("[{}]", name.replace('-', "_")))
     };
     let named = FORMULAS.iter().filter(|(name, _)| is_named(name));
@@ -71,6 +73,7 @@ mod tests {
         }
         assert_eq!(schema.matches("\"law\":{").count(), FORMULAS.len(), "a law lacks its formula");
         assert!(section("[herschel_bulkley]\nyield_stress = 1").contains("K min("));
+        assert!(section("[grains]\nreference_inertia = 0.3").contains("`mu-i`: τ = μ(I) p"));
         assert_eq!(section("gravity = 9.81"), "");
     }
 }

@@ -18,6 +18,7 @@ pub use blank::blank;
 pub use error::JudgeError;
 pub use export::export;
 pub use inputs::inputs_of;
+pub(crate) use page::other_limit;
 pub use page::write;
 pub use submission::{Code, ForeignRun, LawOrigin, ParticleFiles, Submission, TableFile};
 pub use verdicts::MetricComparison;
@@ -57,6 +58,8 @@ pub struct JudgedCode {
     pub file: PathBuf,
     /// The law of its runs.
     pub law: LawOrigin,
+    /// Whether it lays parameters over those of the case.
+    pub has_parameters: bool,
     /// Metrics in our order.
     pub metrics: Vec<MetricComparison>,
 }
@@ -80,7 +83,9 @@ impl JudgedCode {
         gated.fold((0, 0, 0), |(held, failed, open), one| match one.verdict() {
             Some(Verdict::Pass) => (held + 1, failed, open),
             Some(Verdict::Fail) => (held, failed + 1, open),
-            Some(Verdict::Observed) | None => (held, failed, open + 1),
+            // of another law: given, but not asked
+            Some(Verdict::Observed) => (held, failed, open),
+            None => (held, failed, open + 1),
         })
     }
 }
@@ -218,10 +223,11 @@ pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison,
                 .enumerate()
                 .map(|(number, (variant, run))| (variant.clone(), run, format!("run {}", number + 1)))
                 .collect();
-            let Submission { code, path, law, .. } = &entry.submission;
+            let Submission { code, path, law, with, .. } = &entry.submission;
             let metrics =
                 verdicts::compare(&own.metrics, &entry.result, &numbers, *law).map_err(|error| error.in_file(path))?;
-            Ok(JudgedCode { code: code.clone(), file: path.clone(), law: *law, metrics })
+            let has_parameters = !with.is_empty();
+            Ok(JudgedCode { code: code.clone(), file: path.clone(), law: *law, has_parameters, metrics })
         })
         .collect::<Result<_, JudgeError>>()?;
     let theirs: Vec<(&str, &[Figure])> =

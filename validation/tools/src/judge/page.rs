@@ -58,7 +58,7 @@ fn code_row(judged: &JudgedCode) -> Value {
         "holding": holding,
         "failing": failing,
         "not_given": not_given,
-        "class": if failing > 0 { "fail" } else { "pass" },
+        "class": if failing > 0 { "fail" } else if holding > 0 { "pass" } else { "observed" },
     })
 }
 
@@ -77,7 +77,12 @@ fn rows(judgement: &CodeComparison) -> Vec<Value> {
             if !is_given && !is_asked {
                 return None;
             }
-            let theirs = compared.iter().map(|one| cell(one.and_then(|one| one.foreign.as_ref())));
+            let theirs = compared.iter().map(|one| {
+                let foreign = one.and_then(|one| one.foreign.as_ref());
+                let mut cell = cell(foreign);
+                cell["limit"] = foreign.and_then(|foreign| other_limit(metric, foreign)).into();
+                cell
+            });
             let reference = metric.reference.as_ref();
             Some(json!({
                 "metric": metric.name,
@@ -91,6 +96,12 @@ fn rows(judgement: &CodeComparison) -> Vec<Value> {
             }))
         })
         .collect()
+}
+
+/// The limit of another code's metric in words, where it differs from ours.
+pub(crate) fn other_limit(own: &Metric, foreign: &Metric) -> Option<String> {
+    let limit = |metric: &Metric| metric.gate.as_ref().map(|gate| gate.limit);
+    limit(foreign).filter(|other| Some(*other) != limit(own)).map(|other| other.in_words(four_digits))
 }
 
 fn cell(metric: Option<&Metric>) -> Value {

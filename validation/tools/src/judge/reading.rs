@@ -104,6 +104,10 @@ fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> R
     let named: Vec<(f64, PathBuf)> = if files.is_collection() {
         let file = folder.join(&files.files[0]);
         let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
+        if ["dump", "lammpstrj"].contains(&ending(&file).as_str()) && !lammps::is_dump(text.as_bytes()) {
+            let remedy = "write it with `dump custom` and a name that does not end in .bin or .gz";
+            return Err(FieldError::new("file", "no text", "a dump of LAMMPS as text", remedy).in_file(&file).into());
+        }
         if lammps::is_dump(text.as_bytes()) {
             let frames = lammps::pictures(&text, files.time_step, &file)?;
             in_order(&frames.iter().map(|(time, _)| *time).collect::<Vec<_>>(), "ITEM: TIMESTEP", &file)?;

@@ -98,7 +98,10 @@ pub fn split(groups: Vec<CaseSubmissions>) -> Groups {
 #[must_use]
 pub fn league(groups: &[CodeComparison]) -> League {
     let mut league = League { codes: Vec::new(), cases: Vec::new(), counts: Vec::new(), rows: Vec::new() };
-    for group in groups {
+    // rows of the case's own parameters come first, and name the others'
+    let has_parameters = |group: &&CodeComparison| group.codes.iter().any(|code| code.has_parameters);
+    let (with, without): (Vec<_>, Vec<_>) = groups.iter().partition(has_parameters);
+    for group in without.into_iter().chain(with) {
         let case = place(&mut league.cases, &group.own.name);
         for judged in &group.codes {
             let name = format!("{} {}", judged.code.name, judged.code.version);
@@ -134,6 +137,15 @@ fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, judged: &JudgedCode
     match rows.iter_mut().find(|row| same(row, &own)) {
         Some(row) => row.values.push(entry),
         None => rows.push(LeagueRow { case: case.to_owned(), own, values: vec![entry] }),
+    }
+}
+
+impl League {
+    /// Gates of a code and a case that hold, that fail, and that lack data; none without a submission.
+    #[must_use]
+    pub fn count(&self, code: usize, case: usize) -> Option<(usize, usize, usize)> {
+        let own = self.counts.iter().filter(|(own, of, _)| (*own, *of) == (code, case));
+        own.map(|(_, _, counts)| *counts).reduce(|sum, more| (sum.0 + more.0, sum.1 + more.1, sum.2 + more.2))
     }
 }
 

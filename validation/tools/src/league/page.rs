@@ -1,6 +1,7 @@
 //! Files of a league: the page and its numbers.
 
 use super::{League, LeagueRow};
+use crate::judge::other_limit;
 use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
 use crate::page;
@@ -25,8 +26,8 @@ pub fn write(league: &League, folder: &Path) -> Result<(), ReportError> {
 
 fn document(league: &League) -> Value {
     let count = |code: usize, case: usize| {
-        let own = league.counts.iter().find(|(own, of, _)| (*own, *of) == (code, case));
-        own.map(|(_, _, (holding, failing, open))| json!({ "holding": holding, "failing": failing, "not_given": open }))
+        let counts = league.count(code, case);
+        counts.map(|(holding, failing, open)| json!({ "holding": holding, "failing": failing, "not_given": open }))
     };
     let matrix = league.codes.iter().enumerate().map(|(code, name)| {
         json!({ "code": name, "cells": (0..league.cases.len()).map(|case| count(code, case)).collect::<Vec<_>>() })
@@ -52,7 +53,11 @@ fn entry(row: &LeagueRow, codes: &[usize]) -> Value {
     let reference = own.reference.as_ref();
     let theirs = codes.iter().map(|code| {
         let value = row.values.iter().find(|(own, _, _)| own == code);
-        value.map(|(_, law, metric)| cell(metric, json!(law)))
+        value.map(|(_, law, metric)| {
+            let mut cell = cell(metric, json!(law));
+            cell["limit"] = other_limit(own, metric).into();
+            cell
+        })
     });
     let scatter = row.of_one_law().map(|(mean, deviation)| {
         let share = 100.0 * deviation / mean.abs();

@@ -20,8 +20,13 @@ pub(in crate::judge) fn collection(text: &str, file: &Path) -> Result<Vec<(f64, 
         let time = time.filter(|time| time.is_finite());
         let time = time.ok_or_else(|| wrong("with a data set without a time", "a time each"))?;
         let name = name.ok_or_else(|| wrong("with a data set without a file", "a file each"))?;
-        sets.retain(|(other, own, _)| (*other, own.as_str()) != (time, part));
-        sets.push((time, part.to_owned(), beside(file, name)));
+        let name = beside(file, name);
+        // files of one time that follow each other are its parts; what comes later was written by a restart
+        let follows = sets.last().is_some_and(|(other, _, last)| *other == time && *last != name);
+        if !follows {
+            sets.retain(|(other, own, _)| (*other, own.as_str()) != (time, part));
+        }
+        sets.push((time, part.to_owned(), name));
         Ok::<(), FieldError>(())
     };
     if file.extension().is_some_and(|ending| ending == "series") {
@@ -56,11 +61,16 @@ pub(in crate::judge) fn pieces(text: &str, file: &Path) -> Result<Vec<PathBuf>, 
     let document = nesting::parse(text).map_err(|reason| wrong(&reason))?;
     let source = |node: roxmltree::Node<'_, '_>| match node.tag_name().name() {
         "Piece" => node.attribute("Source").map(|name| beside(file, name)),
-        "DataSet" => node.attribute("file").map(|name| beside(file, name)),
+        "DataSet" if !is_of_boundary(node) => node.attribute("file").map(|name| beside(file, name)),
         _ => None,
     };
     let pieces: Vec<PathBuf> = document.descendants().filter_map(source).collect();
     if pieces.is_empty() { Err(wrong("without pieces")) } else { Ok(pieces) }
+}
+
+/// Whether a data set stands in a block of the boundary, as OpenFOAM writes it.
+fn is_of_boundary(node: roxmltree::Node<'_, '_>) -> bool {
+    node.ancestors().any(|block| block.attribute("name") == Some("boundary"))
 }
 
 /// A file beside another, also where its name was written by Windows.

@@ -71,12 +71,18 @@ fn a_collection_as_codes_write_it_is_put_in_order() {
     let files = |text: &str, name: &str| collection(text, Path::new(name)).expect("a collection");
     let expected = [(0.0, "a/0.vtu"), (0.0, "a/1.vtu"), (1.0, "c.vtu")].map(|(time, name)| (time, PathBuf::from(name)));
     assert_eq!(files(&text, "all.pvd"), expected);
+    // parts without a number follow each other
+    let unnumbered = text.replace("part=\"0\"", "").replace("part=\"1\"", "");
+    assert_eq!(files(&unnumbered, "all.pvd"), expected);
     let series = "{\"file-series-version\": \"1.0\", \"files\": [{\"name\": \"a.vtm\", \"time\": 0.5}]}";
     assert_eq!(files(series, "out/a.vtm.series"), [(0.5, PathBuf::from("out/a.vtm"))]);
     assert!(collection("{\"files\": [{\"name\": \"a.vtm\"}]}", Path::new("a.series")).is_err());
     let parallel = "<VTKFile><PUnstructuredGrid><Piece Source=\"a_0.vtu\"/><Piece Source=\"a_1.vtu\"/></PUnstructuredGrid></VTKFile>";
     let named = pieces(parallel, Path::new("out/a.pvtu")).expect("pieces");
     assert_eq!(named, [PathBuf::from("out/a_0.vtu"), PathBuf::from("out/a_1.vtu")]);
+    let blocks = "<VTKFile><vtkMultiBlockDataSet><DataSet name=\"internal\" file=\"i.vtu\"/><Block name=\"boundary\">\
+        <DataSet name=\"inlet\" file=\"b.vtp\"/></Block></vtkMultiBlockDataSet></VTKFile>";
+    assert_eq!(pieces(blocks, Path::new("a.vtm")).expect("cells"), [PathBuf::from("i.vtu")]);
     assert!(pieces("<VTKFile/>", Path::new("a.pvtu")).is_err() && pieces("no", Path::new("a.vtm")).is_err());
 }
 
