@@ -43,7 +43,7 @@ pub(super) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static Collap
 /// Where a result must lie, and why there.
 pub(super) type AcceptanceBand = Option<(Limit, &'static str)>;
 
-/// Where the run-out of published grains must lie; of a coarse column whose seeds are judged together, nowhere.
+/// Band of the run-out of published grains; none of a coarse column whose seeds are judged together.
 pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw, has_seeds: bool) -> AcceptanceBand {
     let a = run.initial_height();
     if !run.has_published_law() {

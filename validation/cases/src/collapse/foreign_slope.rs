@@ -1,7 +1,7 @@
 //! A collapse on a slope as another code gives it.
 
 use super::deposit::Collapse;
-use super::foreign::{Room, snapshot};
+use super::foreign_heap::{Room, snapshot};
 use super::quantities::{DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, PARTICLES_LOST, REST_TIME};
 use super::slope::{EARLIEST_REST, SlopeCollapse, SlopeRun};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};

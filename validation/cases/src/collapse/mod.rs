@@ -10,6 +10,7 @@ mod deposit;
 pub(super) mod figures;
 mod flow_metrics;
 pub(super) mod foreign;
+mod foreign_heap;
 pub(super) mod foreign_slope;
 pub(super) mod fronts;
 pub mod incline;

@@ -60,7 +60,7 @@ const OF_HISTORY: [&str; 7] = [
 ];
 /// How high a particle may be, over the layer's height.
 const REACH: f64 = 50.0;
-/// Where the highest point of a profile lies, over the layer's height.
+/// Range of a profile's highest point, over the layer's height.
 const LOWEST_TOP: f64 = 0.2;
 const HIGHEST_TOP: f64 = 2.0;
 /// Share of the depth near the bed in which the slip at the wall is measured.

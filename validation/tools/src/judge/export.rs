@@ -38,7 +38,7 @@ pub fn export(
         .map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))
 }
 
-/// What follows from the case alone.
+/// Writes the inputs, which follow from the case alone.
 fn inputs(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, folder: &Path) -> io::Result<()> {
     let asked = prepared.asked();
     let parameters = prepared.parameters_toml();
@@ -67,7 +67,7 @@ fn inputs(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, folder: &Path
     Ok(())
 }
 
-/// What our own runs gave.
+/// Writes the first pictures and the tables of our own runs.
 fn results(own: &CaseResult, folder: &Path) -> io::Result<()> {
     let particles = folder.join("particles");
     for (run, frames) in own.runs.iter().zip(&own.frames) {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Start of every section.
 const ITEM: &str = "ITEM: ";
-/// How every dump begins, unless times stand before the steps.
+/// First lines of a dump.
 const STARTS: [&str; 3] = ["ITEM: TIMESTEP", "ITEM: TIME", "ITEM: UNITS"];
 
 /// Whether a text is a dump.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-/// What is meant by |γ̇| and τ.
+/// Definition of |γ̇| and τ.
 const INVARIANTS: &str = "s is the deviatoric stress, ε′ the deviatoric strain rate, |γ̇| = √(2 ε′:ε′), τ = √(½ s:s): in simple shear |γ̇| = |du/dy| and \
     τ = |s_xy|. A law given as τ acts along the strain rate, s = (2 τ/|γ̇|) ε′; one given as η is s = 2 η ε′. Where p ≤ 0 friction carries nothing.";
 

@@ -71,7 +71,7 @@ pub fn submissions(folder: &Path) -> Result<Vec<PathBuf>, JudgeError> {
 /// Groups submissions of the same runs of ours, so that each is simulated once.
 ///
 /// # Errors
-/// What [`CaseSubmissions::read`] refuses.
+/// Submissions that [`CaseSubmissions::read`] refuses.
 pub fn read(files: &[PathBuf], registry: Registry) -> Result<Vec<CaseSubmissions>, JudgeError> {
     let mut groups: Vec<((String, Tier, toml::Table), Vec<PathBuf>)> = Vec::new();
     for file in files {
