@@ -162,7 +162,7 @@ def run(
     store: str | PathLike[str] | None = None,
     **parameters: Any,
 ) -> Result:
-    """Simulates a case, or a TOML file that describes one, and judges it.
+    """Simulates a case, or a TOML file that describes a case or study, and judges it.
 
     Every other keyword is a parameter of the case, as ``show`` lists them: ``resolution=20``,
     ``newtonian={"viscosity": 0.5}``. ``tier`` is "quick" (default), "paper" or "fine"; ``only`` names runs by their keys,

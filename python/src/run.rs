@@ -1,4 +1,4 @@
-//! One case, simulated and judged in memory.
+//! One case or study, simulated and judged in memory.
 
 use crate::results::{Figures, particles, table};
 use crate::waiting::{Refused, wait_for};
@@ -7,14 +7,15 @@ use bagnold_harness::measured::{Measurements, draw_measured};
 use bagnold_harness::metric::Variant;
 use bagnold_harness::result::MetricsDocument;
 use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_scenes::study::{Study, is_study};
 use bagnold_validation::REGISTRY;
 use bagnold_validation::cli::ProgramError;
 use clap::ValueEnum;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Simulates a case, or takes its runs from the store, and judges it.
+/// Simulates a case or study, or takes its runs from the store, and judges it.
 #[pyfunction]
 #[pyo3(signature = (target, *, tier=None, settings=Vec::new(), only=Vec::new(), overlay=Vec::new(), fresh=false, threads=None, store=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords, and stand for the options of `bagnold run`")]
@@ -39,15 +40,27 @@ pub(crate) fn run<'py>(
         .collect::<PyResult<_>>()?;
     let policy = if fresh { StorePolicy::Refresh } else { StorePolicy::Use };
     let (result, document) = wait_for(py, threads, || {
+        let open = || store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));
+        let path = Path::new(target);
+        if REGISTRY.find(target).is_err() && path.is_file() && is_study(path) {
+            if let Some((option, _)) = [("only", only.is_empty()), ("overlay", overlay.is_empty())].iter().find(|of| !of.1) {
+                let remedy = "leave it out, or run the case that the study is based on";
+                return Err(ParameterError::field(option, "given", "absent for a study", remedy).into());
+            }
+            let study = Study::read(path, *REGISTRY)?;
+            let cases = study.prepare(*REGISTRY, tier, &settings, Limits::of(None, None))?;
+            let result = study.judge(execute(cases, &open(), &Silent)?)?;
+            let document = MetricsDocument::of(&result, rayon::current_num_threads()).text();
+            return Ok::<_, ProgramError>((result, document));
+        }
         let request = Request { target, tier, settings: &settings, only: &only, limits: Limits::of(None, None) };
         let Requested { prepared, overlay: named, .. } = request.prepare(*REGISTRY)?;
         let measured =
             named.iter().chain(&overlay).map(|file| Measurements::read(file)).collect::<Result<Vec<_>, _>>()?;
-        let store = store.map_or_else(|| Store::open(policy), |folder| Store::at(&folder, policy));
-        let mut result = execute(vec![prepared], &store, &Silent)?.pop().ok_or(ParameterError::Interrupted)?;
+        let mut result = execute(vec![prepared], &open(), &Silent)?.pop().ok_or(ParameterError::Interrupted)?;
         draw_measured(&mut result, &measured)?;
         let document = MetricsDocument::of(&result, rayon::current_num_threads()).text();
-        Ok::<_, ProgramError>((result, document))
+        Ok((result, document))
     })?;
     described(py, result, document)
 }

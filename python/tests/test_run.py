@@ -104,6 +104,26 @@ def test_measurements_are_drawn_and_compared(folder):
         bagnold.run("film", **CHEAP, overlay=["no-such.csv"])
 
 
+def test_a_study_is_run_and_judged_from_its_file(folder):
+    block = 'case = "scene"\nname = "block"\nspacing = 0.02\nduration = 0.02\ninterval = 0.01\npictures = 1\n'
+    body = '[[bodies]]\nshape = "box"\nlower = [0.0, 0.0]\nupper = [0.1, 0.1]\n'
+    floor = '[[walls]]\nname = "floor"\npoints = [[-0.2, 0.0], [0.4, 0.0]]\n'
+    gauge = '[[gauges]]\nkind = "front"\nname = "front"\nfrom = [0.0, 0.0]\nto = [0.4, 0.0]\nthickness = 0.01\n'
+    (folder / "block.toml").write_text(block + body + floor + gauge, encoding="utf-8")
+    (folder / "heights.toml").write_text(
+        'study = "heights"\nsummary = "two spacings"\nbase = "block.toml"\n'
+        '[[vary]]\npath = "spacing"\nvalues = [0.02, 0.0125]\n'
+        '[[checks]]\nname = "front_at_the_end"\ntable = "gauges"\ncolumn = "front: front [m]"\nvalue = "last"\n'
+        'within = [0.0, 0.4]\nreason = "the floor is that long"\n',
+        encoding="utf-8",
+    )
+    metrics = bagnold.run("heights.toml").metrics
+    fronts = metrics[metrics["name"] == "front_at_the_end"]
+    assert list(fronts["verdict"]) == ["pass", "pass"], fronts
+    with pytest.raises(bagnold.Refused, match="`only` is given, but must be absent for a study"):
+        bagnold.run("heights.toml", only="spacing=0.02")
+
+
 def test_what_the_program_refuses_is_an_exception_with_its_text():
     with pytest.raises(bagnold.Refused, match="unknown case `flim`; did you mean `film`?"):
         bagnold.run("flim")

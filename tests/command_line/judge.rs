@@ -132,7 +132,10 @@ fn two_runs_are_compared_number_by_number() {
     run("again", &[]);
     run("thicker", &["--set", "newtonian.viscosity=1.1"]);
     place.bagnold(&["compare", "first", "again", "--out", "same", "--deny-differences"]).assert().code(0);
-    place.bagnold(&["compare", "first", "thicker", "--out", "other", "--deny-differences"]).assert().code(1);
+    let differ =
+        place.bagnold(&["compare", "first", "thicker", "--out", "other", "--deny-differences"]).assert().code(1);
+    let shown = String::from_utf8_lossy(&differ.get_output().stdout).into_owned();
+    assert!(shown.lines().nth(1).is_some_and(|line| line.starts_with("  film ") && line.contains(" → ")), "{shown}");
     let lines = read(&place, "other/differences.json");
     assert!(lines[0]["tolerances"].as_f64() > Some(1.0), "{}", lines[0]);
     // a folder of another version of the gates
@@ -143,6 +146,16 @@ fn two_runs_are_compared_number_by_number() {
     let told = place.bagnold(&["compare", "first", "thicker", "--out", "moved"]).assert().code(0);
     let line = "limits of 1 gates differ: the verdicts come from different versions of the gates";
     assert!(String::from_utf8_lossy(&told.get_output().stdout).contains(line));
+    // of the same parameters only the gates can have moved
+    let text = std::fs::read_to_string(place.path("again/metrics.json")).expect("written");
+    let gates = serde_json::from_str::<Value>(&text).expect("JSON")["gates"].as_str().expect("a digest").to_owned();
+    let moved = text.replacen("\"at_most\": 0.0", "\"at_most\": 1.0", 1).replace(&gates, "00000000");
+    std::fs::write(place.path("again/metrics.json"), moved).expect("written");
+    let refused = place.bagnold(&["compare", "first", "again", "--out", "none"]).assert().code(2);
+    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    let words = format!("first: the gates of film were {gates} and are 00000000 in again: limits of 1 gates moved");
+    assert!(message.contains(&words), "{message}");
+    place.bagnold(&["compare", "first", "again", "--out", "across", "--across-gates"]).assert().code(0);
     let parameters = read(&place, "other/parameters.json");
     assert_eq!(parameters[0]["path"], "newtonian.viscosity", "{parameters}");
     assert_eq!((parameters[0]["values"][1].as_str(), parameters.as_array().map(Vec::len)), (Some("1.1"), Some(1)));

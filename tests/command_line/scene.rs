@@ -21,7 +21,10 @@ fn every_shipped_scene_runs_and_closes_its_balances() {
         let path = file.display().to_string();
         // a few steps; what is measured later cannot be compared with them
         let short = ["--set", "duration=0.1", "--set", "interval=0.02", "--set", "measured=[]", "--quiet"];
-        place.run(&[&[path.as_str()][..], &short].concat()).code(0);
+        let finished = place.run(&[&[path.as_str()][..], &short].concat()).code(0);
+        let told = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
+        let force = "no interval for `depth` of before-the-obstacle, `mass_crossed` of overflow, `mean_force` of impact: vary";
+        assert!(!path.ends_with("obstacle.toml") || told.contains(force), "{told}");
         let name = file.file_stem().expect("a name").to_string_lossy().into_owned();
         let folder = place.path("out");
         let tables = walk(&folder).into_iter().filter(|path| path.extension().is_some_and(|ending| ending == "csv"));
@@ -142,6 +145,27 @@ fn material_removed_by_walls_is_reported() {
         let cut_off = metrics.iter().find(|metric| metric.name == "cut_off").and_then(|metric| metric.value);
         assert!((cut_off.expect("a number") - taken).abs() < 1e-9, "{cut_off:?}");
     }
+}
+
+/// Nothing is simulated: the warnings reject the scene.
+#[test]
+fn unlikely_units_and_speeds_and_gaps_are_warned_of_and_can_be_rejected() {
+    let place = Place::new();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/scenes");
+    let warned = |name: &str, setting: &str| {
+        let file = folder.join(name).display().to_string();
+        let rejected = place.run(&[&file, "--set", setting, "--deny-warnings"]).code(2);
+        assert!(!place.path("out").exists());
+        String::from_utf8_lossy(&rejected.get_output().stderr).into_owned()
+    };
+    let millimetres = warned("obstacle.toml", "material.grain_diameter=0.7");
+    assert!(millimetres.contains("0.7 m, usual are 0.000001 to 0.1 m; 0.7 in millimetres is 7×10⁻⁴"), "{millimetres}");
+    assert!(millimetres.contains("175 particle spacings"), "{millimetres}");
+    let soft = warned("obstacle.toml", "stiffness=20");
+    assert!(soft.contains("a speed of 2.701 m/s is Mach 0.32, above 0.2"), "{soft}");
+    assert!(soft.contains("set `stiffness = 50`"), "{soft}");
+    let coarse = warned("hopper-36.toml", "spacing=0.015");
+    assert!(coarse.contains("walls `left` and `right` is 2.4 particle spacings wide"), "{coarse}");
 }
 
 /// The value of a metric in the results that a run has written.

@@ -1,6 +1,6 @@
 //! The one checker: a tree of values along a schema. TOML's values keep NaN and infinity, JSON's do not.
 
-use super::{ParameterProblem, Shape, Variant, shortened};
+use super::{ParameterProblem, Shape, Variant, description, shortened};
 use serde_json::Value as Schema;
 use toml::{Table, Value};
 
@@ -18,6 +18,8 @@ pub enum Fault {
     Missing {
         /// Its path.
         path: String,
+        /// Names and descriptions of all fields that are absent beside it, itself first.
+        absent: Vec<(String, String)>,
     },
     /// The value is not of the field's type.
     Kind {
@@ -39,7 +41,7 @@ impl Fault {
     #[must_use]
     pub fn path(&self) -> &str {
         match self {
-            Self::Unknown { path, .. } | Self::Missing { path } | Self::Kind { path, .. } => path,
+            Self::Unknown { path, .. } | Self::Missing { path, .. } | Self::Kind { path, .. } => path,
             Self::Range(problem) => &problem.field,
         }
     }
@@ -105,9 +107,11 @@ impl Place {
             given.map(|(name, schema, value)| self.below(name).fault(schema, value)).find_map(|fault| fault)
         };
         let missing = || {
-            let missing =
-                properties.keys().find(|name| required.contains(&name.as_str()) && !table.contains_key(*name));
-            missing.map(|name| Fault::Missing { path: self.below(name).path })
+            let is_absent = |name: &String| required.contains(&name.as_str()) && !table.contains_key(name);
+            let absent = properties.iter().filter(|(name, _)| is_absent(name));
+            let absent: Vec<(String, String)> =
+                absent.map(|(name, schema)| (name.clone(), description(schema).unwrap_or_default())).collect();
+            absent.first().map(|(name, _)| self.below(name).path).map(|path| Fault::Missing { path, absent })
         };
         unknown.or_else(wrong).or_else(missing)
     }
@@ -136,7 +140,7 @@ impl Place {
                 Some(Value::String(_)) if *open => None,
                 Some(Value::String(name)) => Some(self.below(tag).no_choice(variants, name, &value[*tag])),
                 Some(other) => Some(self.below(tag).wrong(other, one_of(variants))),
-                None if value.is_table() => Some(Fault::Missing { path: self.below(tag).path }),
+                None if value.is_table() => Some(Fault::Missing { path: self.below(tag).path, absent: Vec::new() }),
                 None => Some(self.wrong(value, "a table of fields".to_owned())),
             },
             _ => None,

@@ -39,5 +39,5 @@ pub use problem::{ParameterProblem, shortened};
 pub use rules::{
     Rule, above, at_least, between, each, entry, filled, inside, not_negative, positive, unique, up_to, within,
 };
-pub use schema::{description, range_problem, schema_of, unbounded};
-pub use shape::{Shape, Variant};
+pub use schema::{range_problem, schema_of, unbounded};
+pub use shape::{Shape, Variant, description};

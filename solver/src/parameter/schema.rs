@@ -33,13 +33,6 @@ pub fn range_problem<T: Serialize + JsonSchema + 'static>(value: &T) -> Option<P
     }
 }
 
-/// A schema's description on one line.
-#[must_use]
-pub fn description(schema: &Value) -> Option<String> {
-    let text = schema.get("description")?.as_str()?;
-    Some(text.split_whitespace().collect::<Vec<_>>().join(" "))
-}
-
 /// The dotted paths of numbers that no unit bounds and no rule bounds on both sides; a test wants none in any case.
 #[must_use]
 pub fn unbounded(schema: &Value) -> Vec<String> {

@@ -167,3 +167,10 @@ fn tag(schema: &Value) -> Option<&str> {
     let properties = schema.get("properties")?.as_object()?;
     properties.iter().find(|(_, property)| property.get("const").is_some()).map(|(name, _)| name.as_str())
 }
+
+/// A schema's description on one line.
+#[must_use]
+pub fn description(schema: &Value) -> Option<String> {
+    let text = schema.get("description")?.as_str()?;
+    Some(text.split_whitespace().collect::<Vec<_>>().join(" "))
+}

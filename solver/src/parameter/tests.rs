@@ -75,7 +75,7 @@ fn said(change: &str) -> String {
     match first_fault(schema_of::<Layer>(), &layer) {
         None => "sound".to_owned(),
         Some(Fault::Unknown { path, known }) => format!("no {path} beside {}", known.join(", ")),
-        Some(Fault::Missing { path }) => format!("{path} is missing"),
+        Some(Fault::Missing { path, .. }) => format!("{path} is missing"),
         Some(Fault::Kind { path, value, rule, .. }) => format!("{path} is {value:?}, not {rule}"),
         Some(Fault::Range(problem)) => problem.to_string(),
     }

@@ -224,6 +224,9 @@ pub struct RunArguments {
     /// Also write the verdicts as JUnit XML, one test per gate.
     #[arg(long, value_name = "FILE")]
     pub junit: Option<PathBuf>,
+    /// Reject implausible values and other warnings of the input.
+    #[arg(long)]
+    pub deny_warnings: bool,
     /// Print wall time, processor time and peak memory on standard error.
     #[arg(long)]
     pub profile: bool,

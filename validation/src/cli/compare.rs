@@ -4,10 +4,15 @@ use super::arguments::CompareArguments;
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::case::ParameterError;
-use crate::compare::{self, Results};
+use crate::compare::{self, Difference, Results};
+use crate::number::four_digits;
 use crate::output::OutputFolder;
+use crate::result::MetricEntry;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+
+/// Numbers that differ, the largest difference first, on the terminal; the page has all.
+const MOST_SHOWN: usize = 8;
 
 /// Reads, compares and writes.
 pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
@@ -20,10 +25,14 @@ pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send
         let (rule, remedy) = ("another folder than those that are compared", "its contents would be replaced");
         return Err(ParameterError::field("--out", folder.display(), rule, remedy).into());
     }
+    if let Some((first, others)) = all.split_first().filter(|_| !command.across_gates) {
+        others.iter().try_for_each(|other| first.same_gates(other))?;
+    }
     let claimed = OutputFolder::claim(&command.out)?;
     let moved = compare::write(&all, claimed.staging())?;
     claimed.publish()?;
-    say(output, &format!("{moved} numbers differ by more than their tolerance\n"));
+    say(output, &format!("{} numbers differ by more than their tolerance\n", moved.len()));
+    moved.iter().take(MOST_SHOWN).for_each(|one| say(output, &in_words(one)));
     let limits =
         all.split_first().map_or(0, |(first, others)| others.iter().map(|other| first.moved_limits(other)).sum());
     if limits > 0 {
@@ -33,5 +42,15 @@ pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send
         );
     }
     say(output, &format!("written to {}\n", command.out.join("index.html").display()));
-    Ok(if moved > 0 && command.deny_differences { Exit::GateFailed } else { Exit::Held })
+    Ok(if !moved.is_empty() && command.deny_differences { Exit::GateFailed } else { Exit::Held })
+}
+
+/// A number that differs, with its values in the order of the folders.
+fn in_words(one: &Difference) -> String {
+    let value = |entry: &Option<MetricEntry>| {
+        let value = entry.as_ref().and_then(|entry| entry.value);
+        value.map_or_else(|| "–".to_owned(), four_digits)
+    };
+    let values: Vec<String> = one.entries.iter().map(value).collect();
+    format!("  {} {} {}: {} {}\n", one.case, one.metric, one.variant, values.join(" → "), one.unit)
 }

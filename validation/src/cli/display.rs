@@ -1,9 +1,8 @@
 //! Progress display: a bar on a terminal, elsewhere a line every half minute.
 
-use super::terminal::{BARS, tell};
+use super::terminal::{BARS, moves_its_cursor, tell};
 use super::ticker::Ticker;
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -25,7 +24,7 @@ pub(super) struct Display {
 
 impl Display {
     pub(super) fn new(length: u64, template: &str, quiet: bool) -> Self {
-        let seen = std::io::stderr().is_terminal();
+        let seen = moves_its_cursor();
         let bar = if quiet || !seen {
             ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden())
         } else {

@@ -49,6 +49,14 @@ pub enum ProgramError {
         /// The system's reason.
         reason: String,
     },
+    /// Warnings that `--deny-warnings` does not let pass.
+    #[error(
+        "{count} of the warnings above concern the input, and `--deny-warnings` rejects them; correct the input, or leave the option out"
+    )]
+    Cautions {
+        /// Their number.
+        count: usize,
+    },
     /// Mutations without the sources that they change.
     #[error("failed to find the sources that mutations change; work in a checkout of bagnold")]
     NoSources,

@@ -172,7 +172,7 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
         Command::Calibrate(command) => {
             in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))
         }
-        Command::Completions(command) => Ok(completions::completions(command, output)),
+        Command::Completions(command) => Ok(completions::completions(command, registry, output)),
         Command::Examples(command) => examples::examples(command, output),
         Command::New(command) => new::new(command, output),
         Command::Compare(command) => compare::compare(command, output),

@@ -1,11 +1,28 @@
 //! Simulating under the eyes of a user: what it is expected to take, and how far it has come.
 
+use super::error::ProgramError;
 use super::expectation::Expectation;
 use super::progress::RunsBar;
 use super::tell;
 use crate::case::{CaseResult, Estimate, Monitor, ParameterError, PreparedCase, StateOutput, execute};
+use crate::output::cautions;
 use crate::result::States;
 use crate::store::{Store, provenance};
+
+/// Lines on scenes before they run, beyond which only their number is told.
+const MOST_BRIEFS: usize = 4;
+
+/// Summarises runs on standard error and rejects an input that was warned of, if the user asks for that.
+pub(super) fn introduce(cases: &[Box<dyn PreparedCase>], quiet: bool, is_denied: bool) -> Result<(), ProgramError> {
+    let briefs: Vec<String> = cases.iter().flat_map(|case| case.briefs()).collect();
+    if !quiet {
+        briefs.iter().take(MOST_BRIEFS).for_each(|brief| tell(brief));
+        if briefs.len() > MOST_BRIEFS {
+            tell(&format!("and {} more scenes", briefs.len() - MOST_BRIEFS));
+        }
+    }
+    reject_warnings(is_denied)
+}
 
 /// Says on standard error what the runs of a command are expected to need.
 pub(super) fn announce(
@@ -23,6 +40,14 @@ pub(super) fn announce(
         tell(&expectation.in_words(&estimate, store.root(), rayon::current_num_threads()));
     }
     expectation
+}
+
+/// Rejects an input that was warned of, if the user asks for that.
+pub(super) fn reject_warnings(is_denied: bool) -> Result<(), ProgramError> {
+    match cautions() {
+        count if is_denied && count > 0 => Err(ProgramError::Cautions { count }),
+        _ => Ok(()),
+    }
 }
 
 /// Simulates with a progress bar.

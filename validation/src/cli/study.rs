@@ -6,7 +6,7 @@ use super::error::ProgramError;
 use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
-use super::simulation::{announce, simulate};
+use super::simulation::{announce, introduce, reject_warnings, simulate};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
 use crate::report::Baseline;
@@ -37,6 +37,7 @@ pub(super) fn run(
     if command.out.is_none() {
         OutputFolder::adopt(Path::new("reports"))?;
     }
+    introduce(&cases, quiet || command.json, command.deny_warnings)?;
     let claimed = OutputFolder::claim(&folder)?;
     let store = command.work.open_store();
     let expectation = announce("run", &cases, &store, quiet || command.json);
@@ -48,6 +49,7 @@ pub(super) fn run(
     let started = Instant::now();
     let mut profile = StageTimer::begin();
     let results = simulate(cases, &store, quiet, Some(&expectation))?;
+    reject_warnings(command.deny_warnings)?;
     profile.over("runs and their figures");
     let result = study.judge(results)?;
     let written = ResultPublication {

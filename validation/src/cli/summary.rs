@@ -24,7 +24,23 @@ fn predictions(metrics: &[Metric]) -> String {
             "95 % interval of `{name}` [{unit}] from the errors of {comparisons} comparisons: {lower} … {upper}\n"
         ))
     };
-    metrics.iter().filter_map(line).collect()
+    metrics.iter().filter_map(line).collect::<String>() + &without_interval(metrics)
+}
+
+/// Observed values of gauges without an interval, in a line; empty if all have one.
+fn without_interval(metrics: &[Metric]) -> String {
+    let of_gauge = |metric: &Metric| {
+        let gauge = metric.variant.get("gauge")?;
+        let is_bare = metric.reference.is_none() && metric.prediction.is_none();
+        is_bare.then(|| format!("`{}` of {gauge}", metric.name))
+    };
+    let names: BTreeSet<String> = metrics.iter().filter_map(of_gauge).collect();
+    let names: Vec<String> = names.into_iter().collect();
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!("no interval for {}: vary `seed`, `spacing` and `stiffness` in a study\n", names.join(", "))
+    }
 }
 
 /// The metrics of a case whose gates do not hold; empty if all hold.

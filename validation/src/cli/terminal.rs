@@ -10,9 +10,14 @@ use indicatif::{MultiProgress, ProgressDrawTarget, TermLike};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::LazyLock;
 
+/// Whether standard error is a terminal that understands escape codes.
+pub(super) fn moves_its_cursor() -> bool {
+    io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|name| name != "dumb")
+}
+
 /// All progress bars of the program; whatever else is said moves them out of its way.
 pub(super) static BARS: LazyLock<MultiProgress> = LazyLock::new(|| {
-    let seen = io::stderr().is_terminal();
+    let seen = moves_its_cursor();
     let terminal = || ProgressDrawTarget::term_like_with_hz(Box::new(Forgiving(Term::buffered_stderr())), BARS_HERTZ);
     MultiProgress::with_draw_target(if seen { terminal() } else { ProgressDrawTarget::hidden() })
 });

@@ -14,6 +14,8 @@ macro_rules! law_of_grains {
         #[serde(deny_unknown_fields)]
         pub struct $law {
             /// Friction coefficient μ_s `[-]` of slow flow; in files `friction_angle` `[°]`, its arctangent, may stand in its place.
+            /// An angle of repose lies some degrees below it. A triaxial test's angle φ of failure gives μ_s = sin φ in plane flow: the
+            /// largest shear stress over the mean stress in the plane.
             #[schemars(
                 transform = above(0.0, "give the tangent of the angle at which grains stop; 0.382 for glass beads")
             )]

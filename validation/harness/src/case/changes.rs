@@ -2,8 +2,9 @@
 
 use super::error::{ParameterError, SettingError};
 use super::estimate::Limits;
-use super::fault;
+use super::{fault, plausible};
 use crate::metric::Variant;
+use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
@@ -94,8 +95,11 @@ where
             });
         }
     }
+    let given = changes.file.iter().map(|(_, fields)| fields).chain([&settings]);
+    given.flat_map(plausible::warnings).for_each(|warning| caution(&warning));
     // Together, so that a law and its parameters may come in any order.
     overlay(schema, &mut table, &settings);
+    plausible::wide_grains(&table).iter().for_each(|warning| caution(warning));
     let value = Value::Table(table);
     match first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
         Some(fault) => Err(blame(fault, case, &defaults, changes)),
@@ -237,6 +241,10 @@ fn wrong_angle(fields: &Table, above: &str) -> Option<ParameterError> {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         match value {
             Value::Table(inner) => wrong_angle(inner, &path),
+            Value::String(text) if key == ANGLE => {
+                let rule = "a number of degrees without its unit";
+                Some(ParameterError::field(&path, format!("{text:?}"), rule, "write 27.5 for 27.5°"))
+            }
             _ if key == ANGLE => {
                 let angle = value.as_float().or(value.as_integer().map(|angle| angle as f64))?;
                 if !(angle > 0.0 && angle < 90.0) {
@@ -283,7 +291,7 @@ fn say_what_stays(table: &Table, changes: &Table) {
     let stays: Vec<String> =
         ["limiting_friction", "reference_inertia"].iter().filter(keeps).filter_map(value).collect();
     if let Some(coefficient) = changes.get(COEFFICIENT).filter(|_| !stays.is_empty()) {
-        tracing::warn!("`{ANGLE}` sets {COEFFICIENT} = {coefficient}; {} as before", stays.join(" and "));
+        caution(&format!("`{ANGLE}` sets {COEFFICIENT} = {coefficient}; {} as before", stays.join(" and ")));
     }
 }
 

@@ -81,6 +81,8 @@ pub trait PreparedCase: Send + Sync {
     fn nominal_seconds(&self, run: usize) -> f64;
     /// Estimated resources of all runs together.
     fn estimate(&self) -> Estimate;
+    /// One line on each run that has something to tell before it starts.
+    fn briefs(&self) -> Vec<String>;
     /// Key of a run in a store, equal for identical simulations; none if the store is bypassed.
     fn identity(&self, run: usize, store: &Store) -> Option<String>;
     /// Takes a run's record from the store or simulates it, in the current rayon pool.
@@ -246,6 +248,10 @@ impl<C: Case> PreparedCase for CasePlan<C> {
 
     fn estimate(&self) -> Estimate {
         self.slots.iter().map(|(run, _)| Estimate::of(run)).fold(Estimate::default(), Estimate::and)
+    }
+
+    fn briefs(&self) -> Vec<String> {
+        self.slots.iter().filter_map(|(run, _)| run.brief()).collect()
     }
 
     fn identity(&self, run: usize, store: &Store) -> Option<String> {

@@ -1,6 +1,7 @@
 //! Faults that the checker finds in a field, as messages for the user.
 
 use super::error::ParameterError;
+use super::notes::remark;
 use crate::input::nearest;
 use bagnold_solver::parameter::{Fault, ParameterProblem};
 
@@ -20,8 +21,14 @@ pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> Param
             field: path,
             case: case.to_owned(),
         },
-        Fault::Missing { path } => {
-            let remedy = if known.contains(&path) {
+        Fault::Missing { path, absent } => {
+            let of = |(name, about): &(String, String)| match about.as_str() {
+                "" => format!("`{name}`"),
+                _ => format!("`{name}` ({})", remark(about)),
+            };
+            let remedy = if absent.len() > 1 {
+                format!("add {}", absent.iter().map(of).collect::<Vec<_>>().join(", "))
+            } else if known.contains(&path) {
                 format!("`bagnold show {case}` prints it with a valid value")
             } else {
                 // of a table that is left out by default

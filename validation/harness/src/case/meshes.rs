@@ -2,7 +2,10 @@
 //! run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use crate::input::{MOST_TRIANGLES, read_mesh};
+use crate::input::{EdgeDefects, MOST_TRIANGLES, Triangle, defects, read_mesh};
+use crate::number::four_digits;
+use crate::output::caution;
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -27,14 +30,86 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
             return Err(refused(&rule, "simplify the meshes"));
         }
         if mesh.left_out > 0 {
-            tracing::warn!("{name}: {} triangles without an area are left out", mesh.left_out);
+            caution(&format!("{name}: {} triangles without an area are left out", mesh.left_out));
         }
-        let triangles = Value::try_from(&mesh.triangles).map_err(|_| {
+        let EdgeDefects { holes, turned } = defects(&mesh.triangles);
+        let placed = Placement::of(wall).map_err(|(key, value, rule, remedy)| {
+            ParameterError::field(&format!("walls[{index}].{key}"), value, rule, remedy).in_file(path)
+        })?;
+        let triangles: Vec<Triangle> =
+            mesh.triangles.iter().map(|corners| corners.map(|at| placed.place(at))).collect();
+        if let Some(hole) = holes.first() {
+            let at = placed.place(*hole).map(four_digits).join(", ");
+            caution(&format!(
+                "{name}: a triangle is missing in {} places, the first at ({at}) m; close the mesh",
+                holes.len()
+            ));
+        }
+        if turned > 0 {
+            caution(&format!(
+                "{name}: neighbouring triangles are seen from opposite sides at {turned} edges; turn one of both"
+            ));
+        }
+        let triangles = Value::try_from(&triangles).map_err(|_| {
             refused("a mesh that a case file can repeat", "write it anew from the program that made it")
         })?;
         wall.insert("triangles".to_owned(), triangles);
     }
     Ok(())
+}
+
+/// Units of the coordinates of a mesh, and their length `[m]`.
+const UNITS: [(&str, f64); 4] = [("m", 1.0), ("cm", 0.01), ("mm", 0.001), ("in", 0.0254)];
+
+/// Size, turn and place of a mesh in the scene.
+struct Placement {
+    scale: f64,
+    rotation: Rotation3<f64>,
+    shift: Vector3<f64>,
+}
+
+impl Placement {
+    /// Placement that a wall gives. A number of another type is refused with the other fields.
+    fn of(wall: &Table) -> Result<Self, (&'static str, String, &'static str, &'static str)> {
+        let number = |value: &Value| value.as_float().or(value.as_integer().map(|whole| whole as f64));
+        let unit = wall.get("unit").and_then(Value::as_str).unwrap_or("m");
+        let length = UNITS.iter().find(|(name, _)| *name == unit).map(|(_, length)| *length).ok_or_else(|| {
+            ("unit", format!("\"{unit}\""), "one of \"m\", \"cm\", \"mm\" or \"in\"", "use `scale` for other units")
+        })?;
+        let vector = |key: &str| {
+            let parts: Vec<f64> =
+                wall.get(key).and_then(Value::as_array).into_iter().flatten().filter_map(number).collect();
+            <[f64; 3]>::try_from(parts).map_or_else(|_| Vector3::zeros(), Vector3::from)
+        };
+        let [x, y, z] = <[f64; 3]>::from(vector("rotate")).map(f64::to_radians);
+        let about = |axis, angle| Rotation3::from_matrix_unchecked(turn(axis, angle));
+        Ok(Self {
+            scale: length * wall.get("scale").and_then(number).unwrap_or(1.0),
+            rotation: about(2, z) * about(1, y) * about(0, x),
+            shift: vector("move"),
+        })
+    }
+
+    /// Place of a corner of the mesh in the scene `[m]`; one that is neither moved nor turned keeps its digits.
+    fn place(&self, corner: [f64; 3]) -> [f64; 3] {
+        let turned = self.rotation * Vector3::from(corner.map(|coordinate| decimal(coordinate * self.scale)));
+        (turned + self.shift).into()
+    }
+}
+
+/// The shortest decimal number within twelve digits: 25 mm are 0.025 m.
+fn decimal(length: f64) -> f64 {
+    format!("{length:.11e}").parse().unwrap_or(length)
+}
+
+/// Matrix of a turn about an axis, without the mathematics of the platform.
+fn turn(axis: usize, angle: f64) -> Matrix3<f64> {
+    let (sine, cosine) = libm::sincos(angle);
+    let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut matrix = Matrix3::identity();
+    (matrix[(next, next)], matrix[(last, last)]) = (cosine, cosine);
+    (matrix[(last, next)], matrix[(next, last)]) = (sine, -sine);
+    matrix
 }
 
 #[cfg(test)]
@@ -59,6 +134,15 @@ mod tests {
         )
         .expect("TOML");
         assert_eq!(fields, expected);
+        let turned = "[[walls]]\nname = \"a\"\nmesh = \"a.stl\"\nunit = \"mm\"\nscale = 10\nrotate = [0, 0, 90]\nmove = [0.0, 0.0, 0.5]";
+        let wall = &read(turned, &path).expect("read")["walls"][0]["triangles"][0];
+        let at = |corner: usize, axis: usize| wall[corner][axis].as_float().expect("a number");
+        assert!(
+            (at(1, 0).abs(), at(1, 1), at(1, 2)) < (1e-15, 0.001 + 1e-15, 0.5 + 1e-15)
+                && (at(2, 0) + 0.01).abs() < 1e-15
+        );
+        let unit = read("[[walls]]\nmesh = \"a.stl\"\nunit = \"ft\"", &path).expect_err("no such unit");
+        assert!(unit.contains("`walls[0].unit` is \"ft\", but must be one of"), "{unit}");
         let own = "[[walls]]\nmesh = \"gone.stl\"\ntriangles = []";
         assert!(read(own, &path).is_ok(), "a wall that has triangles needs no file");
         assert_eq!(

@@ -18,6 +18,7 @@ mod notes;
 mod output;
 #[cfg(test)]
 pub(crate) mod pendulum;
+mod plausible;
 mod rates;
 pub mod recording;
 mod registry;
@@ -154,6 +155,10 @@ pub trait Run: Serialize + Clone + Send + Sync {
     /// Constitutive laws of its scene that its own fields do not name, because they hold a law's numbers alone.
     fn laws(&self) -> Vec<Rheology> {
         Vec::new()
+    }
+    /// One line on the run before it starts, for the terminal; nothing, unless a case tells.
+    fn brief(&self) -> Option<String> {
+        None
     }
     /// Simulates it. A divergence is part of the record, not an error.
     ///

@@ -93,7 +93,7 @@ fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// The first sentence of a doc comment as a remark: units and names without their backquotes, a small letter in front.
-fn remark(description: &str) -> String {
+pub(super) fn remark(description: &str) -> String {
     let is_end = |(at, _): &(usize, &str)| {
         let word = description[..*at].rsplit([' ', '(']).next().unwrap_or_default();
         !["al", "e.g", "i.e", "Eq", "Fig"].contains(&word)

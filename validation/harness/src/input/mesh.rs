@@ -36,6 +36,9 @@ pub(crate) enum MeshError {
     /// It cannot be read.
     #[error("cannot be read ({0})")]
     Unreadable(std::io::Error),
+    /// A file of another kind, by its first bytes.
+    #[error("is {0} and not STL")]
+    OtherKind(&'static str),
     /// It is no STL, or damaged.
     #[error("is no sound STL file ({0})")]
     Malformed(std::io::Error),
@@ -66,6 +69,10 @@ impl MeshError {
     pub(crate) fn remedy(&self) -> &'static str {
         match self {
             Self::Unreadable(_) => "check the path, which begins at this file, and its permissions",
+            Self::OtherKind(TERRAIN) => {
+                "make triangles of the grid, for example with GDAL and a mesh program, and write them as STL"
+            }
+            Self::OtherKind(_) => "write the mesh as STL",
             Self::Malformed(_) | Self::Truncated { .. } => "write it anew from the program that made it",
             Self::SeveralSolids => "write each as a file of its own, or all as one solid",
             Self::NotFinite(_) => "repair the mesh",
@@ -80,7 +87,32 @@ pub(crate) fn read_mesh(path: &Path) -> Result<Mesh, MeshError> {
     mesh_of(read_bytes(path, MOST_BYTES).map_err(MeshError::Unreadable)?)
 }
 
+/// First words of files that are taken for STL, and what they are.
+const OTHER_KINDS: [(&str, &str); 12] = [
+    ("", "empty"),
+    ("<", "a page of HTML or XML"),
+    ("ncols", TERRAIN),
+    ("dsaa", TERRAIN),
+    ("ply", "a PLY file"),
+    ("off", "an OFF file"),
+    ("v ", "an OBJ file"),
+    ("o ", "an OBJ file"),
+    ("mtllib", "an OBJ file"),
+    ("# ", "an OBJ file or a table"),
+    ("iso-10303", "a STEP file"),
+    ("pk", "a zipped file"),
+];
+const TERRAIN: &str = "a grid of heights";
+
 fn mesh_of(mut bytes: Vec<u8>) -> Result<Mesh, MeshError> {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(HEADER)]).trim_start().to_ascii_lowercase();
+    let is = |(word, _): &&(&str, &str)| if word.is_empty() { start.is_empty() } else { start.starts_with(word) };
+    if let Some((_, kind)) = OTHER_KINDS.iter().find(is) {
+        return Err(MeshError::OtherKind(kind));
+    }
+    if bytes.starts_with(b"SOLID") {
+        bytes.make_ascii_lowercase();
+    }
     prepare(&mut bytes)?;
     let mut cursor = Cursor::new(bytes);
     let reader = stl_io::create_stl_reader(&mut cursor).map_err(MeshError::Malformed)?;
@@ -180,7 +212,12 @@ mod tests {
     fn defect_of_a_file_is_named() {
         assert_eq!(refused(&binary()[..150]), "is truncated or not STL: its head announces 2 triangles, it has 1");
         assert_eq!(refused(&TEXT.as_bytes()[..78]), "is no sound STL file (EOF while expecting vertex)");
-        assert!(refused(b"").starts_with("is no sound STL file"));
+        assert_eq!(refused(b" \n"), "is empty and not STL");
+        assert_eq!(refused(b"# Blender\nv 0 0 0\n"), "is an OBJ file or a table and not STL");
+        assert_eq!(refused(b"<!DOCTYPE html>"), "is a page of HTML or XML and not STL");
+        let grid = mesh_of(b"NCOLS 10\nNROWS 10\n".to_vec()).expect_err("a grid");
+        assert!(grid.remedy().starts_with("make triangles of the grid"), "{grid}");
+        assert_eq!(mesh_of(TEXT.to_uppercase().into()).expect("capitals").left_out, 1);
         assert_eq!(refused(b"solid nothing\nendsolid nothing\n"), "has no triangle with an area (0 without)");
         assert_eq!(refused(TEXT.repeat(2).as_bytes()), "holds several solids");
         let mut bytes = binary();

@@ -1,6 +1,23 @@
-//! A warning that many runs may have the same cause for.
+//! Warnings that many runs may have the same cause for.
 
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+static CAUTIONS: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+
+/// Warns of an input that is possible but unlikely to be meant. Each text appears once.
+pub fn caution(text: &str) {
+    if CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned()) {
+        tracing::warn!("{text}");
+    }
+}
+
+/// Number of different warnings by [`caution`] in this process.
+#[must_use]
+pub fn cautions() -> usize {
+    CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).len()
+}
 
 /// Warns once; what follows are details that only a verbose program shows.
 #[derive(Debug, Default)]

@@ -4,6 +4,7 @@ use crate::case::{CaseResult, RunSummary, Tier};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Uncertainty, Variant, Verdict};
 use crate::store;
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -14,6 +15,9 @@ pub struct MetricsDocument {
     pub tier: Tier,
     /// SHA-256 over the runs' final states: the same on any machine and number of threads.
     pub state_hash: String,
+    /// First digits of the SHA-256 over names, variants and limits of the gates; empty in results of earlier versions.
+    #[serde(default)]
+    pub gates: String,
     /// Provenance of the numbers.
     pub provenance: Provenance,
     /// The runs and how they ended.
@@ -149,6 +153,7 @@ impl MetricsDocument {
             case: result.name.clone(),
             tier: result.tier,
             state_hash: result.state_hash.clone(),
+            gates: gates_digest(&result.metrics),
             provenance: Provenance::of(result, threads),
             runs: result.runs.clone(),
             metrics: result.metrics.iter().map(MetricEntry::from).collect(),
@@ -162,6 +167,15 @@ impl MetricsDocument {
     }
 }
 
+/// First digits of the SHA-256 over names, variants and limits of gates: results of one digest were judged alike.
+#[must_use]
+pub fn gates_digest<'a>(metrics: impl IntoIterator<Item = &'a Metric>) -> String {
+    let gated = metrics.into_iter().filter_map(|metric| metric.gate.as_ref().map(|gate| (metric, gate)));
+    let lines: Vec<String> =
+        gated.map(|(metric, gate)| format!("{} {} {:?}\n", metric.name, metric.variant, gate.limit)).collect();
+    store::hexadecimal(&Sha256::digest(lines.concat()))[..8].to_owned()
+}
+
 /// Indented JSON that ends with a line feed.
 pub fn pretty<T: Serialize>(value: &T) -> String {
     let mut text = serde_json::to_string_pretty(value).expect("plain data without maps always serialises");
@@ -172,6 +186,17 @@ pub fn pretty<T: Serialize>(value: &T) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn gates_have_a_digest_of_their_limits_and_not_of_their_values() {
+        let of = |value: f64, limit: f64| {
+            let metric = Metric::observed("velocity_l2", &Variant::of("resolution", 40), value, "%");
+            gates_digest(&[metric.gated(Limit::AtMost(limit), "first order")])
+        };
+        assert_eq!(of(0.1, 0.7), of(0.2, 0.7));
+        assert_ne!(of(0.1, 0.7), of(0.1, 0.8));
+        assert_eq!(of(0.1, 0.7).len(), 8);
+    }
 
     #[test]
     fn an_entry_has_the_agreed_keys_and_null_for_what_is_not_a_number() {

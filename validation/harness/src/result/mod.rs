@@ -7,7 +7,7 @@ mod states;
 pub use document::{MetricEntry, MetricsDocument, Provenance};
 
 use crate::case::CaseResult;
-pub use document::pretty;
+pub use document::{gates_digest, pretty};
 pub use snapshots::write as write_snapshots;
 pub use states::States;
 use std::io;

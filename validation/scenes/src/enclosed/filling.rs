@@ -9,12 +9,11 @@ use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
 use super::{SceneParameters, shapes};
 use crate::case::ParameterError;
+use crate::output::caution;
 use crate::setup::displaced_flow;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::scene::Flow;
-use std::collections::BTreeSet;
-use std::sync::{Mutex, PoisonError};
 
 /// Steps by which depths are felt, a spacing `[-]`.
 const STEPS: f64 = 8.0;
@@ -32,11 +31,9 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     ) -> Result<(Flow<D>, f64), ParameterError> {
         let Self { spacing, jitter, ref bodies, .. } = *self;
         let groups = groups(bodies, &self.sides, spacing);
-        // a scene is filled for each of its spacings and controls
-        static SAID: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
         let remarks = misfits(bodies, &groups, spacing);
-        if !remarks.is_empty() && SAID.lock().unwrap_or_else(PoisonError::into_inner).insert(self.name.clone()) {
-            tracing::warn!("scene `{}`: {}", self.name, remarks.join("; "));
+        if !remarks.is_empty() {
+            caution(&format!("scene `{}`: {}", self.name, remarks.join("; ")));
         }
         let gravity = vector(&self.gravity);
         let (up, weight) = (-self.down(), equation_of_state.reference_density * gravity.norm());

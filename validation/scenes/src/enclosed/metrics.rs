@@ -1,5 +1,6 @@
 //! Metrics of scenes: their balances, and their gauges compared with measurements.
 
+use super::brief::{self, LARGEST_MACH_NUMBER};
 use super::parameters::Dimension;
 use super::prediction;
 use super::series;
@@ -7,6 +8,7 @@ use super::setting::SceneInlet;
 use super::sides::SceneSides;
 use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::output::caution;
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::statistics::{Extrapolation, interpolated};
 use bagnold_solver::weakly_compressible::numerics::{ViscositySwitch, ViscousStep};
@@ -33,6 +35,8 @@ quantities! { shared pub(super)
         accounted("feed_error", "-", "largest difference between inflow and the integral of its rate, over the mass of one row"),
     FINAL_RMS_SPEED:
         accounted("final_rms_speed", "m/s", "root mean square of the speed in the scene, mean over the last tenth of the run"),
+    MACH_NUMBER:
+        accounted("mach_number", "-", "largest speed of the slower 99.5 % of the particles over the sound speed; not validated above 0.2"),
     ARTIFICIAL_VISCOSITY:
         accounted("artificial_viscosity", "Pa s", "α ρ c h/(4 (D + 2)), viscosity added by the artificial viscosity"),
     FRONT: accounted("front", "m", "distance of the front along the line of a gauge at the end"),
@@ -42,7 +46,7 @@ quantities! { shared pub(super)
 
 /// All quantities of a case of scenes, of which three have units of its own: [`Dimension::MEAN_FORCE`],
 /// [`Dimension::MASS_CROSSED`] and [`Dimension::MASS_FED`].
-pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 21] {
+pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 22] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -58,6 +62,7 @@ pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantit
         CUT_OFF,
         FEED_ERROR,
         FINAL_RMS_SPEED,
+        MACH_NUMBER,
         ARTIFICIAL_VISCOSITY,
         FRONT,
         DEPTH,
@@ -99,6 +104,11 @@ fn of_run<S: Dimension<D>, const D: usize>(
     metrics.extend(feeds(&variant, data, parameters));
     metrics.extend(energy(&variant, data, parameters));
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
+    let mach = data.largest_speed / parameters.equation_of_state().sound_speed();
+    if mach > LARGEST_MACH_NUMBER {
+        caution(&brief::too_fast(&parameters.name, data.largest_speed, mach, parameters.stiffness));
+    }
+    metrics.push(MACH_NUMBER.of(&variant, mach).with_snapshot_tolerance(0.1, 1e-3));
     metrics.extend(artificial_viscosity(&variant, data, parameters));
     let all = series::of_run(parameters, data);
     let front = all.iter().find_map(|series| match &series.measure {

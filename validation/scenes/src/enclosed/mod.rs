@@ -3,6 +3,7 @@
 //! cases, behind [`Dimension`].
 
 mod behind_walls;
+mod brief;
 mod checks;
 pub(super) mod figures;
 pub(super) mod filling;

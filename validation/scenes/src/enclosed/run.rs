@@ -77,6 +77,10 @@ where
         S::COST * cost::WEAKLY_COMPRESSIBLE * step * all_per_flow
     }
 
+    fn brief(&self) -> Option<String> {
+        Some(self.summary())
+    }
+
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
         let scene = &self.scene;
         let (made, cut_off) = self.scene()?;
@@ -167,8 +171,7 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
         let SceneParameters { numerics, spacing, material, .. } = &self.scene;
         let equation_of_state = self.scene.equation_of_state();
         let (density, fall) = (equation_of_state.reference_density, self.fall_speed());
-        let walls = self.scene.walls.iter().map(|wall| wall.facet_wall().motion.largest_speed()).fold(0.0, f64::max);
-        let inlets = self.scene.feeds().iter().map(Inlet::largest_speed).fold(0.0, f64::max);
+        let (walls, inlets) = (self.fastest_wall(), self.fastest_inlet());
         let speed = (2.0_f64.sqrt() * fall).max(self.fastest_body()).max(inlets) + walls.max(inlets);
         let viscosity = material.largest_viscosity(density * fall * fall) / density;
         let smoothing_length = numerics.smoothing_ratio * spacing;
@@ -178,6 +181,22 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
     /// √(g H) with the height of the scene, and more under pressure `[m/s]`.
     fn fall_speed(&self) -> f64 {
         self.scene.fall().sqrt()
+    }
+
+    /// Largest speed that falling, bodies, walls and inlets give `[m/s]`.
+    pub(super) fn expected_speed(&self) -> f64 {
+        let fall = 2.0_f64.sqrt() * self.fall_speed();
+        fall.max(self.fastest_body()).max(self.fastest_wall()).max(self.fastest_inlet())
+    }
+
+    /// Largest speed of a wall `[m/s]`.
+    fn fastest_wall(&self) -> f64 {
+        self.scene.walls.iter().map(|wall| wall.facet_wall().motion.largest_speed()).fold(0.0, f64::max)
+    }
+
+    /// Largest speed of an inlet `[m/s]`.
+    fn fastest_inlet(&self) -> f64 {
+        self.scene.feeds().iter().map(Inlet::largest_speed).fold(0.0, f64::max)
     }
 
     /// Speed at the start of the fastest body `[m/s]`.

@@ -5,6 +5,7 @@ use crate::case::ParameterError;
 use crate::enclosed::setting::{self, shown, vector};
 use crate::enclosed::{DomainSide, shapes, sides};
 use bagnold_number::four_digits;
+use bagnold_solver::parameter::above;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion};
 use bagnold_solver::weakly_compressible::walls::Surface;
@@ -18,10 +19,23 @@ use serde::{Deserialize, Serialize};
 pub struct SpaceWall {
     /// Name by which gauges and messages call the wall: letters, digits and hyphens, unlike those of other walls and inlets.
     pub name: String,
-    /// STL file of its triangles `[m]`, whose path begins at the case file; empty without one. The triangles are read with
+    /// STL file of its triangles, whose path begins at the case file; empty without one. The triangles are read with
     /// the case file; where `triangles` are given, this says where they come from.
     #[serde(default)]
     pub mesh: String,
+    /// Unit of the file: "m", "cm", "mm" or "in".
+    #[serde(default = "metres")]
+    pub unit: String,
+    /// Factor of the size of the mesh `[-]`, beside its unit.
+    #[serde(default = "unscaled")]
+    #[schemars(transform = above(0.0, "give 1 for the size of the file"))]
+    pub scale: f64,
+    /// Angles `[°]` by which the mesh is turned about x, then y, then z, about the origin.
+    #[serde(default)]
+    pub rotate: SpaceVector,
+    /// Displacement of the mesh `[m]` after its turn.
+    #[serde(default, rename = "move")]
+    pub shift: SpaceVector,
     /// Triangles, each by its corners x, y, z `[m]`.
     #[serde(default)]
     pub triangles: Vec<(SpaceVector, SpaceVector, SpaceVector)>,
@@ -42,12 +56,24 @@ pub struct SpaceWall {
     pub motion: Vec<(f64, f64, f64, f64)>,
 }
 
+fn metres() -> String {
+    "m".to_owned()
+}
+
+fn unscaled() -> f64 {
+    1.0
+}
+
 impl SpaceWall {
     /// A rough wall of quadrilaterals at rest.
     pub(super) fn of_quads(name: &str, quads: Vec<(SpaceVector, SpaceVector, SpaceVector, SpaceVector)>) -> Self {
         Self {
             name: name.to_owned(),
             mesh: String::new(),
+            unit: metres(),
+            scale: unscaled(),
+            rotate: SpaceVector::default(),
+            shift: SpaceVector::default(),
             triangles: Vec::new(),
             quads,
             boxes: Vec::new(),
@@ -113,8 +139,11 @@ impl setting::SceneWall<3> for SpaceWall {
         // a file in millimetres is 1000 times too large
         if !self.mesh.is_empty() && bodies > 0.0 && !(bodies / 200.0..=200.0 * bodies).contains(&size) {
             let rule = format!("comparable to the bodies, {} m wide", four_digits(bodies));
-            let remedy = "STL files are read in metres: convert millimetres";
-            return refused("mesh", format!("{} m wide", four_digits(size)), &rule, remedy);
+            let units = [("cm", 0.01), ("mm", 0.001), ("in", 0.0254)];
+            let near = |(_, length): &(&str, f64)| (bodies / 20.0..=20.0 * bodies).contains(&(size * length));
+            let unit = units.iter().rfind(|unit| near(unit)).map_or("mm", |(name, _)| name);
+            let remedy = format!("the file is probably in another unit: set `unit = \"{unit}\"`, or `scale`");
+            return refused("mesh", format!("{} m wide", four_digits(size)), &rule, &remedy);
         }
         for (k, (a, b, c, d)) in self.quads.iter().enumerate() {
             let [a, b, c, d] = [a, b, c, d].map(vector::<3>);

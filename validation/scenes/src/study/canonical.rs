@@ -199,6 +199,10 @@ impl PreparedCase for StudyPlan {
         self.parts.iter().map(|part| part.estimate()).fold(Estimate::default(), Estimate::and)
     }
 
+    fn briefs(&self) -> Vec<String> {
+        self.parts.iter().flat_map(|part| part.briefs()).collect()
+    }
+
     fn identity(&self, run: usize, store: &Store) -> Option<String> {
         let (case, own, _) = self.at(run);
         case.identity(own, store)

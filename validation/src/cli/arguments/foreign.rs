@@ -118,4 +118,7 @@ pub struct CompareArguments {
     /// End with exit code 1 if a number differs by more than its tolerance.
     #[arg(long)]
     pub deny_differences: bool,
+    /// Compare results of the same parameters whose gates have other limits.
+    #[arg(long)]
+    pub across_gates: bool,
 }

@@ -14,12 +14,12 @@ use crate::store::provenance::short_commit;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// Writes `index.html`, `differences.json`, `parameters.json` and `figures/` into a folder; the numbers that differ by more than their tolerance
-/// are counted.
+/// Writes `index.html`, `differences.json`, `parameters.json` and `figures/` into a folder; returns the numbers that differ by more
+/// than their tolerance, the largest difference first.
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
+pub fn write(all: &[Results], folder: &Path) -> Result<Vec<Difference>, ReportError> {
     let put =
         |path: PathBuf, text: &str| std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source });
     let found = differences(all);
@@ -33,7 +33,7 @@ pub fn write(all: &[Results], folder: &Path) -> Result<usize, ReportError> {
     put(folder.join("parameters.json"), &pretty(&parameters))?;
     let moved = found.iter().filter(|one| is_moved(one)).count();
     put(folder.join("index.html"), &render(all, &found, moved, parameters, pictures)?)?;
-    Ok(moved)
+    Ok(found.into_iter().filter(is_moved).collect())
 }
 
 /// A line of `differences.json`.

@@ -24,6 +24,22 @@ pub enum CompareError {
         /// The other.
         other: PathBuf,
     },
+    /// Results of one case and its parameters, judged by other limits.
+    #[error("{}: the gates of {case} were {before} and are {now} in {}: limits of {moved} gates moved; read what moved in both metrics.json, then compare the values with --across-gates", shown(.first), shown(.other))]
+    OtherGates {
+        /// The case.
+        case: String,
+        /// The first folder.
+        first: PathBuf,
+        /// Digest of its gates.
+        before: String,
+        /// The other folder.
+        other: PathBuf,
+        /// Digest of its gates.
+        now: String,
+        /// Number of gates with another limit.
+        moved: usize,
+    },
     /// A file that cannot be read or understood.
     #[error(transparent)]
     File(#[from] FileError),
@@ -76,9 +92,39 @@ impl Results {
     /// Number of gates that another folder judges by another limit.
     #[must_use]
     pub fn moved_limits(&self, other: &Self) -> usize {
-        let key = |(case, metric): (&str, &MetricEntry)| format!("{case} {} {}", metric.name, metric.variant);
-        let limits: BTreeMap<String, Option<Limit>> = other.entries().map(|one| (key(one), one.1.limit)).collect();
-        self.entries().filter(|own| limits.get(&key(*own)).is_some_and(|limit| *limit != own.1.limit)).count()
+        self.moved_by_case(other).map(|(_, _, moved)| moved).sum()
+    }
+
+    /// Refuses a folder of the same parameters that was judged by other versions of the gates.
+    ///
+    /// # Errors
+    /// The first case of which limits moved.
+    pub fn same_gates(&self, other: &Self) -> Result<(), CompareError> {
+        let is_version = |(own, theirs, moved): &(&CaseResults, &CaseResults, usize)| {
+            *moved > 0 && own.parameters == theirs.parameters
+        };
+        self.moved_by_case(other).find(is_version).map_or(Ok(()), |(own, theirs, moved)| {
+            Err(CompareError::OtherGates {
+                case: own.document.case.clone(),
+                first: self.folder.clone(),
+                before: own.document.gates.clone(),
+                other: other.folder.clone(),
+                now: theirs.document.gates.clone(),
+                moved,
+            })
+        })
+    }
+
+    fn moved_by_case<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = (&'a CaseResults, &'a CaseResults, usize)> {
+        self.cases.iter().filter_map(|(name, own)| other.cases.get(name).map(|theirs| (own, theirs))).map(
+            |(own, theirs)| {
+                let key = |metric: &MetricEntry| format!("{} {}", metric.name, metric.variant);
+                let limits: BTreeMap<String, Option<Limit>> =
+                    theirs.document.metrics.iter().map(|one| (key(one), one.limit)).collect();
+                let is_moved = |one: &&MetricEntry| limits.get(&key(one)).is_some_and(|limit| *limit != one.limit);
+                (own, theirs, own.document.metrics.iter().filter(is_moved).count())
+            },
+        )
     }
 
     fn of(folder: &Path) -> Result<Self, CompareError> {

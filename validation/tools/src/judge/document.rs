@@ -3,6 +3,7 @@
 use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::metric::{Metric, Verdict};
 use crate::report::scatter::{QuantityBias, quantities_of};
+use crate::result::gates_digest;
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
 use serde_json::{Value, json};
 
@@ -52,6 +53,7 @@ pub(super) fn document(judgement: &CodeComparison) -> Value {
         "tier": judgement.own.tier,
         "program": env!("CARGO_PKG_VERSION"),
         "inputs": super::inputs::digest(&judgement.own.parameters_toml),
+        "gates": gates_digest(&judgement.own.metrics),
         "codes": judgement.codes.iter().map(code).collect::<Vec<_>>(),
     })
 }

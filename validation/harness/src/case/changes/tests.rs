@@ -130,6 +130,10 @@ fn wrong_values_are_refused_with_the_type_they_should_have() {
         message("law.bingham.viscosity = 1", &[]),
         "layer.toml: `law.bingham.yield_stress` is missing; `bagnold schema layer` tells what it is"
     );
+    assert_eq!(
+        message("law.bingham = {}", &[]),
+        "layer.toml: `law.bingham.viscosity` is missing; add `viscosity`, `yield_stress`"
+    );
 }
 
 #[test]
@@ -209,6 +213,10 @@ fn a_friction_angle_stands_for_its_tangent_where_the_law_has_one() {
     let angle = 0.5_f64.to_degrees();
     assert_eq!(resolved(&format!("material.friction_angle = {angle:?}"), &[]).as_ref(), Ok(&steeper));
     assert_eq!(resolved("", &[&format!("material.friction_angle={angle:?}")]).as_ref(), Ok(&steeper));
+    assert_eq!(
+        message("material.friction_angle = \"27.5°\"", &[]),
+        "layer.toml: `material.friction_angle` is \"27.5°\", but must be a number of degrees without its unit; write 27.5 for 27.5°"
+    );
     assert_eq!(
         message("material = { friction_angle = 20, static_friction = 0.4 }", &[]),
         "layer.toml: `material.friction_angle` is 20, but must be alone: it is the angle whose tangent is `static_friction`, which is given too, as 0.4; leave one of the two out"

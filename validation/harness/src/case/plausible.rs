@@ -1,0 +1,152 @@
+//! Values of a user that are possible but unlikely for grains and sediment, mostly because they have another unit.
+
+use toml::{Table, Value};
+
+/// A field by the end of its name, its usual range, and the slip behind a value outside of it.
+struct Usual {
+    field: &'static str,
+    low: f64,
+    high: f64,
+    unit: &'static str,
+    /// The value if the slip is the likely one, and the words for it.
+    slip: fn(f64) -> Option<(f64, &'static str)>,
+}
+
+const USUAL: &[Usual] = &[
+    Usual {
+        field: "friction_angle",
+        low: 3.0,
+        high: 60.0,
+        unit: "°",
+        slip: |value| (value < 1.2).then(|| (value.to_degrees(), "in radians")),
+    },
+    Usual {
+        field: "static_friction",
+        low: 0.02,
+        high: 2.0,
+        unit: "-",
+        slip: |value| {
+            (3.0..60.0)
+                .contains(&value)
+                .then(|| (libm::tan(value.to_radians()), "as an angle in degrees; `friction_angle` has degrees"))
+        },
+    },
+    Usual {
+        field: "grain_diameter",
+        low: 1e-6,
+        high: 0.1,
+        unit: "m",
+        slip: |value| (value > 0.1).then(|| (value * 1e-3, "in millimetres")),
+    },
+    Usual {
+        field: "grain_density",
+        low: 500.0,
+        high: 12_000.0,
+        unit: "kg/m³",
+        slip: |value| (value < 12.0).then(|| (value * 1e3, "in g/cm³")),
+    },
+    Usual {
+        field: "bulk_density",
+        low: 100.0,
+        high: 8000.0,
+        unit: "kg/m³",
+        slip: |value| (value < 8.0).then(|| (value * 1e3, "in g/cm³")),
+    },
+    Usual {
+        field: "fluid_density",
+        low: 500.0,
+        high: 3000.0,
+        unit: "kg/m³",
+        slip: |value| (value > 0.5 && value < 3.0).then(|| (value * 1e3, "in g/cm³")),
+    },
+    Usual {
+        field: "gravity",
+        low: 1.0,
+        high: 300.0,
+        unit: "m/s²",
+        slip: |value| (900.0..1100.0).contains(&value).then(|| (value * 1e-2, "in cm/s²")),
+    },
+];
+/// Most spacings that a grain is wide: beyond, a particle is a small part of a grain.
+const WIDEST_GRAIN: f64 = 10.0;
+
+fn number(value: &Value) -> Option<f64> {
+    value.as_float().or(value.as_integer().map(|whole| whole as f64))
+}
+
+/// Warnings of what the user gave, with the likely unit.
+pub(super) fn warnings(fields: &Table) -> Vec<String> {
+    let mut found = Vec::new();
+    collect(fields, "", &mut found);
+    found
+}
+
+fn collect(fields: &Table, above: &str, found: &mut Vec<String>) {
+    for (name, value) in fields {
+        let path = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
+        match value {
+            Value::Table(inner) => collect(inner, &path, found),
+            Value::Array(entries) if name == "gravity" => {
+                let parts: Vec<f64> = entries.iter().filter_map(number).collect();
+                let size = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+                found.extend(unusual(name, &path, size));
+                if parts.last().is_some_and(|up| *up > 0.0) {
+                    found.push(format!("`{path}` points upwards: its last component is usually negative"));
+                }
+            }
+            Value::Array(entries) => {
+                for (index, inner) in entries.iter().enumerate() {
+                    if let Value::Table(inner) = inner {
+                        collect(inner, &format!("{path}[{index}]"), found);
+                    }
+                }
+            }
+            _ => found.extend(number(value).and_then(|value| unusual(name, &path, value))),
+        }
+    }
+}
+
+fn unusual(name: &str, path: &str, value: f64) -> Option<String> {
+    let usual = USUAL.iter().find(|usual| usual.field == name)?;
+    // 0 switches most of these off
+    if value == 0.0 || (usual.low..=usual.high).contains(&value) {
+        return None;
+    }
+    let Usual { low, high, unit, slip, .. } = usual;
+    let likely =
+        slip(value).map(|(meant, words)| format!("; {value} {words} is {}", crate::number::four_digits(meant)));
+    Some(format!("`{path}` is {value} {unit}, usual are {low} to {high} {unit}{}", likely.unwrap_or_default()))
+}
+
+/// Warning of grains of a scene that are many particle spacings wide.
+pub(super) fn wide_grains(parameters: &Table) -> Option<String> {
+    let material = parameters.get("material")?.as_table()?;
+    let (diameter, spacing) = (number(material.get("grain_diameter")?)?, number(parameters.get("spacing")?)?);
+    (diameter > WIDEST_GRAIN * spacing).then(|| {
+        let ratio = diameter / spacing;
+        format!("`material.grain_diameter` is {diameter} m, {ratio:.0} particle spacings, but a particle stands for several grains; check both units")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn another_unit_is_told_with_the_value_that_was_meant() {
+        let of = |text: &str| warnings(&text.parse().expect("TOML")).join("\n");
+        assert_eq!(
+            of("[sand.law]\nfriction_angle = 0.48"),
+            "`sand.law.friction_angle` is 0.48 °, usual are 3 to 60 °; 0.48 in radians is 27.50"
+        );
+        assert!(of("material.grain_diameter = 0.7").ends_with("; 0.7 in millimetres is 7×10⁻⁴"));
+        assert!(of("material.grain_density = 2.65").ends_with("; 2.65 in g/cm³ is 2650"));
+        assert!(of("gravity = [0.0, -966.0]").ends_with("; 966 in cm/s² is 9.66"));
+        assert!(of("gravity = [0.0, 9.81]").contains("points upwards"));
+        assert!(
+            of("bodies = [{ material = { static_friction = 27 } }]")
+                .contains("bodies[0].material.static_friction` is 27 -")
+        );
+        assert_eq!(of("gravity = [4.9, -8.5]\nmaterial = { grain_diameter = 0.0005, bulk_density = 0 }"), "");
+    }
+}

@@ -1,0 +1,83 @@
+//! Summary of a scene before it runs: its speeds and sizes in the numbers that decide whether the model applies.
+
+use super::parameters::Dimension;
+use super::setting::SceneWall;
+use super::{SceneParameters, SceneRun};
+
+use crate::output::caution;
+use bagnold_number::four_digits;
+use bagnold_solver::vector::Vector;
+
+/// Largest Mach number `[-]` of a weakly compressible flow: density then varies by some per cent.
+pub(super) const LARGEST_MACH_NUMBER: f64 = 0.2;
+/// Fewest particles across a gap.
+const NARROWEST_GAP: f64 = 3.0;
+/// Share of a spacing within which ends of walls touch.
+const TOUCHING: f64 = 0.5;
+/// Most ends of walls between which gaps are searched.
+const MOST_ENDS: usize = 2000;
+
+impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
+    /// One line on the terminal: particles, speeds and the size of the grains. Narrow gaps are warned of.
+    pub(super) fn summary(&self) -> String {
+        let scene = &self.scene;
+        if let Some((gap, one, other)) = scene.narrowest_gap() {
+            let across = gap / scene.spacing;
+            caution(&format!(
+                "scene `{}`: the gap between the ends of walls `{one}` and `{other}` is {across:.1} particle spacings wide, \
+                 but flow through it needs at least {NARROWEST_GAP}; reduce `spacing` to {} m or less",
+                scene.name,
+                four_digits(gap / NARROWEST_GAP)
+            ));
+        }
+        let sound_speed = scene.equation_of_state().sound_speed();
+        let speed = self.expected_speed();
+        let mach = speed / sound_speed;
+        // a fall over the height of the scene reaches the limit itself at the default stiffness
+        if mach > 1.01 * LARGEST_MACH_NUMBER {
+            caution(&too_fast(&scene.name, speed, mach, scene.stiffness));
+        }
+        let grains = scene.material.grain_diameter().map(|diameter| diameter / scene.spacing);
+        let grains = grains.map(|ratio| format!(", grain diameter {ratio:.2} particle spacings")).unwrap_or_default();
+        format!(
+            "scene `{}`: sound speed {sound_speed:.3} m/s, expected speed {speed:.3} m/s (Mach {mach:.2}){grains}",
+            scene.name
+        )
+    }
+}
+
+/// Warning of a flow too fast for its sound speed, with the stiffness that suffices.
+pub(super) fn too_fast(name: &str, speed: f64, mach: f64, stiffness: f64) -> String {
+    let enough = (stiffness * (mach / LARGEST_MACH_NUMBER).powi(2)).ceil();
+    format!(
+        "scene `{name}`: a speed of {speed:.3} m/s is Mach {mach:.2}, above {LARGEST_MACH_NUMBER}: impacts and forces are not \
+         validated there; set `stiffness = {enough}`"
+    )
+}
+
+impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
+    /// The narrowest gap `[m]` between ends of different walls that is too narrow for a flow, and their names.
+    fn narrowest_gap(&self) -> Option<(f64, &str, &str)> {
+        let ends: Vec<(Vec<Vector<D>>, &str)> =
+            self.walls.iter().map(|wall| (wall.hull().into_iter().collect(), wall.name())).collect();
+        // the triangles of a mesh are ends by the thousand
+        if ends.iter().map(|(places, _)| places.len()).sum::<usize>() > MOST_ENDS {
+            return None;
+        }
+        let between = |one: &[Vector<D>], other: &[Vector<D>]| {
+            let distances = one.iter().flat_map(|place| other.iter().map(move |far| (place - far).norm()));
+            distances.fold(f64::INFINITY, f64::min)
+        };
+        let mut narrowest = None;
+        for (place, one) in ends.iter().enumerate() {
+            for other in &ends[place + 1..] {
+                let gap = between(&one.0, &other.0);
+                let is_gap = gap > TOUCHING * self.spacing && gap < (NARROWEST_GAP - 0.01) * self.spacing;
+                if is_gap && narrowest.is_none_or(|(least, _, _)| gap < least) {
+                    narrowest = Some((gap, one.1, other.1));
+                }
+            }
+        }
+        narrowest
+    }
+}
