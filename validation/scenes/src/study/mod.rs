@@ -69,7 +69,10 @@ const KEYS: [&str; 4] = ["study", "checks", "vary", "variants"];
 /// Whether a file describes a study: it has the key `study`, or one that only studies have.
 #[must_use]
 pub fn is_study(path: &Path) -> bool {
-    let text = read_text(path, WRITTEN_BY_HAND).unwrap_or_default();
+    read_text(path, WRITTEN_BY_HAND).is_ok_and(|text| describes_study(&text))
+}
+
+fn describes_study(text: &str) -> bool {
     // a file with a slip in its syntax is a study as well, if a line says so
     match text.parse::<Table>() {
         Ok(table) => KEYS.iter().any(|key| table.contains_key(*key)),
