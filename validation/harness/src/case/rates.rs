@@ -2,7 +2,7 @@
 //! so that a run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use crate::input::{DOCUMENT, comma_fault, is_comment, number_remedy, read_text, row_remedy, text_fault};
+use crate::input::{DOCUMENT, comma_fault, is_comment, number_remedy, read_text, row_remedy, text_fault, unit};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -25,7 +25,9 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
             let remedy = "check the path, which begins at this file, and its permissions";
             ParameterError::field(&field, format!("\"{name}\" cannot be read ({error})"), "", remedy).in_file(path)
         })?;
-        let rows = rows(&text)
+        // an opening in the plane feeds per width
+        let rate_unit = if inlet.contains_key("corners") { "kg/s" } else { "kg/(s m)" };
+        let rows = rows(&text, rate_unit)
             .map_err(|(line, rule, remedy)| refused(&format!("a table whose line {line} is {rule}"), &remedy))?;
         count += rows.len();
         if count > MOST_ROWS {
@@ -38,8 +40,8 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
     Ok(())
 }
 
-/// The rows of a table with a heading; otherwise the line that is none, the rule and what to do.
-fn rows(text: &str) -> Result<Vec<(f64, f64)>, (usize, String, String)> {
+/// The rows of a table with a heading, in s and the unit of rates; otherwise the line that is none, the rule and what to do.
+fn rows(text: &str, rate_unit: &str) -> Result<Vec<(f64, f64)>, (usize, String, String)> {
     if let Some(fault) = text_fault(text) {
         return Err((fault.line, "plain text".to_owned(), fault.in_words()));
     }
@@ -48,6 +50,17 @@ fn rows(text: &str) -> Result<Vec<(f64, f64)>, (usize, String, String)> {
     let heading = lines.next();
     if let Some(fault) = heading.and_then(|(line, heading)| comma_fault(heading, line)) {
         return Err((fault.line, "the heading of two columns".to_owned(), fault.in_words()));
+    }
+    let mut factors = [1.0; 2];
+    for ((factor, word), own) in
+        factors.iter_mut().zip(heading.map_or("", |(_, words)| words).split(',')).zip(["s", rate_unit])
+    {
+        let parted = word.trim().trim_matches('"').strip_suffix(']').and_then(|word| word.rsplit_once('['));
+        let Some((_, given)) = parted.filter(|(_, given)| *given != own) else { continue };
+        *factor = unit::factor(given, own).ok_or_else(|| {
+            let rule = format!("a heading with units of the kinds [s] and [{rate_unit}], unlike [{given}]");
+            (heading.map_or(1, |(line, _)| line), rule, "convert the column, or mend the heading".to_owned())
+        })?;
     }
     let mut rows = Vec::new();
     for (number, line) in lines {
@@ -58,7 +71,7 @@ fn rows(text: &str) -> Result<Vec<(f64, f64)>, (usize, String, String)> {
         };
         let number_of = |word: &str| word.parse::<f64>().ok().filter(|value| value.is_finite());
         match (number_of(time), number_of(rate)) {
-            (Some(time), Some(rate)) => rows.push((time, rate)),
+            (Some(time), Some(rate)) => rows.push((time * factors[0], rate * factors[1])),
             (Some(_), None) => return Err((number, "two numbers".to_owned(), number_remedy(rate).to_owned())),
             _ => return Err((number, "two numbers".to_owned(), number_remedy(time).to_owned())),
         }
@@ -76,7 +89,7 @@ mod tests {
     #[test]
     fn rows_come_with_the_file_that_names_them() {
         let folder = tempfile::tempdir().expect("temporary folder");
-        std::fs::write(folder.path().join("feed.csv"), "# measured\nt [s],rate [kg/s]\n0,1.5\n2.5, 0\n")
+        std::fs::write(folder.path().join("feed.csv"), "# measured\nt [ms],rate [g/(s cm)]\n0,15\n2500, 0\n")
             .expect("writable");
         let path = folder.path().join("case.toml");
         let mut fields: Table =
@@ -90,13 +103,16 @@ mod tests {
 
     #[test]
     fn lines_that_are_no_rows_are_named() {
-        let refused = |text: &str| rows(text).expect_err("refused").0;
+        let refused = |text: &str| rows(text, "kg/s").expect_err("refused").0;
         assert_eq!(refused("t,q\n0,1\n1\n"), 3);
         assert_eq!(refused("t,q\n0,1\n1,2,3\n"), 3);
         assert_eq!(refused("t,q\n# a note\n0,one\n"), 3);
         assert_eq!(refused("t;q\n0;1\n"), 1);
         assert_eq!(refused("t,q\n"), 1);
         assert_eq!(refused("t,q\n0,inf\n"), 2);
-        assert!(rows("t [s],q [kg/s]\n\n0,1\n").is_ok());
+        assert_eq!(rows("t [s],q [kg/h]\n\n0,3600\n", "kg/s"), Ok(vec![(0.0, 1.0)]));
+        let (line, rule, _) = rows("# fed\nt [s],q [kg/(s m)]\n0,1\n", "kg/s").expect_err("per width");
+        assert_eq!((line, rule.as_str()), (2, "a heading with units of the kinds [s] and [kg/s], unlike [kg/(s m)]"));
+        assert_eq!(refused("t [furlong],q\n0,1\n"), 1);
     }
 }

@@ -7,6 +7,7 @@ mod name;
 mod place;
 mod reading;
 mod table;
+pub mod unit;
 
 pub(crate) use escape::origin;
 pub use escape::{escaped, escaped_lines, is_control, shown};

@@ -5,7 +5,6 @@ mod drawing;
 mod place;
 mod reading;
 mod text_table;
-pub mod unit;
 
 pub use column::{ColumnSource, ColumnText};
 pub use text_table::TextTable;

@@ -2,10 +2,9 @@
 
 use super::column::{ColumnSource, ColumnText};
 use super::text_table::TextTable;
-use super::unit;
 use super::{MeasuredColumn, Measurements, Said};
 use crate::evaluation::PlanError;
-use crate::input::{DOCUMENT, FieldError, read_text};
+use crate::input::{DOCUMENT, FieldError, read_text, unit};
 use crate::metric::Confidence;
 use crate::output::FileError;
 use std::path::Path;
