@@ -286,6 +286,11 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         let message = refused(&place, &STUDY.replacen(from, to, 1));
         assert!(message.contains(said), "{to}: {message}");
     }
+    // their number is judged before each is compared with all others
+    let many = format!("{}0.0125]", "0.0125, ".repeat(100_000));
+    assert!(
+        refused(&place, &STUDY.replacen("0.0125]", &many, 1)).contains("`vary` is 100002, but must be at most 1000")
+    );
     let whole = STUDY.split("[[checks]]").next().expect("a beginning");
     assert!(refused(&place, whole).contains("`checks` is empty"));
     let order = "[[checks]]\nname = \"order\"\norder_of = \"front\"\norder_in = \"spacing\"\n";
