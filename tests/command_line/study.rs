@@ -286,6 +286,8 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         let message = refused(&place, &STUDY.replacen(from, to, 1));
         assert!(message.contains(said), "{to}: {message}");
     }
+    let variants = "[[variants]]\nname = \"a/b\"\n[[variants]]\nname = \"a b\"\n[[checks]]";
+    assert!(refused(&place, &STUDY.replacen("[[checks]]", variants, 1)).contains("as a part of file names"));
     // their number is judged before each is compared with all others
     let many = format!("{}0.0125]", "0.0125, ".repeat(100_000));
     assert!(
@@ -365,6 +367,8 @@ fn a_suite_is_one_report_with_accepted_values_of_its_own() {
     };
     std::fs::write(place.path("balances.toml"), b"\xff\xfes\0").expect("writable");
     refused("balances.toml: cannot be read (text in UTF-16, not in UTF-8); save it as plain text");
+    place.file("balances.toml", "stduy == \"balances\"\n");
+    refused("balances.toml: line 1, column 8");
     std::fs::remove_file(place.path("balances.toml")).expect("there");
     refused("balances.snap: `study` is balances, but must be the name of a study of the suite; restore the study");
     std::fs::create_dir(place.path("more")).expect("writable");

@@ -1,11 +1,29 @@
 //! A folder of studies, simulated and judged together.
 
-use super::{Study, describes_study, is_study};
+use super::Study;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, OutputFolder};
 use std::path::{Path, PathBuf};
+use toml::Table;
+
+/// Keys that only studies have; a study whose first line is misspelt is to be refused, not passed over.
+const KEYS: [&str; 4] = ["study", "checks", "vary", "variants"];
+
+/// Whether a file describes a study: it has the key `study`, or one that only studies have.
+#[must_use]
+pub fn is_study(path: &Path) -> bool {
+    read_text(path, WRITTEN_BY_HAND).is_ok_and(|text| describes_study(&text))
+}
+
+fn describes_study(text: &str) -> bool {
+    // a file with a slip in its syntax is a study as well, if a line says so
+    match text.parse::<Table>() {
+        Ok(table) => KEYS.iter().any(|key| table.contains_key(*key)),
+        Err(_) => text.lines().any(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == "study")),
+    }
+}
 
 /// The studies of a folder, in the order of their files' names.
 #[derive(Debug, Clone)]
@@ -32,9 +50,9 @@ impl Suite {
                         .into());
                 }
             } else if is_toml(&path) && !path.is_dir() {
-                // a file that cannot be read may be a study
+                // a file that cannot be read or parsed may be a study
                 let text = read_text(&path, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(&path, &error))?;
-                if describes_study(&text) {
+                if text.parse::<Table>().is_err() || describes_study(&text) {
                     files.push(path);
                 }
             }
