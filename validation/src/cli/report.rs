@@ -110,7 +110,7 @@ pub(super) fn report(
     for case in &page.cases {
         text.push_str(&summary::not_judged(&case.name, &case.not_judged));
     }
-    let contradictions = places.contradictions(&page)?;
+    let contradictions = places.contradictions(&page);
     text.push_str(&contradictions);
     let is_whole = contradictions.is_empty() && page.cases.iter().all(|case| case.not_judged.is_empty());
     let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric)).unless_whole(is_whole);
