@@ -256,7 +256,7 @@ fn wrong_data_are_refused_by_name() {
     );
     assert_eq!(
         data("0.126", "NaN"),
-        "error: failed to read the reference data mine.csv, line 10, column 2 (`u`): `NaN` is not a finite number; write \
+        "error: failed to read the reference data mine.csv, line 10, column 2 (`u`): `NaN` is not a finite measured value; write \
          one with a decimal point, or drop the row"
     );
 }

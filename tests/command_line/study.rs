@@ -286,6 +286,13 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         let message = refused(&place, &STUDY.replacen(from, to, 1));
         assert!(message.contains(said), "{to}: {message}");
     }
+    let variants = "[[variants]]\nname = \"a/b\"\n[[variants]]\nname = \"a b\"\n[[checks]]";
+    assert!(refused(&place, &STUDY.replacen("[[checks]]", variants, 1)).contains("as a part of file names"));
+    // their number is judged before each is compared with all others
+    let many = format!("{}0.0125]", "0.0125, ".repeat(100_000));
+    assert!(
+        refused(&place, &STUDY.replacen("0.0125]", &many, 1)).contains("`vary` is 100002, but must be at most 1000")
+    );
     let whole = STUDY.split("[[checks]]").next().expect("a beginning");
     assert!(refused(&place, whole).contains("`checks` is empty"));
     let order = "[[checks]]\nname = \"order\"\norder_of = \"front\"\norder_in = \"spacing\"\n";
@@ -336,6 +343,40 @@ fn a_suite_is_one_report_with_accepted_values_of_its_own() {
     let finished = report(&["--deny", "drift"]).code(1);
     assert!(!String::from_utf8_lossy(&finished.get_output().stdout).contains("unless --deny drift"));
     assert!(String::from_utf8_lossy(&finished.get_output().stdout).contains("drifted: balances"));
+
+    place.file(
+        "snapshots/known_failures.toml",
+        &[("my-flume", "front_at_the_end", "spacing=0.02,scene=flume"), ("gone", "front", "")]
+            .map(|(case, metric, variant)| {
+                format!(
+                    "[[failure]]\ncase = \"{case}\"\nmetric = \"{metric}\"\nvariant = \"{variant}\"\n\
+                     best_value = 1.0\ndate = \"2026-01-01\"\nreason = \"slip\"\n"
+                )
+            })
+            .concat(),
+    );
+    let finished = report(&[]).code(1);
+    let text = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
+    assert!(text.contains("my-flume front_at_the_end spacing=0.02,scene=flume: the gate holds again"), "{text}");
+    assert!(text.contains("gone front : no study measures this"), "{text}");
+
+    let refused = |said: &str| {
+        let finished = report(&[]).code(2);
+        let message = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
+        assert!(message.contains(said), "{message}");
+    };
+    std::fs::write(place.path("balances.toml"), b"\xff\xfes\0").expect("writable");
+    refused("balances.toml: cannot be read (text in UTF-16, not in UTF-8); save it as plain text");
+    place.file("balances.toml", "stduy == \"balances\"\n");
+    refused("balances.toml: line 1, column 8");
+    std::fs::remove_file(place.path("balances.toml")).expect("there");
+    refused("balances.snap: `study` is balances, but must be the name of a study of the suite; restore the study");
+    std::fs::create_dir(place.path("more")).expect("writable");
+    place.file("more/balances.toml", metric);
+    refused("more/balances.toml: `study`: in a folder below the suite; move it up");
+    std::fs::rename(place.path("more/balances.toml"), place.path("balances.TOML")).expect("movable");
+    place.file("snapshots/known_failures.toml", "");
+    report(&[]).code(0);
 
     let empty = Place::new();
     let finished = empty.bagnold(&["report", "--suite", "."]).assert().code(2);

@@ -46,6 +46,7 @@ use crate::case::{Limits, ParameterError, Registry, Tier};
 use crate::checkpoint::{self, InterruptedRuns};
 use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
+use crate::report::check_junit;
 use crate::store::{Store, StorePolicy};
 use arguments::{DevCommand, ExecutionOptions, ResourceLimits};
 use bagnold_solver::lanes::InstructionSet;
@@ -141,6 +142,13 @@ pub fn execute(
 }
 
 fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+    let junit = match &arguments.command {
+        Command::Run(run) => run.junit.as_deref(),
+        Command::Report(report) => report.junit.as_deref(),
+        Command::Judge(judge) => judge.junit.as_deref(),
+        _ => None,
+    };
+    junit.map_or(Ok(()), check_junit).map_err(ParameterError::from)?;
     match &arguments.command {
         Command::List => {
             let width = registry.iter().map(|case| case.name().len()).max().unwrap_or(0);

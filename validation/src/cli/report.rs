@@ -29,7 +29,9 @@ pub(super) fn report(
     let (cases, places) = match (&suite, &command.suite) {
         (Some(suite), Some(folder)) => {
             let cases = suite.prepare(registry, command.tier, command.allowance.limits())?;
-            (cases, CommittedValues::OfSuite(folder.clone()))
+            let places = CommittedValues::OfSuite(folder.clone());
+            places.refuse_orphans(suite.studies())?;
+            (cases, places)
         }
         _ => (prepare(command, registry)?, CommittedValues::OfCases),
     };
@@ -108,7 +110,9 @@ pub(super) fn report(
     for case in &page.cases {
         text.push_str(&summary::not_judged(&case.name, &case.not_judged));
     }
-    let is_whole = page.cases.iter().all(|case| case.not_judged.is_empty());
+    let contradictions = places.contradictions(&page);
+    text.push_str(&contradictions);
+    let is_whole = contradictions.is_empty() && page.cases.iter().all(|case| case.not_judged.is_empty());
     let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric)).unless_whole(is_whole);
     let drifted = drifted(&page);
     text.push_str(&drifted);

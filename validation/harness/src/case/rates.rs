@@ -2,7 +2,7 @@
 //! so that a run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use crate::input::{DOCUMENT, comma_fault, is_comment, number_remedy, read_text, row_remedy, text_fault};
+use crate::input::{DOCUMENT, FieldError, TextTable, read_text, unit};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -25,8 +25,9 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
             let remedy = "check the path, which begins at this file, and its permissions";
             ParameterError::field(&field, format!("\"{name}\" cannot be read ({error})"), "", remedy).in_file(path)
         })?;
-        let rows = rows(&text)
-            .map_err(|(line, rule, remedy)| refused(&format!("a table whose line {line} is {rule}"), &remedy))?;
+        // an opening in the plane feeds per width
+        let rate_unit = if inlet.contains_key("corners") { "kg/s" } else { "kg/(s m)" };
+        let rows = rows(&text, &beside.join(name), rate_unit)?;
         count += rows.len();
         if count > MOST_ROWS {
             let rule = format!("at most {MOST_ROWS} rows together with the tables before it");
@@ -38,35 +39,32 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
     Ok(())
 }
 
-/// The rows of a table with a heading; otherwise the line that is none, the rule and what to do.
-fn rows(text: &str) -> Result<Vec<(f64, f64)>, (usize, String, String)> {
-    if let Some(fault) = text_fault(text) {
-        return Err((fault.line, "plain text".to_owned(), fault.in_words()));
-    }
-    let lines = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
-    let mut lines = lines.filter(|(_, line)| !line.is_empty() && !is_comment(line));
-    let heading = lines.next();
-    if let Some(fault) = heading.and_then(|(line, heading)| comma_fault(heading, line)) {
-        return Err((fault.line, "the heading of two columns".to_owned(), fault.in_words()));
-    }
-    let mut rows = Vec::new();
-    for (number, line) in lines {
-        let words: Vec<&str> = line.split(',').map(|word| word.trim().trim_matches('"')).collect();
-        let [time, rate] = words[..] else {
-            let rule = "a time [s] and a rate, parted by a comma".to_owned();
-            return Err((number, rule, row_remedy(line, words.len(), 2).to_owned()));
-        };
-        let number_of = |word: &str| word.parse::<f64>().ok().filter(|value| value.is_finite());
-        match (number_of(time), number_of(rate)) {
-            (Some(time), Some(rate)) => rows.push((time, rate)),
-            (Some(_), None) => return Err((number, "two numbers".to_owned(), number_remedy(rate).to_owned())),
-            _ => return Err((number, "two numbers".to_owned(), number_remedy(time).to_owned())),
+/// The rows of a table, in s and the unit of rates.
+fn rows(text: &str, file: &Path, rate_unit: &str) -> Result<Vec<(f64, f64)>, FieldError> {
+    let TextTable { headings, columns } = TextTable::parse(text, file)?;
+    let [times, rates] = &columns[..] else {
+        let defect = format!("{} columns", columns.len());
+        return Err(FieldError::finding("table", defect, "give a time and a rate in each row").in_file(file));
+    };
+    let in_unit = |heading: &str, values: &[f64], own: &str| {
+        let refused =
+            |value: String, rule: &str, remedy| Err(FieldError::new(heading, value, rule, remedy).in_file(file));
+        if let Some(row) = values.iter().position(|value| !value.is_finite()) {
+            return refused(
+                format!("{} in row {}", values[row], row + 1),
+                "a finite number",
+                "leave the row out or mend it",
+            );
         }
-    }
-    if rows.is_empty() {
-        return Err((1, "a heading, such as t [s],rate [kg/s], with rows below".to_owned(), "add the rows".to_owned()));
-    }
-    Ok(rows)
+        let given =
+            heading.strip_suffix(']').and_then(|heading| heading.rsplit_once('[')).map_or(own, |(_, unit)| unit);
+        match if given == own { Some(1.0) } else { unit::factor(given, own) } {
+            Some(factor) => Ok(values.iter().map(|value| value * factor).collect::<Vec<f64>>()),
+            None => refused(format!("[{given}]"), &format!("a unit of the kind of [{own}]"), "mend the heading"),
+        }
+    };
+    let (times, rates) = (in_unit(&headings[0], times, "s")?, in_unit(&headings[1], rates, rate_unit)?);
+    Ok(times.into_iter().zip(rates).collect())
 }
 
 #[cfg(test)]
@@ -76,7 +74,7 @@ mod tests {
     #[test]
     fn rows_come_with_the_file_that_names_them() {
         let folder = tempfile::tempdir().expect("temporary folder");
-        std::fs::write(folder.path().join("feed.csv"), "# measured\nt [s],rate [kg/s]\n0,1.5\n2.5, 0\n")
+        std::fs::write(folder.path().join("feed.csv"), "# measured\nt [ms],rate [g/(s cm)]\n0,15\n2500, 0\n")
             .expect("writable");
         let path = folder.path().join("case.toml");
         let mut fields: Table =
@@ -89,14 +87,19 @@ mod tests {
     }
 
     #[test]
-    fn lines_that_are_no_rows_are_named() {
-        let refused = |text: &str| rows(text).expect_err("refused").0;
-        assert_eq!(refused("t,q\n0,1\n1\n"), 3);
-        assert_eq!(refused("t,q\n0,1\n1,2,3\n"), 3);
-        assert_eq!(refused("t,q\n# a note\n0,one\n"), 3);
-        assert_eq!(refused("t;q\n0;1\n"), 1);
-        assert_eq!(refused("t,q\n"), 1);
-        assert_eq!(refused("t,q\n0,inf\n"), 2);
-        assert!(rows("t [s],q [kg/s]\n\n0,1\n").is_ok());
+    fn invalid_tables_are_named_by_line_and_units_are_converted() {
+        let read = |text: &str| rows(text, Path::new("a.csv"), "kg/s").map_err(|error| error.to_string());
+        for (text, said) in [
+            ("t,q\n0,1\n1\n", "a.csv: `line 3`: 1 columns"),
+            ("t,q\n# a note\n0,one\n", "a.csv: `line 3` is \"one\" in column q"),
+            ("t\n0\n", "a.csv: `table`: 1 columns; give"),
+            ("t,q\n", "a.csv: `line 1` is without numbers"),
+            ("t,q\n0,inf\n", "a.csv: `q` is inf in row 1, but must be a finite number"),
+            ("t [furlong],q\n0,1\n", "a.csv: `t [furlong]` is [furlong], but must be a unit of the kind of [s]"),
+            ("t,q [kg/(s m)]\n0,1\n", "a.csv: `q [kg/(s m)]` is [kg/(s m)], but must be a unit of the kind of [kg/s]"),
+        ] {
+            assert!(read(text).is_err_and(|message| message.starts_with(said)), "{said}");
+        }
+        assert_eq!(read("t [s];q [kg/h]\r\r0;3600\r"), Ok(vec![(0.0, 1.0)]));
     }
 }

@@ -51,7 +51,7 @@ pub enum ReferenceError {
     },
     /// A number column holds something else.
     #[error(
-        "read the reference data {file}, line {line}, column {column} (`{name}`): `{text}` is not a finite number; \
+        "read the reference data {file}, line {line}, column {column} (`{name}`): `{text}` is not a finite measured value; \
          write one with a decimal point, or drop the row"
     )]
     Number {

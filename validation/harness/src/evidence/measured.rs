@@ -17,7 +17,7 @@
 
 use super::ReferenceError;
 use super::measured_table::{ReferenceColumn, parse_table};
-use crate::input::{DOCUMENT, read_text, shown};
+use crate::input::{DOCUMENT, plain_lines, read_text, shown};
 use crate::metric::{Confidence, MetricKind};
 use std::path::Path;
 
@@ -88,8 +88,7 @@ impl MeasuredData {
 
     /// Reads a text; `file` names it in errors.
     pub fn parse(file: &str, text: &str) -> Result<Self, ReferenceError> {
-        // A byte-order mark, as spreadsheets write it, would hide the first `#`.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = &*plain_lines(text);
         let header_lines = text.lines().take_while(|line| line.starts_with('#') || line.trim().is_empty()).count();
         let metadata = parse_metadata(file, text, header_lines)?;
         let columns = parse_table(file, text, header_lines)?;

@@ -1,7 +1,7 @@
 //! The table of a reference file: CSV text → columns, with the place of everything that is wrong.
 
 use super::ReferenceError;
-use crate::input::{comma_fault, row_remedy, text_fault};
+use crate::input::{comma_fault, is_mark, row_remedy, text_fault};
 
 /// No measured number is larger, in whatever unit; squares of such numbers are still finite.
 const LARGEST: f64 = 1e30;
@@ -87,7 +87,7 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
             match column {
                 ReferenceColumn::Labels { values, .. } => values.push(text.to_owned()),
                 ReferenceColumn::Numbers { name, values, .. } => match text.parse::<f64>() {
-                    Ok(value) if value.abs() <= LARGEST => values.push(value),
+                    Ok(value) if value.abs() <= LARGEST && !is_mark(value) => values.push(value),
                     _ => {
                         return Err(ReferenceError::Number {
                             file: file.to_owned(),

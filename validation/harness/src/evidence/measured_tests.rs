@@ -38,11 +38,12 @@ fn a_column_that_is_not_there_is_answered_with_those_that_are() {
 
 #[test]
 fn a_bad_number_is_located() {
-    for bad in ["abc", "NaN", "inf", "", "1,5"] {
+    for bad in ["abc", "NaN", "inf", "", "1,5", "-9999"] {
         let field = if bad.contains(',') { format!("\"{bad}\"") } else { bad.to_owned() };
         let error = message_of_table(&format!("y [m],u [m/s]\n1,2\n2,{field}\n"));
-        let place =
-            format!("read the reference data data.csv, line 10, column 2 (`u`): `{bad}` is not a finite number");
+        let place = format!(
+            "read the reference data data.csv, line 10, column 2 (`u`): `{bad}` is not a finite measured value"
+        );
         assert!(error.starts_with(&place), "{error}");
     }
 }

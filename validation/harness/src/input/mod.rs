@@ -8,6 +8,8 @@ mod name;
 mod place;
 mod reading;
 mod table;
+mod text_table;
+pub mod unit;
 
 pub(crate) use escape::origin;
 pub use escape::{escaped, escaped_lines, is_control, shown};
@@ -18,4 +20,5 @@ pub use name::nearest;
 pub use name::{check_name, check_text, did_you_mean};
 pub(crate) use place::position;
 pub use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, read_bytes, read_own, read_text};
-pub use table::{comma_fault, is_comment, number_remedy, row_remedy, text_fault};
+pub use table::{comma_fault, is_comment, is_mark, number_remedy, plain_lines, row_remedy, text_fault};
+pub use text_table::TextTable;

@@ -2,6 +2,19 @@
 
 use super::escape::is_control;
 use super::field::FieldError;
+use std::borrow::Cow;
+
+/// A table's text without a byte-order mark, which would hide its first comment, and with the line ends of old Macintosh
+/// programs as others write them.
+pub fn plain_lines(text: &str) -> Cow<'_, str> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    if text.contains('\n') { Cow::Borrowed(text) } else { Cow::Owned(text.replace('\r', "\n")) }
+}
+
+/// Whether a number stands for no value, as loggers write it.
+pub fn is_mark(value: f64) -> bool {
+    [-9999.0, -99999.0].contains(&value)
+}
 
 /// Fault in the text of a table, with its place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -90,6 +103,8 @@ pub fn number_remedy(word: &str) -> &'static str {
         "several values separated by semicolons: use one separator for all columns, and write decimals with a point"
     } else if are_numbers('\t') || (word.contains(' ') && word.split_whitespace().all(is_number)) {
         "several values separated by blanks or tabs: use one separator for all columns"
+    } else if !has_decimal_comma(word) && is_number(&word.replace(',', "")) {
+        "write numbers without separators of thousands"
     } else {
         "write decimals with a point"
     }
@@ -117,6 +132,7 @@ fn has_decimal_comma(word: &str) -> bool {
 /// Whether a word stands for no value.
 fn is_missing(word: &str) -> bool {
     ["", "-", "--", "na", "n/a", "null", "none"].contains(&word.to_ascii_lowercase().as_str())
+        || word.parse().is_ok_and(is_mark)
 }
 
 /// Whether a line is a comment.
@@ -176,6 +192,8 @@ mod tests {
         assert!(number_remedy("1,5;2").starts_with("several values separated by semicolons"));
         assert!(number_remedy("1 2").starts_with("several values separated by blanks or tabs"));
         assert_eq!(number_remedy("1,5"), "write decimals with a point");
+        assert_eq!(number_remedy("1,234.5"), "write numbers without separators of thousands");
+        assert_eq!(number_remedy("-9999"), "leave out rows in which a value is missing");
         assert_eq!(number_remedy("N/A"), "leave out rows in which a value is missing");
         assert!(row_remedy("1,5,2,5", 4, 2).starts_with("write decimals with a point, or"));
         assert!(row_remedy("1;2", 1, 2).starts_with("use one separator"));

@@ -1,8 +1,7 @@
 //! Columns of an external file: the quantity and unit of each.
 
-use super::unit;
 use crate::case::ExternalColumn;
-use crate::input::FieldError;
+use crate::input::{FieldError, unit};
 
 /// Source of the values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,7 +73,8 @@ impl ColumnSource {
     pub fn factor(&self, item: &ExternalColumn, field: &str) -> Result<f64, FieldError> {
         unit::factor(self.unit(), item.unit).ok_or_else(|| {
             let rule = format!("a unit of the same kind as {}", item.unit);
-            let remedy = "such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, Pa, N, J with prefixes";
+            let remedy =
+                "such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes";
             FieldError::new(field, format!("[{}]", self.unit()), &rule, remedy)
         })
     }
@@ -108,7 +108,7 @@ mod tests {
         let wrong = parse("\"t [s]\"").expect("a heading").factor(&ExternalColumn::new("x", "m", "place"), "columns.x");
         assert_eq!(
             wrong.expect_err("not a length").to_string(),
-            "`columns.x` is [s], but must be a unit of the same kind as m; such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, Pa, N, J with prefixes"
+            "`columns.x` is [s], but must be a unit of the same kind as m; such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes"
         );
     }
 }

@@ -4,11 +4,8 @@ mod column;
 mod drawing;
 mod place;
 mod reading;
-mod text_table;
-pub mod unit;
 
 pub use column::{ColumnSource, ColumnText};
-pub use text_table::TextTable;
 
 use crate::case::CaseResult;
 use crate::evaluation::PlanError;

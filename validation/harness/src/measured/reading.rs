@@ -1,11 +1,9 @@
 //! The file of measurements.
 
 use super::column::{ColumnSource, ColumnText};
-use super::text_table::TextTable;
-use super::unit;
 use super::{MeasuredColumn, Measurements, Said};
 use crate::evaluation::PlanError;
-use crate::input::{DOCUMENT, FieldError, read_text};
+use crate::input::{DOCUMENT, FieldError, TextTable, is_mark, plain_lines, read_text, unit};
 use crate::metric::Confidence;
 use crate::output::FileError;
 use std::path::Path;
@@ -25,8 +23,7 @@ pub(super) fn read(path: &Path) -> Result<Measurements, PlanError> {
 }
 
 fn parse(path: &Path, text: &str) -> Result<Measurements, FieldError> {
-    // a byte-order mark, as spreadsheets write it, would hide the first comment, and its limit with it
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let text = &*plain_lines(text);
     let table = TextTable::parse(text, path)?;
     if table.headings.len() != 3 {
         return Err(FieldError::new(
@@ -74,6 +71,10 @@ fn column(heading: &str, values: Vec<f64>) -> Result<MeasuredColumn, FieldError>
     else {
         unreachable!("a text is a heading")
     };
+    if let Some(row) = values.iter().position(|value| is_mark(*value)) {
+        let defect = format!("{} in row {}, a mark of a missing value", values[row], row + 1);
+        return Err(FieldError::finding(heading, defect, "leave the row out"));
+    }
     if let Some(row) = values.iter().position(|value| !value.is_finite() || value.abs() > LARGEST) {
         let value = format!("{} in row {}", values[row], row + 1);
         return Err(FieldError::new(heading, value, "finite numbers up to 1e30", "leave the row out or mend it"));

@@ -193,6 +193,10 @@ fn invalid_measurements_are_refused() {
             "mine.csv: `front [m]` is NaN in row 1, but must be finite numbers up to 1e30; leave the row out or mend it",
         ),
         (
+            "t [s],front [m],uncertainty [m]\n1,-9999,1\n",
+            "mine.csv: `front [m]`: -9999 in row 1, a mark of a missing value; leave the row out",
+        ),
+        (
             "t [s],front [m],uncertainty [m]\n1,1,1\n2,1,0\n",
             "mine.csv: `uncertainty` is 0 in row 2, but must be positive; give a standard deviation; without one there is nothing to compare by",
         ),

@@ -42,6 +42,7 @@ impl FileError {
     pub fn unreadable(file: &Path, error: &std::io::Error) -> Self {
         let remedy = match error.kind() {
             std::io::ErrorKind::InvalidData => "save it as plain text in UTF-8",
+            std::io::ErrorKind::FileTooLarge => "shorten it, or move it elsewhere",
             _ => "check the path and its permissions",
         };
         Self::Unreadable { file: file.to_owned(), reason: reason(error), remedy }

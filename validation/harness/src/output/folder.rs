@@ -100,6 +100,12 @@ impl OutputFolder {
         Ok(marked.map_err(|error| FileError::unwritable(folder, &error))?)
     }
 
+    /// Whether a folder is ours.
+    #[must_use]
+    pub fn is_one(folder: &Path) -> bool {
+        folder.join(MARKER).is_file()
+    }
+
     /// The folder that is claimed.
     #[must_use]
     pub fn folder(&self) -> &Path {

@@ -6,9 +6,28 @@ use super::judgement::{JudgedCase, JudgedMetric, Judgement};
 use super::known_failures::KnownFailureStatus;
 use super::rows::{note, statement};
 use super::view::typed;
+use crate::input::FieldError;
 use crate::metric::Verdict;
 use quick_junit::{NonSuccessKind, Property, TestCase, TestCaseStatus, TestSuite};
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
 use std::time::Duration;
+
+/// Refuses a file that exists and holds anything but verdicts, such as the input of the command.
+///
+/// # Errors
+/// That file.
+pub fn check_junit(path: &Path) -> Result<(), FieldError> {
+    let mut head = Vec::new();
+    let read =
+        if path.is_file() { File::open(path).and_then(|file| file.take(512).read_to_end(&mut head)) } else { Ok(0) };
+    if read.is_ok() && (head.is_empty() || String::from_utf8_lossy(&head).contains("<testsuites")) {
+        return Ok(());
+    }
+    let remedy = "name another file: its contents would be lost";
+    Err(FieldError::new("--junit", path.display(), "a new file, or one of JUnit's XML", remedy))
+}
 
 /// A report as text. A known failure is skipped, with the reason of its entry; a gate that disagrees with the list of
 /// known failures fails, as it fails the report.

@@ -48,6 +48,7 @@ pub use error::{BaselineError, EarlierError, ReportError};
 pub use gate_list::{GateList, RemovedGates};
 pub use history::History;
 pub use judgement::{Judgement, judge};
+pub use junit::check_junit;
 pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
 pub use power::GatePower;
 pub use snapshot_text::description;

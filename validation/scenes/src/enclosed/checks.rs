@@ -67,8 +67,35 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             }
             gauge.check(self.spacing, &down).map_err(|error| error.within(&format!("gauges[{k}]")))?;
             self.check_direction(k, gauge)?;
+            self.check_place(k, gauge)?;
         }
         names::check_measured(&self.measured, |name| self.gauges.iter().any(|gauge| gauge.name() == name))
+    }
+
+    /// Refuses a gauge that lies as a whole beyond a side, where nothing is ever measured.
+    fn check_place(&self, k: usize, gauge: &S::Gauge) -> Result<(), ParameterError> {
+        let measure = gauge.measure(&self.direction_of(gauge));
+        for (axis, ((lower, upper), (low, high))) in self.sides.pairs().into_iter().zip(S::Sides::NAMES).enumerate() {
+            let margin = match &measure {
+                Measurand::Front(_) => 0.0,
+                // what repeats itself is met in every period
+                _ if lower.is_periodic() => continue,
+                Measurand::Flux(_) => 0.0,
+                Measurand::Depth(depth) if depth.direction[axis].abs() < 1e-9 => 0.5 * depth.width,
+                Measurand::Depth(_) | Measurand::Force { .. } => continue,
+            };
+            let places = gauge.places();
+            let all = |way: f64, plane: f64| places.iter().all(|place| way * (place[axis] - plane) > margin);
+            let below = lower.coordinate().filter(|plane| all(-1.0, *plane)).map(|plane| (low, plane));
+            let above = upper.coordinate().filter(|plane| all(1.0, *plane)).map(|plane| (high, plane));
+            if let Some((side, plane)) = below.or(above) {
+                let defect =
+                    format!("`{}` beyond the side `{side}` at {plane} m, where it measures nothing", gauge.name());
+                let remedy = "move it between the sides of the domain";
+                return Err(ParameterError::field(&format!("gauges[{k}]"), defect, "", remedy));
+            }
+        }
+        Ok(())
     }
 
     /// Check of the direction of a thickness: one direction only, which leaves the material somewhere.

@@ -17,7 +17,11 @@ pub struct GivenRate<'a> {
 impl GivenRate<'_> {
     /// The field that gives it.
     pub(super) fn field(&self) -> &'static str {
-        if self.rates.is_empty() { "rate" } else { "rates" }
+        match (self.rates, self.table) {
+            ([], _) => "rate",
+            (_, "") => "rates",
+            _ => "table",
+        }
     }
 
     /// The rate of the solver.
@@ -35,7 +39,7 @@ impl GivenRate<'_> {
         if self.rates.is_empty() {
             if self.rate == 0.0 {
                 let remedy = "give `rate`, `rates` (rows of time and rate) or `table` (a CSV file)";
-                return refused("rate", "0".to_owned(), "positive", remedy);
+                return refused("rate", "missing, or 0".to_owned(), "", remedy);
             }
             return FeedRate::constant(self.rate).map_err(|_| {
                 ParameterError::field("rate", self.rate, "positive", "what flows out leaves by an open side")
@@ -45,7 +49,7 @@ impl GivenRate<'_> {
             return refused("rate", self.rate.to_string(), "absent beside a table", "give one of the two");
         }
         FeedRate::table(self.rates).map_err(|mut problem| {
-            problem.field = format!("rates{}", problem.field);
+            problem.field = format!("{}{}", self.field(), problem.field);
             problem.into()
         })
     }

@@ -73,20 +73,23 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             let stiffer =
                 if stiffness <= STIFFEST { format!(", or raise `stiffness` to {stiffness}") } else { String::new() };
             let remedy = format!("{speed:.4} m/s is too fast: widen the opening{stiffer}");
-            return Err(ParameterError::field(given.field(), &problem.value, &rule, &remedy));
+            let of_table = if given.field() == "table" { " (SI)" } else { "" };
+            return Err(ParameterError::field(given.field(), format!("{}{of_table}", problem.value), &rule, &remedy));
         }
         let first = feed.direction() * (0.5 * self.spacing);
         if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.hold(&(*cell + first))) {
-            let rule = "between the sides of the domain";
             let remedy = "material would leave at once: move the opening or the side";
-            return Err(ParameterError::field(S::Inlet::GIVEN_BY, place(cell), rule, remedy));
+            let defect = format!("its part at {} is beyond a side of the domain", place(cell));
+            return Err(ParameterError::field(S::Inlet::GIVEN_BY, defect, "", remedy));
         }
         let rows = wall_rows(self.numerics.smoothing_ratio);
         let last = feed.direction() * (-self.spacing * rows as f64);
         if let Some(cell) = feed.cells.iter().find(|cell| !self.sides.continue_to(&(*cell + last))) {
-            let rule = "that many rows in front of all periodic sides and planes of symmetry";
-            let value = format!("{}, with {rows} rows behind it", place(cell));
-            return Err(ParameterError::field(S::Inlet::GIVEN_BY, value, rule, "move the opening away from the side"));
+            let defect = format!(
+                "its part at {} has less than {rows} spacings behind it to a periodic side or plane of symmetry",
+                place(cell)
+            );
+            return Err(ParameterError::field(S::Inlet::GIVEN_BY, defect, "", "move the opening away from the side"));
         }
         Ok(())
     }

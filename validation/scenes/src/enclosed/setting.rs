@@ -104,6 +104,9 @@ pub trait SceneGauge<const D: usize>: PlainData {
     /// `down`.
     fn measure(&self, down: &Vector<D>) -> Measurand<'_, D>;
 
+    /// Its places `[m]`; none of what is measured on a wall.
+    fn places(&self) -> Vec<Vector<D>>;
+
     /// Refuses lines and openings without a size, measured by the spacing `[m]`.
     ///
     /// # Errors

@@ -24,7 +24,7 @@ pub enum DomainSide {
 
 impl DomainSide {
     /// Coordinate of the side `[m]`.
-    fn coordinate(self) -> Option<f64> {
+    pub(super) fn coordinate(self) -> Option<f64> {
         match self {
             Self::None => None,
             Self::Mirror(place) | Self::Open(place) | Self::Periodic(place) => Some(place),
@@ -41,7 +41,7 @@ impl DomainSide {
         if let Self::Open(plane) = self { Some(plane) } else { None }
     }
 
-    fn is_periodic(self) -> bool {
+    pub(super) fn is_periodic(self) -> bool {
         matches!(self, Self::Periodic(_))
     }
 }

@@ -103,9 +103,18 @@ impl setting::SceneBody<2> for PlaneBody {
             Self::Polygon { points, .. } if points.len() < 3 => {
                 refused("points", format!("{} of them", points.len()), "three corners or more", "add the missing ones")
             }
+            Self::Polygon { points, .. } => check_crossing(points, true),
             _ => Ok(()),
         }
     }
+}
+
+/// Refuses lines that cross each other: inside and outside are then not those that are meant.
+pub(super) fn check_crossing(points: &[PlaneVector], closed: bool) -> Result<(), ParameterError> {
+    let corners: Vec<Vector<2>> = points.iter().map(vector).collect();
+    let Some((one, other)) = shapes::crossing(&corners, closed) else { return Ok(()) };
+    let defect = format!("the lines that begin at points[{one}] and points[{other}] cross");
+    Err(ParameterError::field("points", defect, "", "give the corners in their order along the outline"))
 }
 
 #[cfg(test)]

@@ -93,6 +93,14 @@ impl setting::SceneGauge<2> for PlaneGauge {
         }
     }
 
+    fn places(&self) -> Vec<Vector<2>> {
+        match self {
+            Self::Front { from, to, .. } | Self::Flux { from, to, .. } => vec![vector(from), vector(to)],
+            Self::Depth { at, .. } => vec![vector(at)],
+            Self::Force { .. } => Vec::new(),
+        }
+    }
+
     fn check(&self, spacing: f64, _: &Vector<2>) -> Result<(), ParameterError> {
         match self {
             Self::Front { from, to, .. } | Self::Flux { from, to, .. } => {

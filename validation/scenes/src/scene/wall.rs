@@ -1,6 +1,7 @@
 //! Walls of a scene: polylines, rough or smooth, at rest or moved by a table; and the sides of its domain.
 
 use super::PlaneVector;
+use super::body::check_crossing;
 use crate::case::ParameterError;
 use crate::enclosed::setting::{self, vector};
 use crate::enclosed::{DomainSide, sides};
@@ -100,7 +101,7 @@ impl setting::SceneWall<2> for WallLine {
             let value = format!("{} points", self.points.len());
             return Err(ParameterError::field("points", value, rule, "give the wall's corners in their order"));
         }
-        Ok(())
+        check_crossing(&self.points, self.closed)
     }
 }
 

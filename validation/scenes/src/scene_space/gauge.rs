@@ -99,6 +99,18 @@ impl setting::SceneGauge<3> for SpaceGauge {
         }
     }
 
+    fn places(&self) -> Vec<Vector<3>> {
+        match self {
+            Self::Front { from, to, .. } => vec![vector(from), vector(to)],
+            Self::Flux { corners: (a, b, c), .. } => {
+                let [corner, one, other] = edges([a, b, c]);
+                vec![corner, corner + one, corner + other, corner + one + other]
+            }
+            Self::Depth { at, .. } => vec![vector(at)],
+            Self::Force { .. } => Vec::new(),
+        }
+    }
+
     fn check(&self, spacing: f64, down: &Vector<3>) -> Result<(), ParameterError> {
         match self {
             Self::Front { from, to, .. } => {

@@ -153,6 +153,10 @@ impl setting::SceneWall<3> for SpaceWall {
                 let field = format!("quads[{k}]");
                 return refused(&field, "not plane".to_owned(), "plane", "give two `triangles` instead");
             }
+            if (b - a).cross(&(c - a)).dot(&(c - a).cross(&(d - a))) < 0.0 {
+                let remedy = "give the corners in their order around it, or two `triangles` instead";
+                return refused(&format!("quads[{k}]"), "edges that cross or turn back".to_owned(), "", remedy);
+            }
         }
         for (k, (lower, upper)) in self.boxes.iter().enumerate() {
             if !shapes::has_inside::<3>(&vector(lower), &vector(upper)) {
@@ -235,6 +239,9 @@ mod tests {
         let o = (0.0, 0.0, 0.0);
         let bent = SpaceWall::of_quads("bent", vec![(o, (1.0, 0.0, 0.0), (1.0, 1.0, 0.2), (0.0, 1.0, 0.0))]);
         assert!(bent.check(0.1, 1.0).expect_err("bent").to_string().starts_with("`quads[0]` is not plane"));
+        let crossed = SpaceWall::of_quads("x", vec![(o, (1.0, 1.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0))]);
+        let message = crossed.check(0.1, 1.0).expect_err("crossed").to_string();
+        assert!(message.starts_with("`quads[0]`: edges that cross or turn back; give"), "{message}");
         let unread = SpaceWall { mesh: "a.stl".to_owned(), ..SpaceWall::of_quads("unread", Vec::new()) };
         assert_eq!(
             unread.check(0.1, 1.0).expect_err("unread").to_string(),

@@ -292,7 +292,17 @@ impl StudyText {
     }
 
     fn check_variants(&self) -> Result<(), FieldError> {
-        let mut product = self.variants.len().max(1);
+        let counts = self.vary.iter().map(|varied| varied.values.len().max(1));
+        let product = counts.fold(self.variants.len().max(1), usize::saturating_mul);
+        if product > MOST_VARIANTS {
+            let rule = format!("at most {MOST_VARIANTS} variants");
+            return Err(FieldError::new(
+                "vary",
+                product,
+                &rule,
+                "take fewer values; `bagnold sweep` has no such limit",
+            ));
+        }
         for (place, named) in self.variants.iter().enumerate() {
             let field = format!("variants[{place}].name");
             check_name(&field, &named.name)?;
@@ -324,16 +334,6 @@ impl StudyText {
                 }
                 seen.push(named);
             }
-            product = product.saturating_mul(varied.values.len());
-        }
-        if product > MOST_VARIANTS {
-            let rule = format!("at most {MOST_VARIANTS} variants");
-            return Err(FieldError::new(
-                "vary",
-                product,
-                &rule,
-                "take fewer values; `bagnold sweep` has no such limit",
-            ));
         }
         Ok(())
     }

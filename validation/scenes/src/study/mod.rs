@@ -37,7 +37,7 @@ mod suite;
 
 pub use canonical::canonical;
 pub use schema::schema;
-pub use suite::Suite;
+pub use suite::{Suite, is_study};
 
 use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
 use crate::evaluation::{PlanError, parse_plan};
@@ -50,8 +50,8 @@ use check::{CheckedQuantity, StudyCheck};
 use file::{ChangedSettings, StudyText};
 use reading::{Reading, joined};
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use toml::Table;
 
 /// A study that was read; nothing has been simulated.
 #[derive(Debug, Clone)]
@@ -61,20 +61,6 @@ pub struct Study {
     base: CaseFile,
     checks: Vec<StudyCheck>,
     changes: Vec<ChangedSettings>,
-}
-
-/// Keys that only studies have; a study whose first line is misspelt is to be refused, not passed over.
-const KEYS: [&str; 4] = ["study", "checks", "vary", "variants"];
-
-/// Whether a file describes a study: it has the key `study`, or one that only studies have.
-#[must_use]
-pub fn is_study(path: &Path) -> bool {
-    let text = read_text(path, WRITTEN_BY_HAND).unwrap_or_default();
-    // a file with a slip in its syntax is a study as well, if a line says so
-    match text.parse::<Table>() {
-        Ok(table) => KEYS.iter().any(|key| table.contains_key(*key)),
-        Err(_) => text.lines().any(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == "study")),
-    }
 }
 
 impl Study {
@@ -135,6 +121,15 @@ impl Study {
             checks.push(check);
         }
         let changes = text.changes();
+        let mut files = BTreeMap::new();
+        for changed in &changes {
+            if let Some(twin) = files.insert(changed.variant.file_name(), &changed.variant) {
+                let rule = format!("unlike {twin} also as a part of file names");
+                let error =
+                    FieldError::new("variants", &changed.variant, &rule, "rename one: letters, digits and dashes");
+                return Err(in_file(error).into());
+            }
+        }
         Ok(Self { file: file.to_owned(), text, base, checks, changes })
     }
 

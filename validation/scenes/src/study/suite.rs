@@ -1,11 +1,29 @@
 //! A folder of studies, simulated and judged together.
 
-use super::{Study, is_study};
+use super::Study;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
 use crate::evaluation::PlanError;
-use crate::input::FieldError;
-use crate::output::FileError;
+use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
+use crate::output::{FileError, OutputFolder};
 use std::path::{Path, PathBuf};
+use toml::Table;
+
+/// Keys that only studies have; a study whose first line is misspelt is to be refused, not passed over.
+const KEYS: [&str; 4] = ["study", "checks", "vary", "variants"];
+
+/// Whether a file describes a study: it has the key `study`, or one that only studies have.
+#[must_use]
+pub fn is_study(path: &Path) -> bool {
+    read_text(path, WRITTEN_BY_HAND).is_ok_and(|text| describes_study(&text))
+}
+
+fn describes_study(text: &str) -> bool {
+    // a file with a slip in its syntax is a study as well, if a line says so
+    match text.parse::<Table>() {
+        Ok(table) => KEYS.iter().any(|key| table.contains_key(*key)),
+        Err(_) => text.lines().any(|line| line.split_once('=').is_some_and(|(key, _)| key.trim() == "study")),
+    }
+}
 
 /// The studies of a folder, in the order of their files' names.
 #[derive(Debug, Clone)]
@@ -17,15 +35,26 @@ impl Suite {
     /// Reads every study of a folder; other files, such as the case files that studies are based on, are left alone.
     ///
     /// # Errors
-    /// A folder that cannot be read or holds no study, a study that cannot be read, two of the same name.
+    /// A folder that cannot be read or holds no study, a TOML file that cannot be read, a study in a folder below, two of
+    /// the same name.
     pub fn read(folder: &Path, registry: Registry) -> Result<Self, PlanError> {
         let unreadable = |error: &std::io::Error| PlanError::File(FileError::unreadable(folder, error));
-        let entries = std::fs::read_dir(folder).map_err(|error| unreadable(&error))?;
         let mut files: Vec<PathBuf> = Vec::new();
-        for entry in entries {
-            let path = entry.map_err(|error| unreadable(&error))?.path();
-            if path.extension().is_some_and(|ending| ending == "toml") && is_study(&path) {
-                files.push(path);
+        for path in entries(folder).map_err(|error| unreadable(&error))? {
+            if path.is_dir() && !OutputFolder::is_one(&path) {
+                let inner = entries(&path).map_err(|error| FileError::unreadable(&path, &error))?;
+                if let Some(study) = inner.iter().find(|inner| is_toml(inner) && is_study(inner)) {
+                    let remedy = "move it up, or report its folder by itself from a place beside";
+                    return Err(FieldError::finding("study", "in a folder below the suite", remedy)
+                        .in_file(study)
+                        .into());
+                }
+            } else if is_toml(&path) && !path.is_dir() {
+                // a file that cannot be read or parsed may be a study
+                let text = read_text(&path, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(&path, &error))?;
+                if text.parse::<Table>().is_err() || describes_study(&text) {
+                    files.push(path);
+                }
             }
         }
         files.sort();
@@ -77,4 +106,12 @@ impl Suite {
         let mut results = results.into_iter();
         self.studies.iter().map(|study| study.judge(results.by_ref().take(study.case_count()).collect())).collect()
     }
+}
+
+fn entries(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
+    std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
+}
+
+fn is_toml(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }

@@ -1,7 +1,6 @@
 //! Dumps of LAMMPS as text: many pictures in one file.
 
-use crate::input::FieldError;
-use crate::measured::TextTable;
+use crate::input::{FieldError, TextTable};
 use std::path::Path;
 
 /// Start of every section.

@@ -102,7 +102,8 @@ impl Variant {
 }
 
 fn file_name(text: &str) -> String {
-    text.replace("..", "-").replace(['=', ',', '_'], "-")
+    let is_kept = |letter: char| letter.is_ascii_alphanumeric() || letter == '.';
+    text.replace("..", "-").replace(|letter| !is_kept(letter), "-")
 }
 
 impl fmt::Display for Variant {

@@ -70,6 +70,7 @@ fn file_names_are_letters_digits_points_and_dashes() {
     let variant: Variant = "slope_angle=24,start=rest,height=0.5..3".parse().expect("a variant");
     assert_eq!(variant.file_name(), "slope-angle-24-start-rest-height-0.5-3");
     assert_eq!(variant.file_name_of_values(), "24-rest-0.5-3");
+    assert_eq!(Variant::of("variant", "<b>x/µ").file_name(), "variant--b-x--");
     assert_eq!(Variant::default().file_name(), "");
 }
 

@@ -6,6 +6,7 @@ use proptest::collection::vec;
 use proptest::prelude::{Strategy, any, prop_oneof, proptest};
 use proptest::prop_assert;
 use proptest::sample::select;
+use std::io::Read;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
@@ -125,6 +126,23 @@ fn a_count_beyond_the_file_is_refused_before_memory_is_asked_for() {
         let message = PointArrays::parse(text.as_bytes(), Path::new(name)).expect_err("no such count").to_string();
         assert!(message.starts_with(&format!("{name}: `file` is ")), "{message}");
     }
+}
+
+#[test]
+fn points_without_places_of_their_own_are_refused_before_memory_is_asked_for() {
+    let points = 10_000_000_u32;
+    let mut zeros = flate2::read::ZlibEncoder::new(std::io::repeat(0).take(3 * u64::from(points)), Default::default());
+    let mut block = Vec::new();
+    zeros.read_to_end(&mut block).expect("compressed");
+    let header = [1, 3 * points, 0, block.len() as u32].map(u32::to_le_bytes).concat();
+    let text = format!(
+        "<VTKFile type=\"PolyData\" compressor=\"vtkZLibDataCompressor\"><PolyData><Piece NumberOfPoints=\"{points}\"><Points>\
+         <DataArray type=\"Int8\" format=\"appended\" offset=\"0\"/></Points></Piece></PolyData>\
+         <AppendedData encoding=\"raw\">_"
+    );
+    let bytes = [text.as_bytes(), &header, &block].concat();
+    let message = PointArrays::parse(&bytes, Path::new("a.vtp")).expect_err("too many").to_string();
+    assert!(message.contains("with 10000000 points, more than 16 values per byte of the file"), "{message}");
 }
 
 #[test]

@@ -12,12 +12,17 @@ struct Appended<'file> {
     is_raw: bool,
 }
 
+/// Most values per byte of a file `[-]`: points differ from each other, so that a point takes some bytes even compressed.
+const MOST_VALUES: usize = 16;
+
 /// Source of the arrays.
 struct ArraySource<'file> {
     encoding: Encoding,
     appended: Option<Appended<'file>>,
     /// Bytes of the file that arrays may still take: arrays that share their bytes would need more memory than the file has.
     left: usize,
+    /// Values that arrays may still hold: zlib makes thousands of zeros of a few bytes.
+    values_left: usize,
 }
 
 /// Reads the points of all pieces.
@@ -44,7 +49,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
         (Some(bytes), Some(node)) => Some(appended(bytes, node)?),
         _ => None,
     };
-    let mut source = ArraySource { encoding: encoding(root)?, appended, left: bytes.len() };
+    let mut source = ArraySource {
+        encoding: encoding(root)?,
+        appended,
+        left: bytes.len(),
+        values_left: bytes.len().saturating_mul(MOST_VALUES),
+    };
     let mut points = PointArrays::default();
     let grid = child(root, kind).ok_or_else(|| format!("without `{kind}`"))?;
     for piece in grid.children().filter(|node| node.has_tag_name("Piece")) {
@@ -149,6 +159,9 @@ impl ArraySource<'_> {
         let scalar = Scalar::of_xml(scalar).ok_or_else(|| of_array(format!("with values of type `{scalar}`")))?;
         let endless = || of_array(format!("with {tuples} times {components} values"));
         let count = tuples.checked_mul(components).ok_or_else(endless)?;
+        self.values_left = self.values_left.checked_sub(count).ok_or_else(|| {
+            of_array(format!("with {tuples} points, more than {MOST_VALUES} values per byte of the file,"))
+        })?;
         let texts = || array.children().filter(|node| node.is_text()).filter_map(|node| node.text());
         let format = array.attribute("format").unwrap_or("ascii");
         let inline: String;

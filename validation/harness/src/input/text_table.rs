@@ -1,6 +1,8 @@
 //! Tables of numbers as programs write them: comma, semicolon, tab or blanks between the columns, comments before.
 
-use crate::input::{FieldError, did_you_mean, is_comment, nearest, number_remedy, row_remedy, text_fault};
+use super::field::FieldError;
+use super::name::{did_you_mean, nearest};
+use super::table::{is_comment, number_remedy, plain_lines, row_remedy, text_fault};
 use std::path::Path;
 
 /// A table that was read.
@@ -22,8 +24,7 @@ impl TextTable {
     /// # Errors
     /// No numbers, a quote that is not closed, a line with another number of columns, or a word where a number should be.
     pub fn parse(text: &str, file: &Path) -> Result<Self, FieldError> {
-        // a byte-order mark, as spreadsheets write it
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = &*plain_lines(text);
         if let Some(fault) = text_fault(text) {
             return Err(fault.field_error().in_file(file));
         }
@@ -32,22 +33,35 @@ impl TextTable {
         };
         let mut comment = "";
         let mut heading: Option<Vec<String>> = None;
+        let mut heading_line = 0;
         let mut columns: Vec<Vec<f64>> = Vec::new();
         let separator = text
             .lines()
-            .find(|line| !line.trim().is_empty() && !is_comment(line))
+            .find(|line| !is_blank(line) && !is_comment(line))
             .and_then(|line| SEPARATORS.into_iter().find(|separator| line.contains(*separator)));
         for (number, line) in text.lines().enumerate() {
-            if line.trim().is_empty() {
+            if is_blank(line) {
                 continue;
             }
             if is_comment(line) {
                 comment = line.trim_start_matches(['#', '%', ' ']);
                 continue;
             }
-            let words = words(line, separator);
+            let mut words = words(line, separator);
+            // separators behind the last column, as spreadsheets write them
+            let known = heading.as_ref().map_or(columns.len(), Vec::len);
+            while separator.is_some() && words.len() > known && words.last().is_some_and(|word| word.is_empty()) {
+                words.pop();
+            }
             if columns.is_empty() {
+                let is_name =
+                    |word: &&str| word.starts_with(|first: char| first.is_alphabetic() || "[(".contains(first));
+                if heading.is_some() && words.iter().all(|word| is_name(word) && word.parse::<f64>().is_err()) {
+                    let remedy = "put # before text above the table, and units into its heading";
+                    return Err(wrong(heading_line, "text above another line of text", "the heading", remedy));
+                }
                 if heading.is_none() && words.iter().any(|word| word.parse::<f64>().is_err()) {
+                    heading_line = number;
                     heading = Some(words.iter().map(|word| (*word).to_owned()).collect());
                     continue;
                 }
@@ -96,9 +110,23 @@ impl TextTable {
     }
 }
 
+/// Whether a line holds nothing, or nothing but separators.
+fn is_blank(line: &str) -> bool {
+    line.chars().all(|letter| letter.is_whitespace() || SEPARATORS.contains(&letter))
+}
+
 fn words(line: &str, separator: Option<char>) -> Vec<&str> {
     match separator {
-        Some(separator) => line.trim_end_matches(['\r', '\n']).split(separator).map(bare).collect(),
+        Some(separator) => {
+            let (mut is_quoted, mut begins) = (false, true);
+            let ends_word = |letter: char| {
+                is_quoted ^= letter == '"' && (begins || is_quoted);
+                let ends = letter == separator && !is_quoted;
+                begins = ends || (begins && letter.is_whitespace());
+                ends
+            };
+            line.trim_end_matches(['\r', '\n']).split(ends_word).map(bare).collect()
+        }
         // vectors of OpenFOAM stand in parentheses
         None if line.trim_start().starts_with(|first: char| first.is_ascii_digit() || "+-.(".contains(first)) => {
             let is_blank = |letter: char| letter.is_whitespace() || letter == '(' || letter == ')';
@@ -133,6 +161,8 @@ mod tests {
             "x [m],u\n1,2\n3,-4e-3\n",
             "# made by a program\nx [m];u\n1;2\n3;-4e-3",
             "\"x [m]\"\tu\r\n1\t2\r\n\r\n3\t-4e-3\r\n",
+            "# by an old program\rx [m],u\r1,2\r3,-4e-3\r",
+            "x [m],u,,\n1,2,,\n3,-4e-3\n,,,\n",
         ] {
             let table = parse(text).expect("a table");
             assert_eq!(
@@ -171,6 +201,14 @@ mod tests {
             message("x,y,z\n1,2\n"),
             "a.csv: `line 2`: 2 columns, and the heading has 3; complete or shorten the row"
         );
+        assert_eq!(
+            message("x,y\n\"1,234.5\",2\n"),
+            "a.csv: `line 2` is \"1,234.5\" in column x, but must be a number; write numbers without separators of thousands"
+        );
+        for text in ["Run 7 of June\nx,y\n1,2\n", "Run 7, sand, June\nx [m],y\n1,2\n", "x,y\n[m],[m]\n1,2\n"] {
+            let said = "a.csv: `line 1` is text above another line of text, but must be the heading; put # before";
+            assert!(message(text).starts_with(said), "{}", message(text));
+        }
         assert_eq!(message("x,y\n1,2\n\"3,4\n"), "a.csv: `line 3`: unclosed quote; close the quote, or remove it");
         assert!(message("x,y\n1,5,2,5\n").ends_with("write decimals with a point, or complete or shorten the row"));
         assert!(message("x,y\n1,\u{202e}2\n").contains("U+202E"));

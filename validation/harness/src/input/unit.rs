@@ -4,11 +4,12 @@
 type UnitExponents = [i32; 3];
 
 /// Symbols that stand for themselves, with their value in metres, kilograms and seconds.
-const SYMBOLS: [(&str, f64, UnitExponents); 9] = [
+const SYMBOLS: [(&str, f64, UnitExponents); 10] = [
     ("m", 1.0, [1, 0, 0]),
     ("g", 1e-3, [0, 1, 0]),
     ("s", 1.0, [0, 0, 1]),
     ("min", 60.0, [0, 0, 1]),
+    ("h", 3600.0, [0, 0, 1]),
     ("Pa", 1.0, [-1, 1, -2]),
     ("N", 1.0, [1, 1, -2]),
     ("J", 1.0, [2, 1, -2]),
@@ -46,6 +47,7 @@ fn parse(text: &str) -> Option<Unit> {
     let mut unit = Unit { factor: 1.0, dimension: [0; 3] };
     for (place, part) in text.split('/').enumerate() {
         let sign = if place == 0 { 1 } else { -1 };
+        let part = if place > 0 { part.trim_start_matches('(').trim_end_matches(')') } else { part };
         for word in part.split(['·', '*', ' ']).filter(|word| !word.is_empty()) {
             let (symbol, power) = powered(word)?;
             let own = symbol_of(symbol)?;
@@ -84,7 +86,7 @@ fn symbol_of(word: &str) -> Option<Unit> {
     };
     own(word).or_else(|| {
         PREFIXES.iter().find_map(|(prefix, factor)| {
-            let base = word.strip_prefix(prefix).filter(|base| !["-", "%", "min"].contains(base)).and_then(own)?;
+            let base = word.strip_prefix(prefix).filter(|base| !["-", "%", "min", "h"].contains(base)).and_then(own)?;
             Some(Unit { factor: factor * base.factor, ..base })
         })
     })
@@ -112,6 +114,7 @@ mod tests {
             ("N/m^2", "Pa", 1.0),
             ("Pa·s", "Pa s", 1.0),
             ("%", "-", 1e-2),
+            ("g/(h cm)", "kg/(s m)", 1.0 / 36000.0),
             ("0.1 mm", "m", 1e-4),
         ];
         for (from, to, expected) in cases {
