@@ -23,7 +23,8 @@ fn every_shipped_scene_runs_and_closes_its_balances() {
         let short = ["--set", "duration=0.1", "--set", "interval=0.02", "--set", "measured=[]", "--quiet"];
         let finished = place.run(&[&[path.as_str()][..], &short].concat()).code(0);
         let told = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
-        let force = "no interval for `depth` of before-the-obstacle, `mass_crossed` of overflow, `mean_force` of impact: vary";
+        let force =
+            "no interval for `depth` of before-the-obstacle, `mass_crossed` of overflow, `mean_force` of impact: vary";
         assert!(!path.ends_with("obstacle.toml") || told.contains(force), "{told}");
         let name = file.file_stem().expect("a name").to_string_lossy().into_owned();
         let folder = place.path("out");

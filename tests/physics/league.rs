@@ -4,7 +4,7 @@ use bagnold_harness::case::{Silent, execute};
 use bagnold_harness::metric::Verdict;
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_tools::judge::{self, CodeComparison, JudgeError};
-use bagnold_tools::league::{self, WRONG};
+use bagnold_tools::league::{self, WRONG, blind};
 use bagnold_validation::REGISTRY;
 use std::path::{Path, PathBuf};
 
@@ -44,4 +44,13 @@ fn each_submission_with_one_error_is_rejected_by_what_feels_it() {
         };
         assert!(rejected, "{name}: not rejected by {cause}");
     }
+}
+
+/// Nobody can have known what the grains would do when the prediction was stored.
+#[test]
+fn seeds_of_the_blind_study_follow_from_the_digest_of_its_prediction() {
+    let (run, from_digest) = blind::seeds(&folder()).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(run, from_digest);
+    let all = blind::read(&folder()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(all.iter().all(|one| !one.measured.is_empty()), "every prediction has been compared");
 }

@@ -8,7 +8,6 @@ use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
 use crate::metric::Verdict;
 use crate::output::OutputFolder;
-use crate::store::provenance::workspace;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -50,14 +49,20 @@ pub(super) fn league(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let own = || workspace().map_or_else(|| PathBuf::from("league"), |root| root.join("validation").join("league"));
-    let files = league::submissions(&command.folder.clone().unwrap_or_else(own))?;
+    let own = || {
+        let place = Path::new("validation").join("league");
+        let current = std::env::current_dir().unwrap_or_default();
+        current.ancestors().map(|root| root.join(&place)).find(|league| league.is_dir()).unwrap_or(place)
+    };
+    let folder = command.folder.clone().unwrap_or_else(own);
+    let files = league::submissions(&folder)?;
+    let blind = league::blind::read(&folder)?;
     let claimed = OutputFolder::claim(&command.out)?;
     let (prepared, entries) = league::split(league::read(&files, registry)?);
     let results = simulation::simulate(prepared, &command.work.open_store(), quiet, None)?;
     let judged = results.into_iter().zip(&entries).map(|(own, entries)| judge::judge(own, entries));
     let judged: Vec<CodeComparison> = judged.collect::<Result<_, _>>()?;
-    league::write(&league::league(&judged), claimed.staging())?;
+    league::write(&league::league(&judged), &blind, claimed.staging())?;
     claimed.publish()?;
     let mut case = "";
     for judgement in &judged {

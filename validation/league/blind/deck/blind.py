@@ -242,7 +242,8 @@ def predicted(folder, grains, aspect_ratio, is_nonlocal, draws):
         text = lambda law, n: column_file(grains, aspect_ratio, law, is_nonlocal, n)
         only = f"material=lagree,aspect_ratio={aspect_ratio}"
     law = "nonlocal" if is_nonlocal else "local"
-    run = lambda name, of, n: bagnold(folder, f"{grains}-{law}-{aspect_ratio or "incline"}-{name}", text(of, n),
+    stem = f"{grains}-{law}-{aspect_ratio or 'incline'}"
+    run = lambda name, of, n: bagnold(folder, f"{stem}-{name}", text(of, n),
                                       only and f"{only},resolution={n}")
     fine, usual = run("fine", best, 2 * coarse), run("usual", best, coarse)
     of_law = [] if is_nonlocal else draws[1:]
@@ -337,7 +338,7 @@ def collapse(folder, grains, aspect_ratio, seed):
         parameters = (f"with = {{ lagree = {{ aspect_ratios = [{float(aspect_ratio)}], "
                       f"{half} = {size[0]} }} }}")
     lammps(folder, deck, variables)
-    subprocess.run([sys.executable, tables, *map(str, size)], cwd=folder, check=True,
+    subprocess.run([sys.executable, tables, *map(str, size), "1000"], cwd=folder, check=True,
                    stdout=subprocess.DEVNULL)
     values = judged(folder, case, parameters, variant)
     return case, {name: values[name][0] for name in names}

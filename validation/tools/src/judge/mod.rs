@@ -27,7 +27,7 @@ use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCas
 use crate::evaluation::PlanError;
 use crate::figure::Figure;
 use crate::input::FieldError;
-use crate::metric::{Variant, Verdict};
+use crate::metric::{Metric, Variant, Verdict};
 use std::path::{Path, PathBuf};
 
 /// Submissions of one case, with the runs of ours that they are compared with.
@@ -224,8 +224,12 @@ pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison,
                 .map(|(number, (variant, run))| (variant.clone(), run, format!("run {}", number + 1)))
                 .collect();
             let Submission { code, path, law, with, .. } = &entry.submission;
+            // a gate of a run that only another code has lacks no data of this one
+            let is_of = |of: &CodeResults, metric: &Metric| of.variants.iter().any(|run| metric.variant.includes(run));
+            let is_others = |metric: &&Metric| !is_of(entry, metric) && entries.iter().any(|of| is_of(of, metric));
+            let asked: Vec<Metric> = own.metrics.iter().filter(|metric| !is_others(metric)).cloned().collect();
             let metrics =
-                verdicts::compare(&own.metrics, &entry.result, &numbers, *law).map_err(|error| error.in_file(path))?;
+                verdicts::compare(&asked, &entry.result, &numbers, *law).map_err(|error| error.in_file(path))?;
             let has_parameters = !with.is_empty();
             Ok(JudgedCode { code: code.clone(), file: path.clone(), law: *law, has_parameters, metrics })
         })

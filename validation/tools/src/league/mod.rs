@@ -3,6 +3,7 @@
 //! A league is a folder with a submission for each code and case, `CODE/CASE/submission.toml`. Codes of one law tell how far apart
 //! methods are; that is what "the same to another method" is worth.
 
+pub mod blind;
 mod page;
 
 pub use page::write;

@@ -1,5 +1,6 @@
 //! Files of a league: the page and its numbers.
 
+use super::blind::{self, BlindComparison};
 use super::{League, LeagueRow};
 use crate::judge::other_limit;
 use crate::metric::{Metric, Verdict};
@@ -14,8 +15,8 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(league: &League, folder: &Path) -> Result<(), ReportError> {
-    let document = document(league);
+pub fn write(league: &League, blind: &[BlindComparison], folder: &Path) -> Result<(), ReportError> {
+    let document = document(league, blind);
     let put = |name: &str, text: &str| {
         let path = folder.join(name);
         std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source })
@@ -24,7 +25,7 @@ pub fn write(league: &League, folder: &Path) -> Result<(), ReportError> {
     put("index.html", &page::fill(&[("league.html", include_str!("league.html"))], "league.html", &document)?)
 }
 
-fn document(league: &League) -> Value {
+fn document(league: &League, blind: &[BlindComparison]) -> Value {
     let count = |code: usize, case: usize| {
         let counts = league.count(code, case);
         counts.map(|(holding, failing, open)| json!({ "holding": holding, "failing": failing, "not_given": open }))
@@ -45,6 +46,7 @@ fn document(league: &League) -> Value {
         "cases": league.cases,
         "matrix": matrix.collect::<Vec<_>>(),
         "tables": league.cases.iter().map(of_case).collect::<Vec<_>>(),
+        "blind": { "headings": blind::HEADINGS, "rows": blind::table(blind) },
     })
 }
 

@@ -1,4 +1,7 @@
-"""Thickness over the bed and front over time from the pictures: tables.py HALF_WIDTH HEIGHT"""
+"""Thickness over the bed and front over time from the pictures.
+
+tables.py HALF_WIDTH HEIGHT [BINS], where BINS is the largest number of bins.
+"""
 import glob
 import os
 import re
@@ -39,7 +42,8 @@ pictures = [read(path) for path in paths]
 # the column of the start fills its half width to its height
 bulk_density = sum(grain[2] for grain in pictures[0][1]) / (half_width * height)
 farthest = max(grain[0] + grain[1] for _, grains in pictures for grain in grains)
-bins = min(int(farthest / bin_width) + 2, 200)
+most_bins = int(sys.argv[3]) if len(sys.argv) > 3 else 200
+bins = min(int(farthest / bin_width) + 2, most_bins)
 profiles = [(time, thickness(grains, bulk_density, bins)) for time, grains in pictures]
 
 os.makedirs("results", exist_ok=True)
