@@ -14,6 +14,6 @@ tools=$(tests_of tools)
 (
     ulimit -v $((2 * 1024 * 1024))
     export PROPTEST_CASES=${1:-100000}
-    (cd validation/harness && timeout 1800 "$harness" measured::text_table metric::variant mesh::)
+    (cd validation/harness && timeout 1800 "$harness" input::text_table metric::variant mesh::)
     (cd validation/tools && timeout 1800 "$tools" judge::vtk)
 )

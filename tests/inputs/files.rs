@@ -3,7 +3,10 @@
 use crate::judge::{count, runner};
 use bagnold_harness::case::{AnyCase, CaseFile, Limits, Tier};
 use bagnold_harness::evidence::MeasuredData;
+use bagnold_harness::measured::Measurements;
+use bagnold_scenes::study::Study;
 use bagnold_tools::calibration::CalibrationPlan;
+use bagnold_tools::judge::CaseSubmissions;
 use bagnold_tools::sweep::SweepPlan;
 use bagnold_validation::REGISTRY;
 use proptest::prelude::*;
@@ -65,6 +68,17 @@ fn shipped(folder: &str, ending: &str) -> Vec<String> {
     paths.retain(|path| path.extension().is_some_and(|own| own == ending));
     paths.sort();
     paths.into_iter().map(|path| std::fs::read_to_string(path).expect("text")).collect()
+}
+
+/// Files of other programs with this ending, byte by byte.
+fn foreign(folder: &str) -> Vec<(String, Vec<u8>)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let mut paths: Vec<_> =
+        std::fs::read_dir(root).expect("in the repository").flatten().map(|entry| entry.path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|own| own == "vtu" || own == "vtk" || own == "stl"));
+    paths.sort();
+    let name = |path: &Path| path.file_name().expect("a name").to_string_lossy().into_owned();
+    paths.into_iter().map(|path| (name(&path), std::fs::read(path).expect("bytes"))).collect()
 }
 
 /// Mistakes in each of some texts; the reader must come back with whatever it likes, soon.
@@ -131,5 +145,63 @@ fn a_table_of_measurements_is_read_or_refused() {
     let texts = [shipped("reference-data/settling", "csv"), shipped("validation/calibrations", "csv")].concat();
     read_with_slips(&texts, |text| {
         let _ = MeasuredData::parse("table.csv", text);
+    });
+}
+
+/// Pictures of a code in every form: VTK's files, a collection, a dump and a table, with bytes that are wrong, gone or doubled.
+#[test]
+fn a_picture_of_another_code_is_read_or_refused() {
+    let mut files = foreign("foreign/vtk");
+    let dump = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff pp\n0 1\n0 1\n0 1\n\
+                ITEM: ATOMS id x y radius\n1 0.1 0.1 0.01\n2 0.2 0.1 0.01\n";
+    let pvd = "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0.5\" file=\"vtk-ascii.vtu\"/></Collection></VTKFile>";
+    let table = "x,y,vx,vy,area\n0.1,0.1,0,0,1e-4\n0.2,0.1,0,0,1e-4\n";
+    for (name, text) in [("a.dump", dump), ("a.pvd", pvd), ("a.csv", table), ("a.series", "{\"files\":[]}")] {
+        files.push((name.to_owned(), text.as_bytes().to_vec()));
+    }
+    let folder = tempfile::tempdir().expect("temporary folder");
+    for (name, bytes) in &files {
+        std::fs::write(folder.path().join(name), bytes).expect("writable");
+    }
+    let mut runner = runner();
+    for _ in 0..count() {
+        let (which, slips) = slips().new_tree(&mut runner).expect("slips").current();
+        let (name, bytes) = &files[which.index(files.len())];
+        let mut wrong = bytes.clone();
+        for (place, gone, slip) in &slips {
+            let start = place.index(wrong.len() + 1);
+            let end = (start + gone).min(wrong.len());
+            wrong.splice(start..end, SLIPS[slip.index(SLIPS.len())].bytes());
+        }
+        let (file, submission) = (folder.path().join(format!("wrong-{name}")), folder.path().join("submission.toml"));
+        std::fs::write(&file, &wrong).expect("writable");
+        let text = format!(
+            "case = \"column-planar\"\n[code]\nname = \"a\"\n[[run]]\nvariant = \"material=lagree,aspect_ratio=1\"\n\
+             [run.particles]\nfiles = [\"wrong-{name}\"]\ntimes = [0.5]\ntime_step = 0.1\n\
+             columns = {{ x = \"x [m]\", y = \"y [m]\", area = {{ value = 1e-4, unit = \"m^2\" }} }}\n"
+        );
+        std::fs::write(&submission, text).expect("writable");
+        let begun = Instant::now();
+        if let Err(error) = CaseSubmissions::read(&[submission], *REGISTRY) {
+            assert!(error.to_string().contains("submission.toml") || error.to_string().contains(name), "{error}");
+        }
+        assert!(begun.elapsed() < Duration::from_secs(10), "{name} took {:?}", begun.elapsed());
+    }
+}
+
+#[test]
+fn an_overlay_and_a_study_are_read_or_refused() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let path = folder.path().join("overlay.csv");
+    read_with_slips(&shipped("validation/examples/studies", "csv"), |text| {
+        std::fs::write(&path, text).expect("writable");
+        let _ = Measurements::read(&path);
+    });
+    let path = folder.path().join("study.toml");
+    let mut studies = shipped("validation/examples/studies", "toml");
+    studies.retain(|text| text.contains("[[checks]]"));
+    read_with_slips(&studies, |text| {
+        std::fs::write(&path, text).expect("writable");
+        let _ = Study::read(&path, *REGISTRY);
     });
 }

@@ -1,0 +1,49 @@
+#!/bin/bash
+# Run decks again and compare their tables with the stored ones: again.sh [CODE/CASE...].
+# Without a cell all decks run whose code is installed. Grains and material points may differ by
+# 3 % of the largest value of a column, meshes by 0.1 %.
+set -uo pipefail
+league=$(cd "$(dirname "$0")" && pwd)
+cells=("$@")
+if [ $# -eq 0 ]; then
+    for deck in "$league"/*/*/deck/run.sh; do
+        cell=${deck#"$league"/}
+        cells+=("${cell%/deck/run.sh}")
+    done
+fi
+differ=0
+for cell in "${cells[@]}"; do
+    folder=$(mktemp -d)
+    bash "$league/$cell/deck/run.sh" "$folder" > "$folder/output" 2>&1
+    code=$?
+    case $code in
+        0) ;;
+        3) echo "$cell: not installed: $(tail -n 1 "$folder/output")"; continue ;;
+        *) echo "$cell: ended with $code: $(tail -n 1 "$folder/output")"; differ=1; continue ;;
+    esac
+    case $cell in
+        lammps/* | mpm/* | newton/*) tolerance=0.03 ;;
+        *) tolerance=0.001 ;;
+    esac
+    python3 - "$league/$cell/results" "$folder/results" "$tolerance" "$cell" << 'END' || differ=1
+import csv, os, sys
+
+stored, again, tolerance, cell = sys.argv[1], sys.argv[2], float(sys.argv[3]), sys.argv[4]
+worst = (0.0, "no table")
+for name in sorted(os.listdir(stored)):
+    rows = [list(csv.reader(open(os.path.join(folder, name)))) for folder in (stored, again)]
+    # a deposit that ends a bin earlier or later has more or fewer rows
+    for column, head in enumerate(rows[0][0]):
+        try:
+            values = [[float(row[column]) for row in table[1:]] for table in rows]
+        except ValueError:
+            continue
+        size = max(map(abs, values[0])) or 1.0
+        off = max(abs(a - b) / size for a, b in zip(*values))
+        worst = max(worst, (off, f"{name} {head}"))
+verdict = "as stored" if worst[0] <= tolerance else "differs"
+print(f"{cell}: {verdict}: largest difference {100 * worst[0]:.3g} % ({worst[1]}), allowed {100 * tolerance:.3g} %")
+sys.exit(worst[0] > tolerance)
+END
+done
+exit $differ
