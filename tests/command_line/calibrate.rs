@@ -107,6 +107,18 @@ fn assert_one_point(result: &serde_json::Value) {
     }
 }
 
+/// Before anything is simulated: a corner that takes days is announced, and limited.
+#[test]
+fn dear_corners_of_a_box_are_announced() {
+    let (place, _) = place();
+    let wide = PLAN.replace("lower = 0.2", "lower = 1e-6").replace("upper = 2.0", "upper = 1e6");
+    let plan = place.file("wide.toml", &wide.replace("profile-fluid", "no-such-profile"));
+    let refused = place.bagnold(&["calibrate", &plan, "--out", "out"]).assert().code(2);
+    let told = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(told.contains("core time of an evaluation: about ") && told.contains(" at viscosity = 1×10⁻⁶"), "{told}");
+    assert!(told.contains("; evaluations above 30.00 min count as failed (--most-hours)"), "{told}");
+}
+
 #[test]
 fn own_data_give_parameters_a_page_and_a_case_to_run() {
     let (place, plan) = place();

@@ -4,7 +4,9 @@ use super::arguments::CalibrateArguments;
 use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, say, tell};
-use crate::calibration::{CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate, write};
+use crate::calibration::{
+    CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, EvaluationCost, calibrate, write,
+};
 use crate::case::Registry;
 use crate::number::aligned_digits;
 use crate::output::OutputFolder;
@@ -18,7 +20,7 @@ pub(super) fn run(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let plan = CalibrationPlan::read(&command.file, registry, command.allowance.limits())?;
+    let mut plan = CalibrationPlan::read(&command.file, registry, command.allowance.limits())?;
     let folder = command.out.clone().unwrap_or_else(|| {
         Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
     });
@@ -35,6 +37,14 @@ pub(super) fn run(
         let rest = format!("{} for intervals; simulations per evaluation: {each}", plan.region_evaluations);
         tell(&format!("planned evaluations: up to {search} for the search, {rest}"));
     }
+    if let Some(cost) = EvaluationCost::of(&plan, registry) {
+        if command.allowance.most_hours.is_none() {
+            plan.limits.core_hours = plan.limits.core_hours.min(cost.limit());
+        }
+        if !quiet {
+            tell(&cost_in_words(&cost, plan.limits.core_hours));
+        }
+    }
     let bar = EvaluationBar(CountBar::new("evaluations", 0, 0, quiet));
     let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
     bar.0.clear();
@@ -47,6 +57,22 @@ pub(super) fn run(
     say(output, &format!("evaluations: {needed}\n"));
     say(output, &format!("written to {}\n", folder.join("index.html").display()));
     Ok(Exit::Held)
+}
+
+/// Cost of an evaluation at the start and at the dearest corner of the box.
+fn cost_in_words(cost: &EvaluationCost, limit: f64) -> String {
+    let time = |hours: f64| match hours {
+        hours if hours < 1.0 / 60.0 => format!("{} s", aligned_digits(3600.0 * hours)),
+        hours if hours < 2.0 => format!("{} min", aligned_digits(60.0 * hours)),
+        hours if hours < 72.0 => format!("{} h", aligned_digits(hours)),
+        hours => format!("{} days", aligned_digits(hours / 24.0)),
+    };
+    let (start, dearest) = (time(cost.start), time(cost.dearest));
+    let mut text = format!("core time of an evaluation: about {start} at the start, {dearest} at {}", cost.at);
+    if cost.dearest > limit {
+        text += &format!("; evaluations above {} count as failed (--most-hours)", time(limit));
+    }
+    text
 }
 
 /// The parameters or choices, a line each, and what the data leave open.

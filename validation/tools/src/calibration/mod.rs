@@ -12,6 +12,7 @@
 
 mod assembly;
 mod conditions;
+mod cost;
 mod data;
 mod error;
 mod figures;
@@ -30,6 +31,7 @@ mod target;
 mod text;
 mod trials;
 
+pub use cost::EvaluationCost;
 pub use error::CalibrationError;
 pub use folder::CalibrationFolder;
 pub use objective::CalibrationMonitor;
