@@ -28,10 +28,10 @@ the same law: by so much two methods differ under one law.
 const BLIND: &str = "
 ## Collapses predicted before the grains ran
 
-The friction of discs and spheres was measured on steady slopes and fitted by μ(I). Bagnold predicted
-their collapses from this fit. The seeds of the collapses follow from the digest of the stored
-prediction, so the collapses ran after it. The columns of discs with a = 1 and 3 were known from
-earlier trials with another fit.
+The friction of discs and spheres was measured on steady slopes and fitted by μ(I). Bagnold
+predicted their collapses from this fit. The seeds of the collapses follow from the digest of the
+stored prediction, so the collapses ran after it. The columns of discs with a = 1 and 3 were known
+from earlier trials with another fit.
 
 E is the prediction minus the mean of the grains, over that mean. u contains the measured friction
 and the particle spacing, u_val also the mean of the grains ([definitions](uncertainty.md)). The
