@@ -31,7 +31,15 @@ pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send
     let claimed = OutputFolder::claim(&command.out)?;
     let moved = compare::write(&all, claimed.staging())?;
     claimed.publish()?;
-    say(output, &format!("{} numbers differ by more than their tolerance\n", moved.len()));
+    for one in compare::changed(&all).iter().take(MOST_SHOWN) {
+        let values: Vec<&str> = one.values.iter().map(|value| value.as_deref().unwrap_or("–")).collect();
+        say(output, &format!("parameter {}: {}\n", one.path, values.join(" → ")));
+    }
+    let shown = match moved.len() {
+        0..=MOST_SHOWN => "",
+        _ => ", the largest differences first; index.html has all",
+    };
+    say(output, &format!("{} numbers differ by more than their tolerance{shown}\n", moved.len()));
     moved.iter().take(MOST_SHOWN).for_each(|one| say(output, &in_words(one)));
     let limits =
         all.split_first().map_or(0, |(first, others)| others.iter().map(|other| first.moved_limits(other)).sum());

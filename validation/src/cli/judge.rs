@@ -3,7 +3,7 @@
 use super::arguments::{ExportArguments, JudgeArguments, LeagueArguments};
 use super::error::ProgramError;
 use super::{Exit, decks, say, simulation, summary};
-use crate::case::{Changes, Registry};
+use crate::case::{Changes, ParameterError, Registry};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
 use crate::metric::Verdict;
@@ -55,6 +55,11 @@ pub(super) fn league(
         current.ancestors().map(|root| root.join(&place)).find(|league| league.is_dir()).unwrap_or(place)
     };
     let folder = command.folder.clone().unwrap_or_else(own);
+    if command.folder.is_none() && !folder.is_dir() {
+        let (rule, remedy) =
+            ("a folder", "stored results of other codes are in a checkout of bagnold; name their folder");
+        return Err(ParameterError::field("FOLDER", folder.display(), rule, remedy).into());
+    }
     let files = league::submissions(&folder)?;
     let blind = league::blind::read(&folder)?;
     let claimed = OutputFolder::claim(&command.out)?;

@@ -5,13 +5,14 @@ use crate::metric::{Metric, PredictionInterval, Variant, Verdict};
 use crate::number::aligned_digits;
 use crate::observation::Outcome;
 use crate::report::MetricKey;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 /// A case's metrics, one per line, what went wrong in its runs, and what is predicted.
 pub(super) fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
     let table = table(result.metrics.iter().map(|metric| row(metric, is_known(metric))).collect());
-    heading(result) + &table + &predictions(&result.metrics)
+    let is_sound = result.runs.iter().all(|run| !matches!(run.outcome, Outcome::Diverged { .. }));
+    heading(result) + &table + &if is_sound { predictions(&result.metrics) } else { String::new() }
 }
 
 /// Intervals of the true values of user-defined materials, a line each.
@@ -20,27 +21,36 @@ fn predictions(metrics: &[Metric]) -> String {
         let PredictionInterval { lower, upper, comparisons, .. } = metric.prediction.as_ref()?;
         let (lower, upper) = (aligned_digits(*lower), aligned_digits(*upper));
         let (name, unit) = (&metric.name, &metric.unit);
+        let beyond = metric.prediction.iter().flat_map(|prediction| &prediction.warnings);
+        let beyond: Vec<String> = beyond.map(|warning| format!("  less certain: {warning}\n")).collect();
         Some(format!(
-            "95 % interval of `{name}` [{unit}] from the errors of {comparisons} comparisons: {lower} … {upper}\n"
+            "95 % interval of `{name}` [{unit}] from the errors of {comparisons} comparisons: {lower} … {upper}\n{}",
+            beyond.concat()
         ))
     };
     metrics.iter().filter_map(line).collect::<String>() + &without_interval(metrics)
 }
 
-/// Observed values of gauges without an interval, in a line; empty if all have one.
+/// Observed values of gauges without an interval, in a line; of several runs their mean and standard deviation.
 fn without_interval(metrics: &[Metric]) -> String {
-    let of_gauge = |metric: &Metric| {
-        let gauge = metric.variant.get("gauge")?;
-        let is_bare = metric.reference.is_none() && metric.prediction.is_none();
-        is_bare.then(|| format!("`{}` of {gauge}", metric.name))
-    };
-    let names: BTreeSet<String> = metrics.iter().filter_map(of_gauge).collect();
-    let names: Vec<String> = names.into_iter().collect();
-    if names.is_empty() {
-        String::new()
-    } else {
-        format!("no interval for {}: vary `seed`, `spacing` and `stiffness` in a study\n", names.join(", "))
+    let mut of_gauge: BTreeMap<String, (Vec<f64>, &str)> = BTreeMap::new();
+    for metric in metrics.iter().filter(|metric| metric.reference.is_none() && metric.prediction.is_none()) {
+        if let Some(gauge) = metric.variant.get("gauge") {
+            let name = format!("`{}` of {gauge}", metric.name);
+            of_gauge.entry(name).or_insert_with(|| (Vec::new(), &metric.unit)).0.push(metric.value);
+        }
     }
+    let (single, several): (Vec<_>, Vec<_>) = of_gauge.iter().partition(|(_, (values, _))| values.len() == 1);
+    let over_runs = several.iter().map(|(name, (values, unit))| {
+        let count = values.len();
+        let mean = values.iter().sum::<f64>() / count as f64;
+        let square: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+        let deviation = (square / (count - 1) as f64).sqrt();
+        format!("{name} over {count} runs: {} ± {} {unit}\n", aligned_digits(mean), aligned_digits(deviation))
+    });
+    let names: Vec<&str> = single.iter().map(|(name, _)| name.as_str()).collect();
+    let line = format!("no interval for {}: vary `seed`, `spacing` and `stiffness` in a study\n", names.join(", "));
+    over_runs.collect::<String>() + if names.is_empty() { "" } else { &line }
 }
 
 /// The metrics of a case whose gates do not hold; empty if all hold.

@@ -291,7 +291,7 @@ fn say_what_stays(table: &Table, changes: &Table) {
     let stays: Vec<String> =
         ["limiting_friction", "reference_inertia"].iter().filter(keeps).filter_map(value).collect();
     if let Some(coefficient) = changes.get(COEFFICIENT).filter(|_| !stays.is_empty()) {
-        caution(&format!("`{ANGLE}` sets {COEFFICIENT} = {coefficient}; {} as before", stays.join(" and ")));
+        caution(&format!("`{ANGLE}` sets {COEFFICIENT} = {coefficient}; {} keep their values", stays.join(" and ")));
     }
 }
 

@@ -2,8 +2,7 @@
 //! run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use crate::input::{EdgeDefects, MOST_TRIANGLES, Triangle, defects, read_mesh};
-use crate::number::four_digits;
+use crate::input::{MOST_TRIANGLES, Triangle, read_mesh};
 use crate::output::caution;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::path::Path;
@@ -32,24 +31,11 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
         if mesh.left_out > 0 {
             caution(&format!("{name}: {} triangles without an area are left out", mesh.left_out));
         }
-        let EdgeDefects { holes, turned } = defects(&mesh.triangles);
         let placed = Placement::of(wall).map_err(|(key, value, rule, remedy)| {
             ParameterError::field(&format!("walls[{index}].{key}"), value, rule, remedy).in_file(path)
         })?;
         let triangles: Vec<Triangle> =
             mesh.triangles.iter().map(|corners| corners.map(|at| placed.place(at))).collect();
-        if let Some(hole) = holes.first() {
-            let at = placed.place(*hole).map(four_digits).join(", ");
-            caution(&format!(
-                "{name}: a triangle is missing in {} places, the first at ({at}) m; close the mesh",
-                holes.len()
-            ));
-        }
-        if turned > 0 {
-            caution(&format!(
-                "{name}: neighbouring triangles are seen from opposite sides at {turned} edges; turn one of both"
-            ));
-        }
         let triangles = Value::try_from(&triangles).map_err(|_| {
             refused("a mesh that a case file can repeat", "write it anew from the program that made it")
         })?;

@@ -3,7 +3,6 @@
 mod escape;
 mod field;
 mod mesh;
-mod mesh_edges;
 mod name;
 mod place;
 mod reading;
@@ -15,7 +14,6 @@ pub(crate) use escape::origin;
 pub use escape::{escaped, escaped_lines, is_control, shown};
 pub use field::FieldError;
 pub(crate) use mesh::{MOST_TRIANGLES, Triangle, read_mesh};
-pub(crate) use mesh_edges::{EdgeDefects, defects};
 pub use name::nearest;
 pub use name::{check_name, check_text, did_you_mean};
 pub(crate) use place::position;

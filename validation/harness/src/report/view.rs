@@ -1,6 +1,7 @@
 //! Data of the templates: nothing but text, made by `page` and `rows`.
 
 use crate::metric::Variant;
+use crate::store::provenance::workspace;
 use serde::Serialize;
 
 /// A verdict in colour, symbol and word, so that none of them is needed alone.
@@ -26,7 +27,10 @@ pub(super) fn anchor(case: &str, metric: &str, variant: &Variant) -> String {
     format!("metric-{case}-{metric}-{}", variant.file_name()).chars().map(plain).collect()
 }
 
-/// The command as typed in a checkout, where the program is not installed.
+/// The command as typed: in a checkout by cargo, elsewhere as that of the installed program.
 pub(super) fn typed(command: &str) -> String {
+    if workspace().is_none() {
+        return command.to_owned();
+    }
     command.strip_prefix("bagnold ").map_or_else(|| command.to_owned(), |rest| format!("cargo run -- {rest}"))
 }

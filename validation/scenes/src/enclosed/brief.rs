@@ -37,11 +37,17 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
         if mach > 1.01 * LARGEST_MACH_NUMBER {
             caution(&too_fast(&scene.name, speed, mach, scene.stiffness));
         }
+        let openings: Vec<String> = scene
+            .walls
+            .iter()
+            .filter_map(|wall| Some(format!("; wall `{}` has {}", wall.name(), wall.openings()?)))
+            .collect();
         let grains = scene.material.grain_diameter().map(|diameter| diameter / scene.spacing);
         let grains = grains.map(|ratio| format!(", grain diameter {ratio:.2} particle spacings")).unwrap_or_default();
         format!(
-            "scene `{}`: sound speed {sound_speed:.3} m/s, expected speed {speed:.3} m/s (Mach {mach:.2}){grains}",
-            scene.name
+            "scene `{}`: sound speed {sound_speed:.3} m/s, expected speed {speed:.3} m/s (Mach {mach:.2}){grains}{}",
+            scene.name,
+            openings.concat()
         )
     }
 }

@@ -50,6 +50,11 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// The wall for the solver.
     fn facet_wall(&self) -> FacetWall<D>;
 
+    /// Openings of its mesh in words; none of another wall or of a closed mesh. Defects of the mesh are warned of.
+    fn openings(&self) -> Option<String> {
+        None
+    }
+
     /// Places that it lies between `[m]`.
     fn hull(&self) -> Vec<Vector<D>>;
 

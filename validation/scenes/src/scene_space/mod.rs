@@ -4,6 +4,7 @@ mod body;
 mod figures;
 mod gauge;
 mod inlet;
+mod openings;
 mod tiers;
 mod wall;
 

@@ -1,9 +1,11 @@
 //! Walls of a scene in space: triangles from a file, quadrilaterals and boxes; and the sides of its domain.
 
 use super::SpaceVector;
+use super::openings::Openings;
 use crate::case::ParameterError;
 use crate::enclosed::setting::{self, shown, vector};
 use crate::enclosed::{DomainSide, shapes, sides};
+use crate::output::caution;
 use bagnold_number::four_digits;
 use bagnold_solver::parameter::above;
 use bagnold_solver::vector::Vector;
@@ -103,6 +105,23 @@ impl setting::SceneWall<3> for SpaceWall {
 
     fn may_have_two_sides(&self) -> bool {
         self.both_sides
+    }
+
+    fn openings(&self) -> Option<String> {
+        if self.mesh.is_empty() {
+            return None;
+        }
+        let openings = Openings::of(&self.corners());
+        if openings.turned > 0 {
+            caution(&format!(
+                "wall `{}`: neighbouring triangles are seen from opposite sides at {} edges; turn one of both",
+                self.name, openings.turned
+            ));
+        }
+        if openings.rings.iter().any(|ring| ring.len() == 3) {
+            caution(&format!("wall `{}`: a triangle is probably missing; close the mesh", self.name));
+        }
+        openings.in_words()
     }
 
     fn facet_wall(&self) -> FacetWall<3> {
