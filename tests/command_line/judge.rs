@@ -135,7 +135,8 @@ fn two_runs_are_compared_number_by_number() {
     let differ =
         place.bagnold(&["compare", "first", "thicker", "--out", "other", "--deny-differences"]).assert().code(1);
     let shown = String::from_utf8_lossy(&differ.get_output().stdout).into_owned();
-    assert!(shown.lines().nth(1).is_some_and(|line| line.starts_with("  film ") && line.contains(" → ")), "{shown}");
+    assert!(shown.starts_with("parameter newtonian.viscosity: 1.0 → 1.1\n"), "{shown}");
+    assert!(shown.lines().nth(2).is_some_and(|line| line.starts_with("  film ") && line.contains(" → ")), "{shown}");
     let lines = read(&place, "other/differences.json");
     assert!(lines[0]["tolerances"].as_f64() > Some(1.0), "{}", lines[0]);
     // a folder of another version of the gates

@@ -15,5 +15,5 @@ pub use error::{FileError, FolderError, reason};
 pub use folder::OutputFolder;
 pub use lock::FolderLock;
 pub use table::Table;
-pub use warning::{FirstWarning, caution, cautions};
+pub use warning::{FirstWarning, caution, caution_about, cautions};
 pub use whole::write_whole;

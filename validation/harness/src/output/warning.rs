@@ -8,7 +8,12 @@ static CAUTIONS: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
 
 /// Warns of an input that is possible but unlikely to be meant. Each text appears once.
 pub fn caution(text: &str) {
-    if CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).insert(text.to_owned()) {
+    caution_about(text, text);
+}
+
+/// Warns of a subject once, whatever the text is: a scene is filled for each of its spacings and controls.
+pub fn caution_about(subject: &str, text: &str) {
+    if CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).insert(subject.to_owned()) {
         tracing::warn!("{text}");
     }
 }

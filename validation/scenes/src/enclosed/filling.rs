@@ -9,7 +9,7 @@ use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
 use super::{SceneParameters, shapes};
 use crate::case::ParameterError;
-use crate::output::caution;
+use crate::output::caution_about;
 use crate::setup::displaced_flow;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::vector::Vector;
@@ -33,7 +33,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         let groups = groups(bodies, &self.sides, spacing);
         let remarks = misfits(bodies, &groups, spacing);
         if !remarks.is_empty() {
-            caution(&format!("scene `{}`: {}", self.name, remarks.join("; ")));
+            let subject = format!("bodies of scene `{}`", self.name);
+            caution_about(&subject, &format!("scene `{}`: {}", self.name, remarks.join("; ")));
         }
         let gravity = vector(&self.gravity);
         let (up, weight) = (-self.down(), equation_of_state.reference_density * gravity.norm());
