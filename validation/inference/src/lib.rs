@@ -39,6 +39,7 @@
 //!     budget: Budget::default(),
 //!     region_evaluations: 20,
 //!     runs: Repeatability::Smooth,
+//!     series: Vec::new(),
 //! };
 //! let answer = solve(&mut Decay, &plan).expect("the model cannot fail");
 //! assert!((2.0 * answer.search.best[0] - 0.5).abs() < 0.01, "k is 0.5 per second");

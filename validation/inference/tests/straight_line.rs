@@ -58,6 +58,7 @@ fn a_search_finds_the_line_and_its_intervals() {
         budget: Budget { evaluations: 300, ..Budget::default() },
         region_evaluations: 40,
         runs: Repeatability::Smooth,
+        series: Vec::new(),
     };
     let answer = solve(&mut Line, &plan).expect("it works");
     assert!((answer.search.chi_squared - chi_squared).abs() < 0.02, "{}", answer.search.chi_squared);

@@ -1,18 +1,10 @@
 //! Diagnosis of the data, their uncertainties and the model from the residuals at the best point.
 
-use super::region::chi_squared_quantile;
-
 /// Distance from the median in robust standard deviations from which on a residual is an outlier.
 const OUTLYING: f64 = 4.0;
 
 /// Data beyond the parameters below which a robust standard deviation means little.
 const LEAST_FREEDOM: usize = 5;
-
-/// Share of repeated experiments in which correct residuals look correlated.
-const LEVEL: f64 = 0.01;
-
-/// Points of a profile below which nothing is said about its correlation.
-const LEAST_PROFILE: usize = 6;
 
 /// Places of residuals farther from their median than four robust standard deviations, with that distance over one of
 /// them; none with few data. The robust standard deviation is 1.4826 times the median distance from the median, enlarged
@@ -30,22 +22,6 @@ pub fn outliers(residuals: &[f64], parameters: usize) -> Vec<(usize, f64)> {
     let beyond =
         |(place, distance): (usize, &f64)| (*distance > OUTLYING * deviation).then(|| (place, distance / deviation));
     distances.iter().enumerate().filter_map(beyond).collect()
-}
-
-/// Correlation `[-]` of each residual with the next along a profile, if it is larger than neighbours of independent errors
-/// have in one of 100 experiments; `profiles` are judged at a time.
-#[must_use]
-pub fn serial_correlation(residuals: &[f64], profiles: usize) -> Option<f64> {
-    if residuals.len() < LEAST_PROFILE {
-        return None;
-    }
-    let products: f64 = residuals.windows(2).map(|pair| pair[0] * pair[1]).sum();
-    let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
-    let correlation = products / squares;
-    // of n independent errors it is nearly normal, of standard deviation √((n − 1)/n)/√n at most; one-sided
-    let count = residuals.len() as f64;
-    let beyond = chi_squared_quantile(1.0 - 2.0 * LEVEL / profiles.max(1) as f64, 1).sqrt();
-    (correlation * count.sqrt() > beyond).then_some(correlation)
 }
 
 fn median(values: &[f64]) -> f64 {
@@ -81,23 +57,12 @@ mod tests {
     #[test]
     fn correct_residuals_raise_nothing() {
         for count in [6, 9, 15, 40, 100] {
-            let (mut outlying, mut correlated) = (0, 0);
+            let mut outlying = 0;
             for seed in 0..1000 {
                 let residuals = normal(&mut Random::new(seed), count);
                 outlying += usize::from(!outliers(&residuals, 1).is_empty());
-                correlated += usize::from(serial_correlation(&residuals, 1).is_some());
             }
-            println!("{count} data: {outlying} with outliers, {correlated} correlated, of 1000");
-            assert!(outlying <= 25 && correlated <= 20, "{count} data: {outlying} and {correlated} of 1000");
+            assert!(outlying <= 25, "{count} data: {outlying} of 1000");
         }
-    }
-
-    #[test]
-    fn a_trend_along_a_profile_is_a_correlation() {
-        let mut random = Random::new(4);
-        let trend: Vec<f64> =
-            normal(&mut random, 15).iter().enumerate().map(|(k, z)| z + 1.5 * (k as f64 - 7.0)).collect();
-        assert!(serial_correlation(&trend, 3).is_some_and(|correlation| correlation > 0.5));
-        assert_eq!(serial_correlation(&[1.0; 4], 1), None);
     }
 }

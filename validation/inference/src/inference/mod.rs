@@ -23,6 +23,7 @@ mod scatter;
 pub mod scores;
 pub mod search;
 pub mod sensitivity;
+mod serial_correlation;
 pub mod solve;
 #[cfg(test)]
 mod stand_in;
@@ -39,6 +40,7 @@ pub use search::{
     Budget, Evaluated, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search,
     search_design,
 };
+pub use serial_correlation::{SerialCorrelation, serial_correlation};
 
 pub use solve::{Answer, SolvePlan, UNLIKELY, solve};
 

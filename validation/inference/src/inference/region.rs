@@ -18,12 +18,31 @@ const LEAST_SHARE: f64 = 1e-8;
 const LEAST_INFORMATION: f64 = 1e-3;
 
 /// Choice of the standard uncertainties of the data.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Uncertainties {
     /// As they are stated.
     AsStated,
     /// Enlarged by √(reduced χ²) where that exceeds 1, as if what the model misses were part of the noise.
     Inflated,
+    /// Enlarged by a factor for errors that are correlated, and by √(reduced χ²) too where the model does not explain the data.
+    Correlated {
+        /// The factor, ≥ 1 `[-]`.
+        factor: f64,
+        /// Whether √(reduced χ²) counts too.
+        is_inflated: bool,
+    },
+}
+
+impl Uncertainties {
+    /// Factor on the stated standard uncertainties `[-]`.
+    fn factor(self, reduced_chi_squared: Option<f64>) -> f64 {
+        let unexplained = reduced_chi_squared.unwrap_or(1.0).max(1.0).sqrt();
+        match self {
+            Self::AsStated => 1.0,
+            Self::Inflated => unexplained,
+            Self::Correlated { factor, is_inflated } => factor * if is_inflated { unexplained } else { 1.0 },
+        }
+    }
 }
 
 /// The parameters that agree with the data, in the unit cube, as the emulator has it.
@@ -69,10 +88,7 @@ impl Region {
         let freedom = emulator.data().checked_sub(dimensions).filter(|freedom| *freedom > 0);
         let reduced_chi_squared = freedom.map(|freedom| minimum.chi_squared / freedom as f64);
         let p_value = freedom.map(|freedom| chi_squared_tail(minimum.chi_squared, freedom));
-        let inflation = match uncertainties {
-            Uncertainties::AsStated => 1.0,
-            Uncertainties::Inflated => reduced_chi_squared.unwrap_or(1.0).max(1.0).sqrt(),
-        };
+        let inflation = uncertainties.factor(reduced_chi_squared);
         let squared = inflation * inflation;
         let covariance = squared * covariance(&emulator.jacobian(&minimum.point));
         let base = Minimum { chi_squared: emulator.chi_squared(&minimum.point), point: minimum.point.clone() };

@@ -149,6 +149,7 @@ mod tests {
             budget: Budget { starts: 6, difference: 0.1, ..Budget::default() },
             region_evaluations: 32,
             runs,
+            series: Vec::new(),
         }
     }
 

@@ -8,6 +8,7 @@ use super::scatter::{Repeatability, averaged};
 use super::search::{
     Budget, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search, search_design,
 };
+use super::serial_correlation::{SerialCorrelation, serial_correlation};
 use super::{Evaluate, Evaluated};
 
 /// Share of repeated experiments below which a χ² is a sign that the model or the stated uncertainties are wrong, and above
@@ -32,6 +33,8 @@ pub struct SolvePlan {
     pub region_evaluations: usize,
     /// Whether runs scatter.
     pub runs: Repeatability,
+    /// Residuals of each profile or series, by their places in the order of its abscissas: errors may correlate along it.
+    pub series: Vec<Vec<usize>>,
 }
 
 /// The minimum and its region.
@@ -45,6 +48,8 @@ pub struct Answer {
     pub explored: Option<Explored>,
     /// Searches that were begun anew because a lower point had turned up.
     pub restarts: usize,
+    /// Correlation of neighbouring errors, which the region includes; none where the residuals show none.
+    pub correlation: Option<SerialCorrelation>,
 }
 
 /// Searches and explores until nothing lower turns up.
@@ -60,12 +65,14 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         search_design(model, &plan.design, budget)?
     };
     let searched = found.history.len();
-    let (mut restarts, mut continued) = (0, false);
+    let (mut restarts, mut continued, mut correlation) = (0, false, None);
     loop {
         let budget = Budget { evaluations: plan.region_evaluations, ..usual };
-        let uncertainties = uncertainties(&found);
+        let uncertainties = uncertainties(&found, correlation);
         let explored = explore(model, found.history.clone(), uncertainties, &budget).map_err(SearchError::Model)?;
-        let Some(explored) = explored else { return Ok(Answer { search: found, searched, explored: None, restarts }) };
+        let Some(explored) = explored else {
+            return Ok(Answer { search: found, searched, explored: None, restarts, correlation });
+        };
         let lowest = explored.region.minimum.clone();
         if explored.lower && restarts < MOST_RESTARTS {
             restarts += 1;
@@ -78,6 +85,14 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
             continued = true;
             found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..usual })?;
             continue;
+        }
+        if correlation.is_none() {
+            correlation = correlated(&plan.series, &explored);
+            if correlation.is_some() {
+                // the wider region is explored with what is known of the narrower one
+                found.history = explored.history;
+                continue;
+            }
         }
         let search = SearchResult {
             best: lowest.point,
@@ -92,7 +107,8 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
             }
         };
         let stopped = judged(search.stopped, &explored);
-        return Ok(Answer { search: SearchResult { stopped, ..search }, searched, explored: Some(explored), restarts });
+        let search = SearchResult { stopped, ..search };
+        return Ok(Answer { search, searched, explored: Some(explored), restarts, correlation });
     }
 }
 
@@ -125,13 +141,22 @@ fn again<M: Evaluate>(
     Ok(SearchResult { minima, every_start: before.every_start, ..found })
 }
 
-/// Uncertainties are enlarged where the model does not explain the data.
-fn uncertainties(found: &SearchResult) -> Uncertainties {
+/// Correlation of the residuals at the best point.
+fn correlated(series: &[Vec<usize>], explored: &Explored) -> Option<SerialCorrelation> {
+    let best = explored.history.iter().find(|evaluated| evaluated.point == explored.region.minimum.point)?;
+    serial_correlation(series, best.residuals.as_ref()?, &explored.region.jacobian())
+}
+
+/// Uncertainties are enlarged where the model does not explain the data, and where their errors are correlated.
+fn uncertainties(found: &SearchResult, correlation: Option<SerialCorrelation>) -> Uncertainties {
     let residuals = found.history.iter().find(|evaluated| evaluated.point == found.best);
     let data = residuals.and_then(|evaluated| evaluated.residuals.as_ref()).map_or(0, Vec::len);
-    match data.checked_sub(found.best.len()).filter(|freedom| *freedom > 0) {
-        Some(freedom) if chi_squared_tail(found.chi_squared, freedom) < UNLIKELY => Uncertainties::Inflated,
-        _ => Uncertainties::AsStated,
+    let freedom = data.checked_sub(found.best.len()).filter(|freedom| *freedom > 0);
+    let is_inflated = freedom.is_some_and(|freedom| chi_squared_tail(found.chi_squared, freedom) < UNLIKELY);
+    match correlation {
+        Some(SerialCorrelation { factor, .. }) => Uncertainties::Correlated { factor, is_inflated },
+        None if is_inflated => Uncertainties::Inflated,
+        None => Uncertainties::AsStated,
     }
 }
 
@@ -160,6 +185,7 @@ mod tests {
             budget: Budget::default(),
             region_evaluations: 20,
             runs: Repeatability::Smooth,
+            series: Vec::new(),
         };
         let answer = solve(&mut DoubleWell, &plan).expect("it works");
         assert!(answer.restarts == 1 && (answer.search.best[0] - 0.9).abs() < 0.02, "{:?}", answer.search.best);

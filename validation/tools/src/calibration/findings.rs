@@ -2,8 +2,8 @@
 
 use super::plan::CalibrationPlan;
 use super::result::DatumComparison;
-use crate::inference::diagnosis::{outliers, serial_correlation};
-use crate::inference::{Answer, Explored, ParameterLabel, Termination, UNLIKELY, assess};
+use crate::inference::diagnosis::outliers;
+use crate::inference::{Answer, Explored, ParameterLabel, SerialCorrelation, Termination, UNLIKELY, assess};
 use crate::number::short_digits;
 
 /// Everything that a search and its region leave open, the gravest first.
@@ -15,6 +15,7 @@ pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison
         }
         Some(explored) => {
             findings.extend(of_fit(plan.parameters.len(), explored.region.p_value, fit));
+            findings.extend(answer.correlation.map(correlated));
             findings.extend(of_region(plan, explored));
         }
     }
@@ -77,37 +78,17 @@ fn of_fit(parameters: usize, p_value: Option<f64>, fit: &[DatumComparison]) -> V
             short_digits(distance, 2)
         ));
     }
-    let profiles = profiles(fit);
-    for (name, residuals) in &profiles {
-        if let Some(correlation) = serial_correlation(residuals, profiles.len()) {
-            findings.push(format!(
-                "neighbouring residuals along `{name}` correlate ({}): the model has another shape than the data, or their \
-                 errors are not independent, and the intervals are too narrow",
-                short_digits(correlation, 2)
-            ));
-        }
-    }
     findings
 }
 
-/// Residuals of every profile in the order of its abscissas.
-fn profiles(fit: &[DatumComparison]) -> Vec<(String, Vec<f64>)> {
-    let mut profiles: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
-    for datum in fit {
-        let Some(place) = &datum.at else { continue };
-        let name = format!("{} of {}", place.table, datum.block);
-        match profiles.iter_mut().find(|(other, _)| *other == name) {
-            Some((_, points)) => points.push((place.at, datum.residual)),
-            None => profiles.push((name, vec![(place.at, datum.residual)])),
-        }
-    }
-    profiles
-        .into_iter()
-        .map(|(name, mut points)| {
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            (name, points.into_iter().map(|point| point.1).collect())
-        })
-        .collect()
+/// Finding of correlated residuals, whose intervals are widened already.
+fn correlated(SerialCorrelation { coefficient, factor }: SerialCorrelation) -> String {
+    format!(
+        "neighbouring residuals correlate ({}): the errors are not independent, or the model has another shape than the data; the \
+         intervals are {} times as wide as for independent errors",
+        short_digits(coefficient, 2),
+        short_digits(factor, 2)
+    )
 }
 
 fn of_region(plan: &CalibrationPlan, explored: &Explored) -> Vec<String> {
@@ -201,16 +182,5 @@ mod tests {
         let found = findings(&residuals);
         assert!(found.iter().any(|text| text.contains("`u at 4` = 1 m/s of `fit[0]`")), "{found:?}");
         assert!(found.iter().any(|text| text.contains("`u at 12`")), "{found:?}");
-    }
-
-    #[test]
-    fn a_wrong_law_is_told_by_its_shape() {
-        let bent: Vec<f64> =
-            normal(3, 0.2).iter().enumerate().map(|(k, z)| z + 0.16 * (k as f64 - 7.0).powi(2) - 3.0).collect();
-        let found = findings(&bent);
-        assert!(
-            found.iter().any(|text| text.contains("neighbouring residuals along `profile of fit[0]`")),
-            "{found:?}"
-        );
     }
 }

@@ -115,6 +115,7 @@ fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, Cali
         budget: plan.budget,
         region_evaluations: plan.region_evaluations,
         runs,
+        series: objective.series(),
     };
     if runs == Repeatability::Scattering {
         objective.variances = objective.first_variances()?;

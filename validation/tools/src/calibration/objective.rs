@@ -148,6 +148,21 @@ impl Objective<'_> {
         self.data.iter().filter(move |datum| self.plan.blocks[datum.block].held_out == held_out)
     }
 
+    /// Places of the fitted data of each profile or series, in the order of its abscissas.
+    pub(super) fn series(&self) -> Vec<Vec<usize>> {
+        let mut series: BTreeMap<(usize, String, String), Vec<(f64, usize)>> = BTreeMap::new();
+        for (place, datum) in self.data_of(false).enumerate() {
+            if let Some(ProfileLocation { table, y, at, .. }) = datum.target.place() {
+                series.entry((datum.block, table, y)).or_default().push((at, place));
+            }
+        }
+        let in_order = |mut points: Vec<(f64, usize)>| {
+            points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            points.into_iter().map(|point| point.1).collect()
+        };
+        series.into_values().map(in_order).collect()
+    }
+
     /// Predictions for some data from the records of all blocks; an error where a record lacks a datum's counterpart.
     pub(super) fn predict<'d>(
         &self,
