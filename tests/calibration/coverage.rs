@@ -1,6 +1,6 @@
 //! Repeated experiments: how often region and intervals hold the truth, and what a calibration costs.
 
-use bagnold_inference::inference::diagnosis::{outliers, serial_correlation};
+use bagnold_inference::inference::diagnosis::outliers;
 use bagnold_inference::inference::{
     Answer, Budget, Evaluate, Evaluated, Method, Repeatability, SolvePlan, Termination, UNLIKELY, chi_squared, solve,
 };
@@ -14,6 +14,8 @@ pub(crate) struct Problem<F> {
     pub(crate) residuals: F,
     /// Parameters behind the data, in the unit cube.
     pub(crate) truth: Vec<f64>,
+    /// Places of residuals that follow each other.
+    pub(crate) series: Vec<Vec<usize>>,
 }
 
 impl<F: Fn(&[f64]) -> Option<Vec<f64>>> Evaluate for Problem<F> {
@@ -34,6 +36,7 @@ pub(crate) fn usual(start: Vec<f64>) -> SolvePlan {
         budget: Budget { starts: 2 * dimensions + 2, ..Budget::default() },
         region_evaluations: 16 * dimensions,
         runs: Repeatability::Smooth,
+        series: Vec::new(),
     }
 }
 
@@ -49,6 +52,8 @@ pub(crate) struct Tally {
     pub(crate) settled: usize,
     /// Experiments with a finding about the search, the fit, or ends and regions that are not settled.
     pub(crate) raised: usize,
+    /// Experiments whose errors are named as correlated.
+    pub(crate) correlated: usize,
     /// Evaluations of every experiment.
     pub(crate) evaluations: Vec<usize>,
 }
@@ -72,7 +77,8 @@ impl Tally {
         let mut tally = Self { single: vec![0; plan.start.len()], ..Self::default() };
         for seed in seeds {
             let mut problem = problem(seed);
-            let answer = solve(&mut problem, plan).expect("the model works");
+            let plan = SolvePlan { series: problem.series.clone(), ..plan.clone() };
+            let answer = solve(&mut problem, &plan).expect("the model works");
             tally.add(&problem, &answer);
         }
         tally.evaluations.sort_unstable();
@@ -91,6 +97,7 @@ impl Tally {
             self.single[k] += usize::from((from..=to).contains(truth));
         }
         self.settled += usize::from(explored.is_settled());
+        self.correlated += usize::from(answer.correlation.is_some());
         let unlikely = explored.region.p_value.is_some_and(|p| !(UNLIKELY..=1.0 - UNLIKELY).contains(&p));
         self.raised += usize::from(
             unlikely
@@ -98,7 +105,7 @@ impl Tally {
                 || !matches!(answer.search.stopped, Termination::Converged | Termination::AtRest)
                 || !answer.search.every_start
                 || !outliers(&residuals, problem.truth.len()).is_empty()
-                || serial_correlation(&residuals, 1).is_some(),
+                || answer.correlation.is_some(),
         );
         self.evaluations.push(answer.search.history.len());
     }
@@ -112,11 +119,12 @@ impl Tally {
     pub(crate) fn print(&self, name: &str) {
         let middle = self.evaluations[self.evaluations.len() / 2];
         println!(
-            "{name}: of {} joint {}, single {:?}, settled {}, with findings {}; evaluations {} to {}, median {middle}",
+            "{name}: of {} joint {}, single {:?}, settled {}, correlated {}, with findings {}; evaluations {} to {}, median {middle}",
             self.experiments,
             self.joint,
             self.single,
             self.settled,
+            self.correlated,
             self.raised,
             self.evaluations[0],
             self.evaluations[self.evaluations.len() - 1]

@@ -26,23 +26,48 @@ fn truth() -> Vec<f64> {
 }
 
 /// Velocities `[m/s]` at the heights.
-fn velocities([yield_stress, consistency, flow_index]: [f64; 3]) -> Vec<f64> {
+fn velocities([yield_stress, consistency, flow_index]: [f64; 3], heights: usize) -> Vec<f64> {
     let film = HerschelBulkleyFilm { incline: INCLINE, yield_stress, consistency, flow_index };
-    (0..HEIGHTS).map(|k| film.velocity(INCLINE.layer_height * (k as f64 + 1.0) / HEIGHTS as f64)).collect()
+    (0..heights).map(|k| film.velocity(INCLINE.layer_height * (k as f64 + 1.0) / heights as f64)).collect()
 }
 
-/// Data of a seed.
-fn data(seed: u64) -> Vec<f64> {
-    velocities(TRUTH).iter().zip(normal(seed, HEIGHTS)).map(|(u, z)| u * (1.0 + NOISE * z)).collect()
+/// Data with these errors in standard uncertainties.
+fn data(errors: &[f64]) -> Vec<f64> {
+    velocities(TRUTH, errors.len()).iter().zip(errors).map(|(u, z)| u * (1.0 + NOISE * z)).collect()
 }
 
 pub(crate) fn film(seed: u64) -> Problem<impl Fn(&[f64]) -> Option<Vec<f64>>> {
-    let (data, exact) = (data(seed), velocities(TRUTH));
+    film_with(&normal(seed, HEIGHTS))
+}
+
+fn film_with(errors: &[f64]) -> Problem<impl Fn(&[f64]) -> Option<Vec<f64>> + use<>> {
+    let heights = errors.len();
+    let (data, exact) = (data(errors), velocities(TRUTH, heights));
     let residuals = move |u: &[f64]| {
-        let model = velocities(physical(u));
-        Some((0..HEIGHTS).map(|k| (model[k] - data[k]) / (NOISE * exact[k])).collect())
+        let model = velocities(physical(u), heights);
+        Some((0..heights).map(|k| (model[k] - data[k]) / (NOISE * exact[k])).collect())
     };
-    Problem { residuals, truth: truth() }
+    Problem { residuals, truth: truth(), series: vec![(0..heights).collect()] }
+}
+
+/// Errors of an autoregressive process of first order and unit variance.
+fn correlated_errors(seed: u64, count: usize, coefficient: f64) -> Vec<f64> {
+    let mut errors = normal(seed, count);
+    for k in 1..count {
+        errors[k] = coefficient * errors[k - 1] + (1.0 - coefficient * coefficient).sqrt() * errors[k];
+    }
+    errors
+}
+
+#[test]
+#[ignore = "the full study: some minutes"]
+fn correlated_errors_are_named_and_their_regions_hold_the_truth() {
+    for (count, coefficient) in [(40, 0.5), (40, 0.8), (20, 0.8), (80, 0.5)] {
+        let tally = Tally::of(200..240, &START, |seed| film_with(&correlated_errors(seed, count, coefficient)));
+        tally.print(&format!("film of {count} velocities, correlation {coefficient}"));
+        assert!(count != 40 || tally.correlated >= 32, "{tally:?}");
+        assert!(count != 40 || tally.joint >= 34 && tally.single.iter().all(|one| *one >= 34), "{tally:?}");
+    }
 }
 
 #[test]
@@ -84,7 +109,7 @@ fn intervals_for_comparison() {
         let answer = solve(&mut film(seed), &usual(START.to_vec())).expect("the film works");
         let explored = answer.explored.expect("points enough");
         let intervals: Vec<[f64; 2]> = explored.region.profiles.iter().map(|profile| profile.interval).collect();
-        let (data, least) = (data(seed), answer.search.chi_squared);
+        let (data, least) = (data(&normal(seed, HEIGHTS)), answer.search.chi_squared);
         writeln!(
             text,
             "{{\"seed\": {seed}, \"data\": {data:?}, \"intervals\": {intervals:?}, \"chi_squared\": {least}}}"

@@ -62,7 +62,7 @@ fn layer(seed: u64, parameters: usize) -> Problem<impl Fn(&[f64]) -> Option<Vec<
         let model = transports(physical(u), cell_height)?;
         Some((0..model.len()).map(|k| (model[k] / exact[k] - 1.0) / NOISE - noise[k]).collect())
     };
-    Problem { residuals, truth }
+    Problem { residuals, truth, series: Vec::new() }
 }
 
 #[test]

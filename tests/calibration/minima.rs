@@ -74,7 +74,8 @@ fn assert_both_are_found(model: fn(&[f64]) -> Vec<f64>, starts: &[Vec<f64>]) {
     let known = minima_of_grid(starts[0].len(), |u| chi_squared(&model(u)));
     assert_eq!(known.len(), 2, "{known:?}");
     for start in starts {
-        let mut problem = Problem { residuals: |u: &[f64]| Some(model(u)), truth: known[0].clone() };
+        let mut problem =
+            Problem { residuals: |u: &[f64]| Some(model(u)), truth: known[0].clone(), series: Vec::new() };
         let plan = usual(start.clone());
         let found = search(&mut problem, start, plan.method, plan.budget).expect("the model works");
         println!("from {start:.2?}: {} evaluations, {:.3?}", found.history.len(), found.minima);

@@ -59,7 +59,7 @@ impl Simulated {
             let model = self.values(u[0])?;
             Some((0..model.len()).map(|k| (model[k] / exact[k] - 1.0) / self.noise - noise[k]).collect())
         };
-        Problem { residuals, truth: vec![self.truth] }
+        Problem { residuals, truth: vec![self.truth], series: Vec::new() }
     }
 
     /// Repeats the calibration with many seeds.
