@@ -25,18 +25,12 @@ pub enum CompareError {
         other: PathBuf,
     },
     /// Results of one case and its parameters, judged by other limits.
-    #[error("{}: the gates of {case} were {before} and are {now} in {}: limits of {moved} gates moved; read what moved in both metrics.json, then compare the values with --across-gates", shown(.first), shown(.other))]
+    #[error("{}: the gates of {} in {}: limits of {moved} gates moved; read what moved in both metrics.json, then compare the values with --across-gates", shown(&.folders[0]), .case, shown(&.folders[1]))]
     OtherGates {
-        /// The case.
+        /// The case, and the digests of its gates in both folders.
         case: String,
-        /// The first folder.
-        first: PathBuf,
-        /// Digest of its gates.
-        before: String,
-        /// The other folder.
-        other: PathBuf,
-        /// Digest of its gates.
-        now: String,
+        /// Both folders.
+        folders: Box<[PathBuf; 2]>,
         /// Number of gates with another limit.
         moved: usize,
     },
@@ -104,12 +98,10 @@ impl Results {
             *moved > 0 && own.parameters == theirs.parameters
         };
         self.moved_by_case(other).find(is_version).map_or(Ok(()), |(own, theirs, moved)| {
+            let (before, now) = (&own.document.gates, &theirs.document.gates);
             Err(CompareError::OtherGates {
-                case: own.document.case.clone(),
-                first: self.folder.clone(),
-                before: own.document.gates.clone(),
-                other: other.folder.clone(),
-                now: theirs.document.gates.clone(),
+                case: format!("{} were {before} and are {now}", own.document.case),
+                folders: Box::new([self.folder.clone(), other.folder.clone()]),
                 moved,
             })
         })

@@ -77,7 +77,7 @@ pub fn read(league: &Path) -> Result<Vec<BlindComparison>, JudgeError> {
             (&one.grains, &one.case, one.aspect_ratio, &one.quantity)
                 == (&row.grains, &row.case, row.aspect_ratio, &row.quantity)
         };
-        all.iter_mut().filter(|one| is_of(&one)).for_each(|one| one.measured.push(row.value));
+        all.iter_mut().filter(is_of).for_each(|one| one.measured.push(row.value));
     }
     Ok(all)
 }
