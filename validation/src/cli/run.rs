@@ -6,7 +6,7 @@ use super::error::ProgramError;
 use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
-use super::simulation::{announce, introduce, reject_warnings, simulate_showing};
+use super::simulation::{announce, introduce, reject_fast, simulate_showing};
 use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
@@ -61,7 +61,7 @@ pub(super) fn run(
     let mut profile = StageTimer::begin();
     let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
     let mut results = simulate_showing(vec![prepared], &store, quiet, states.as_ref(), Some(&expectation))?;
-    reject_warnings(command.deny_warnings)?;
+    reject_fast(&results, command.deny_warnings)?;
     states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
     profile.over("runs and their figures");
     for result in &mut results {

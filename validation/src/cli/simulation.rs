@@ -5,10 +5,12 @@ use super::expectation::Expectation;
 use super::progress::RunsBar;
 use super::tell;
 use crate::case::{CaseResult, Estimate, Monitor, ParameterError, PreparedCase, StateOutput, execute};
-use crate::output::cautions;
+use crate::output::{caution, cautions};
 use crate::result::States;
 use crate::store::{Store, provenance};
 
+/// Largest validated Mach number of a scene `[-]`.
+const LARGEST_MACH_NUMBER: f64 = 0.2;
 /// Lines on scenes before they run, beyond which only their number is told.
 const MOST_BRIEFS: usize = 4;
 
@@ -42,8 +44,23 @@ pub(super) fn announce(
     expectation
 }
 
+/// Warns of scenes that became faster than the weakly compressible model is validated for, and rejects an input that was warned of, if
+/// the user asks for that.
+pub(super) fn reject_fast(results: &[CaseResult], is_denied: bool) -> Result<(), ProgramError> {
+    let metrics = results.iter().flat_map(|result| &result.metrics);
+    for metric in metrics.filter(|metric| metric.name == "mach_number" && metric.value > LARGEST_MACH_NUMBER) {
+        let (mach, variant) = (metric.value, &metric.variant);
+        caution(&format!(
+            "{variant}: the Mach number reaches {mach:.2}, above {LARGEST_MACH_NUMBER}: impacts and forces are not validated; \
+             multiply `stiffness` by {:.1}",
+            (mach / LARGEST_MACH_NUMBER).powi(2)
+        ));
+    }
+    reject_warnings(is_denied)
+}
+
 /// Rejects an input that was warned of, if the user asks for that.
-pub(super) fn reject_warnings(is_denied: bool) -> Result<(), ProgramError> {
+fn reject_warnings(is_denied: bool) -> Result<(), ProgramError> {
     match cautions() {
         count if is_denied && count > 0 => Err(ProgramError::Cautions { count }),
         _ => Ok(()),

@@ -6,7 +6,7 @@ use super::error::ProgramError;
 use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
-use super::simulation::{announce, introduce, reject_warnings, simulate};
+use super::simulation::{announce, introduce, reject_fast, simulate};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
 use crate::report::Baseline;
@@ -49,7 +49,7 @@ pub(super) fn run(
     let started = Instant::now();
     let mut profile = StageTimer::begin();
     let results = simulate(cases, &store, quiet, Some(&expectation))?;
-    reject_warnings(command.deny_warnings)?;
+    reject_fast(&results, command.deny_warnings)?;
     profile.over("runs and their figures");
     let result = study.judge(results)?;
     let written = ResultPublication {

@@ -9,7 +9,7 @@ use bagnold_number::four_digits;
 use bagnold_solver::vector::Vector;
 
 /// Largest Mach number `[-]` of a weakly compressible flow: density then varies by some per cent.
-pub(super) const LARGEST_MACH_NUMBER: f64 = 0.2;
+const LARGEST_MACH_NUMBER: f64 = 0.2;
 /// Fewest particles across a gap.
 const NARROWEST_GAP: f64 = 3.0;
 /// Share of a spacing within which ends of walls touch.
@@ -53,7 +53,7 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
 }
 
 /// Warning of a flow too fast for its sound speed, with the stiffness that suffices.
-pub(super) fn too_fast(name: &str, speed: f64, mach: f64, stiffness: f64) -> String {
+fn too_fast(name: &str, speed: f64, mach: f64, stiffness: f64) -> String {
     let enough = (stiffness * (mach / LARGEST_MACH_NUMBER).powi(2)).ceil();
     format!(
         "scene `{name}`: a speed of {speed:.3} m/s is Mach {mach:.2}, above {LARGEST_MACH_NUMBER}: impacts and forces are not \

@@ -1,6 +1,5 @@
 //! Metrics of scenes: their balances, and their gauges compared with measurements.
 
-use super::brief::{self, LARGEST_MACH_NUMBER};
 use super::parameters::Dimension;
 use super::prediction;
 use super::series;
@@ -8,7 +7,6 @@ use super::setting::SceneInlet;
 use super::sides::SceneSides;
 use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
-use crate::output::caution;
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::statistics::{Extrapolation, interpolated};
 use bagnold_solver::weakly_compressible::numerics::{ViscositySwitch, ViscousStep};
@@ -105,9 +103,6 @@ fn of_run<S: Dimension<D>, const D: usize>(
     metrics.extend(energy(&variant, data, parameters));
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
     let mach = data.largest_speed / parameters.equation_of_state().sound_speed();
-    if mach > LARGEST_MACH_NUMBER {
-        caution(&brief::too_fast(&parameters.name, data.largest_speed, mach, parameters.stiffness));
-    }
     metrics.push(MACH_NUMBER.of(&variant, mach).with_snapshot_tolerance(0.1, 1e-3));
     metrics.extend(artificial_viscosity(&variant, data, parameters));
     let all = series::of_run(parameters, data);
