@@ -277,6 +277,14 @@ fn a_table_that_show_documents_can_be_added_to_a_scene() {
     let place = Place::new();
     let shown = place.bagnold(&["show", "scene"]).output().expect("started");
     let shown = String::from_utf8_lossy(&shown.stdout).into_owned();
+    // a file is completed, and another law shown with all of its parameters
+    place.file("mine.toml", "case = \"film\"\nresolution = 17\n");
+    let mine = place.bagnold(&["show", "mine.toml", "--set", "newtonian.viscosity=0.25"]).assert().code(0);
+    let mine = String::from_utf8_lossy(&mine.get_output().stdout).into_owned();
+    assert!(mine.contains("\nresolution = 17") && mine.contains("\nviscosity = 0.25  # dynamic viscosity"), "{mine}");
+    let law = place.bagnold(&["show", "scene", "--set", "material.law=bingham"]).assert().code(2);
+    let law = String::from_utf8_lossy(&law.get_output().stderr).into_owned();
+    assert!(law.contains("add `yield_stress` (") && law.contains("`plastic_viscosity` ("), "{law}");
     let measured = shown.split("\n\n").find(|table| table.starts_with("# [[measured]]")).expect("documented");
     let added: String = measured.lines().map(|line| format!("{}\n", line.trim_start_matches("# "))).collect();
     let added = added.replace("gauge = \"…\"", "gauge = \"front\"").replace("limit = 0.0", "limit = 200.0");

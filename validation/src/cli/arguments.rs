@@ -179,12 +179,15 @@ pub struct SchemaArguments {
 /// `bagnold show`
 #[derive(Debug, Args)]
 pub struct ShowArguments {
-    /// Name of a case, see `bagnold list`; with --picture also a case file.
+    /// Name of a case, see `bagnold list`, or a case file, which is completed.
     #[arg(value_name = "CASE|FILE.toml")]
     pub case: String,
     /// Tier: the cost of the case [default: the file's, else quick].
     #[arg(long, value_enum)]
     pub tier: Option<Tier>,
+    /// Change one parameter, such as a law; may be repeated.
+    #[arg(long = "set", value_name = "path=value")]
+    pub settings: Vec<String>,
     /// Draw the initial state of a scene instead, with the material that its walls remove; no simulation.
     #[arg(long, value_name = "FILE.png|FILE.svg")]
     pub picture: Option<PathBuf>,

@@ -42,7 +42,7 @@ pub use error::ProgramError;
 pub use exit::Exit;
 pub use new::error::NewError;
 
-use crate::case::{Limits, ParameterError, Registry, Tier};
+use crate::case::{Limits, ParameterError, Registry};
 use crate::checkpoint::{self, InterruptedRuns};
 use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
@@ -160,7 +160,7 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
         Command::Show(show) => {
             match &show.picture {
                 Some(picture) => setup::draw(show, picture, registry, output)?,
-                None => say(output, &registry.find(&show.case)?.show(show.tier.unwrap_or(Tier::Quick))),
+                None => say(output, &setup::show(show, registry)?),
             }
             Ok(Exit::Held)
         }

@@ -3,11 +3,26 @@
 use super::arguments::ShowArguments;
 use super::error::ProgramError;
 use super::terminal::say;
-use crate::case::{Limits, ParameterError, Registry, Request};
+use crate::case::{ParameterError, Registry, Request, Tier};
 use crate::figure::{FigureError, FigureFormat, render};
 use crate::output::{FileError, write_whole};
 use std::io::Write;
 use std::path::Path;
+
+/// The parameters of a case as a file, or a file and settings with all that they leave out.
+///
+/// # Errors
+/// An unknown case, or parameters that the case refuses.
+pub(super) fn show(show: &ShowArguments, registry: Registry) -> Result<String, ParameterError> {
+    match registry.find(&show.case) {
+        Ok(case) if show.settings.is_empty() => Ok(case.show(show.tier.unwrap_or(Tier::Quick))),
+        _ => Ok(request(show).prepare(registry)?.prepared.parameters_toml().to_owned()),
+    }
+}
+
+fn request(show: &ShowArguments) -> Request<'_> {
+    Request { target: &show.case, tier: show.tier, settings: &show.settings, ..Request::default() }
+}
 
 /// Draws what the runs of a case start from into a file of that name.
 ///
@@ -27,8 +42,7 @@ pub(super) fn draw(
         let rule = "a file name that ends with .png or .svg";
         return Err(refused("--picture", picture.display().to_string(), rule, "such as --picture setup.png"));
     }
-    let request = Request { target: &show.case, tier: show.tier, limits: Limits::default(), ..Request::default() };
-    let prepared = request.prepare(registry)?.prepared;
+    let prepared = request(show).prepare(registry)?.prepared;
     let Some(figure) = prepared.setup() else {
         let rule = "a scene, or the file of one";
         return Err(refused("--picture", show.case.clone(), rule, "other cases make their starts themselves"));

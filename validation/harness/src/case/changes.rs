@@ -95,19 +95,21 @@ where
             });
         }
     }
-    let given = changes.file.iter().map(|(_, fields)| fields).chain([&settings]);
-    given.flat_map(plausible::warnings).for_each(|warning| caution(&warning));
     // Together, so that a law and its parameters may come in any order.
     overlay(schema, &mut table, &settings);
-    plausible::wide_grains(&table).iter().for_each(|warning| caution(warning));
+    let given = changes.file.iter().map(|(_, fields)| fields).chain([&settings]);
+    let unlikely: Vec<String> = given.flat_map(plausible::warnings).chain(plausible::wide_grains(&table)).collect();
     let value = Value::Table(table);
     match first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
         Some(fault) => Err(blame(fault, case, &defaults, changes)),
         // What no schema can tell, such as what the maker of a law of the user's own says of its parameters.
-        None => value.try_into().map_err(|error: toml::de::Error| {
-            let remedy = format!("`bagnold show {case}` prints valid ones");
-            ParameterError::field("parameters", "not valid", error.message(), &remedy)
-        }),
+        None => {
+            unlikely.iter().for_each(|warning| caution(warning));
+            value.try_into().map_err(|error: toml::de::Error| {
+                let remedy = format!("`bagnold show {case}` prints valid ones");
+                ParameterError::field("parameters", "not valid", error.message(), &remedy)
+            })
+        }
     }
 }
 

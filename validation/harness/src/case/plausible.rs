@@ -1,5 +1,6 @@
 //! Values of a user that are possible but unlikely for grains and sediment, mostly because they have another unit.
 
+use crate::number::four_digits;
 use toml::{Table, Value};
 
 /// A field by the end of its name, its usual range, and the slip behind a value outside of it.
@@ -113,9 +114,9 @@ fn unusual(name: &str, path: &str, value: f64) -> Option<String> {
         return None;
     }
     let Usual { low, high, unit, slip, .. } = usual;
-    let likely =
-        slip(value).map(|(meant, words)| format!("; {value} {words} is {}", crate::number::four_digits(meant)));
-    Some(format!("`{path}` is {value} {unit}, usual are {low} to {high} {unit}{}", likely.unwrap_or_default()))
+    let shown = four_digits(value);
+    let likely = slip(value).map(|(meant, words)| format!("; {shown} {words} is {}", four_digits(meant)));
+    Some(format!("`{path}` is {shown} {unit}, usual are {low} to {high} {unit}{}", likely.unwrap_or_default()))
 }
 
 /// Warning of grains of a scene that are many particle spacings wide.
