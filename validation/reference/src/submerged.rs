@@ -99,39 +99,27 @@ fn curve(table: &MeasuredData, column: &str, solid_fraction: f64) -> Result<Time
     Ok(TimeCurve { points: own.map(|(point, _)| point).collect() })
 }
 
-/// A layer of one initial solid fraction by the independent implementation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct IndependentLayer {
-    /// Initial solid fraction `[-]`.
-    pub solid_fraction: f64,
-    /// Time to 0.1 mm/s `[s]`.
-    pub onset: f64,
-    /// Time to 0.3 mm/s `[s]`; infinite where it is not reached.
-    pub acceleration: f64,
-    /// Surface velocity at the end of the measured curve `[mm/s]`.
-    pub end_velocity: f64,
-    /// Pore pressure at the floor after 20 s `[Pa]`.
-    pub early_pressure: f64,
-    /// Pore pressure at the floor at the end of the measured curve `[Pa]`.
-    pub end_pressure: f64,
+/// Layers by another implementation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IndependentLayers {
+    /// Initial solid fraction `[-]` with times to 0.1 and 0.3 mm/s `[s]` (infinite where not reached), velocity at the end of the
+    /// measured curve `[mm/s]`, pore pressure at the floor after 20 s and at the end of the measured curve `[Pa]`.
+    pub rows: Vec<(f64, [f64; 5])>,
+    /// Source.
+    pub source: String,
 }
 
-/// The independent implementation: layers and source.
-pub static INDEPENDENT_LAYERS: LazyLock<(Vec<IndependentLayer>, String)> = LazyLock::new(|| {
+/// The independent implementation.
+pub static INDEPENDENT_LAYERS: LazyLock<IndependentLayers> = LazyLock::new(|| {
     read_shipped("submerged-layer/independent-layer.csv", |table| {
-        let column = |name| table.numbers(name);
+        let onset = table.numbers("onset")?;
         let acceleration = table.upper_ends("acceleration")?;
-        let (fraction, onset, end) = (column("solid fraction")?, column("onset")?, column("end velocity")?);
-        let (early, last) = (column("pore pressure at 20 s")?, column("end pressure")?);
-        let row = |k: usize| IndependentLayer {
-            solid_fraction: fraction[k],
-            onset: onset[k],
-            acceleration: acceleration[k],
-            end_velocity: end[k],
-            early_pressure: early[k],
-            end_pressure: last[k],
-        };
-        Ok(((0..fraction.len()).map(row).collect(), table.metadata.source.clone()))
+        let [end, early, last] =
+            ["end velocity", "pore pressure at 20 s", "end pressure"].map(|name| table.numbers(name));
+        let (end, early, last) = (end?, early?, last?);
+        let row = |(k, &fraction): (usize, &f64)| (fraction, [onset[k], acceleration[k], end[k], early[k], last[k]]);
+        let rows = table.numbers("solid fraction")?.iter().enumerate().map(row).collect();
+        Ok(IndependentLayers { rows, source: table.metadata.source.clone() })
     })
 });
 
@@ -153,7 +141,7 @@ mod tests {
         }
         let pressure = avalanches.of(0.584).map(|run| run.pore_pressure.at(20.0));
         assert!(pressure.is_some_and(|pressure| (pressure + 2.45).abs() < 0.01), "{pressure:?}");
-        assert_eq!(INDEPENDENT_LAYERS.0.len(), avalanches.runs.len());
+        assert_eq!(INDEPENDENT_LAYERS.rows.len(), avalanches.runs.len());
     }
 
     #[test]

@@ -33,7 +33,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     let mut onsets = Vec::new();
     for (run, record) in records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Experiment) {
-        let fraction = run.layer.solid_fraction;
+        let fraction = run.solid_fraction;
         let Some(measured) = SUBMERGED_AVALANCHES.of(fraction) else { continue };
         metrics.extend(beside(run, &record.data, measured));
         if fraction >= LOOSEST_DELAYED {
@@ -63,7 +63,7 @@ fn within(part: f64, measured: f64, is_gated: bool) -> Option<Limit> {
 }
 
 fn beside(run: &SubmergedLayerRun, data: &SubmergedLayerObservation, measured: &SubmergedAvalanche) -> Vec<Metric> {
-    let (variant, fraction) = (run.variant(), run.layer.solid_fraction);
+    let (variant, fraction) = (run.variant(), run.solid_fraction);
     let (velocity, pressure) = (data.velocity_curve(), data.pressure_curve());
     let mut metrics = Vec::new();
     let times = [(ONSET_TIME, ONSET_VELOCITY), (ACCELERATION_TIME, ACCELERATED_VELOCITY)];
@@ -92,22 +92,21 @@ fn beside(run: &SubmergedLayerRun, data: &SubmergedLayerObservation, measured: &
 /// enters.
 fn drained(run: &SubmergedLayerRun, variant: &Variant, measured: &SubmergedAvalanche) -> Metric {
     let layer = &run.layer;
-    let mut fraction = layer.solid_fraction;
+    let mut fraction = run.solid_fraction;
     for pair in measured.pore_pressure.points.windows(2) {
-        let depth = layer.depth * layer.solid_fraction / fraction;
+        let depth = layer.depth * run.solid_fraction / fraction;
         let rate = 2.0 * layer.permeability(fraction) / (layer.viscosity * depth * depth);
         let impulse = 0.5 * (pair[1].0 - pair[0].0) * (pair[0].1 + pair[1].1);
         fraction *= libm::exp(rate * impulse);
     }
-    let equilibrium = layer.law.equilibrium_fraction(layer.law.steady_viscous_number(layer.slope()));
-    let source = if layer.solid_fraction > DENSEST_WITHOUT_OFFSET + 1e-9 {
+    let source = if run.solid_fraction > DENSEST_WITHOUT_OFFSET + 1e-9 {
         "φ_eq of the slope; the measured pressure probably carries an offset of −1.5 to −2 Pa"
     } else {
         "φ_eq of the slope, to which the integrated pressures of the looser layers lead within 0.005"
     };
     DRAINED_FRACTION
         .of(variant, fraction)
-        .against(Some(equilibrium), source, Confidence::Medium)
+        .against(Some(layer.steady_fraction()), source, Confidence::Medium)
         .with_snapshot_tolerance(1e-3, 0.0)
 }
 

@@ -29,7 +29,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 }
 
 fn label(run: &SubmergedLayerRun) -> String {
-    format!("φ = {}", run.layer.solid_fraction)
+    format!("φ = {}", run.solid_fraction)
 }
 
 /// Curves of loose and of dense layers with the measured points.
@@ -43,11 +43,11 @@ fn over_time(
     for (title, is_dense) in [("loose layers", false), ("dense layers", true)] {
         let mut panel = Panel::new(title, Axis::linear("t [s]"), Axis::linear(axis));
         for (slot, (run, data)) in layers.iter().enumerate() {
-            if (run.layer.solid_fraction >= DENSE) != is_dense {
+            if (run.solid_fraction >= DENSE) != is_dense {
                 continue;
             }
             panel.line(&label(run), slot, computed(data).points);
-            if let Some(avalanche) = SUBMERGED_AVALANCHES.of(run.layer.solid_fraction) {
+            if let Some(avalanche) = SUBMERGED_AVALANCHES.of(run.solid_fraction) {
                 panel.points("", slot, measured(avalanche).points.iter().copied());
             }
         }
@@ -123,7 +123,7 @@ fn consolidation(layers: &[Layer<'_>]) -> Figure {
     if let Some((run, data)) = layers.last()
         && let Some(state) = &data.profile
     {
-        let time_factor = run.layer.consolidation_coefficient() * state.time / (run.layer.depth * run.layer.depth);
+        let time_factor = run.time_factor(state.time);
         let heights = (0..=100).map(|k| f64::from(k) / 100.0);
         profile.reference("Terzaghi", heights.map(|height| (drained_pressure(height, time_factor), height)));
     }

@@ -7,7 +7,7 @@ mod quantities;
 mod run;
 mod verification;
 
-pub use parameters::{ConsolidationCheck, SteadyCheck, SubmergedGrains, SubmergedLayerParameters, ViscousLiquid};
+pub use parameters::{ConsolidationCheck, SubmergedLayerParameters};
 pub use run::{LayerPurpose, SubmergedLayerObservation, SubmergedLayerRun};
 
 use crate::case::{Case, RecordOf, Run};

@@ -47,6 +47,8 @@ pub struct SubmergedLayerRun {
     pub purpose: LayerPurpose,
     /// The layer.
     pub layer: SubmergedLayer,
+    /// Solid fraction at the start `[-]`.
+    pub solid_fraction: f64,
     /// Simulated time `[s]`.
     pub duration: f64,
 }
@@ -54,6 +56,8 @@ pub struct SubmergedLayerRun {
 /// What a run leaves behind.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SubmergedLayerObservation {
+    /// Steps taken.
+    pub steps: usize,
     /// Time since tilting `[s]`.
     pub time: Vec<f64>,
     /// Surface velocity `[m/s]`.
@@ -89,6 +93,7 @@ impl SubmergedLayerObservation {
     }
 
     fn observe(&mut self, column: &SubmergedColumn) {
+        self.steps = column.steps();
         self.time.push(column.time());
         self.surface_velocity.push(column.surface_velocity());
         self.floor_pressure.push(column.floor_pressure());
@@ -109,7 +114,7 @@ impl Run for SubmergedLayerRun {
 
     fn variant(&self) -> Variant {
         match self.purpose {
-            LayerPurpose::Experiment => Variant::of("solid_fraction", self.layer.solid_fraction),
+            LayerPurpose::Experiment => Variant::of("solid_fraction", self.solid_fraction),
             LayerPurpose::Steady => Variant::of("flow", "steady"),
             LayerPurpose::Consolidation => Variant::of("flow", "consolidation").and("cells", self.layer.cells),
         }
@@ -133,37 +138,13 @@ impl Run for SubmergedLayerRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SubmergedLayerObservation>, ParameterError> {
         let started = Instant::now();
-        let initial_pressure = match self.purpose {
-            LayerPurpose::Consolidation => EXCESS * self.layer.floor_overburden() / (2.0 * self.particles()),
-            LayerPurpose::Experiment | LayerPurpose::Steady => 0.0,
+        let mut data = SubmergedLayerObservation::default();
+        let outcome = match self.march(&mut data, progress) {
+            Ok(()) => Outcome::Finished,
+            Err(error) => Outcome::Diverged { message: error.to_string(), expected: false },
         };
-        let mut data = SubmergedLayerObservation { initial_pressure, ..SubmergedLayerObservation::default() };
-        let mut outcome = Outcome::Finished;
-        let mut steps = 0;
-        let mut column = match SubmergedColumn::new(&self.layer, initial_pressure) {
-            Err(error @ LayerError::Parameter { .. }) => return Err(refused(error)),
-            Err(error) => {
-                outcome = diverged(&error);
-                None
-            }
-            Ok(column) => Some(column),
-        };
-        for time in self.times() {
-            let Some(column) = &mut column else { break };
-            if is_interrupted() {
-                return Err(ParameterError::Interrupted);
-            }
-            let advanced = column.advance_to(time);
-            steps = column.steps();
-            if let Err(error) = advanced {
-                outcome = diverged(&error);
-                break;
-            }
-            data.observe(column);
-            if self.purpose != LayerPurpose::Experiment || time <= PROFILE_TIME {
-                data.profile = Some(column.profile());
-            }
-            progress.advance(column.time(), self.duration, self.particles() * steps as f64);
+        if is_interrupted() {
+            return Err(ParameterError::Interrupted);
         }
         let pressure = data.profile.iter().flat_map(|profile| &profile.pore_pressure);
         let values = data.surface_velocity.iter().chain(&data.floor_pressure).chain(pressure);
@@ -172,7 +153,7 @@ impl Run for SubmergedLayerRun {
             outcome,
             state_hash: state_hash(&bytes),
             particles: self.layer.cells,
-            steps: steps as u64,
+            steps: data.steps as u64,
             simulated_time: data.time.last().copied().unwrap_or(0.0),
             wall_seconds: started.elapsed().as_secs_f64(),
             threads: 1,
@@ -184,6 +165,33 @@ impl Run for SubmergedLayerRun {
 }
 
 impl SubmergedLayerRun {
+    /// Time over h²/c_v `[-]`.
+    pub(super) fn time_factor(&self, time: f64) -> f64 {
+        let depth = self.layer.depth;
+        self.layer.consolidation_coefficient(self.solid_fraction) * time / (depth * depth)
+    }
+
+    /// Steps and observes until the end, an error or an interruption.
+    fn march(&self, data: &mut SubmergedLayerObservation, progress: &dyn Progress) -> Result<(), LayerError> {
+        if self.purpose == LayerPurpose::Consolidation {
+            data.initial_pressure =
+                EXCESS * self.layer.floor_overburden(self.solid_fraction) / (2.0 * self.particles());
+        }
+        let mut column = SubmergedColumn::new(&self.layer, self.solid_fraction, data.initial_pressure)?;
+        for time in self.times() {
+            if is_interrupted() {
+                break;
+            }
+            column.advance_to(time)?;
+            data.observe(&column);
+            if self.purpose != LayerPurpose::Experiment || time <= PROFILE_TIME {
+                data.profile = Some(column.profile());
+            }
+            progress.advance(time, self.duration, self.particles() * column.steps() as f64);
+        }
+        Ok(())
+    }
+
     /// Times of observation `[s]`, the last of which is the end; the consolidation is observed at both ends only, for
     /// every time of observation ends a step.
     fn times(&self) -> Vec<f64> {
@@ -194,29 +202,5 @@ impl SubmergedLayerRun {
         let early = EARLY.into_iter().filter(|time| *time < interval);
         let equal = (1..=INTERVALS).map(|k| f64::from(k) * interval);
         std::iter::once(0.0).chain(early).chain(equal).collect()
-    }
-}
-
-/// Outcome of a layer whose steps fail.
-fn diverged(error: &LayerError) -> Outcome {
-    Outcome::Diverged { message: error.to_string(), expected: false }
-}
-
-/// A layer that cannot be computed, by the field of the case.
-pub(super) fn refused(error: LayerError) -> ParameterError {
-    let remedy = "`bagnold show submerged-layer` prints a valid value";
-    match error {
-        LayerError::Parameter { field, value, rule } => {
-            let path = match field {
-                "grain_diameter" => "grains.diameter",
-                "grain_density" => "grains.density",
-                "liquid_density" => "liquid.density",
-                "viscosity" => "liquid.viscosity",
-                "friction_slope" => "law.friction_slope",
-                other => other,
-            };
-            ParameterError::field(path, value, rule, remedy)
-        }
-        other => ParameterError::field("law", "given", &format!("such that a layer can be computed ({other})"), remedy),
     }
 }

@@ -9,7 +9,7 @@ use super::run::{LayerPurpose, SubmergedLayerObservation, SubmergedLayerRun};
 use crate::case::Run;
 use crate::metric::{Limit, Metric, Value, Variant};
 use crate::reference::one_dimension::submerged::drained_pressure;
-use crate::reference::submerged::{INDEPENDENT_LAYERS, IndependentLayer, SUBMERGED_AVALANCHES};
+use crate::reference::submerged::{INDEPENDENT_LAYERS, SUBMERGED_AVALANCHES};
 
 /// Cells of the independent implementation.
 const TABLE_CELLS: usize = 40;
@@ -47,7 +47,7 @@ pub(super) fn metrics(records: &[Record]) -> Vec<Metric> {
 
 fn steady(run: &SubmergedLayerRun, data: &SubmergedLayerObservation) -> Metric {
     let velocity = data.surface_velocity.last().copied().unwrap_or(f64::NAN);
-    let error = 100.0 * (velocity / run.layer.steady_surface_velocity() - 1.0);
+    let error = 100.0 * (velocity / run.layer.steady_surface_velocity(run.solid_fraction) - 1.0);
     STEADY_VELOCITY_ERROR
         .of(&run.variant(), error)
         .exactly(0.0, "u = I P h/(2η) with tanψ = 0, I = (tanθ − μ_c)/K1, layer swollen to φ_eq(I)")
@@ -61,11 +61,10 @@ fn steady(run: &SubmergedLayerRun, data: &SubmergedLayerObservation) -> Metric {
 /// Relative L2 error of a consolidation against the exact series `[%]`.
 pub(super) fn consolidation_error(run: &SubmergedLayerRun, data: &SubmergedLayerObservation) -> f64 {
     let Some(profile) = &data.profile else { return f64::NAN };
-    let layer = &run.layer;
-    let time_factor = layer.consolidation_coefficient() * profile.time / (layer.depth * layer.depth);
+    let time_factor = run.time_factor(profile.time);
     let (mut error, mut norm) = (0.0, 0.0);
     for (height, pressure) in profile.height.iter().zip(&profile.pore_pressure) {
-        let exact = drained_pressure(height / layer.depth, time_factor);
+        let exact = drained_pressure(height / run.layer.depth, time_factor);
         let difference = pressure / data.initial_pressure - exact;
         error += difference * difference;
         norm += exact * exact;
@@ -112,16 +111,14 @@ fn values(data: &SubmergedLayerObservation, solid_fraction: f64) -> Option<[f64;
 }
 
 fn table_deviation(run: &SubmergedLayerRun, data: &SubmergedLayerObservation) -> Option<Metric> {
-    let (layers, source) = &*INDEPENDENT_LAYERS;
-    let layer = &run.layer;
-    let row: &IndependentLayer = layers.iter().find(|row| (row.solid_fraction - layer.solid_fraction).abs() < 1e-9)?;
-    if layer.cells != TABLE_CELLS {
+    let fraction = run.solid_fraction;
+    let (_, table) = INDEPENDENT_LAYERS.rows.iter().find(|row| (row.0 - fraction).abs() < 1e-9)?;
+    if run.layer.cells != TABLE_CELLS {
         return None;
     }
-    let table = [row.onset, row.acceleration, row.end_velocity, row.early_pressure, row.end_pressure];
-    let relative = if row.solid_fraction < DENSEST { RELATIVE } else { RELATIVE_OF_DENSEST };
+    let relative = if fraction < DENSEST { RELATIVE } else { RELATIVE_OF_DENSEST };
     let mut largest: f64 = 0.0;
-    for ((own, expected), digit) in values(data, layer.solid_fraction)?.into_iter().zip(table).zip(LAST_DIGITS) {
+    for ((own, &expected), digit) in values(data, fraction)?.into_iter().zip(table).zip(LAST_DIGITS) {
         if own != expected {
             let deviation = (own - expected).abs() / digit.max(relative * expected.abs());
             // a time that one of both does not reach: infinity over infinity
@@ -130,7 +127,7 @@ fn table_deviation(run: &SubmergedLayerRun, data: &SubmergedLayerObservation) ->
     }
     let metric = TABLE_DEVIATION
         .of(&run.variant(), largest)
-        .exactly(0.0, source)
+        .exactly(0.0, &INDEPENDENT_LAYERS.source)
         .gated(
             Limit::AtMost(1.0),
             "onset, acceleration, final velocity and two pressures within 1 % or a unit of the last printed digit; 3 % at 0.592, \

@@ -50,23 +50,22 @@ pub struct SubmergedProfile {
 }
 
 impl SubmergedColumn {
-    /// A uniform column at rest that is tilted at once.
+    /// A column of a uniform solid fraction and, with a compressible skeleton, a uniform pore pressure `[Pa]`, tilted at once.
     ///
     /// # Errors
-    /// A parameter out of its range, or no pore pressure that balances the first flow.
-    pub fn new(layer: &SubmergedLayer, initial_pore_pressure: f64) -> Result<Self, LayerError> {
-        layer.check()?;
+    /// No pore pressure that balances the first flow.
+    pub fn new(layer: &SubmergedLayer, solid_fraction: f64, pore_pressure: f64) -> Result<Self, LayerError> {
         let cells = layer.cells;
         let cell_height = layer.depth / cells as f64;
-        let grains = layer.solid_fraction * cell_height;
+        let grains = solid_fraction * cell_height;
         let above = |k: usize| layer.buoyant_weight() * grains * (cells as f64 - k as f64 - 0.5);
         let mut column = Self {
             layer: *layer,
             grains,
             overburden: (0..cells).map(above).collect(),
-            fraction: vec![layer.solid_fraction; cells],
+            fraction: vec![solid_fraction; cells],
             height: vec![cell_height; cells],
-            pore_pressure: vec![initial_pore_pressure; cells],
+            pore_pressure: vec![pore_pressure; cells],
             flow: Vec::new(),
             time: 0.0,
             steps: 0,
@@ -241,7 +240,7 @@ impl SubmergedColumn {
     #[must_use]
     pub fn mass_error(&self) -> f64 {
         let grains: f64 = self.fraction.iter().zip(&self.height).map(|(fraction, height)| fraction * height).sum();
-        (grains / (self.layer.solid_fraction * self.layer.depth) - 1.0).abs()
+        (grains / (self.grains * self.height.len() as f64) - 1.0).abs()
     }
 
     /// Largest error of both balances of momentum, over the overburden of the floor `[-]`: p′ + p_f is the weight of the
@@ -263,7 +262,7 @@ impl SubmergedColumn {
                 largest = largest.max((friction * effective - slope * overburden).abs());
             }
         }
-        largest / self.layer.floor_overburden()
+        largest / weight
     }
 
     /// Water that enters by the surface less the growth of the pores, over the sum of its magnitudes `[-]`; 0 at rest.
