@@ -1,4 +1,4 @@
-//! What the case measures.
+//! Quantities of the case.
 
 use crate::metric::quantities;
 

@@ -53,7 +53,7 @@ pub struct SubmergedLayerRun {
     pub duration: f64,
 }
 
-/// What a run leaves behind.
+/// Observation of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SubmergedLayerObservation {
     /// Steps taken.

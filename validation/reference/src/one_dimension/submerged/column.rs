@@ -9,6 +9,9 @@ use serde::{Deserialize, Serialize};
 /// Part of Δz²/(A d² γ̇) that a step takes at most `[-]`: stability of the explicit diffusion.
 const DIFFUSION_STEP: f64 = 0.2;
 
+/// Length of a stage over the step, 1 − 1/√2: two stages of it are of second order for stored water, and damp what is stiff.
+const STAGE: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+
 /// Largest number of steps; a few thousand are usual.
 const LARGEST_STEPS: usize = 5_000_000;
 
@@ -73,7 +76,7 @@ impl SubmergedColumn {
         if layer.compressibility > 0.0 {
             column.flow = column.darcy(&column.fraction, &column.height).grain_flow(&column.pore_pressure);
         } else {
-            (column.pore_pressure, column.flow) = column.balanced(&column.fraction, &column.height, None)?;
+            (column.pore_pressure, column.flow) = column.balanced(&column.fraction, &column.pore_pressure, 1.0)?;
         }
         Ok(column)
     }
@@ -155,37 +158,31 @@ impl SubmergedColumn {
     /// One step: φ by the midpoint rule, the pore pressure in balance with it.
     fn step(&mut self, step: f64) -> Result<(), LayerError> {
         let cells = self.fraction.len();
-        let half = 0.5 * step;
-        let dilated = |k: usize| self.fraction[k] * libm::exp(-half * self.flow[k].dilation_rate);
-        let middle: Vec<f64> = (0..cells).map(dilated).collect();
-        let storage = |before| Storage { rate: self.layer.compressibility / half, before };
-        let stores = self.layer.compressibility > 0.0;
-        let before = stores.then(|| storage(&self.pore_pressure));
-        let (pressure, flow) = self.balanced(&middle, &self.heights(&middle), before.as_ref())?;
-
+        let dilated = |flow: &[GrainFlow], step: f64| -> Vec<f64> {
+            (0..cells).map(|k| self.fraction[k] * libm::exp(-step * flow[k].dilation_rate)).collect()
+        };
+        let (pressure, flow) = self.balanced(&dilated(&self.flow, 0.5 * step), &self.pore_pressure, 0.5 * step)?;
         let mut flux = vec![0.0; cells + 1];
         for k in 1..cells {
             let shear_rate = self.flow[k].shear_rate.max(self.flow[k - 1].shear_rate);
             let distance = 0.5 * (self.height[k] + self.height[k - 1]);
             flux[k] = self.diffusivity(shear_rate) * (self.fraction[k] - self.fraction[k - 1]) / distance;
         }
-        let fraction: Vec<f64> = (0..cells)
-            .map(|k| {
-                self.fraction[k] * libm::exp(-step * flow[k].dilation_rate)
-                    + step * (flux[k + 1] - flux[k]) / self.height[k]
-            })
-            .collect();
-        let height = self.heights(&fraction);
-        if stores {
-            // the midpoint rule for the stored water as well
-            for (old, middle) in self.pore_pressure.iter_mut().zip(&pressure) {
-                *old = 2.0 * middle - *old;
-            }
-            self.flow = self.darcy(&fraction, &height).grain_flow(&self.pore_pressure);
-        } else {
-            self.pore_pressure = pressure;
-            (self.pore_pressure, self.flow) = self.balanced(&fraction, &height, None)?;
+        let mut fraction = dilated(&flow, step);
+        for k in 0..cells {
+            fraction[k] += step * (flux[k + 1] - flux[k]) / self.height[k];
         }
+        let next = if self.layer.compressibility > 0.0 {
+            let (first, _) = self.balanced(&dilated(&flow, STAGE * step), &self.pore_pressure, STAGE * step)?;
+            let pairs = self.pore_pressure.iter().zip(first);
+            let carried: Vec<f64> =
+                pairs.map(|(start, first)| start + (1.0 - STAGE) / STAGE * (first - start)).collect();
+            self.balanced(&fraction, &carried, STAGE * step)?
+        } else {
+            self.balanced(&fraction, &pressure, step)?
+        };
+        (self.pore_pressure, self.flow) = next;
+        let height = self.heights(&fraction);
         (self.fraction, self.height) = (fraction, height);
         self.time += step;
         self.steps += 1;
@@ -200,15 +197,12 @@ impl SubmergedColumn {
         DarcyFlow { layer: &self.layer, overburden: &self.overburden, fraction, height }
     }
 
-    /// Pore pressure in balance with the dilation that it causes, and the flow of the grains.
-    fn balanced(
-        &self,
-        fraction: &[f64],
-        height: &[f64],
-        storage: Option<&Storage<'_>>,
-    ) -> Result<(Vec<f64>, Vec<GrainFlow>), LayerError> {
-        let mut pressure = self.pore_pressure.clone();
-        match self.darcy(fraction, height).solve(&mut pressure, storage) {
+    /// Pore pressure in balance with the dilation that it causes and with water stored over a time `[s]` since a former
+    /// pressure, which is the first guess as well; with the flow of the grains.
+    fn balanced(&self, fraction: &[f64], before: &[f64], time: f64) -> Result<(Vec<f64>, Vec<GrainFlow>), LayerError> {
+        let mut pressure = before.to_vec();
+        let storage = Storage { rate: self.layer.compressibility / time, before };
+        match self.darcy(fraction, &self.heights(fraction)).solve(&mut pressure, &storage) {
             Some(flow) => Ok((pressure, flow)),
             None => Err(LayerError::NoPorePressure { time: self.time }),
         }

@@ -18,7 +18,7 @@ const CONVERGED: f64 = 1e-9;
 
 const LARGEST_ITERATIONS: usize = 60;
 
-/// What the pore pressure of a column follows from; arrays of cells from the floor upwards.
+/// State of a column that its pore pressure follows from; arrays of cells from the floor upwards.
 pub(super) struct DarcyFlow<'a> {
     pub(super) layer: &'a SubmergedLayer,
     /// Overburden P `[Pa]`.
@@ -31,7 +31,7 @@ pub(super) struct DarcyFlow<'a> {
 
 /// Water stored by a compressible skeleton during a step.
 pub(super) struct Storage<'a> {
-    /// Compressibility over the length of the step `[1/(Pa s)]`.
+    /// Compressibility over the length of the step `[1/(Pa s)]`; 0 without storage.
     pub(super) rate: f64,
     /// Pore pressure at the start of the step `[Pa]`.
     pub(super) before: &'a [f64],
@@ -61,10 +61,9 @@ impl DarcyFlow<'_> {
 
     /// Replaces a first guess of the pore pressure by the solution; the flow of the grains at it, or none without
     /// convergence.
-    pub(super) fn solve(&self, pore_pressure: &mut [f64], storage: Option<&Storage<'_>>) -> Option<Vec<GrainFlow>> {
+    pub(super) fn solve(&self, pore_pressure: &mut [f64], storage: &Storage<'_>) -> Option<Vec<GrainFlow>> {
         let cells = pore_pressure.len();
         let conductance = self.conductance();
-        let stored = storage.map_or(0.0, |storage| storage.rate);
         let lower: Vec<f64> = (0..cells).map(|k| if k > 0 { conductance[k - 1] } else { 0.0 }).collect();
         for _ in 0..LARGEST_ITERATIONS {
             let flow = self.grain_flow(pore_pressure);
@@ -73,10 +72,10 @@ impl DarcyFlow<'_> {
                 let above = pore_pressure.get(k + 1).copied().unwrap_or(0.0);
                 let below = if k > 0 { pore_pressure[k - 1] } else { 0.0 };
                 let inflow = conductance[k] * (above - pore_pressure[k]) - lower[k] * (pore_pressure[k] - below);
-                let filled = storage.map_or(0.0, |storage| stored * (pore_pressure[k] - storage.before[k]));
+                let filled = storage.rate * (pore_pressure[k] - storage.before[k]);
                 residual.push((flow[k].dilation_rate + filled) * self.height[k] - inflow);
                 // ∂D/∂p_f = −∂D/∂p′
-                let source = (flow[k].dilation_slope - stored) * self.height[k];
+                let source = (flow[k].dilation_slope - storage.rate) * self.height[k];
                 diagonal.push(source - conductance[k] - lower[k]);
             }
             let change = tridiagonal::solve(&lower, &diagonal, &conductance, &residual);

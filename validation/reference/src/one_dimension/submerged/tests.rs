@@ -40,6 +40,7 @@ fn a_nearly_rigid_skeleton_moves_like_a_rigid_one() {
         after(&layer, 0.578, 60.0).surface_velocity()
     };
     assert!((velocity(1e-5) / velocity(0.0) - 1.0).abs() < 5e-3, "{} {}", velocity(1e-5), velocity(0.0));
+    assert!((velocity(1e-12) / velocity(0.0) - 1.0).abs() < 1e-6, "{} {}", velocity(1e-12), velocity(0.0));
 }
 
 #[test]
