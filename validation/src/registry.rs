@@ -5,7 +5,7 @@ use crate::store::provenance::{Build, declare};
 use bagnold_cases::channel::{bed_load, clear_water, still_water, water_film};
 use bagnold_cases::collapse::{incline as incline_collapse, planar as column_planar, round as column_round};
 use bagnold_cases::layer::{bagnold, film, flow_thickness, hydrostatic};
-use bagnold_cases::{bed_load_1d, nonlocal_shear, settling, water_column};
+use bagnold_cases::{bed_load_1d, nonlocal_shear, settling, submerged_layer, water_column};
 use bagnold_scenes::study::canonical;
 use bagnold_scenes::{scene, scene_space};
 use std::sync::LazyLock;
@@ -67,6 +67,7 @@ registry!($
     water_film::WaterFilm,
     clear_water::ClearWater,
     settling::Settling,
+    submerged_layer::SubmergedLayer,
     bed_load_1d::BedLoad1d,
     bed_load::BedLoad,
     scene::UserScene,

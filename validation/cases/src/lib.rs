@@ -8,6 +8,7 @@ pub mod layer;
 pub mod nonlocal_shear;
 pub mod settling;
 mod shared;
+pub mod submerged_layer;
 pub mod water_column;
 
 use bagnold_figure as figure;
