@@ -43,7 +43,9 @@ pub(crate) fn run<'py>(
         let open = || store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));
         let path = Path::new(target);
         if REGISTRY.find(target).is_err() && path.is_file() && is_study(path) {
-            if let Some((option, _)) = [("only", only.is_empty()), ("overlay", overlay.is_empty())].iter().find(|of| !of.1) {
+            if let Some((option, _)) =
+                [("only", only.is_empty()), ("overlay", overlay.is_empty())].iter().find(|of| !of.1)
+            {
                 let remedy = "leave it out, or run the case that the study is based on";
                 return Err(ParameterError::field(option, "given", "absent for a study", remedy).into());
             }

@@ -25,7 +25,8 @@ const DENSEST_WITHOUT_OFFSET: f64 = 0.584;
 
 const SCATTER: &str =
     "30 % is 1.2 to 1.4 times u_input, mainly of φ_c, the slope and η; without dilatancy the layer moves at once";
-const RATE: &str = "30 % is about twice u_input or more: ±0.005 in μ_c is 10 % of tanθ − μ_c, and K1 and η leave 10 % each";
+const RATE: &str =
+    "30 % is about twice u_input or more: ±0.005 in μ_c is 10 % of tanθ − μ_c, and K1 and η leave 10 % each";
 const DARCY: &str =
     "35 % is 1.6 to 2.4 times u_input, mainly of φ_c and the slope; the measured points scatter by 0.3 Pa";
 
