@@ -28,9 +28,9 @@ pub struct BlindComparison {
     pub law: String,
     /// The case, or the slope.
     pub case: String,
-    /// Initial height over half width [-] of a column.
+    /// Initial height over half width `[-]` of a column.
     pub aspect_ratio: Option<f64>,
-    /// Name of the quantity; lengths are over the half width but for the front's way down an incline [m].
+    /// Name of the quantity; lengths are over the half width but for the front's way down an incline `[m]`.
     pub quantity: String,
     /// The prediction.
     pub value: f64,
