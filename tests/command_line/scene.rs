@@ -148,7 +148,6 @@ fn material_removed_by_walls_is_reported() {
     }
 }
 
-/// Nothing is simulated: the warnings reject the scene.
 #[test]
 fn unlikely_units_and_speeds_and_gaps_are_warned_of_and_can_be_rejected() {
     let place = Place::new();
@@ -167,6 +166,23 @@ fn unlikely_units_and_speeds_and_gaps_are_warned_of_and_can_be_rejected() {
     assert!(soft.contains("set `stiffness = 50`"), "{soft}");
     let coarse = warned("hopper-36.toml", "spacing=0.015");
     assert!(coarse.contains("walls `left` and `right` is 2.4 particle spacings wide"), "{coarse}");
+    // what a run has reached is told after it, and not of a stiff material
+    let falls = "case = \"scene\"\nname = \"falls\"\nspacing = 0.005\nduration = 0.15\ninterval = 0.01\nstiffness = 20.0\n\
+        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.1]\nupper = [0.04, 0.12]\n\
+        [[walls]]\nname = \"floor\"\npoints = [[-0.1, 0.0], [0.14, 0.0]]\n";
+    let told = |stiffness: &str| {
+        let file = place.file("falls.toml", &falls.replace("stiffness = 20.0", stiffness));
+        // so soft an impact may fail the balance of energy as well
+        let finished = place.run(&[&file]);
+        String::from_utf8_lossy(&finished.get_output().stderr).into_owned()
+    };
+    let soft = told("stiffness = 20.0");
+    assert!(
+        soft.contains("scene=falls: the Mach number reaches 0.2") && soft.contains("multiply `stiffness` by "),
+        "{soft}"
+    );
+    let stiff = told("stiffness = 200.0");
+    assert!(!stiff.contains("the Mach number reaches"), "{stiff}");
 }
 
 /// The value of a metric in the results that a run has written.

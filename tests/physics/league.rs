@@ -6,6 +6,7 @@ use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_tools::judge::{self, CodeComparison, JudgeError};
 use bagnold_tools::league::{self, WRONG, blind};
 use bagnold_validation::REGISTRY;
+use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
@@ -18,7 +19,7 @@ fn judged(files: &[PathBuf]) -> Result<Vec<CodeComparison>, JudgeError> {
     own.into_iter().zip(&entries).map(|(own, entries)| judge::judge(own, entries)).collect()
 }
 
-/// What rejects each: a gate by its name, or a part of the message that refuses it.
+/// Rejection of each: a gate by its name, or a part of the message.
 const REJECTED_BY: [(&str, &str); 8] = [
     ("another-depth", "velocity_l2"),
     ("bingham-for-herschel-bulkley", "velocity_l2"),
@@ -44,6 +45,37 @@ fn each_submission_with_one_error_is_rejected_by_what_feels_it() {
         };
         assert!(rejected, "{name}: not rejected by {cause}");
     }
+}
+
+/// Files of a folder below it, by their paths.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    let mut all: Vec<PathBuf> =
+        entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect();
+    // as `sort` of the C locale sorts them
+    all.sort_by(|a, b| a.as_os_str().cmp(b.as_os_str()));
+    all
+}
+
+/// A deck or table that changes after its run no longer belongs to what `made.toml` says of it.
+#[test]
+fn decks_and_results_are_those_that_were_recorded() {
+    let mut checked = 0;
+    for file in files(&folder()).into_iter().filter(|file| file.ends_with("made.toml")) {
+        let made: toml::Table = std::fs::read_to_string(&file).expect("text").parse().expect("TOML");
+        for part in ["deck", "results"] {
+            let own = file.parent().expect("a folder").join(part);
+            // decks of readers' samples stand elsewhere
+            if own.is_dir() {
+                let bytes: Vec<u8> = files(&own).iter().flat_map(|path| std::fs::read(path).expect("bytes")).collect();
+                let digest: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+                let recorded = made[&format!("{part}_sha256")].as_str();
+                assert_eq!(recorded, Some(digest.as_str()), "{}: run record.sh again", own.display());
+                checked += 1;
+            }
+        }
+    }
+    assert!(checked >= 20, "{checked} folders");
 }
 
 /// Nobody can have known what the grains would do when the prediction was stored.

@@ -38,7 +38,8 @@ pub(super) fn run(
         tell(&format!("planned evaluations: up to {search} for the search, {rest}"));
     }
     if let Some(cost) = EvaluationCost::of(&plan, registry) {
-        if command.allowance.most_hours.is_none() {
+        let is_limited = command.allowance.most_hours.is_some() || std::env::var_os("BAGNOLD_MOST_HOURS").is_some();
+        if !is_limited {
             plan.limits.core_hours = plan.limits.core_hours.min(cost.limit());
         }
         if !quiet {
@@ -70,7 +71,7 @@ fn cost_in_words(cost: &EvaluationCost, limit: f64) -> String {
     let (start, dearest) = (time(cost.start), time(cost.dearest));
     let mut text = format!("core time of an evaluation: about {start} at the start, {dearest} at {}", cost.at);
     if cost.dearest > limit {
-        text += &format!("; evaluations above {} count as failed (--most-hours)", time(limit));
+        text += &format!("; simulations above {} count as failed (--most-hours)", time(limit));
     }
     text
 }

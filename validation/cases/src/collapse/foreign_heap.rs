@@ -17,7 +17,7 @@ const LEAST_CELL: f64 = 0.01;
 /// Largest distance of the centroid at the start from the right one, over width and height `[-]`.
 const SAME_PLACE: f64 = 0.02;
 
-/// Where particles of a heap may be, and what they weigh.
+/// Region that particles of a heap may occupy, and their weight.
 pub(super) struct Room {
     /// Particle spacing of ours `[m]`.
     pub(super) spacing: f64,
@@ -29,9 +29,9 @@ pub(super) struct Room {
     pub(super) size: f64,
     /// The start, if it is a block at the origin.
     pub(super) start: Option<Start>,
-    /// What collapses, in words.
+    /// Name of the collapsing body, in words.
     pub(super) kind: &'static str,
-    /// What to do about places that are out of reach.
+    /// Remedy for places that are out of reach.
     pub(super) origin: &'static str,
 }
 

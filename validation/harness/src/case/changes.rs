@@ -2,7 +2,7 @@
 
 use super::error::{ParameterError, SettingError};
 use super::estimate::Limits;
-use super::{fault, plausible};
+use super::{fault, friction_angle, plausible};
 use crate::metric::Variant;
 use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
@@ -88,7 +88,7 @@ where
     }
     let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
     for (file, fields) in file.into_iter().chain([(None, &settings)]) {
-        if let Some(error) = wrong_angle(fields, "") {
+        if let Some(error) = friction_angle::wrong(fields, "") {
             return Err(match file {
                 Some(file) => error.in_file(file),
                 None => error,
@@ -204,9 +204,9 @@ fn parts(argument: &str) -> Option<(&str, &str)> {
 fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
     let shape = Shape::of(schema);
     let chosen = shape.chosen(&Value::Table(changes.clone())).or_else(|| shape.chosen(&Value::Table(table.clone())));
-    let in_degrees = with_friction(chosen.and_then(|variant| variant.content), changes);
+    let in_degrees = friction_angle::as_coefficient(chosen.and_then(|variant| variant.content), changes);
     if let Some(changes) = &in_degrees {
-        say_what_stays(table, changes);
+        friction_angle::warn_of_the_rest(table, changes);
     }
     let changes = in_degrees.as_ref().unwrap_or(changes);
     if is_other_choice(&shape, table, changes) {
@@ -228,72 +228,6 @@ fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
                 table.insert(key.clone(), change.clone());
             }
         }
-    }
-}
-
-/// Name of the field that gives a static friction coefficient as an angle.
-const ANGLE: &str = "friction_angle";
-
-/// Name of the field that a friction angle sets, by its tangent.
-const COEFFICIENT: &str = "static_friction";
-
-/// The first friction angle `[°]` that has no tangent to stand for, or stands beside what it stands for.
-fn wrong_angle(fields: &Table, above: &str) -> Option<ParameterError> {
-    fields.iter().find_map(|(key, value)| {
-        let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
-        match value {
-            Value::Table(inner) => wrong_angle(inner, &path),
-            Value::String(text) if key == ANGLE => {
-                let rule = "a number of degrees without its unit";
-                Some(ParameterError::field(&path, format!("{text:?}"), rule, "write 27.5 for 27.5°"))
-            }
-            _ if key == ANGLE => {
-                let angle = value.as_float().or(value.as_integer().map(|angle| angle as f64))?;
-                if !(angle > 0.0 && angle < 90.0) {
-                    let remedy = "give the angle at which grains stop in degrees, such as 20.9 for glass beads";
-                    return Some(ParameterError::field(
-                        &path,
-                        angle,
-                        "between 0 and 90 degrees, ends excluded",
-                        remedy,
-                    ));
-                }
-                let coefficient = fields.get(COEFFICIENT)?;
-                let rule = format!(
-                    "alone: it is the angle whose tangent is `{COEFFICIENT}`, which is given too, as {coefficient}"
-                );
-                Some(ParameterError::field(&path, angle, &rule, "leave one of the two out"))
-            }
-            _ => None,
-        }
-    })
-}
-
-/// The changes with the coefficient of friction in place of a friction angle `[°]`, where the law has the one and knows
-/// nothing of the other: sand is as often told by its angle.
-fn with_friction(law: Option<&Schema>, changes: &Table) -> Option<Table> {
-    let properties = law?.get("properties")?.as_object()?;
-    let takes = properties.contains_key(COEFFICIENT) && !properties.contains_key(ANGLE);
-    let angle =
-        changes.get(ANGLE).and_then(|angle| angle.as_float().or(angle.as_integer().map(|angle| angle as f64)))?;
-    if !takes || changes.contains_key(COEFFICIENT) {
-        return None;
-    }
-    let mut changes = changes.clone();
-    changes.remove(ANGLE);
-    changes.insert(COEFFICIENT.to_owned(), Value::Float(libm::tan(angle.to_radians())));
-    Some(changes)
-}
-
-/// Says which parameters of friction keep their values where an angle has been given alone: what grains do in fast flow does not
-/// follow from the angle at which they stop.
-fn say_what_stays(table: &Table, changes: &Table) {
-    let keeps = |name: &&&str| !changes.contains_key(**name) && table.contains_key(**name);
-    let value = |name: &&str| table.get(*name).map(|value| format!("{name} = {value}"));
-    let stays: Vec<String> =
-        ["limiting_friction", "reference_inertia"].iter().filter(keeps).filter_map(value).collect();
-    if let Some(coefficient) = changes.get(COEFFICIENT).filter(|_| !stays.is_empty()) {
-        caution(&format!("`{ANGLE}` sets {COEFFICIENT} = {coefficient}; {} keep their values", stays.join(" and ")));
     }
 }
 

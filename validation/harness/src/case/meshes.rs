@@ -2,7 +2,7 @@
 //! run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use crate::input::{MOST_TRIANGLES, Triangle, read_mesh};
+use crate::input::{MOST_TRIANGLES, Triangle, number_in, read_mesh};
 use crate::output::caution;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::path::Path;
@@ -57,20 +57,19 @@ struct Placement {
 impl Placement {
     /// Placement that a wall gives. A number of another type is refused with the other fields.
     fn of(wall: &Table) -> Result<Self, (&'static str, String, &'static str, &'static str)> {
-        let number = |value: &Value| value.as_float().or(value.as_integer().map(|whole| whole as f64));
         let unit = wall.get("unit").and_then(Value::as_str).unwrap_or("m");
         let length = UNITS.iter().find(|(name, _)| *name == unit).map(|(_, length)| *length).ok_or_else(|| {
             ("unit", format!("\"{unit}\""), "one of \"m\", \"cm\", \"mm\" or \"in\"", "use `scale` for other units")
         })?;
         let vector = |key: &str| {
             let parts: Vec<f64> =
-                wall.get(key).and_then(Value::as_array).into_iter().flatten().filter_map(number).collect();
+                wall.get(key).and_then(Value::as_array).into_iter().flatten().filter_map(number_in).collect();
             <[f64; 3]>::try_from(parts).map_or_else(|_| Vector3::zeros(), Vector3::from)
         };
         let [x, y, z] = <[f64; 3]>::from(vector("rotate")).map(f64::to_radians);
         let about = |axis, angle| Rotation3::from_matrix_unchecked(turn(axis, angle));
         Ok(Self {
-            scale: length * wall.get("scale").and_then(number).unwrap_or(1.0),
+            scale: length * wall.get("scale").and_then(number_in).unwrap_or(1.0),
             rotation: about(2, z) * about(1, y) * about(0, x),
             shift: vector("move"),
         })

@@ -12,6 +12,7 @@ mod features;
 mod file;
 mod finite;
 mod foreign;
+mod friction_angle;
 mod guard;
 mod meshes;
 mod notes;

@@ -1,6 +1,6 @@
 //! States that a run shows on its way, for other programs to look at: `[output]` in a case file.
 
-use crate::input::{FieldError, did_you_mean, nearest};
+use crate::input::{FieldError, did_you_mean, nearest, number_in};
 use crate::observation::Frame;
 use std::path::Path;
 
@@ -48,7 +48,7 @@ impl OutputPlan {
             let remedy = format!("{guess}every = 0.01 is a hundredth of a second");
             return Err(FieldError::new(&format!("output.{key}"), "given", "`every` or `fields`", &remedy));
         }
-        let every = table.get("every").map(|value| value.as_float().or(value.as_integer().map(|whole| whole as f64)));
+        let every = table.get("every").map(number_in);
         let texts = |list: &toml::Value| {
             list.as_array()?.iter().map(|item| item.as_str().map(str::to_owned)).collect::<Option<Vec<String>>>()
         };

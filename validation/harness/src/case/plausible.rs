@@ -1,5 +1,6 @@
 //! Values of a user that are possible but unlikely for grains and sediment, mostly because they have another unit.
 
+use crate::input::number_in;
 use crate::number::four_digits;
 use toml::{Table, Value};
 
@@ -71,10 +72,6 @@ const USUAL: &[Usual] = &[
 /// Most spacings that a grain is wide: beyond, a particle is a small part of a grain.
 const WIDEST_GRAIN: f64 = 10.0;
 
-fn number(value: &Value) -> Option<f64> {
-    value.as_float().or(value.as_integer().map(|whole| whole as f64))
-}
-
 /// Warnings of what the user gave, with the likely unit.
 pub(super) fn warnings(fields: &Table) -> Vec<String> {
     let mut found = Vec::new();
@@ -88,7 +85,7 @@ fn collect(fields: &Table, above: &str, found: &mut Vec<String>) {
         match value {
             Value::Table(inner) => collect(inner, &path, found),
             Value::Array(entries) if name == "gravity" => {
-                let parts: Vec<f64> = entries.iter().filter_map(number).collect();
+                let parts: Vec<f64> = entries.iter().filter_map(number_in).collect();
                 let size = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
                 found.extend(unusual(name, &path, size));
                 if parts.last().is_some_and(|up| *up > 0.0) {
@@ -102,7 +99,7 @@ fn collect(fields: &Table, above: &str, found: &mut Vec<String>) {
                     }
                 }
             }
-            _ => found.extend(number(value).and_then(|value| unusual(name, &path, value))),
+            _ => found.extend(number_in(value).and_then(|value| unusual(name, &path, value))),
         }
     }
 }
@@ -122,7 +119,7 @@ fn unusual(name: &str, path: &str, value: f64) -> Option<String> {
 /// Warning of grains of a scene that are many particle spacings wide.
 pub(super) fn wide_grains(parameters: &Table) -> Option<String> {
     let material = parameters.get("material")?.as_table()?;
-    let (diameter, spacing) = (number(material.get("grain_diameter")?)?, number(parameters.get("spacing")?)?);
+    let (diameter, spacing) = (number_in(material.get("grain_diameter")?)?, number_in(parameters.get("spacing")?)?);
     (diameter > WIDEST_GRAIN * spacing).then(|| {
         let ratio = diameter / spacing;
         format!("`material.grain_diameter` is {diameter} m, {ratio:.0} particle spacings, but a particle stands for several grains; check both units")

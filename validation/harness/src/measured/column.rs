@@ -1,7 +1,7 @@
 //! Columns of an external file: the quantity and unit of each.
 
 use crate::case::ExternalColumn;
-use crate::input::{FieldError, unit};
+use crate::input::{FieldError, number_in, unit};
 
 /// Source of the values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,8 +44,7 @@ impl ColumnText {
                 })
             }
             toml::Value::Table(table) => {
-                let number =
-                    table.get("value").and_then(|value| value.as_float().or(value.as_integer().map(|n| n as f64)));
+                let number = table.get("value").and_then(number_in);
                 let unit = table.get("unit").and_then(toml::Value::as_str);
                 match (number, unit, table.len()) {
                     (Some(value), Some(unit), 2) if value.is_finite() => {

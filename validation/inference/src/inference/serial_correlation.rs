@@ -91,7 +91,7 @@ impl Fit {
         Self { basis: left.select_columns(&kept), to_parameters }
     }
 
-    /// What a fit leaves of errors.
+    /// Residuals of errors after the fit.
     fn residuals(&self, errors: &[f64]) -> Vec<f64> {
         let mut left = errors.to_vec();
         for direction in self.basis.column_iter() {

@@ -19,6 +19,9 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 DISCS = os.path.join(HERE, "..", "..", "lammps")
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(DISCS, "bagnold", "deck"))
+from tables import fit, windows  # noqa: E402
 LAMMPS = os.environ.get("LAMMPS", "lmp")
 BAGNOLD = os.environ.get("BAGNOLD", "bagnold")
 D, DENSITY = 0.002, 2500.0
@@ -74,10 +77,7 @@ def on_slope(folder, grains, seed, angle):
 
 def unsteadiness(path):
     """Range of the mean velocity of the four windows over its mean; large where grains stop."""
-    lines = [line.split() for line in open(path) if not line.startswith("#")]
-    starts = [k for k, words in enumerate(lines) if len(words) == 3]
-    windows = [[float(words[4]) for words in lines[k + 1 : k + 1 + int(lines[k][1])]] for k in starts]
-    means = [statistics.fmean(window) for window in windows]
+    means = [statistics.fmean([row[2] for row in window]) for window in windows(path)]
     return (max(means) - min(means)) / abs(statistics.fmean(means))
 
 
@@ -105,22 +105,6 @@ def chute(folder, results):
     write(os.path.join(results, "friction.csv"), on_slopes(folder, slopes))
 
 
-def fit(points):
-    """mu_s, mu_2 and I_0 of mu_s + (mu_2 - mu_s) I/(I_0 + I) by least squares."""
-    best = None
-    for step in range(1, 400):
-        reference = 0.005 * step
-        s = [I / (reference + I) for I, _ in points]
-        mu = [mu for _, mu in points]
-        centre = statistics.fmean(s)
-        slope = sum((a - centre) * b for a, b in zip(s, mu)) / sum((a - centre) ** 2 for a in s)
-        mu_s = statistics.fmean(mu) - slope * centre
-        misfit = sum((mu_s + slope * a - b) ** 2 for a, b in zip(s, mu))
-        if best is None or misfit < best[0]:
-            best = misfit, mu_s, mu_s + slope, reference
-    return best[1:]
-
-
 def is_steady(row):
     return float(row["I"]) > 1e-3 and float(row["unsteadiness"]) < STEADY
 
@@ -146,7 +130,7 @@ def laws(friction):
                     error = scatter / math.sqrt(len(seeds)) if draw > 0 else 0.0
                     I = statistics.fmean(seeds) * (1 + error * chance.gauss(0, 1))
                     points.append((I, float(mu)))
-            mu_s, mu_2, reference = fit(points)
+            mu_s, mu_2, reference, _ = fit(points)
             rows.append({"grains": grains, "draw": draw, "mu_s": mu_s, "mu_2": mu_2,
                          "I_0": reference, "phi": phi})
     return rows

@@ -7,7 +7,7 @@
 use super::error::CalibrationError;
 use super::plan::{CalibrationPlan, DataBlock};
 use crate::evaluation::PlanError;
-use crate::input::{FieldError, nearest};
+use crate::input::{FieldError, nearest, number_in};
 
 /// The parameters of a block's case, all of them.
 pub(super) struct BlockParameters<'a> {
@@ -27,8 +27,7 @@ impl BlockParameters<'_> {
             let (file, case) = (plan.file.clone(), self.block.request.case.clone());
             return Err(PlanError::Path { file, path: path.to_owned(), nearest: guess, case }.into());
         };
-        let number = |value: &toml::Value| value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
-        let list = value.as_array().map_or_else(|| vec![number(value)], |list| list.iter().map(number).collect());
+        let list = value.as_array().map_or_else(|| vec![number_in(value)], |list| list.iter().map(number_in).collect());
         list.into_iter().collect::<Option<Vec<f64>>>().ok_or_else(|| {
             let field = format!("{}.conditions", self.block.field);
             let remedy = "name what is measured along, such as a slope";

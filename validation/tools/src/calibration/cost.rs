@@ -59,7 +59,7 @@ impl EvaluationCost {
         Some(Self { start, cheapest, dearest, at: at.join(", ") })
     }
 
-    /// Largest cost of an evaluation that a search accepts unless the user gives another limit `[h]`.
+    /// Largest cost of a simulation that a search accepts unless the user gives another limit `[h]`.
     #[must_use]
     pub fn limit(&self) -> f64 {
         (DEAREST * self.cheapest).max(ALWAYS_ALLOWED)

@@ -25,12 +25,14 @@ pub enum CompareError {
         other: PathBuf,
     },
     /// Results of one case and its parameters, judged by other limits.
-    #[error("{}: the gates of {} in {}: limits of {moved} gates moved; read what moved in both metrics.json, then compare the values with --across-gates", shown(&.folders[0]), .case, shown(&.folders[1]))]
+    #[error("{}: the gates of {case} were {} and are {} in {}: limits of {moved} gates moved; read what moved in both metrics.json, then compare the values with --across-gates", shown(&.folders[0]), .gates[0], .gates[1], shown(&.folders[1]))]
     OtherGates {
-        /// The case, and the digests of its gates in both folders.
+        /// The case.
         case: String,
         /// Both folders.
         folders: Box<[PathBuf; 2]>,
+        /// Digests of their gates.
+        gates: Box<[String; 2]>,
         /// Number of gates with another limit.
         moved: usize,
     },
@@ -98,10 +100,10 @@ impl Results {
             *moved > 0 && own.parameters == theirs.parameters
         };
         self.moved_by_case(other).find(is_version).map_or(Ok(()), |(own, theirs, moved)| {
-            let (before, now) = (&own.document.gates, &theirs.document.gates);
             Err(CompareError::OtherGates {
-                case: format!("{} were {before} and are {now}", own.document.case),
+                case: own.document.case.clone(),
                 folders: Box::new([self.folder.clone(), other.folder.clone()]),
+                gates: Box::new([own.document.gates.clone(), theirs.document.gates.clone()]),
                 moved,
             })
         })

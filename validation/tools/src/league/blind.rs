@@ -19,7 +19,7 @@ const PREDICTED_FROM: [&str; 3] = ["friction.csv", "law.csv", "prediction.csv"];
 /// Hexadecimal digits of a seed, and number of seeds.
 const SEEDS: (usize, usize) = (4, 3);
 
-/// A predicted quantity with what the grains did.
+/// A predicted quantity with the values of the grains.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct BlindComparison {
     /// `discs` or `spheres`.
@@ -42,7 +42,7 @@ pub struct BlindComparison {
     pub lower: Option<f64>,
     /// Upper end.
     pub upper: Option<f64>,
-    /// What the grains did, for each seed.
+    /// Values of the grains, one for each seed.
     #[serde(skip)]
     pub measured: Vec<f64>,
 }
@@ -103,7 +103,7 @@ pub fn seeds(league: &Path) -> Result<(Vec<u64>, Vec<u64>), JudgeError> {
 }
 
 impl BlindComparison {
-    /// Mean of the grains over the seeds; none if none was run.
+    /// Mean of the grains over the seeds; none without runs.
     #[must_use]
     pub fn mean(&self) -> Option<f64> {
         (!self.measured.is_empty()).then(|| self.measured.iter().sum::<f64>() / self.measured.len() as f64)
@@ -117,7 +117,7 @@ impl BlindComparison {
         (self.measured.len() > 1).then(|| (square / (self.measured.len() - 1) as f64).sqrt())
     }
 
-    /// Error E: prediction less what the grains did.
+    /// Error E: prediction minus mean of the grains.
     #[must_use]
     pub fn error(&self) -> Option<f64> {
         self.mean().map(|mean| self.value - mean)
@@ -131,7 +131,7 @@ impl BlindComparison {
         (known.iter().map(|part| part * part).sum::<f64>().sqrt(), of_mean.is_some())
     }
 
-    /// What the error says.
+    /// Verdict on the error.
     #[must_use]
     pub fn verdict(&self) -> &'static str {
         let (u_val, is_known) = self.uncertainty();

@@ -35,33 +35,38 @@ def fit(points):
     return best
 
 
-os.makedirs("results", exist_ok=True)
-points, table = [], []
-for angle in sys.argv[1:]:
-    bins = zip(*windows(f"{angle}/profile.txt"))
-    profile = [[mean(column) for column in zip(*rows)] for rows in bins]
-    y, density, u = zip(*profile)
-    bulk = sorted(density[3:8])[2]
-    height = sum(density) * D / bulk
-    with open(f"results/profile-{angle}.csv", "w") as out:
-        out.write("y,u,phi\n")
-        for row in profile:
-            if row[0] < height:
-                out.write(f"{row[0]:.6g},{row[2]:.6g},{row[1] / rho:.6g}\n")
-    # pressure from the weight above; tan(angle) is the friction at every height of a steady flow
-    inertia = []
-    for k in range(1, len(y) - 1):
-        if 0.2 * height < y[k] < 0.75 * height:
-            weight = (sum(density[k:]) - 0.5 * density[k]) * D
-            pressure = weight * g * math.cos(math.radians(float(angle)))
-            inertia.append((u[k + 1] - u[k - 1]) / (2 * D) * D / math.sqrt(pressure / rho))
-    scatter = math.sqrt(mean([(each - mean(inertia)) ** 2 for each in inertia]))
-    mu = math.tan(math.radians(float(angle)))
-    points.append((mean(inertia), mu))
-    table.append((float(angle), mu, mean(inertia), scatter, bulk / rho, height))
-with open("results/friction.csv", "w") as out:
-    out.write("angle,mu,I,I_scatter,phi,height\n")
-    for row in table:
-        out.write(",".join(f"{value:.6g}" for value in row) + "\n")
-with open("results/law.csv", "w") as out:
-    out.write("mu_s,mu_2,I_0,misfit\n" + ",".join(f"{value:.6g}" for value in fit(points)) + "\n")
+def main():
+    os.makedirs("results", exist_ok=True)
+    points, table = [], []
+    for angle in sys.argv[1:]:
+        bins = zip(*windows(f"{angle}/profile.txt"))
+        profile = [[mean(column) for column in zip(*rows)] for rows in bins]
+        y, density, u = zip(*profile)
+        bulk = sorted(density[3:8])[2]
+        height = sum(density) * D / bulk
+        with open(f"results/profile-{angle}.csv", "w") as out:
+            out.write("y,u,phi\n")
+            for row in profile:
+                if row[0] < height:
+                    out.write(f"{row[0]:.6g},{row[2]:.6g},{row[1] / rho:.6g}\n")
+        # pressure from the weight above; tan(angle) is the friction at every height of a steady flow
+        inertia = []
+        for k in range(1, len(y) - 1):
+            if 0.2 * height < y[k] < 0.75 * height:
+                weight = (sum(density[k:]) - 0.5 * density[k]) * D
+                pressure = weight * g * math.cos(math.radians(float(angle)))
+                inertia.append((u[k + 1] - u[k - 1]) / (2 * D) * D / math.sqrt(pressure / rho))
+        scatter = math.sqrt(mean([(each - mean(inertia)) ** 2 for each in inertia]))
+        mu = math.tan(math.radians(float(angle)))
+        points.append((mean(inertia), mu))
+        table.append((float(angle), mu, mean(inertia), scatter, bulk / rho, height))
+    with open("results/friction.csv", "w") as out:
+        out.write("angle,mu,I,I_scatter,phi,height\n")
+        for row in table:
+            out.write(",".join(f"{value:.6g}" for value in row) + "\n")
+    with open("results/law.csv", "w") as out:
+        out.write("mu_s,mu_2,I_0,misfit\n" + ",".join(f"{value:.6g}" for value in fit(points)) + "\n")
+
+
+if __name__ == "__main__":
+    main()
