@@ -13,6 +13,11 @@ if [ $# -eq 0 ]; then
 fi
 differ=0
 for cell in "${cells[@]}"; do
+    if [ ! -f "$league/$cell/deck/run.sh" ]; then
+        echo "$cell: no deck here; name a cell as CODE/CASE, such as openfoam/film"
+        differ=1
+        continue
+    fi
     folder=$(mktemp -d)
     bash "$league/$cell/deck/run.sh" "$folder" > "$folder/output" 2>&1
     code=$?

@@ -72,6 +72,13 @@ pub(super) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
         .iter()
         .find(|(old, _)| *old == name)
         .map(|(_, now)| if above.is_empty() { (*now).to_owned() } else { format!("{above}.{now}") });
+    // the angle stands for the coefficient, which is the one that the schema has
+    let angle = path == "friction_angle";
+    if let Some(coefficient) =
+        known.iter().flat_map(|paths| *paths).find(|own| angle && own.ends_with(".static_friction"))
+    {
+        return Some(coefficient.replace("static_friction", path));
+    }
     let bare = path.split_once('.').map(|(_, bare)| bare.to_owned());
     if let Some(now) = now.or(bare).filter(|now| known.iter().any(|paths| paths.contains(now))) {
         return Some(now);

@@ -16,6 +16,13 @@ struct Usual {
 
 const USUAL: &[Usual] = &[
     Usual {
+        field: "slope_angle",
+        low: 1.0,
+        high: 60.0,
+        unit: "°",
+        slip: |value| (value > 0.1 && value < 1.0).then_some((value.to_degrees(), "in radians")),
+    },
+    Usual {
         field: "friction_angle",
         low: 3.0,
         high: 60.0,
@@ -145,6 +152,7 @@ mod tests {
             of("bodies = [{ material = { static_friction = 27 } }]")
                 .contains("bodies[0].material.static_friction` is 27 -")
         );
+        assert!(of("slope_angle = 0.436").ends_with("; 0.436 in radians is 24.98"));
         assert_eq!(of("gravity = [4.9, -8.5]\nmaterial = { grain_diameter = 0.0005, bulk_density = 0 }"), "");
     }
 }

@@ -214,6 +214,10 @@ fn a_friction_angle_stands_for_its_tangent_where_the_law_has_one() {
     assert_eq!(resolved(&format!("material.friction_angle = {angle:?}"), &[]).as_ref(), Ok(&steeper));
     assert_eq!(resolved("", &[&format!("material.friction_angle={angle:?}")]).as_ref(), Ok(&steeper));
     assert_eq!(
+        message("", &["friction_angle=20"]),
+        "`--set friction_angle=20`: unknown field `friction_angle`; did you mean `material.friction_angle`? `bagnold show layer` prints all fields"
+    );
+    assert_eq!(
         message("material.friction_angle = \"27.5°\"", &[]),
         "layer.toml: `material.friction_angle` is \"27.5°\", but must be a number of degrees without its unit; write 27.5 for 27.5°"
     );
