@@ -30,8 +30,9 @@ impl Case for SubmergedLayer {
     const DESCRIPTION: &'static str = "\
         Setup. A layer of glass beads (160 µm, depth 4.9 mm) lies under a viscous liquid and is tilted to 25° at \
         once. Grains follow a friction and a dilatancy over the viscous number I = η γ̇/p′. Where they dilate, they \
-        draw in water by Darcy's law with the permeability of Kozeny and Carman. Inertia is left out. All constants \
-        are published (Pailha & Pouliquen 2009); one is chosen, the diffusion of solid fraction by shear (A = 1).\n\n\
+        draw in water by Darcy's law with the permeability of Kozeny and Carman. Inertia is left out. The \
+        constants are quoted from Pailha & Pouliquen (2009) at second hand. The diffusion of solid fraction by shear \
+        (A = 1) is chosen. For thin liquids and coarse grains the step is too long: see `water_error`.\n\n\
         Judged. Steady flow and Terzaghi's consolidation against exact solutions, with the order of convergence. \
         Grains, momentum and water are balanced. Seven initial solid fractions against an independent \
         implementation. Onset, final velocity and early pore pressure against the experiment of Pailha et al. \
