@@ -7,13 +7,13 @@ use crate::observation::{Outcome, Recorded};
 const CAUSES: [(&str, &str); 9] = [
     (
         "speed",
-        "particles that start too close (lower `jitter`, or prepare a settled layer), a flow faster than its sound (a shorter \
-         run, a gentler slope, a deeper layer), or too long a step (lower `numerics.acoustic_courant`)",
+        "a wall, body or flow above Mach 0.2 (raise `stiffness` in a scene; elsewhere a gentler slope or a deeper layer), particles \
+         that start too close (lower `jitter`, or prepare a settled layer), or too long a step (lower `numerics.acoustic_courant`)",
     ),
     (
         "density",
-        "particles that meet (lower `jitter`, keep `numerics.hourglass` above 0.2), or too few rows for the flow (raise \
-         `resolution`, in a scene lower `spacing`)",
+        "a wall, body or flow above Mach 0.2 (raise `stiffness` in a scene), particles that meet (lower `jitter`, keep \
+         `numerics.hourglass` above 0.2), or too few rows for the flow (raise `resolution`, in a scene lower `spacing`)",
     ),
     (
         "number of neighbours",
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn a_divergence_says_what_it_likely_comes_from() {
         let text = "diverged at t = 0.1 s (step 7): the density of particle 3 at (0, 1) m is 1 kg/m³, outside";
-        assert!(message(text, false).starts_with(&format!("{text}; likely causes: particles that meet")));
+        assert!(message(text, false).starts_with(&format!("{text}; likely causes: a wall, body or flow above Mach 0.2 (raise `stiffness`")));
         assert_eq!(message(text, true), text, "an expected divergence is a result");
         assert_eq!(message("something else", false), "something else");
     }

@@ -64,6 +64,9 @@ pub(super) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str) -> Stri
 /// Parameters that had another name before: the old one and what it is called now.
 const RENAMED: [(&str, &str); 1] = [("joining_room", "bed_roughness_fade_length")];
 
+/// Most tables with a field of the same name that a message lists.
+const MOST_NAMESAKES: usize = 4;
+
 /// The path that is most like one that does not exist, from the first list that has any; of a parameter that had this name before, that
 /// parameter; of one behind a prefix that does not exist, the one without.
 pub(super) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
@@ -82,6 +85,13 @@ pub(super) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
     let bare = path.split_once('.').map(|(_, bare)| bare.to_owned());
     if let Some(now) = now.or(bare).filter(|now| known.iter().any(|paths| paths.contains(now))) {
         return Some(now);
+    }
+    // the same name in other tables
+    let leaf = format!(".{name}");
+    let is_namesake = |own: &&String| own.ends_with(&leaf) && *own != path;
+    let namesakes = |paths: &&[String]| paths.iter().filter(is_namesake).cloned().collect::<Vec<_>>();
+    if let Some(namesakes) = known.iter().map(namesakes).find(|found| (1..=MOST_NAMESAKES).contains(&found.len())) {
+        return Some(namesakes.join("` or `"));
     }
     known.iter().find_map(|paths| nearest(path, paths.iter().map(String::as_str).filter(|other| *other != path)))
 }

@@ -45,7 +45,7 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
         let grains = scene.material.grain_diameter().map(|diameter| diameter / scene.spacing);
         let grains = grains.map(|ratio| format!(", grain diameter {ratio:.2} particle spacings")).unwrap_or_default();
         format!(
-            "scene `{}`, spacing {} m: sound speed {sound_speed:.3} m/s, expected speed {speed:.3} m/s (Mach {mach:.2}){grains}{}",
+            "scene `{}`, spacing {} m: sound speed {sound_speed:.3} m/s, largest expected speed {speed:.3} m/s (Mach {mach:.2}){grains}{}",
             scene.name,
             four_digits(scene.spacing),
             openings.concat()

@@ -97,6 +97,10 @@ fn unknown_fields_are_refused_with_the_nearest_name() {
         message("[grains]\ndiametre = 0.002", &[]),
         "layer.toml: unknown field `grains.diametre`; did you mean `grains.diameter`? `bagnold show layer` prints all fields"
     );
+    assert_eq!(
+        message("", &["diameter=0.1"]),
+        "`--set diameter=0.1`: unknown field `diameter`; did you mean `grains.diameter`? `bagnold show layer` prints all fields"
+    );
     assert_eq!(message("xyz = 1", &[]), "layer.toml: unknown field `xyz`; `bagnold show layer` prints all fields");
 }
 
