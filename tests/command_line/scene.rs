@@ -353,3 +353,44 @@ fn a_silo_discharges_through_its_whole_opening() {
     let rate = 2.0 * (crossed("duration=0.42") - crossed("duration=0.15")) / 0.27;
     assert!((88.0..101.0).contains(&rate), "{rate} kg/(m s)");
 }
+
+#[test]
+fn a_longer_run_continues_a_finished_one_bit_for_bit() {
+    // an inlet, a wall that moves, a mesh in space
+    for (name, duration) in [("fed-slope.toml", 0.06), ("gate.toml", 0.04), ("funnel.toml", 0.02)] {
+        let path = shipped().into_iter().find(|file| file.ends_with(name)).expect("a scene").display().to_string();
+        let lasting = |times: f64| {
+            let settings = [format!("duration={}", times * duration), format!("interval={}", duration / 10.0)];
+            let mut arguments = vec!["run".to_owned(), path.clone(), "--json".to_owned()];
+            for setting in settings.iter().map(String::as_str).chain(["measured=[]", "pictures=2"]) {
+                arguments.extend(["--set".to_owned(), setting.to_owned()]);
+            }
+            arguments
+        };
+        let run = |place: &Place, times: f64, out: &str| {
+            let arguments = [lasting(times), vec!["--out".to_owned(), out.to_owned()]].concat();
+            place.bagnold(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).assert().code(0)
+        };
+        let (one, other) = (Place::new(), Place::new());
+        run(&one, 1.0, "short");
+        // 1.3 of the duration has a picture that the short run lacks: it begins anew
+        let begins_anew = [(1.3, false)].into_iter().filter(|_| name == "gate.toml");
+        for (times, continues) in begins_anew.chain([(2.0, true)]) {
+            let whole = run(&other, times, "whole");
+            let continued = run(&one, times, "continued");
+            let told = String::from_utf8_lossy(&continued.get_output().stderr).into_owned();
+            assert_eq!(told.contains("resumes from its checkpoint"), continues, "{name}: {told}");
+            let [whole, continued] = [whole, continued].map(|finished| document(&finished));
+            assert_eq!(whole.state_hash, continued.state_hash, "{name}");
+            assert_eq!(whole.metrics, continued.metrics, "{name}");
+            let [whole, continued] = [(&other, "whole"), (&one, "continued")].map(|(place, out)| {
+                let files = walk(&place.path(out)).into_iter();
+                let files = files.filter(|file| file.extension().is_some_and(|end| end == "csv" || end == "vtu"));
+                let mut read: Vec<String> = files.map(|file| std::fs::read_to_string(file).expect("text")).collect();
+                read.sort();
+                read
+            });
+            assert!(whole.len() > 2 && whole == continued, "{name}: tables and pictures");
+        }
+    }
+}

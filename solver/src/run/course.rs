@@ -25,6 +25,18 @@ impl RunProgress {
     pub fn new(end: f64, interval: f64) -> Self {
         Self { end, interval, origin: None, observed: 0, observed_step: 0 }
     }
+
+    /// Whether a time `[s]` lies within the last interval of the run.
+    #[must_use]
+    pub fn nears_its_end(&self, time: f64) -> bool {
+        time >= self.end - self.interval
+    }
+
+    /// Course of the same run up to a later end `[s]`; none if the end is not later.
+    #[must_use]
+    pub fn prolonged(self, end: f64) -> Option<Self> {
+        (end > self.end).then_some(Self { end, ..self })
+    }
 }
 
 /// Observer of a run, which may interrupt it between two steps.

@@ -44,7 +44,9 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run film --overlay mine.csv
   bagnold run column-planar --only material=sand,aspect_ratio=3 --output-every 0.01
   bagnold run my-study.toml
+  bagnold run scene.toml --set duration=2.0    continue a finished scene of half the duration
 
+A longer run of a scene continues a finished one at whole multiples of its duration; otherwise it starts anew.
 A file names its case with `case = \"film\"`; the tier supplies the fields that it omits. `bagnold show film`
 prints a complete file. Values of --set are TOML; dots reach fields inside tables.
 

@@ -45,7 +45,7 @@ pub(super) fn run(
     }
     introduce(std::slice::from_ref(&prepared), quiet || command.json, command.deny_warnings)?;
     let claimed = OutputFolder::claim(&folder)?;
-    let store = command.work.open_store();
+    let store = command.work.open_store().with_ends();
     let expectation = announce("run", std::slice::from_ref(&prepared), &store, quiet || command.json);
     let known = CommittedValues::OfCases.known_failures()?;
     // accepted values are those of the case as it comes; a study in a file has none

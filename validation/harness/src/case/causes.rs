@@ -81,7 +81,10 @@ mod tests {
     #[test]
     fn a_divergence_says_what_it_likely_comes_from() {
         let text = "diverged at t = 0.1 s (step 7): the density of particle 3 at (0, 1) m is 1 kg/m³, outside";
-        assert!(message(text, false).starts_with(&format!("{text}; likely causes: a wall, body or flow above Mach 0.2 (raise `stiffness`")));
+        assert!(
+            message(text, false)
+                .starts_with(&format!("{text}; likely causes: a wall, body or flow above Mach 0.2 (raise `stiffness`"))
+        );
         assert_eq!(message(text, true), text, "an expected divergence is a result");
         assert_eq!(message("something else", false), "something else");
     }

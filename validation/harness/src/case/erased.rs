@@ -174,6 +174,7 @@ impl<C: Case> AnyCase for C {
 struct CheckpointedProgress<'a> {
     progress: &'a dyn Progress,
     checkpoints: Option<Checkpoints>,
+    ends: Option<Checkpoints>,
 }
 
 impl Progress for CheckpointedProgress<'_> {
@@ -187,6 +188,10 @@ impl Progress for CheckpointedProgress<'_> {
 
     fn checkpoints(&self) -> Option<&Checkpoints> {
         self.checkpoints.as_ref()
+    }
+
+    fn ends(&self) -> Option<&Checkpoints> {
+        self.ends.as_ref()
     }
 
     fn output(&self) -> Option<&dyn StateOutput> {
@@ -271,7 +276,10 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             return Ok(());
         }
         let checkpoints = key.as_ref().filter(|_| !anew).map(|key| store.checkpoints(key));
-        let simulated = description.simulate(&CheckpointedProgress { progress, checkpoints });
+        let trajectory = description.trajectory().filter(|_| !anew && store.keeps_ends());
+        let trajectory = trajectory.and_then(|run| store.key(C::ORIGIN, self.name(), &("trajectory", run)));
+        let ends = trajectory.map(|key| store.ends(&key));
+        let simulated = description.simulate(&CheckpointedProgress { progress, checkpoints, ends });
         let record = match simulated {
             // what was cut short may look like something that is refused
             Err(_) if is_interrupted() => return Err(ParameterError::Interrupted),

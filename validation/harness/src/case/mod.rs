@@ -161,6 +161,10 @@ pub trait Run: Serialize + Clone + Send + Sync {
     fn brief(&self) -> Option<String> {
         None
     }
+    /// The run without its end, equal for runs of which one continues the other; none if a longer run begins anew.
+    fn trajectory(&self) -> Option<Self> {
+        None
+    }
     /// Simulates it. A divergence is part of the record, not an error.
     ///
     /// # Errors
@@ -176,6 +180,10 @@ pub trait Progress: Sync {
     fn resumed(&self, simulated: f64);
     /// Checkpoints of the run; none if nothing is kept.
     fn checkpoints(&self) -> Option<&Checkpoints> {
+        None
+    }
+    /// States near the end of finished runs that this one may continue, and that it leaves; none if nothing is kept.
+    fn ends(&self) -> Option<&Checkpoints> {
         None
     }
     /// Receiver of states during the run; none if no states are requested.

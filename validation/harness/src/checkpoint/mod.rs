@@ -83,6 +83,11 @@ impl Checkpoints {
         decoded
     }
 
+    /// What `decode` makes of the newest checkpoint that it can use.
+    pub fn usable<T>(&self, decode: impl FnMut(&[u8]) -> Option<T>) -> Option<T> {
+        self.whole().iter().map(|found| &found.contents[..]).find_map(decode)
+    }
+
     fn decoded<T>(&self, found: &CheckpointFile, decode: &mut impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
         let refuse = |reason| self.warn(&found.path, &Refused::State(reason));
         decode(&found.contents).map_err(refuse).ok()

@@ -1,6 +1,6 @@
 //! Contents of a store, and their reduction on request.
 
-use super::{DRAWN, UNFINISHED, is_version};
+use super::{DRAWN, ENDED, UNFINISHED, is_version};
 use std::io::Result;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
@@ -63,9 +63,9 @@ pub struct Pruned {
 pub fn versions(root: &Path) -> Result<Vec<Version>> {
     let mut versions = Vec::new();
     for folder in folders(root)? {
-        let (stored, unfinished) = (stored_in(&folder, &ENDINGS)?, unfinished_in(&folder)?);
-        let drawn = drawn_in(&folder)?;
-        let others = unfinished.iter().flatten().chain(&drawn);
+        let (stored, unfinished) = (stored_in(&folder, &ENDINGS)?, checkpoints_in(&folder.join(UNFINISHED))?);
+        let (drawn, ended) = (drawn_in(&folder)?, checkpoints_in(&folder.join(ENDED))?);
+        let others = unfinished.iter().chain(&ended).flatten().chain(&drawn);
         let Some(newest) = stored.iter().chain(others.clone()).map(|entry| entry.modified).max() else { continue };
         versions.push(Version {
             name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
@@ -88,7 +88,9 @@ pub fn prune(root: &Path, keep: RetentionPolicy, now: SystemTime) -> Result<Prun
     let mut stored = Vec::new();
     for folder in &folders {
         stored.extend(stored_in(folder, &ENDINGS)?);
-        stored.extend(unfinished_in(folder)?.into_iter().flatten());
+        for runs in [UNFINISHED, ENDED] {
+            stored.extend(checkpoints_in(&folder.join(runs))?.into_iter().flatten());
+        }
         stored.extend(drawn_in(folder)?);
     }
     for entry in &mut stored {
@@ -110,10 +112,12 @@ pub fn prune(root: &Path, keep: RetentionPolicy, now: SystemTime) -> Result<Prun
     }
     // fails where something is left, which is what is wanted
     for folder in folders {
-        for run in runs_in(&folder)? {
-            let _ = std::fs::remove_dir(run);
+        for runs in [UNFINISHED, ENDED].map(|runs| folder.join(runs)) {
+            for run in runs_in(&runs)? {
+                let _ = std::fs::remove_dir(run);
+            }
+            let _ = std::fs::remove_dir(runs);
         }
-        let _ = std::fs::remove_dir(folder.join(UNFINISHED));
         let _ = std::fs::remove_dir(folder.join(DRAWN));
         let _ = std::fs::remove_dir(folder);
     }
@@ -164,9 +168,20 @@ fn drawn_in(folder: &Path) -> Result<Vec<StoredFile>> {
     if folder.is_dir() { stored_in(&folder, &DRAWINGS) } else { Ok(Vec::new()) }
 }
 
-/// The folders of unfinished runs of a version.
+/// Deletes the folders of all runs but the newest so many.
+pub(super) fn keep_newest(folder: &Path, most: usize) {
+    let age = |run: PathBuf| Some((run.metadata().and_then(|data| data.modified()).ok()?, run));
+    let mut runs: Vec<_> = runs_in(folder).unwrap_or_default().into_iter().filter_map(age).collect();
+    runs.sort_by(|a, b| b.cmp(a));
+    for (_, run) in runs.iter().skip(most) {
+        // another program may have been faster
+        let _ = std::fs::remove_dir_all(run);
+    }
+}
+
+/// The folders of runs in a folder.
 fn runs_in(folder: &Path) -> Result<Vec<PathBuf>> {
-    let entries = match std::fs::read_dir(folder.join(UNFINISHED)) {
+    let entries = match std::fs::read_dir(folder) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
         entries => entries?,
     };
@@ -180,8 +195,8 @@ fn runs_in(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(runs)
 }
 
-/// The checkpoints of every unfinished run of a version.
-fn unfinished_in(folder: &Path) -> Result<Vec<Vec<StoredFile>>> {
+/// The checkpoints of every run in a folder.
+fn checkpoints_in(folder: &Path) -> Result<Vec<Vec<StoredFile>>> {
     runs_in(folder)?.iter().map(|run| stored_in(run, &CHECKPOINTS)).collect()
 }
 

@@ -31,6 +31,12 @@ const FOLDER_PREFIX: &str = "sources-";
 /// Folder of a version in which runs that are not finished keep their checkpoints, a folder each.
 const UNFINISHED: &str = "unfinished";
 
+/// Folder of a version in which finished runs keep a state near their end, from which longer runs continue.
+const ENDED: &str = "ended";
+
+/// Finished runs that keep such a state; the oldest are deleted first.
+const MOST_ENDED: usize = 16;
+
 /// Folder of a version in which drawn figures are kept.
 const DRAWN: &str = "drawn";
 
@@ -53,6 +59,7 @@ pub struct Store {
     policy: StorePolicy,
     /// Time between two checkpoints of a run, where the user asks for one.
     checkpoint_interval: Option<Duration>,
+    keeps_ends: bool,
 }
 
 /// Identifies a run of a case by this version of the sources.
@@ -90,13 +97,37 @@ impl Store {
     fn for_sources(root: &Path, sources: &str, policy: StorePolicy) -> Self {
         let version = sources.get(..16).unwrap_or(sources);
         let folder = root.join(format!("{FOLDER_PREFIX}{version}"));
-        Self { folder, policy, checkpoint_interval: None }
+        Self { folder, policy, checkpoint_interval: None, keeps_ends: false }
     }
 
     /// The same store with another time between two checkpoints of a run.
     #[must_use]
     pub fn with_checkpoints_every(self, interval: Option<Duration>) -> Self {
         Self { checkpoint_interval: interval, ..self }
+    }
+
+    /// The same store where finished runs keep a state near their end.
+    #[must_use]
+    pub fn with_ends(self) -> Self {
+        Self { keeps_ends: true, ..self }
+    }
+
+    /// Whether finished runs keep a state near their end.
+    #[must_use]
+    pub fn keeps_ends(&self) -> bool {
+        self.keeps_ends
+    }
+
+    /// States near the end of the finished runs of a trajectory; emptied if everything is to begin anew.
+    #[must_use]
+    pub fn ends(&self, key: &StoreKey) -> Checkpoints {
+        let all = self.folder.join(ENDED);
+        inventory::keep_newest(&all, MOST_ENDED);
+        let ends = Checkpoints::at(&all.join(&key.0), &key.0, None);
+        if self.policy == StorePolicy::Refresh {
+            ends.discard();
+        }
+        ends
     }
 
     /// Checkpoints of an unfinished run; emptied if everything is to begin anew.

@@ -48,6 +48,25 @@ struct SceneObserver<const D: usize> {
     frames: Vec<Frame>,
 }
 
+/// Earliest time `[s]` of a picture among so many over the duration.
+fn picture_due(picture: usize, duration: f64, interval: f64, pictures: usize) -> f64 {
+    picture as f64 * duration / pictures as f64 - 0.5 * interval
+}
+
+impl<const D: usize> SceneObserver<D> {
+    /// Keeps of the pictures those that a run of another duration has by now; whether none of them is missing.
+    fn keep_pictures_of(&mut self, duration: f64, interval: f64, pictures: usize) -> bool {
+        let times = &self.observation.time;
+        let taken = |picture: usize| {
+            let due = picture_due(picture, duration, interval, pictures);
+            times.iter().copied().find(|time| *time >= due)
+        };
+        let wanted: Vec<f64> = (0..pictures).map_while(taken).collect();
+        self.frames.retain(|frame| wanted.contains(&frame.time));
+        self.frames.len() == wanted.len()
+    }
+}
+
 impl<S: Dimension<D>, const D: usize> Run for SceneRun<S, D>
 where
     Simulation<D>: Compiled<D>,
@@ -81,6 +100,10 @@ where
         Some(self.summary())
     }
 
+    fn trajectory(&self) -> Option<Self> {
+        Some(Self { scene: SceneParameters { duration: 0.0, pictures: 0, ..self.scene.clone() } })
+    }
+
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
         let scene = &self.scene;
         let (made, cut_off) = self.scene()?;
@@ -102,7 +125,7 @@ where
             memory: Memory::default(),
             frames: Vec::new(),
         };
-        let RestartableRun { simulation, stop, kept: (last_good, watch), started } = recording::follow(
+        let RestartableRun { simulation, stop, kept: (last_good, watch), started } = recording::follow_on(
             stage,
             |beginning| match beginning {
                 StartState::New => self.prepared(made.clone()),
@@ -116,13 +139,14 @@ where
                 let known = begun + simulation.inflow().particles() as usize;
                 let values = watch.memory.read_all(&measures, simulation, last_good, (known, &periods));
                 watch.observation.enter(simulation, last_good, (&gravity, pull), values);
-                let due = watch.frames.len() as f64 * scene.duration / scene.pictures as f64;
-                if last_good.time >= due - 0.5 * scene.interval && watch.frames.len() < scene.pictures {
+                let due = picture_due(watch.frames.len(), scene.duration, scene.interval, scene.pictures);
+                if last_good.time >= due && watch.frames.len() < scene.pictures {
                     watch.frames.push(Frame::of_flow(last_good));
                 }
                 let is_over = simulation.inlets().iter().all(|inlet| inlet.rate.is_over(last_good.time));
                 if last_good.mass.is_empty() && is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
+            |(_, watch)| watch.keep_pictures_of(scene.duration, scene.interval, scene.pictures),
         )?;
         let mut ending = Ending::of(stop, last_good, started);
         "all material has left by open sides".clone_into(&mut ending.criterion);

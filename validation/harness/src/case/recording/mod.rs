@@ -9,7 +9,7 @@ mod picture;
 mod restart;
 mod weakly_compressible;
 
-pub use restart::{Restartable, RestartableRun, SimulationStage, StartState, Stop, follow, resumed};
+pub use restart::{Restartable, RestartableRun, SimulationStage, StartState, Stop, follow, follow_on, resumed};
 
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Outcome, Recorded, state_hash};

@@ -121,18 +121,44 @@ where
     C: Serialize + DeserializeOwned,
     E: Into<ParameterError> + Display,
 {
+    follow_on(stage, scene, keep, observe, |_| false)
+}
+
+/// As [`follow`]; a run that is longer than a finished one continues near its end, if `adopt` makes of what that run has kept what this
+/// one would have kept by then.
+///
+/// # Errors
+/// A scene that breaks a rule or cannot be made; an interruption.
+pub fn follow_on<const D: usize, S, O, C, E>(
+    stage: SimulationStage<'_, C>,
+    scene: impl Fn(StartState) -> Result<S::Scene, E>,
+    keep: impl FnOnce(&S) -> O,
+    observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
+    mut adopt: impl FnMut(&mut O) -> bool,
+) -> Result<RestartableRun<S, O>, ParameterError>
+where
+    S: Restartable<D>,
+    O: Serialize + DeserializeOwned,
+    C: Serialize + DeserializeOwned,
+    E: Into<ParameterError> + Display,
+{
     let now = Instant::now();
     let SimulationStage { progress, end, interval, context } = stage;
     let checkpoints = progress.checkpoints();
-    let left = checkpoints.and_then(|checkpoints| {
-        checkpoints.take(|bytes| {
-            let read: RestoredCheckpoint<C, O, S::Saved> =
-                postcard::from_bytes(bytes).map_err(|error| error.to_string())?;
-            let scene = scene(StartState::Continued).map_err(|error| error.to_string())?;
-            let simulation = S::continued(scene, read.simulation).map_err(|error| error.to_string())?;
-            Ok((simulation, read.course, read.kept, read.seconds))
-        })
-    });
+    let restore = |bytes: &[u8]| {
+        let read: RestoredCheckpoint<C, O, S::Saved> =
+            postcard::from_bytes(bytes).map_err(|error| error.to_string())?;
+        let scene = scene(StartState::Continued).map_err(|error| error.to_string())?;
+        let simulation = S::continued(scene, read.simulation).map_err(|error| error.to_string())?;
+        Ok((simulation, read.course, read.kept, read.seconds))
+    };
+    let shorter = |bytes: &[u8]| {
+        let (simulation, course, mut kept, seconds) = restore(bytes).ok()?;
+        let course = course.prolonged(end).filter(|_| adopt(&mut kept))?;
+        Some((simulation, course, kept, seconds))
+    };
+    let left = checkpoints.and_then(|checkpoints| checkpoints.take(restore));
+    let left = left.or_else(|| progress.ends()?.usable(shorter));
     let (mut simulation, mut course, kept, started) = match left {
         Some((simulation, course, kept, seconds)) => {
             progress.resumed(simulation.time());
@@ -151,8 +177,9 @@ where
         }
     };
     let output = progress.output();
+    let ends = progress.ends();
     let mut watching =
-        CheckpointingObserver { checkpoints, output, context, started, kept, observe, simulation: PhantomData };
+        CheckpointingObserver { checkpoints, ends, output, context, started, kept, observe, simulation: PhantomData };
     let stop = match simulation.follow(&mut course, &mut watching) {
         StopReason::Finished => Stop::Finished,
         StopReason::Stopped => Stop::Stopped,
@@ -168,6 +195,8 @@ where
 /// Shows a simulation to the observer of a case and to who wants states on its way, and keeps checkpoints.
 struct CheckpointingObserver<'a, const D: usize, S, O, C, F> {
     checkpoints: Option<&'a Checkpoints>,
+    /// Place of a state near the end, until it is written.
+    ends: Option<&'a Checkpoints>,
     output: Option<&'a dyn StateOutput>,
     context: &'a C,
     started: Instant,
@@ -193,7 +222,7 @@ where
         }
         let interrupted = is_interrupted();
         let wanted = self.checkpoints.filter(|checkpoints| interrupted || checkpoints.is_due());
-        let is_kept = wanted.is_some_and(|checkpoints| {
+        let write = |checkpoints: &Checkpoints| {
             let written = CheckpointContents {
                 context: self.context,
                 seconds: self.started.elapsed().as_secs_f64(),
@@ -202,7 +231,13 @@ where
                 simulation: simulation.saved(),
             };
             checkpoints.keep(|| postcard::to_stdvec(&written))
-        });
+        };
+        let is_kept = wanted.is_some_and(write);
+        if course.nears_its_end(simulation.time())
+            && let Some(ends) = self.ends.take()
+        {
+            write(ends);
+        }
         if !interrupted {
             return ControlFlow::Continue(());
         }
