@@ -191,6 +191,7 @@ impl Study {
             self.refuse_varied(setting)?;
         }
         let mut cases = self.prepare_variants(registry, tier, settings, limits)?;
+        self.refuse_late_measurements(&cases).map_err(|error| error.in_file(&self.file))?;
         cases.extend(self.prepare_controls(registry, tier, settings, limits)?);
         Ok(cases)
     }
@@ -217,6 +218,27 @@ impl Study {
         };
         let of_variant = |changed| prepare(changed, settings).map_err(|error| refused(changed, error));
         self.changes.iter().map(of_variant).collect()
+    }
+
+    /// Refuses measurements that are compared after the end of every scene, before anything is simulated.
+    fn refuse_late_measurements(&self, cases: &[Box<dyn PreparedCase>]) -> Result<(), FieldError> {
+        let durations = cases.iter().filter_map(|case| case.run_parameters(0)["scene"]["duration"].as_f64());
+        let Some(duration) = durations.max_by(f64::total_cmp) else { return Ok(()) };
+        for (place, check) in self.checks.iter().enumerate() {
+            let CheckedQuantity::Distance(column, measured, _) = &check.read else { continue };
+            if column.over.is_some() || !column.table.starts_with("gauges") {
+                continue;
+            }
+            // units that do not fit are refused where the columns are known
+            let points = measured.in_units("s", probe::unit_of(&column.column)).unwrap_or_default();
+            let times =
+                points.iter().map(|point| point[0]).filter(|time| (column.window.0..=column.window.1).contains(time));
+            if let Some(last) = times.max_by(f64::total_cmp).filter(|last| *last > duration) {
+                let rule = format!("at least {last}, the last time that `checks[{place}]` compares");
+                return Err(FieldError::new("duration", duration, &rule, "raise it, or end the comparison with `to`"));
+            }
+        }
+        Ok(())
     }
 
     /// Refuses a setting of the command line for a parameter to which the study gives values itself.
