@@ -2,7 +2,7 @@
 //! that `fed-slope` is compared with.
 
 use bagnold_reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
-use bagnold_reference::grains::GLASS_BEADS;
+use bagnold_reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
 use std::path::Path;
 
 fn text(path: &str) -> String {
@@ -74,12 +74,11 @@ impl TravellingFront {
         Self { thickness, velocity, profile }
     }
 
-    /// Mean thickness `[m]` over an interval of time `[s]` at a place that the front has come a distance `[m]` beyond at time 0.
-    fn mean_thickness(&self, beyond: f64, from: f64, to: f64) -> f64 {
+    /// Mean thickness `[m]` over an interval of distances `[m]` behind the place of half of the thickness.
+    fn mean_thickness(&self, from: f64, to: f64) -> f64 {
         let steps = 200;
-        let time = |step: i32| from + (f64::from(step) + 0.5) * (to - from) / f64::from(steps);
-        let behind = |time: f64| (beyond + self.velocity * time) / self.thickness;
-        let at = |step: i32| self.profile[(100.0 * behind(time(step))).round() as usize];
+        let behind = |step: i32| (from + (f64::from(step) + 0.5) * (to - from) / f64::from(steps)) / self.thickness;
+        let at = |step: i32| self.profile[(100.0 * behind(step)).round() as usize];
         self.thickness * (0..steps).map(at).sum::<f64>() / f64::from(steps)
     }
 }
@@ -97,7 +96,7 @@ fn references_of_the_fed_slope_are_those_of_its_front() {
     let study: toml::Value = toml::from_str(&text("validation/studies/fed-slope.toml")).expect("TOML");
     let density = GLASS_BEADS.solid_fraction * GLASS_BEADS.law.grain_density;
     let variants = study["variants"].as_array().expect("variants");
-    assert_eq!(variants.len(), 4);
+    assert_eq!(variants.len(), 7);
     for variant in variants {
         let (name, set) = (variant["name"].as_str().expect("a name"), &variant["set"]);
         let only = format!("variant={name}");
@@ -110,28 +109,64 @@ fn references_of_the_fed_slope_are_those_of_its_front() {
         let gravity: [f64; 2] = numbers(&set["gravity"]).try_into().expect("two numbers");
         let rate = number(&set["inlets"][0]["rates"][0][1]);
         let front = TravellingFront::of(gravity, rate / density);
-        // the surface of the uppermost slice, from the tip backwards
-        let surface: Vec<Vec<f64>> =
-            set["bodies"][3]["points"].as_array().expect("points").iter().map(numbers).collect();
-        let half = 0.5 * front.thickness;
-        let pair =
-            surface.windows(2).find(|pair| pair[0][1] < half && pair[1][1] >= half).expect("half of the thickness");
-        let start = pair[0][0] + (pair[1][0] - pair[0][0]) * (half - pair[0][1]) / (pair[1][1] - pair[0][1]);
         let station = numbers(&set["gauges"][1]["at"])[0];
-        let mean =
-            |check: &toml::Value| front.mean_thickness(start - station, number(&check["from"]), number(&check["to"]));
-        let at_thickness = check("flux_at_thickness");
-        let middle = 0.5 * (number(&at_thickness["from"]) + number(&at_thickness["to"]));
-        for (wanted, expected) in [
-            ("uniform_layer", front.thickness),
+        // where the front is while a check counts: given by the check, or by the start and the time
+        let beyond = |check: &toml::Value| {
+            let window = [number(&check["from"]), number(&check["to"])];
+            if check.get("over").is_some() {
+                return window.map(|front| front - station);
+            }
+            // the surface of the uppermost slice, from the tip backwards
+            let surface: Vec<Vec<f64>> =
+                set["bodies"][3]["points"].as_array().expect("points").iter().map(numbers).collect();
+            let half = 0.5 * front.thickness;
+            let pair =
+                surface.windows(2).find(|pair| pair[0][1] < half && pair[1][1] >= half).expect("half of the thickness");
+            let start = pair[0][0] + (pair[1][0] - pair[0][0]) * (half - pair[0][1]) / (pair[1][1] - pair[0][1]);
+            window.map(|time| start - station + front.velocity * time)
+        };
+        let mean = |check: &toml::Value| {
+            let [from, to] = beyond(check);
+            front.mean_thickness(from, to)
+        };
+        let mut references = vec![
             ("front_speed", front.velocity),
-            ("flux_at_thickness", density * front.velocity * middle),
             ("thickness_behind_front", mean(check("thickness_behind_front"))),
-            ("thickness_near_front", mean(check("thickness_near_front"))),
             ("flux_behind_front", density * front.velocity * mean(check("flux_behind_front"))),
-        ] {
+        ];
+        if name.starts_with("slope") {
+            let at_thickness = check("flux_at_thickness");
+            let middle = 0.5 * (number(&at_thickness["from"]) + number(&at_thickness["to"]));
+            references.push(("flux_at_thickness", density * front.velocity * middle));
+            references.push(("thickness_near_front", mean(check("thickness_near_front"))));
+        }
+        for (wanted, expected) in references {
             let reference = number(&check(wanted)["reference"]);
             assert!((reference / expected - 1.0).abs() < 0.01, "{name} {wanted}: {reference} instead of {expected}");
         }
+    }
+}
+
+/// Curves of the figure over the slope: the uniform layer of the local law, and h_stop of experiments.
+#[test]
+fn curves_of_the_fed_slope_are_those_of_their_formulas() {
+    let study: toml::Value = toml::from_str(&text("validation/studies/fed-slope.toml")).expect("TOML");
+    let density = GLASS_BEADS.solid_fraction * GLASS_BEADS.law.grain_density;
+    let law = GLASS_BEADS.law;
+    let length = GLASS_BEADS_FLOW_RULE.deposit_length * law.grain_diameter;
+    let curve = |label: &str| -> Vec<Vec<f64>> {
+        let series = study["figures"][0]["series"].as_array().expect("series");
+        let own = series.iter().find(|own| own.get("reference").and_then(toml::Value::as_str) == Some(label));
+        own.expect("a series")["curve"].as_array().expect("points").iter().map(numbers).collect()
+    };
+    for point in curve("uniform layer of the local law") {
+        let (sine, cosine) = point[0].to_radians().sin_cos();
+        let layer = TravellingFront::of([9.81 * sine, -9.81 * cosine], 2.475 / density).thickness;
+        assert!((point[1] / layer - 1.0).abs() < 0.002, "{point:?}: {layer}");
+    }
+    for point in curve("h_stop of experiments") {
+        let slope = point[0].to_radians().tan();
+        let stop = length * (law.limiting_friction - slope) / (slope - law.static_friction);
+        assert!((point[1] / stop - 1.0).abs() < 0.002, "{point:?}: {stop}");
     }
 }

@@ -32,12 +32,16 @@ pub(super) struct FigureText {
     pub(super) series: Vec<SeriesText>,
 }
 
-/// Content of a figure: the values of a check, or their reference.
+/// Content of a figure: the values of a check, or their reference, or a curve of one's own.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SeriesText {
-    /// Name of the check.
-    pub(super) check: String,
+    /// Name of the check; left out beside `curve`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) check: Option<String>,
+    /// Points of a curve that `reference` labels, as [x, y].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) curve: Vec<[f64; 2]>,
     /// Label of the check's values in the legend; without one they are not drawn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) simulated: Option<String>,
@@ -108,12 +112,22 @@ impl FigureText {
         }
         for (place, series) in self.series.iter().enumerate() {
             let field = format!("series[{place}]");
-            if !study.checks.contains(&series.check.as_str()) {
+            if let Some(check) = series.check.as_ref().filter(|check| !study.checks.contains(&check.as_str())) {
                 let field = format!("{field}.check");
                 let rule = "the name of one of [[checks]]";
-                return Err(FieldError::new(&field, format!("\"{}\"", series.check), rule, "take its name from there"));
+                return Err(FieldError::new(&field, format!("\"{check}\""), rule, "take its name from there"));
             }
-            if series.simulated.is_none() && series.reference.is_none() {
+            if series.check.is_some() != series.curve.is_empty() {
+                let value = if series.check.is_some() { "both" } else { "neither" };
+                let remedy = "name a check, or give points such as curve = [[22.0, 0.016], [25.0, 0.0085]]";
+                return Err(FieldError::new(&field, value, "exactly one of `check` and `curve`", remedy));
+            }
+            if let Some(point) = series.curve.iter().find(|point| !point.iter().all(|number| number.is_finite())) {
+                let field = format!("{field}.curve");
+                return Err(FieldError::new(&field, format!("{point:?}"), "finite", "give x and y as numbers"));
+            }
+            let has_values = series.simulated.is_some() && series.curve.is_empty();
+            if !has_values && series.reference.is_none() {
                 let rule = "at least one of `simulated` and `reference`";
                 return Err(FieldError::new(&field, "neither", rule, "give the label of what is to be drawn"));
             }
@@ -129,16 +143,22 @@ impl FigureText {
         let y = if self.logarithmic { Axis::logarithmic(&self.y) } else { Axis::linear(&self.y) };
         let mut panel = Panel::new("", Axis::linear(&self.x), y);
         for (slot, series) in self.series.iter().enumerate() {
+            // a logarithmic axis has no place for what is not positive
+            let is_drawn = |value: f64| value.is_finite() && (!self.logarithmic || value > 0.0);
+            let Some(check) = &series.check else {
+                let label = series.reference.as_deref().unwrap_or_default();
+                let points = series.curve.iter().map(|&[x, y]| (x, y)).filter(|point| is_drawn(point.1));
+                panel.draw(label, Mark::Line, slot, points);
+                continue;
+            };
             let only = series.only.clone().unwrap_or_default();
-            let is_meant = |metric: &&Metric| metric.name == series.check && metric.variant.includes(&only);
+            let is_meant = |metric: &&Metric| metric.name == *check && metric.variant.includes(&only);
             let mut found: Vec<(f64, &Metric)> = metrics
                 .iter()
                 .filter(is_meant)
                 .filter_map(|metric| self.place(&metric.variant).map(|place| (place, metric)))
                 .collect();
             found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-            // a logarithmic axis has no place for what is not positive
-            let is_drawn = |value: f64| value.is_finite() && (!self.logarithmic || value > 0.0);
             if let Some(label) = &series.reference {
                 let known = |(place, metric): &(f64, &Metric)| Some((*place, metric.reference.as_ref()?.value?));
                 let points: Vec<_> = found.iter().filter_map(known).filter(|point| is_drawn(point.1)).collect();
@@ -220,6 +240,20 @@ mod tests {
             .exactly(2.0, "a flume")
             .known_to(Origin::Experiment, Some(0.25), "a flume");
         assert_eq!(drawn.draw(&[metric]).panels[0].bands[0].points, [(25.0, 1.75, 2.25)]);
+    }
+
+    #[test]
+    fn a_curve_needs_no_check() {
+        let drawn = figure(
+            "name = \"a\"\ncaption = \"A.\"\nx = \"θ [°]\"\ny = \"h [m]\"\nat = { steep = 25.0 }\n\
+             [[series]]\ncurve = [[22.0, 0.016], [25.0, 0.0085]]\nreference = \"uniform layer\"\n",
+        );
+        let names = NamesOfStudy { variants: vec!["steep"], varied_numbers: Vec::new(), checks: Vec::new() };
+        assert_eq!(drawn.check(&names), Ok(()));
+        assert_eq!(drawn.draw(&[]).panels[0].series[0].points, [(22.0, 0.016), (25.0, 0.0085)]);
+        let mut without = drawn;
+        without.series[0].curve.clear();
+        assert!(without.check(&names).expect_err("refused").to_string().contains("exactly one of `check` and `curve`"));
     }
 
     #[test]
