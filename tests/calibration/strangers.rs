@@ -7,7 +7,7 @@
 use super::coverage::{Problem, normal, usual};
 use super::two_valleys::study_seed;
 use bagnold_inference::inference::{
-    Answer, ProfileLikelihood, Termination, chi_squared, chi_squared_quantile, solve,
+    Answer, Termination, chi_squared, chi_squared_quantile, solve,
 };
 use bagnold_reference::film::{HerschelBulkleyFilm, Incline};
 use rand::{RngExt, SeedableRng};
@@ -220,11 +220,6 @@ fn runs(marks: &[bool], gap: usize, at: impl Fn(usize) -> f64) -> Vec<[f64; 2]> 
     runs.into_iter().map(|run| run.map(&at)).collect()
 }
 
-/// Intervals of a profile.
-fn intervals(profile: &ProfileLikelihood) -> Vec<[f64; 2]> {
-    vec![profile.interval]
-}
-
 fn width(intervals: &[[f64; 2]]) -> f64 {
     intervals.iter().map(|[from, to]| to - from).sum()
 }
@@ -247,8 +242,9 @@ struct Tally {
     excluded: usize,
     /// Best points whose χ² lies notably above the least of the grid.
     elsewhere: usize,
-    /// Exact single intervals that consist of several.
+    /// Exact single intervals that consist of several, and those a part of which no interval meets.
     unions: usize,
+    missed: usize,
     widths: Vec<f64>,
     evaluations: Vec<usize>,
 }
@@ -263,12 +259,14 @@ impl Tally {
         let mut line = format!("seed {seed}: rise of the truth {rise:.2}, best {:+.3};", answer.search.chi_squared - least);
         let mut excluded = false;
         for (k, exact) in exact.iter().enumerate() {
-            let found = intervals(&explored.region.profiles[k]);
+            let found = explored.region.profiles[k].intervals(k);
             let held = holds(&found, film.truth[k]);
             self.single[k] += usize::from(held);
             self.exact[k] += usize::from(holds(exact, film.truth[k]));
             excluded |= !held && rise < explored.region.limit;
             self.unions += usize::from(exact.len() > 1);
+            let meets = |part: &[f64; 2]| found.iter().any(|[from, to]| *from <= part[1] && part[0] <= *to);
+            self.missed += usize::from(!exact.iter().all(meets));
             self.widths.push(width(&found) / width(exact).max(1e-3) / explored.region.inflation);
             line += &format!(" {found:.3?} of {exact:.3?}{}", if held { "" } else { " MISSED" });
         }
@@ -320,11 +318,11 @@ impl Tally {
     }
 
     fn print(&self) {
-        let Self { films, joint, single, exact, settled, spent, excluded, elsewhere, unions, evaluations, .. } = self;
+        let Self { films, joint, single, exact, settled, spent, excluded, elsewhere, unions, missed, evaluations, .. } = self;
         let (middle, sum) = (evaluations[evaluations.len() / 2], evaluations.iter().sum::<usize>());
         println!(
             "of {films}: joint {joint}, single {single:?} (exact {exact:?}), settled {settled}, budget spent {spent}, truths \
-             excluded {excluded}, best elsewhere {elsewhere}, exact unions {unions}, median width {:.3}; evaluations median \
+             excluded {excluded}, best elsewhere {elsewhere}, exact unions {unions}, parts missed {missed}, median width {:.3}; evaluations median \
              {middle}, sum {sum}",
             self.width()
         );
