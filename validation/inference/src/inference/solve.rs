@@ -2,11 +2,12 @@
 
 use super::emulator::Minimum;
 use super::ends::TOLERANCE;
-use super::explore::{Explored, explore};
+use super::explore::{Explored, FAR, explore};
 use super::region::{Uncertainties, chi_squared_tail};
 use super::scatter::{Repeatability, averaged};
 use super::search::{
-    Budget, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search, search_design,
+    Budget, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search, search_beside,
+    search_design,
 };
 use super::serial_correlation::{SerialCorrelation, serial_correlation};
 use super::{Evaluate, Evaluated};
@@ -65,9 +66,9 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         search_design(model, &plan.design, budget)?
     };
     let searched = found.history.len();
-    let (mut restarts, mut continued, mut correlation) = (0, false, None);
+    let (mut restarts, mut continued, mut beside, mut spent, mut correlation) = (0, false, 0, 0, None);
     loop {
-        let budget = Budget { evaluations: plan.region_evaluations, ..usual };
+        let budget = Budget { evaluations: plan.region_evaluations.saturating_sub(spent), ..usual };
         let uncertainties = uncertainties(&found, correlation);
         let explored = explore(model, found.history.clone(), uncertainties, &budget).map_err(SearchError::Model)?;
         let Some(explored) = explored else {
@@ -76,21 +77,36 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         let lowest = explored.region.minimum.clone();
         if explored.lower && restarts < MOST_RESTARTS {
             restarts += 1;
+            spent = 0;
             found = again(model, found, explored.history, &lowest, usual)?;
             continue;
         }
         // what the region has left over is for a search that was cut short: the region's points may have brought it home
-        let left = (found.history.len() + plan.region_evaluations).saturating_sub(explored.history.len());
+        let left = (found.history.len() + budget.evaluations).saturating_sub(explored.history.len());
         if found.stopped == Termination::BudgetSpent && left > 0 && !continued {
             continued = true;
             found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..usual })?;
             continue;
+        }
+        // what the region has taught may promise minima that the search has not seen
+        if left > 0 && beside < MOST_RESTARTS {
+            beside += 1;
+            spent += explored.history.len() - found.history.len();
+            let worst = lowest.chi_squared + explored.region.threshold;
+            let places = explored.emulator.below(lowest.chi_squared + FAR * explored.region.threshold);
+            let before = SearchResult { history: explored.history.clone(), ..found };
+            found = search_beside(model, before, &places, worst, &Budget { evaluations: left, ..usual })?;
+            if found.history.len() > explored.history.len() {
+                spent += found.history.len() - explored.history.len();
+                continue;
+            }
         }
         if correlation.is_none() {
             correlation = correlated(&plan.series, &explored);
             if correlation.is_some() {
                 // the wider region is explored with what is known of the narrower one
                 found.history = explored.history;
+                spent = 0;
                 continue;
             }
         }

@@ -241,6 +241,27 @@ pub fn continue_search<M: Evaluate>(
     recorder.finish(outcome, minima, every_start)
 }
 
+/// Descends to minima beside known ones that the emulator of all evaluations promises downhill of some places, with a χ² up to
+/// `worst`; evaluates at most the budget's number of further points.
+///
+/// # Errors
+/// An error of the model itself.
+pub(super) fn search_beside<M: Evaluate>(
+    model: &mut M,
+    before: SearchResult,
+    places: &[Vec<f64>],
+    worst: f64,
+    budget: &Budget,
+) -> Result<SearchResult, SearchError<M::Error>> {
+    let most = before.history.len() + budget.evaluations;
+    let mut recorder = Recorder::with(model, before.history, most);
+    let mut minima = before.minima;
+    match starts::descend_from(&mut recorder, &mut minima, budget, places, &[], worst) {
+        Ok(_) => recorder.finish(Ok(before.stopped), minima, before.every_start),
+        Err(halt) => recorder.finish(Err(halt), minima, before.every_start),
+    }
+}
+
 /// Descends on from the best point, whose minimum takes the place of those near it.
 fn descend_on<M: Evaluate>(
     recorder: &mut Recorder<'_, M>,
