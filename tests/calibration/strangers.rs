@@ -272,9 +272,12 @@ impl Tally {
         }
         let spent = answer.search.stopped == Termination::BudgetSpent;
         line += &format!(
-            "; {} minima, settled {}, factor {:.2}, {} evaluations{}{}",
+            "; {} minima, settled {} (ends {:?}, joint {}), searched {}, factor {:.2}, {} evaluations{}{}",
             answer.search.minima.len(),
             explored.is_settled(),
+            explored.ends.iter().flatten().map(|end| u8::from(end.settled)).collect::<Vec<_>>(),
+            explored.joint_settled,
+            answer.searched,
             explored.region.inflation,
             answer.search.history.len(),
             if spent { ", budget spent" } else { "" },
@@ -336,4 +339,11 @@ fn intervals_of_forty_strange_films_hold_the_truth() {
     let tally = Tally::of(seed..seed + 40);
     assert!(tally.joint >= 36 && tally.single.iter().all(|held| *held >= 35), "{tally:?}");
     assert!(tally.width() <= 1.15 && tally.spent <= 4 && tally.excluded == 0, "{tally:?}");
+}
+
+#[test]
+#[ignore = "debug"]
+fn one_film() {
+    let seed = study_seed();
+    Tally::of(seed..seed + 1);
 }

@@ -18,6 +18,9 @@ const MOST_ROUNDS: usize = 40;
 /// Points whose χ² rises by more than this many times the threshold say little about the region.
 pub(super) const FAR: f64 = 25.0;
 
+/// Points on other branches that are tried for each parameter, though an emulator that is not at home there may promise many.
+const PROMISES: usize = 1;
+
 /// Shares of the threshold at which the joint region is checked, inside and outside.
 const EDGE: [f64; 2] = [0.8, 1.25];
 
@@ -73,6 +76,7 @@ pub fn explore<M: Evaluate>(
     // with one parameter the joint region is its interval
     let mut checks: Vec<RegionCheck> =
         if dimensions > 1 { (0..dimensions).flat_map(senses).collect() } else { Vec::new() };
+    let mut promises = PROMISES * dimensions;
     for round in 0.. {
         let Some((emulator, region)) = mapped(&history, searched, uncertainties, budget) else { return Ok(None) };
         let negligible = budget.negligible(first.chi_squared, emulator.data());
@@ -86,20 +90,22 @@ pub fn explore<M: Evaluate>(
         };
         let at_ends: Vec<Vec<f64>> = open.iter().map(|side| sides[*side].propose(&region, &history)).collect();
         let at_edge: Vec<Vec<f64>> = of_edge.iter().map(|check| edge(&region, &checks[*check])).collect();
-        let elsewhere = if open.is_empty() { branches(&region, &history) } else { Vec::new() };
+        let edges = if open.is_empty() { edges_of_gaps(&region, &history) } else { Vec::new() };
+        let leads = if open.is_empty() && promises > 0 { leads(&region, &history) } else { Vec::new() };
+        promises = promises.saturating_sub(leads.len());
         // where the emulator promises something lower, the model is asked
         let bottom = Some(emulator.minimum())
             .filter(|bottom| region.minimum.chi_squared - bottom.chi_squared > negligible)
             .map(|bottom| bottom.point);
         let mut fresh: Vec<Vec<f64>> = Vec::new();
-        for point in at_ends.iter().chain(&at_edge).chain(&elsewhere).chain(&bottom) {
+        for point in at_ends.iter().chain(&at_edge).chain(&edges).chain(&leads).chain(&bottom) {
             if place_of(&history, point).is_none() && !fresh.contains(point) {
                 fresh.push(point.clone());
             }
         }
         fresh.truncate(most.saturating_sub(history.len()));
         if lower || fresh.is_empty() || round == MOST_ROUNDS {
-            let joint_settled = open.is_empty() && of_edge.is_empty() && elsewhere.is_empty();
+            let joint_settled = open.is_empty() && of_edge.is_empty() && edges.is_empty() && leads.is_empty();
             return Ok(Some(finished(emulator, region, &ends, joint_settled, history, lower)));
         }
         evaluate(model, &mut history, fresh)?;
@@ -161,16 +167,19 @@ fn mapped(
     Some((local, region))
 }
 
-/// Points that would tell whether other values of a parameter agree too: on branches that the emulator promises, and at edges
-/// of gaps that no run confirms.
-fn branches(region: &Region, history: &[Evaluated]) -> Vec<Vec<f64>> {
-    let mut points = Vec::new();
-    for (k, profile) in region.profiles.iter().enumerate() {
+/// Edges of gaps that no run confirms.
+fn edges_of_gaps(region: &Region, history: &[Evaluated]) -> Vec<Vec<f64>> {
+    let of_parameter = |(k, profile): (usize, &ProfileLikelihood)| {
         let edges = profile.gaps.iter().flatten();
-        points.extend(edges.filter(|edge| !is_confirmed(region, history, k, edge)).cloned());
-        points.extend(region.lead(k).filter(|lead| !is_refuted(region, history, lead)));
-    }
-    points
+        edges.filter(|edge| !is_confirmed(region, history, k, edge)).cloned().collect::<Vec<_>>()
+    };
+    region.profiles.iter().enumerate().flat_map(of_parameter).collect()
+}
+
+/// Points on other branches that the emulator promises and no run refutes.
+fn leads(region: &Region, history: &[Evaluated]) -> Vec<Vec<f64>> {
+    let leads = (0..region.profiles.len()).filter_map(|k| region.lead(k));
+    leads.filter(|lead| !is_refuted(region, history, lead)).collect()
 }
 
 /// Whether a run confirms the edge of a gap.

@@ -91,13 +91,14 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         // what the region has taught may promise minima that the search has not seen
         if left > 0 && beside < MOST_RESTARTS {
             beside += 1;
-            spent += explored.history.len() - found.history.len();
+            let known = found.minima.len();
             let worst = lowest.chi_squared + explored.region.threshold;
             let places = explored.emulator.below(lowest.chi_squared + FAR * explored.region.threshold);
             let before = SearchResult { history: explored.history.clone(), ..found };
             found = search_beside(model, before, &places, worst, &Budget { evaluations: left, ..usual })?;
             if found.history.len() > explored.history.len() {
-                spent += found.history.len() - explored.history.len();
+                // another minimum has a region of its own
+                spent = if found.minima.len() > known { 0 } else { budget.evaluations - left };
                 continue;
             }
         }
