@@ -144,6 +144,25 @@ pub struct SearchResult {
     pub every_start: bool,
 }
 
+/// Distance along every axis of the unit cube up to which a run covers it, and points at which that is tested.
+const COVERED: f64 = 0.25;
+const COVERAGE_POINTS: usize = 1024;
+
+impl SearchResult {
+    /// Share of the unit cube that lies near a point at which the model worked `[-]`: minima elsewhere may be unknown.
+    #[must_use]
+    pub fn covered(&self) -> f64 {
+        let near = |place: &&Vec<f64>| {
+            let worked = self.history.iter().filter(|evaluated| evaluated.chi_squared.is_some());
+            worked.map(|evaluated| &evaluated.point).any(|point| {
+                point.iter().zip(place.iter()).all(|(a, b)| (a - b).abs() <= COVERED)
+            })
+        };
+        let places = crate::sampling::design::sobol(COVERAGE_POINTS, self.best.len(), 1);
+        places.iter().filter(near).count() as f64 / COVERAGE_POINTS as f64
+    }
+}
+
 /// Error of a search that has found nothing. Completes "failed to search: …".
 #[derive(Debug, thiserror::Error)]
 pub enum SearchError<E> {
