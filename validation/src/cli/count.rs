@@ -97,14 +97,23 @@ mod tests {
     #[test]
     fn earlier_work_does_not_count_for_the_rate() {
         let begin = Instant::now();
-        let counted = |done| Counted { what: "runs".to_owned(), doing: "a".to_owned(), all: 4, done, usual: 0, before: 2, begin };
+        let counted =
+            |done| Counted { what: "runs".to_owned(), doing: "a".to_owned(), all: 4, done, usual: 0, before: 2, begin };
         assert_eq!(counted(2).text(), "2/4 runs  time left not known yet  a");
     }
 
     #[test]
     fn work_that_is_queued_step_by_step_counts_as_the_usual_number() {
         let begin = Instant::now();
-        let counted = |all, done| Counted { what: "runs".to_owned(), doing: "a".to_owned(), all, done, usual: 20, before: 0, begin };
+        let counted = |all, done| Counted {
+            what: "runs".to_owned(),
+            doing: "a".to_owned(),
+            all,
+            done,
+            usual: 20,
+            before: 0,
+            begin,
+        };
         assert!(counted(4, 2).text().starts_with("2/about 20 runs"), "{}", counted(4, 2).text());
         assert_eq!([counted(4, 4), counted(22, 20), counted(30, 24)].map(|count| count.expected()), [20, 22, 30]);
     }

@@ -208,7 +208,8 @@ fn finished(
     lower: bool,
 ) -> Explored {
     let ends: Vec<[IntervalEnd; 2]> = ends.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect();
-    let confirmed = |which: usize, gap: &[Vec<f64>; 2]| gap.iter().all(|edge| is_confirmed(&region, &history, which, edge));
+    let confirmed =
+        |which: usize, gap: &[Vec<f64>; 2]| gap.iter().all(|edge| is_confirmed(&region, &history, which, edge));
     let confirmed_of = |(k, profile): (usize, &ProfileLikelihood)| {
         profile.gaps.iter().filter(|gap| confirmed(k, gap)).cloned().collect::<Vec<_>>()
     };

@@ -66,23 +66,22 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         search_design(model, &plan.design, budget)?
     };
     let searched = found.history.len();
-    let (mut restarts, mut continued, mut beside, mut spent, mut correlation) = (0, false, 0, 0, None);
+    let (mut restarts, mut continued, mut beside, mut correlation) = (0, false, 0, None);
     loop {
-        let budget = Budget { evaluations: plan.region_evaluations.saturating_sub(spent), ..usual };
+        let budget = Budget { evaluations: plan.region_evaluations, ..usual };
         let uncertainties = uncertainties(&found, correlation);
         let explored = explore(model, found.history.clone(), uncertainties, &budget).map_err(SearchError::Model)?;
-        let Some(explored) = explored else {
+        let Some(mut explored) = explored else {
             return Ok(Answer { search: found, searched, explored: None, restarts, correlation });
         };
         let lowest = explored.region.minimum.clone();
         if explored.lower && restarts < MOST_RESTARTS {
             restarts += 1;
-            spent = 0;
             found = again(model, found, explored.history, &lowest, usual)?;
             continue;
         }
         // what the region has left over is for a search that was cut short: the region's points may have brought it home
-        let left = (found.history.len() + budget.evaluations).saturating_sub(explored.history.len());
+        let left = (found.history.len() + plan.region_evaluations).saturating_sub(explored.history.len());
         if found.stopped == Termination::BudgetSpent && left > 0 && !continued {
             continued = true;
             found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..usual })?;
@@ -96,18 +95,17 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
             let places = explored.emulator.below(lowest.chi_squared + FAR * explored.region.threshold);
             let before = SearchResult { history: explored.history.clone(), ..found };
             found = search_beside(model, before, &places, worst, &Budget { evaluations: left, ..usual })?;
-            if found.history.len() > explored.history.len() {
+            if found.minima.len() > known || found.chi_squared < lowest.chi_squared {
                 // another minimum has a region of its own
-                spent = if found.minima.len() > known { 0 } else { budget.evaluations - left };
                 continue;
             }
+            explored.history.clone_from(&found.history);
         }
         if correlation.is_none() {
             correlation = correlated(&plan.series, &explored);
             if correlation.is_some() {
                 // the wider region is explored with what is known of the narrower one
                 found.history = explored.history;
-                spent = 0;
                 continue;
             }
         }

@@ -175,7 +175,8 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
 /// HTML of a sentence whose backticks mark names.
 fn with_code(sentence: &str) -> String {
     let escaped = sentence.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-    let marked = |(place, part): (usize, &str)| if place % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() };
+    let marked =
+        |(place, part): (usize, &str)| if place % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() };
     escaped.split('`').enumerate().map(marked).collect()
 }
 
@@ -183,9 +184,8 @@ fn render(outcome: &CalibrationResult, pictures: Vec<PageFigure>) -> Result<Stri
     let parameter = |found: &ParameterEstimate| {
         let interval = found.interval.map_or_else(|| "–".to_owned(), |_| found.intervals_in_words(four_digits));
         let bounds = format!("{} … {}", four_digits(found.bounds.0), four_digits(found.bounds.1));
-        let truth = found.truth.map(|truth| {
-            format!("{} ({:+.2} %)", four_digits(truth), 100.0 * (found.best / truth - 1.0))
-        });
+        let truth =
+            found.truth.map(|truth| format!("{} ({:+.2} %)", four_digits(truth), 100.0 * (found.best / truth - 1.0)));
         vec![
             found.name.clone(),
             found.unit.clone(),

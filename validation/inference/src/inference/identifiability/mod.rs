@@ -276,7 +276,8 @@ mod tests {
             all[1],
             "the data do not determine `viscosity`: any value from 0.5 to 2.5 Pa·s agrees with them at 95 %"
         );
-        let Some(FindingKind::WeakDirection { free, fixed, reach, .. }) = found.last().map(|finding| &finding.kind) else {
+        let Some(FindingKind::WeakDirection { free, fixed, reach, .. }) = found.last().map(|finding| &finding.kind)
+        else {
             panic!("{all:?}")
         };
         assert!(found.iter().any(|finding| matches!(

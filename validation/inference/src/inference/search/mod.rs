@@ -154,9 +154,9 @@ impl SearchResult {
     pub fn covered(&self) -> f64 {
         let near = |place: &&Vec<f64>| {
             let worked = self.history.iter().filter(|evaluated| evaluated.chi_squared.is_some());
-            worked.map(|evaluated| &evaluated.point).any(|point| {
-                point.iter().zip(place.iter()).all(|(a, b)| (a - b).abs() <= COVERED)
-            })
+            worked
+                .map(|evaluated| &evaluated.point)
+                .any(|point| point.iter().zip(place.iter()).all(|(a, b)| (a - b).abs() <= COVERED))
         };
         let places = crate::sampling::design::sobol(COVERAGE_POINTS, self.best.len(), 1);
         places.iter().filter(near).count() as f64 / COVERAGE_POINTS as f64
