@@ -5,7 +5,7 @@ use bagnold_harness::case::Limits;
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_reference::film::{HerschelBulkleyFilm, Incline};
 use bagnold_tools::calibration::{
-    CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate,
+    CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, calibrate, write,
 };
 use bagnold_validation::REGISTRY;
 use std::fmt::Write;
@@ -130,4 +130,57 @@ fn data_far_from_all_others_are_named() {
     });
     assert_told(&findings, &["u [m/s] at 3.5714e-3", "an outlier"]);
     assert_told(&findings, &["u [m/s] at 7.1429e-3", "an outlier"]);
+}
+
+/// The numbers after "`name` = " in a sentence.
+fn values_in(sentence: &str, name: &str) -> Vec<f64> {
+    let before = format!("`{name}` = ");
+    let places = sentence.split(&before).skip(1);
+    places.filter_map(|rest| rest.split([' ', ',']).next()?.parse().ok()).collect()
+}
+
+/// Nothing on the page goes beyond the intervals in its table, and these are as wide as the sampled region.
+#[test]
+fn intervals_on_the_page_are_those_of_the_sampled_region() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let data = format!("data = [{{ {PROFILE}, noise = 0.1, bins = 9 }}]");
+    let outcome = outcome(folder.path(), &format!("title = \"a film\"\n{VISCOSITY}{DENSITY}{FILM}{data}\n"));
+    let mut told = 0;
+    for (k, parameter) in outcome.parameters.iter().enumerate() {
+        let (lower, upper) = parameter.bounds;
+        let inside = |value: f64, share: f64| {
+            let room = (upper / lower).powf(share);
+            parameter.intervals().iter().any(|(from, to)| value >= from / room && value <= to * room)
+        };
+        let sampled: Vec<f64> = outcome.region.iter().map(|point| point[k]).collect();
+        assert!(sampled.iter().all(|value| inside(*value, 0.05)), "{parameter:?} {sampled:?}");
+        let ends = parameter.interval.expect("points enough");
+        for end in [ends.0, ends.1] {
+            let near = |value: &f64| (value / end).ln().abs() < 0.05 * (upper / lower).ln();
+            assert!(sampled.iter().any(near), "no sample is near the end {end} of {}: {sampled:?}", parameter.name);
+        }
+        for finding in &outcome.findings {
+            // numbers in sentences have three digits
+            for value in values_in(finding, &parameter.name) {
+                told += 1;
+                assert!(inside(value, 0.003), "{finding} {:?}", parameter.intervals());
+            }
+        }
+    }
+    assert!(told >= 2, "{:?}", outcome.findings);
+    write(&outcome, folder.path()).expect("a folder to write in");
+    let page = std::fs::read_to_string(folder.path().join("index.html")).expect("written");
+    // what is constrained least comes first, with the interval of the result
+    let mut rows: Vec<_> = outcome.parameters.iter().collect();
+    rows.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    let mut rest = page.as_str();
+    for parameter in rows {
+        rest = rest.split_once(&format!("<tr><td><b>{}</b></td>", parameter.name)).expect("a row").1;
+        let numbers: Vec<f64> = rest.split(['>', ' ', '<']).filter_map(|word| word.parse().ok()).take(3).collect();
+        let (from, to) = parameter.interval.expect("points enough");
+        for (written, exact) in numbers.iter().zip([parameter.best, from, to]) {
+            assert!((written / exact - 1.0).abs() < 1e-3, "{numbers:?} {parameter:?}");
+        }
+    }
+    assert!(!page.contains('`') && !page.contains("≠ open") && page.contains("figures/pairs."), "{page}");
 }

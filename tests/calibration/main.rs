@@ -10,3 +10,5 @@ mod layer;
 mod minima;
 mod scattering;
 mod simulated;
+mod strangers;
+mod two_valleys;

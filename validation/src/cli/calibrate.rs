@@ -47,6 +47,7 @@ pub(super) fn run(
         }
     }
     let bar = EvaluationBar(CountBar::new("evaluations", 0, 0, quiet));
+    bar.0.plan(plan.usual_evaluations());
     let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
     bar.0.clear();
     let outcome = outcome?;
@@ -80,17 +81,8 @@ fn cost_in_words(cost: &EvaluationCost, limit: f64) -> String {
 fn text(outcome: &CalibrationResult) -> String {
     let mut text = String::new();
     for found in &outcome.parameters {
-        let interval = found.interval.map_or_else(String::new, |(low, high)| {
-            let end = |open: bool| if open { " (bound)" } else { "" };
-            format!(
-                "  95 %: {}{} … {}{}{}",
-                aligned_digits(low),
-                end(found.open.0),
-                aligned_digits(high),
-                end(found.open.1),
-                if found.settled == (true, true) { "" } else { " (not settled)" }
-            )
-        });
+        let words = || format!("  95 %: {}", found.intervals_in_words(aligned_digits));
+        let interval = found.interval.map_or_else(String::new, |_| words());
         let unit = if found.unit == "-" { "" } else { &found.unit };
         text += &format!("{} = {} {unit}{interval}\n", found.name, aligned_digits(found.best));
     }

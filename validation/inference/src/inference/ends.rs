@@ -11,7 +11,7 @@ use super::region::Region;
 pub const TOLERANCE: f64 = 0.1;
 
 /// Distance, as a share of that between best point and end, within which two values are one.
-const CLOSE: f64 = 0.03;
+pub(super) const CLOSE: f64 = 0.03;
 
 /// Miss of a promised rise, as a share of the limit, up to which the emulator is trusted.
 const FAIR: f64 = 0.3;

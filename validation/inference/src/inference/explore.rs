@@ -6,7 +6,8 @@
 //! its principal axes. Whoever finds a lower point on the way ends the exploration: the search is to resume from there.
 
 use super::emulator::{Degree, Emulator, Minimum};
-use super::ends::{IntervalEnd, IntervalSide};
+use super::ends::{CLOSE, IntervalEnd, IntervalSide, TOLERANCE};
+use super::profile::ProfileLikelihood;
 use super::region::{Region, Uncertainties};
 use super::{Budget, Evaluate, Evaluated};
 use nalgebra::SymmetricEigen;
@@ -16,6 +17,9 @@ const MOST_ROUNDS: usize = 40;
 
 /// Points whose χ² rises by more than this many times the threshold say little about the region.
 pub(super) const FAR: f64 = 25.0;
+
+/// Points on other branches that are tried for each parameter, though an emulator that is not at home there may promise many.
+const PROMISES: usize = 1;
 
 /// Shares of the threshold at which the joint region is checked, inside and outside.
 const EDGE: [f64; 2] = [0.8, 1.25];
@@ -72,6 +76,7 @@ pub fn explore<M: Evaluate>(
     // with one parameter the joint region is its interval
     let mut checks: Vec<RegionCheck> =
         if dimensions > 1 { (0..dimensions).flat_map(senses).collect() } else { Vec::new() };
+    let mut promises = PROMISES * dimensions;
     for round in 0.. {
         let Some((emulator, region)) = mapped(&history, searched, uncertainties, budget) else { return Ok(None) };
         let negligible = budget.negligible(first.chi_squared, emulator.data());
@@ -85,19 +90,22 @@ pub fn explore<M: Evaluate>(
         };
         let at_ends: Vec<Vec<f64>> = open.iter().map(|side| sides[*side].propose(&region, &history)).collect();
         let at_edge: Vec<Vec<f64>> = of_edge.iter().map(|check| edge(&region, &checks[*check])).collect();
+        let edges = if open.is_empty() { edges_of_gaps(&region, &history) } else { Vec::new() };
+        let leads = if open.is_empty() && promises > 0 { leads(&region, &history) } else { Vec::new() };
+        promises = promises.saturating_sub(leads.len());
         // where the emulator promises something lower, the model is asked
         let bottom = Some(emulator.minimum())
             .filter(|bottom| region.minimum.chi_squared - bottom.chi_squared > negligible)
             .map(|bottom| bottom.point);
         let mut fresh: Vec<Vec<f64>> = Vec::new();
-        for point in at_ends.iter().chain(&at_edge).chain(&bottom) {
+        for point in at_ends.iter().chain(&at_edge).chain(&edges).chain(&leads).chain(&bottom) {
             if place_of(&history, point).is_none() && !fresh.contains(point) {
                 fresh.push(point.clone());
             }
         }
         fresh.truncate(most.saturating_sub(history.len()));
         if lower || fresh.is_empty() || round == MOST_ROUNDS {
-            let joint_settled = open.is_empty() && of_edge.is_empty();
+            let joint_settled = open.is_empty() && of_edge.is_empty() && edges.is_empty() && leads.is_empty();
             return Ok(Some(finished(emulator, region, &ends, joint_settled, history, lower)));
         }
         evaluate(model, &mut history, fresh)?;
@@ -159,6 +167,37 @@ fn mapped(
     Some((local, region))
 }
 
+/// Edges of gaps that no run confirms.
+fn edges_of_gaps(region: &Region, history: &[Evaluated]) -> Vec<Vec<f64>> {
+    let of_parameter = |(k, profile): (usize, &ProfileLikelihood)| {
+        let edges = profile.gaps.iter().flatten();
+        edges.filter(|edge| !is_confirmed(region, history, k, edge)).cloned().collect::<Vec<_>>()
+    };
+    region.profiles.iter().enumerate().flat_map(of_parameter).collect()
+}
+
+/// Points on other branches that the emulator promises and no run refutes.
+fn leads(region: &Region, history: &[Evaluated]) -> Vec<Vec<f64>> {
+    let leads = (0..region.profiles.len()).filter_map(|k| region.lead(k));
+    leads.filter(|lead| !is_refuted(region, history, lead)).collect()
+}
+
+/// Whether a run confirms the edge of a gap.
+fn is_confirmed(region: &Region, history: &[Evaluated], which: usize, edge: &[f64]) -> bool {
+    let close = CLOSE * region.profiles[which].width();
+    history.iter().any(|evaluated| {
+        let off = evaluated.chi_squared.map_or(f64::INFINITY, |chi| chi - region.minimum.chi_squared - region.limit);
+        (evaluated.point[which] - edge[which]).abs() <= close && off.abs() <= TOLERANCE * region.limit
+    })
+}
+
+/// Whether a run beside a point disagrees with the data.
+fn is_refuted(region: &Region, history: &[Evaluated], point: &[f64]) -> bool {
+    let beside = |evaluated: &&Evaluated| evaluated.point.iter().zip(point).all(|(a, b)| (a - b).abs() <= CLOSE);
+    let disagrees = |chi: f64| chi - region.minimum.chi_squared > region.limit;
+    history.iter().filter(beside).any(|evaluated| evaluated.chi_squared.is_none_or(disagrees))
+}
+
 /// Everything, with the intervals that the model has decided.
 fn finished(
     emulator: Emulator,
@@ -169,9 +208,17 @@ fn finished(
     lower: bool,
 ) -> Explored {
     let ends: Vec<[IntervalEnd; 2]> = ends.chunks_exact(2).map(|pair| [pair[0].clone(), pair[1].clone()]).collect();
+    let confirmed =
+        |which: usize, gap: &[Vec<f64>; 2]| gap.iter().all(|edge| is_confirmed(&region, &history, which, edge));
+    let confirmed_of = |(k, profile): (usize, &ProfileLikelihood)| {
+        profile.gaps.iter().filter(|gap| confirmed(k, gap)).cloned().collect::<Vec<_>>()
+    };
+    let gaps: Vec<_> = region.profiles.iter().enumerate().map(confirmed_of).collect();
     for (k, (profile, [below, above])) in region.profiles.iter_mut().zip(&ends).enumerate() {
         profile.interval = [below.point[k], above.point[k]];
         profile.ends = [below.point.clone(), above.point.clone()];
+        // a gap that the model has not confirmed is none
+        profile.gaps.clone_from(&gaps[k]);
         (profile.open_below, profile.open_above) = (below.open, above.open);
     }
     region.draw();

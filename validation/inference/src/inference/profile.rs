@@ -1,4 +1,7 @@
 //! The profile of χ² along one parameter, all others at their best for it.
+//!
+//! Where χ² has several branches in the other parameters, every evaluated point that agrees with the data begins a part of
+//! the interval, and gaps between the parts are left out of it.
 
 use super::descent::descend;
 use super::emulator::{Emulator, Minimum};
@@ -14,8 +17,15 @@ const GROWTH: f64 = 1.2;
 /// Halvings by which a crossing of the threshold is refined.
 const HALVINGS: usize = 24;
 
-/// Points of the curve.
+/// Points of the curve, and values at which the whole range is looked through for other branches.
 const CURVE_POINTS: usize = 41;
+const NODES: usize = 24;
+
+/// Evaluated points from which the best values of the other parameters are sought at a node.
+const STARTS: usize = 6;
+
+/// Share of an interval below which a gap is none.
+const LEAST_GAP: f64 = 0.03;
 
 /// A point of the curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,6 +41,8 @@ pub struct ProfileLikelihoodPoint {
 pub struct ProfileLikelihood {
     /// Least and largest value whose χ² rises by no more than the threshold, in the unit cube.
     pub interval: [f64; 2],
+    /// All parameters at the lower and upper edge of every gap in the interval, in rising order.
+    pub gaps: Vec<[Vec<f64>; 2]>,
     /// χ² stays below the threshold down to the lower bound of the parameter.
     pub open_below: bool,
     /// χ² stays below the threshold up to the upper bound.
@@ -48,15 +60,23 @@ impl ProfileLikelihood {
         !self.open_below && !self.open_above
     }
 
-    /// Width of the interval, as a share of the range.
+    /// The values that agree, as intervals without the gaps between them, in rising order.
+    #[must_use]
+    pub fn intervals(&self, which: usize) -> Vec<[f64; 2]> {
+        let inner = self.gaps.iter().flatten().map(|edge| edge[which]);
+        let ends: Vec<f64> = [self.interval[0]].into_iter().chain(inner).chain([self.interval[1]]).collect();
+        ends.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+    }
+
+    /// Width from the least to the largest value, as a share of the range.
     #[must_use]
     pub fn width(&self) -> f64 {
         self.interval[1] - self.interval[0]
     }
 }
 
-/// The interval of the parameter `which` up to a rise of χ² by `threshold`, without its curve; `deviation` is a guess of its
-/// standard deviation in the unit cube.
+/// The interval of the parameter `which` up to a rise of χ² by `threshold`, without its curve, over all branches on which
+/// points are known to agree; `deviation` is a guess of its standard deviation in the unit cube.
 pub(super) fn profile(
     emulator: &Emulator,
     minimum: &Minimum,
@@ -64,18 +84,73 @@ pub(super) fn profile(
     deviation: f64,
     threshold: f64,
 ) -> ProfileLikelihood {
-    let side = |direction| crossing(emulator, minimum, &minimum.point, which, direction, deviation, threshold);
-    let ((below, open_below), (above, open_above)) = (side(-1.0), side(1.0));
+    let side = |start: &[f64], direction| crossing(emulator, minimum, start, which, direction, deviation, threshold);
+    let mut parts: Vec<[(Vec<f64>, bool); 2]> = Vec::new();
+    for start in std::iter::once(&minimum.point).chain(&emulator.below(minimum.chi_squared + threshold)) {
+        if !parts.iter().any(|[below, above]| (below.0[which]..=above.0[which]).contains(&start[which])) {
+            parts.push([side(start, -1.0), side(start, 1.0)]);
+        }
+    }
+    parts.sort_by(|a, b| a[0].0[which].total_cmp(&b[0].0[which]));
+    let farthest = parts.iter().map(|[_, above]| above.0[which]).fold(0.0, f64::max);
+    let least = LEAST_GAP * (farthest - parts[0][0].0[which]);
+    let mut gaps = Vec::new();
+    let mut parts = parts.into_iter();
+    let Some([(below, open_below), (mut above, mut open_above)]) = parts.next() else {
+        unreachable!("the minimum begins a part")
+    };
+    for [lower, upper] in parts {
+        if lower.0[which] > above[which] + least {
+            gaps.push([above.clone(), lower.0]);
+        }
+        if upper.0[which] > above[which] {
+            (above, open_above) = upper;
+        }
+    }
     let interval = [below[which], above[which]];
-    ProfileLikelihood { interval, open_below, open_above, ends: [below, above], curve: Vec::new() }
+    ProfileLikelihood { interval, gaps, open_below, open_above, ends: [below, above], curve: Vec::new() }
 }
 
-/// The curve over an interval and half its width beyond.
+/// The point of least χ² outside of the interval or in one of its gaps, if the emulator has values there that agree.
+pub(super) fn lead(
+    emulator: &Emulator,
+    minimum: &Minimum,
+    which: usize,
+    profile: &ProfileLikelihood,
+    threshold: f64,
+) -> Option<Vec<f64>> {
+    let near = emulator.below(minimum.chi_squared + 4.0 * threshold);
+    let intervals = profile.intervals(which);
+    let nodes = (0..NODES).map(|node| (node as f64 + 0.5) / NODES as f64);
+    let middles = profile.gaps.iter().map(|[lower, upper]| 0.5 * (lower[which] + upper[which]));
+    let outside = |value: &f64| !intervals.iter().any(|[from, to]| (*from..=*to).contains(value));
+    let best = |value| envelope(emulator, minimum, which, value, &near);
+    let points = nodes.chain([0.0, 1.0]).chain(middles).filter(outside).filter_map(best);
+    let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise))?;
+    (lowest.rise <= threshold).then_some(lowest.point)
+}
+
+/// The lowest of the best points with one parameter held that lie downhill of the nearest of some points.
+fn envelope(
+    emulator: &Emulator,
+    minimum: &Minimum,
+    which: usize,
+    value: f64,
+    near: &[Vec<f64>],
+) -> Option<ProfileLikelihoodPoint> {
+    let mut starts: Vec<&Vec<f64>> = near.iter().collect();
+    starts.sort_by(|a, b| (a[which] - value).abs().total_cmp(&(b[which] - value).abs()));
+    let points = starts.into_iter().take(STARTS).map(|start| constrained(emulator, minimum, start, which, value));
+    points.min_by(|a, b| a.rise.total_cmp(&b.rise))
+}
+
+/// The curve over an interval and half its width beyond, the lowest of all branches.
 pub(super) fn curve(
     emulator: &Emulator,
     minimum: &Minimum,
     which: usize,
     interval: [f64; 2],
+    threshold: f64,
 ) -> Vec<ProfileLikelihoodPoint> {
     let margin = 0.5 * (interval[1] - interval[0]);
     let (from, to) = ((interval[0] - margin).max(0.0), (interval[1] + margin).min(1.0));
@@ -95,6 +170,11 @@ pub(super) fn curve(
     let mut curve = walk((0..middle).rev().collect());
     curve.reverse();
     curve.extend(walk((middle..CURVE_POINTS).collect()));
+    let near = emulator.below(minimum.chi_squared + 4.0 * threshold);
+    for point in &mut curve {
+        let other = envelope(emulator, minimum, which, point.point[which], &near);
+        *point = other.filter(|other| other.rise < point.rise).unwrap_or_else(|| point.clone());
+    }
     curve
 }
 

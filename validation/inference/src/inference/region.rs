@@ -5,7 +5,7 @@
 //! (Wilks, Annals of Mathematical Statistics 9 (1938) 60).
 
 use super::emulator::{Emulator, Minimum};
-use super::profile::{ProfileLikelihood, ProfileLikelihoodPoint, constrained, crossing, curve, profile};
+use super::profile::{ProfileLikelihood, ProfileLikelihoodPoint, constrained, crossing, curve, lead, profile};
 use nalgebra::DMatrix;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -118,7 +118,7 @@ impl Region {
     /// Draws the curves of the profiles over their intervals.
     pub fn draw(&mut self) {
         for k in 0..self.profiles.len() {
-            self.profiles[k].curve = curve(&self.emulator, &self.base, k, self.profiles[k].interval);
+            self.profiles[k].curve = curve(&self.emulator, &self.base, k, self.profiles[k].interval, self.limit);
         }
     }
 
@@ -134,6 +134,12 @@ impl Region {
         let direction = if upper { 1.0 } else { -1.0 };
         let deviation = self.covariance[(which, which)].sqrt();
         crossing(&self.emulator, &self.base, start, which, direction, deviation, self.limit)
+    }
+
+    /// The best point outside of a parameter's intervals where the emulator agrees with the data too.
+    #[must_use]
+    pub fn lead(&self, which: usize) -> Option<Vec<f64>> {
+        lead(&self.emulator, &self.base, which, &self.profiles[which], self.limit)
     }
 
     /// Rise of the emulator's χ² at a point `[-]`.

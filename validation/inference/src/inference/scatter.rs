@@ -63,6 +63,8 @@ pub(super) fn averaged<M: Evaluate>(
     let minimum = at_bottom.map_or(lowest, |chi_squared| Minimum { point, chi_squared });
     let Some(emulator) = smooth(&history, &explored.region, budget) else { return Ok((search, explored)) };
     let mut region = Region::about(&emulator, minimum.clone(), uncertainties);
+    // edges of gaps are no runs of the model here
+    region.profiles.iter_mut().for_each(|profile| profile.gaps.clear());
     region.draw();
     let end = |point: &Vec<f64>, open: bool| IntervalEnd {
         settled: emulator.supports(point),

@@ -2,11 +2,12 @@
 
 use super::emulator::Minimum;
 use super::ends::TOLERANCE;
-use super::explore::{Explored, explore};
+use super::explore::{Explored, FAR, explore};
 use super::region::{Uncertainties, chi_squared_tail};
 use super::scatter::{Repeatability, averaged};
 use super::search::{
-    Budget, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search, search_design,
+    Budget, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search, search_beside,
+    search_design,
 };
 use super::serial_correlation::{SerialCorrelation, serial_correlation};
 use super::{Evaluate, Evaluated};
@@ -65,12 +66,12 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         search_design(model, &plan.design, budget)?
     };
     let searched = found.history.len();
-    let (mut restarts, mut continued, mut correlation) = (0, false, None);
+    let (mut restarts, mut continued, mut beside, mut correlation) = (0, false, 0, None);
     loop {
         let budget = Budget { evaluations: plan.region_evaluations, ..usual };
         let uncertainties = uncertainties(&found, correlation);
         let explored = explore(model, found.history.clone(), uncertainties, &budget).map_err(SearchError::Model)?;
-        let Some(explored) = explored else {
+        let Some(mut explored) = explored else {
             return Ok(Answer { search: found, searched, explored: None, restarts, correlation });
         };
         let lowest = explored.region.minimum.clone();
@@ -85,6 +86,20 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
             continued = true;
             found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..usual })?;
             continue;
+        }
+        // what the region has taught may promise minima that the search has not seen
+        if left > 0 && beside < MOST_RESTARTS {
+            beside += 1;
+            let known = found.minima.len();
+            let worst = lowest.chi_squared + explored.region.threshold;
+            let places = explored.emulator.below(lowest.chi_squared + FAR * explored.region.threshold);
+            let before = SearchResult { history: explored.history.clone(), ..found };
+            found = search_beside(model, before, &places, worst, &Budget { evaluations: left, ..usual })?;
+            if found.minima.len() > known || found.chi_squared < lowest.chi_squared {
+                // another minimum has a region of its own
+                continue;
+            }
+            explored.history.clone_from(&found.history);
         }
         if correlation.is_none() {
             correlation = correlated(&plan.series, &explored);

@@ -100,6 +100,11 @@ pub(super) fn assemble(
         p_value: region.and_then(|region| region.p_value),
         inflation: region.map_or(1.0, |region| region.inflation),
         correlation,
+        region: region.map_or_else(Vec::new, |region| {
+            let curves = region.profiles.iter().flat_map(|profile| &profile.curve);
+            curves.filter(|point| point.rise <= region.limit).map(|point| plan.values(&point.point)).collect()
+        }),
+        covered: Some(search.covered()),
         truth_inside,
         findings,
         sensitivity,
@@ -125,6 +130,9 @@ fn found(plan: &CalibrationPlan, answer: &Answer, posterior: Option<&Posterior>)
             start: parameter.start,
             best: best[k],
             interval: profile.map(|profile| (physical(profile.interval[0]), physical(profile.interval[1]))),
+            gaps: profile.map_or_else(Vec::new, |profile| {
+                profile.gaps.iter().map(|[lower, upper]| (physical(lower[k]), physical(upper[k]))).collect()
+            }),
             open: ends.map_or((false, false), |[below, above]| (below.open, above.open)),
             settled: ends.map_or((false, false), |[below, above]| (below.settled, above.settled)),
             rise: ends.map_or((None, None), |[below, above]| (below.rise, above.rise)),

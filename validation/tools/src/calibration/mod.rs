@@ -36,7 +36,7 @@ pub use error::CalibrationError;
 pub use folder::CalibrationFolder;
 pub use objective::CalibrationMonitor;
 pub use page::write;
-pub use plan::{CalibratedParameter, CalibrationPlan, Choice, Conditions, DataBlock, Repeats};
+pub use plan::{CalibratedParameter, CalibrationPlan, Choice, Conditions, DataBlock, Repeats, usual_search};
 pub use result::{
     CalibrationResult, ChoiceResult, DatumComparison, ElementaryEffect, Evaluation, FoundMinimum, ParameterEstimate,
     weighted_error,

@@ -6,7 +6,7 @@ use super::result::{
 };
 use crate::figure::FigureError;
 use crate::inference::UNLIKELY;
-use crate::number::four_digits;
+use crate::number::{four_digits, short_digits};
 use crate::output::{FileError, write_whole};
 use crate::page::{self, PageFigure};
 use serde_json::{Value, json};
@@ -129,6 +129,12 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
             let minima: Vec<String> = outcome.minima.iter().map(minimum).collect();
             lines.push(format!("Descents ended in {} minima: {}.", minima.len(), minima.join("; ")));
         }
+        if let Some(covered) = outcome.covered {
+            lines.push(format!(
+                "{} % of the box lies within a quarter of its ranges from a run that succeeded; the search has not seen the rest.",
+                short_digits(100.0 * covered, 2)
+            ));
+        }
         if let (Some(reduced), Some(p)) = (outcome.reduced_chi_squared, outcome.p_value) {
             let judged = if outcome.inflation > 1.0 {
                 format!(
@@ -166,31 +172,32 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
     lines
 }
 
+/// HTML of a sentence whose backticks mark names.
+fn with_code(sentence: &str) -> String {
+    let escaped = sentence.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let marked =
+        |(place, part): (usize, &str)| if place % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() };
+    escaped.split('`').enumerate().map(marked).collect()
+}
+
 fn render(outcome: &CalibrationResult, pictures: Vec<PageFigure>) -> Result<String, minijinja::Error> {
     let parameter = |found: &ParameterEstimate| {
-        let interval = found.interval.map_or_else(
-            || "–".to_owned(),
-            |(low, high)| {
-                let end = |open: bool, value: f64, sign: &str| {
-                    if open { format!("{sign} {} (bound)", four_digits(value)) } else { four_digits(value) }
-                };
-                let doubt = if found.settled == (true, true) { "" } else { " (not settled)" };
-                format!("{} … {}{doubt}", end(found.open.0, low, "≤"), end(found.open.1, high, "≥"))
-            },
-        );
+        let interval = found.interval.map_or_else(|| "–".to_owned(), |_| found.intervals_in_words(four_digits));
         let bounds = format!("{} … {}", four_digits(found.bounds.0), four_digits(found.bounds.1));
-        let truth = found.truth.map_or_else(String::new, |truth| {
-            format!("{} ({:+.2} %)", four_digits(truth), 100.0 * (found.best / truth - 1.0))
-        });
+        let truth =
+            found.truth.map(|truth| format!("{} ({:+.2} %)", four_digits(truth), 100.0 * (found.best / truth - 1.0)));
         vec![
             found.name.clone(),
             found.unit.clone(),
             four_digits(found.best),
             interval,
+            format!("{} %", short_digits(100.0 * found.share(), 2)),
             four_digits(found.start),
             bounds,
-            truth,
         ]
+        .into_iter()
+        .chain(truth)
+        .collect::<Vec<String>>()
     };
     let trial = |trial: &super::result::ChoiceResult| {
         let ranks = trial.ranks.map_or_else(
@@ -223,13 +230,18 @@ fn render(outcome: &CalibrationResult, pictures: Vec<PageFigure>) -> Result<Stri
             datum.source.clone(),
         ]
     };
+    // what the data hardly constrain comes first
+    let mut parameters: Vec<&ParameterEstimate> = outcome.parameters.iter().collect();
+    parameters.sort_by(|a, b| b.share().total_cmp(&a.share()));
     let errors = [errors("fitted", &outcome.fit), errors("held out", &outcome.hold_out)];
     let page = json!({
         "errors": errors.iter().flatten().collect::<Vec<_>>(),
-        "parameters": outcome.parameters.iter().map(parameter).collect::<Vec<_>>(),
+        "parameters": parameters.into_iter().map(parameter).collect::<Vec<_>>(),
+        "with_truth": outcome.parameters.iter().all(|found| found.truth.is_some()),
+        "findings": outcome.findings.iter().map(|finding| with_code(finding)).collect::<Vec<_>>(),
         "trials": outcome.trials.iter().map(trial).collect::<Vec<_>>(),
         "data": all_data(outcome).into_iter().map(datum).collect::<Vec<_>>(),
-        "summary": summary(outcome),
+        "summary": summary(outcome).iter().map(|line| with_code(line)).collect::<Vec<_>>(),
         "pictures": pictures,
         "outcome": outcome,
     });

@@ -141,6 +141,12 @@ pub struct CalibrationPlan {
     pub(super) data: Vec<Vec<DatumText>>,
 }
 
+/// Points that a search and its region usually need, from the studies of exact films of one to three parameters.
+#[must_use]
+pub fn usual_search(parameters: usize, starts: usize, region_evaluations: usize) -> usize {
+    starts + region_evaluations / 2 + 4 * parameters * (parameters + 1)
+}
+
 impl CalibrationPlan {
     /// The settings of a block's case at a point of physical values.
     #[must_use]
@@ -159,6 +165,26 @@ impl CalibrationPlan {
     #[must_use]
     pub fn values(&self, point: &[f64]) -> Vec<f64> {
         self.parameters.iter().zip(point).map(|(parameter, &u)| parameter.bounds.value(u)).collect()
+    }
+
+    /// Simulations that a calibration of as many parameters usually needs; 0 of choices, which are all queued at once.
+    #[must_use]
+    pub fn usual_evaluations(&self) -> usize {
+        let count = self.parameters.len();
+        if !self.choices.is_empty() {
+            return 0;
+        }
+        let search = if self.levels.is_empty() {
+            usual_search(count, self.budget.starts, self.region_evaluations)
+        } else {
+            self.levels.iter().product()
+        };
+        let held_out = self.blocks.iter().filter(|block| block.held_out).count();
+        let fitted = self.blocks.len() - held_out;
+        let searches = 1 + usize::from(self.repeats.count > 1);
+        let screening = self.trajectories * (count + 1);
+        // of what is held out: the best point and both ends of every interval
+        (fitted * (searches * search + screening) + held_out * (1 + 2 * count)) * self.repeats.count
     }
 
     /// The method in words, with what every evaluation is the mean of.

@@ -47,6 +47,8 @@ pub struct ParameterEstimate {
     pub best: f64,
     /// 95 % interval by profile likelihood; none with too few evaluations.
     pub interval: Option<(f64, f64)>,
+    /// Values within the interval that do not agree with the data, from and to; none where it is in one piece.
+    pub gaps: Vec<(f64, f64)>,
     /// Whether the interval ends at a bound only because the search does.
     pub open: (bool, bool),
     /// Whether the model itself has confirmed its ends.
@@ -59,6 +61,42 @@ pub struct ParameterEstimate {
     pub profile: Vec<(f64, f64)>,
     /// The value that synthetic data were made with.
     pub truth: Option<f64>,
+}
+
+impl ParameterEstimate {
+    /// The values that agree with the data at 95 %, as intervals in rising order; none with too few evaluations.
+    #[must_use]
+    pub fn intervals(&self) -> Vec<(f64, f64)> {
+        let Some((low, high)) = self.interval else { return Vec::new() };
+        let inner = self.gaps.iter().flat_map(|gap| [gap.0, gap.1]);
+        let ends: Vec<f64> = [low].into_iter().chain(inner).chain([high]).collect();
+        ends.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
+    }
+
+    /// The intervals in words; `digits` writes a number.
+    #[must_use]
+    pub fn intervals_in_words(&self, digits: fn(f64) -> String) -> String {
+        let intervals = self.intervals();
+        let part = |(place, (low, high)): (usize, &(f64, f64))| {
+            let at_bound = |open: bool| if open { " (bound)" } else { "" };
+            let (below, above) = (self.open.0 && place == 0, self.open.1 && place + 1 == intervals.len());
+            format!("{}{} … {}{}", digits(*low), at_bound(below), digits(*high), at_bound(above))
+        };
+        let parts: Vec<String> = intervals.iter().enumerate().map(part).collect();
+        let doubt = if self.settled == (true, true) { "" } else { " (not settled)" };
+        parts.join(" or ") + doubt
+    }
+
+    /// Share of the range that agrees with the data, on the scale of the parameter `[-]`; 1 without an interval.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        let scaled = |value: f64| if self.logarithmic { libm::log(value) } else { value };
+        let width = |(low, high): (f64, f64)| scaled(high) - scaled(low);
+        if self.interval.is_none() {
+            return 1.0;
+        }
+        self.intervals().into_iter().map(width).sum::<f64>() / width(self.bounds)
+    }
 }
 
 /// One point of the search.
@@ -144,6 +182,10 @@ pub struct CalibrationResult {
     pub inflation: f64,
     /// Correlation of the parameters `[-]`.
     pub correlation: Vec<Vec<f64>>,
+    /// Points along the profiles of all parameters that agree with the data at 95 %, parameters in their units.
+    pub region: Vec<Vec<f64>>,
+    /// Share of the box within a quarter of its ranges from a run that succeeded `[-]`; minima elsewhere may be unknown.
+    pub covered: Option<f64>,
     /// Whether the joint 95 % region holds the truth of synthetic data.
     pub truth_inside: Option<bool>,
     /// Open questions of the calibration, in sentences.

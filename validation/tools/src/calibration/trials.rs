@@ -83,6 +83,8 @@ impl CalibrationResult {
             p_value: None,
             inflation: 1.0,
             correlation: Vec::new(),
+            region: Vec::new(),
+            covered: None,
             truth_inside: None,
             findings: undecided(&trials),
             sensitivity: Vec::new(),

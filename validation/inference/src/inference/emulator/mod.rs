@@ -205,6 +205,12 @@ impl Emulator {
         Minimum { point, chi_squared }
     }
 
+    /// Evaluated points whose χ² on the emulator is at most a value, the best first.
+    #[must_use]
+    pub fn below(&self, chi_squared: f64) -> Vec<Vec<f64>> {
+        self.points.iter().filter(|point| self.chi_squared(point) <= chi_squared).cloned().collect()
+    }
+
     /// The minimum downhill of a point.
     #[must_use]
     pub fn minimum_near(&self, start: &[f64]) -> Minimum {

@@ -22,6 +22,14 @@ const WEAK: f64 = 0.25;
 /// Components of a direction below this share of the largest one are left out.
 const DOMINANT: f64 = 0.3;
 
+/// Longest step along a direction in the cube, the steps in which it is walked, and halvings of the last.
+const LONGEST: f64 = 2.0;
+const WALK: usize = 80;
+const HALVINGS: usize = 30;
+
+/// Distance beyond the end of an interval that is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// Distance from a bound that counts as lying on it.
 const AT_BOUND: f64 = 1e-6;
 
@@ -55,8 +63,8 @@ pub enum FindingKind {
     NotDetermined {
         /// Index of the parameter.
         parameter: usize,
-        /// Its interval.
-        interval: [f64; 2],
+        /// Values that agree with the data, as intervals in rising order.
+        intervals: Vec<[f64; 2]>,
         /// Whether it reaches the lower and the upper bound.
         open: [bool; 2],
     },
@@ -83,6 +91,8 @@ pub enum FindingKind {
         /// Step along `free`, both ways, for which χ² rises by the 95 % threshold, if the model were linear; infinite
         /// where it never rises.
         reach: f64,
+        /// Steps back and forth along `free` up to which the region holds every point.
+        within: [f64; 2],
     },
 }
 
@@ -126,7 +136,7 @@ pub fn assess(
     for (k, profile) in region.profiles.iter().enumerate() {
         if !profile.is_closed() || profile.width() > WIDE {
             let open = [profile.open_below, profile.open_above];
-            add(FindingKind::NotDetermined { parameter: k, interval: profile.interval, open });
+            add(FindingKind::NotDetermined { parameter: k, intervals: profile.intervals(k), open });
         }
     }
     for (k, profile) in region.profiles.iter().enumerate() {
@@ -152,11 +162,35 @@ pub fn assess(
         let fixed = strongest(jacobian, &free);
         // where even the best known combination is weak there is nothing to set it against
         let alike = free.iter().zip(&fixed).map(|(a, b)| a * b).sum::<f64>().abs() > 0.99;
-        if reach > WEAK && members > 1 && !alike {
-            add(FindingKind::WeakDirection { fixed, free, reach });
+        let within = [-1.0, 1.0].map(|sense| reach_in_region(region, &free, sense));
+        if reach > WEAK && members > 1 && !alike && within[0] + within[1] > WEAK {
+            add(FindingKind::WeakDirection { fixed, free, reach, within });
         }
     }
     findings
+}
+
+/// The longest step along a direction all of which lies in the cube, in every interval and, by the emulator, below their limit.
+fn reach_in_region(region: &Region, direction: &[f64], sense: f64) -> f64 {
+    let moved = |step: f64| -> Vec<f64> {
+        region.minimum.point.iter().zip(direction).map(|(u, share)| u + sense * step * share).collect()
+    };
+    let agrees = |step: f64| {
+        let point = moved(step);
+        let inside = |(k, u): (usize, &f64)| {
+            let intervals = region.profiles[k].intervals(k);
+            direction[k] == 0.0 || intervals.iter().any(|[from, to]| (*from - ROUNDING..=*to + ROUNDING).contains(u))
+        };
+        point.iter().enumerate().all(inside) && region.rise(&point) <= region.limit
+    };
+    let outside = (1..=WALK).map(|step| LONGEST * step as f64 / WALK as f64).find(|step| !agrees(*step));
+    let Some(mut outside) = outside else { return LONGEST };
+    let mut inside = outside - LONGEST / WALK as f64;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        if agrees(middle) { inside = middle } else { outside = middle }
+    }
+    inside
 }
 
 /// Singular values of J and their directions, the smallest first; as many as there are parameters.
@@ -242,7 +276,8 @@ mod tests {
             all[1],
             "the data do not determine `viscosity`: any value from 0.5 to 2.5 Pa·s agrees with them at 95 %"
         );
-        let Some(FindingKind::WeakDirection { free, fixed, reach }) = found.last().map(|finding| &finding.kind) else {
+        let Some(FindingKind::WeakDirection { free, fixed, reach, .. }) = found.last().map(|finding| &finding.kind)
+        else {
             panic!("{all:?}")
         };
         assert!(found.iter().any(|finding| matches!(

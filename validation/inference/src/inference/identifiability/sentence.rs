@@ -63,22 +63,21 @@ impl SentenceWriter<'_> {
                  parameters; fix some or add data of another kind",
                 if *rank == 1 { "" } else { "s" }
             ),
-            FindingKind::NotDetermined { parameter, interval, open } => {
+            FindingKind::NotDetermined { parameter, intervals, open } => {
                 let (name, unit) = (self.name(*parameter), self.unit(*parameter));
-                let [from, to] = interval.map(|u| self.value(*parameter, u));
-                match open {
-                    [true, false] => format!(
-                        "the data do not bound {name} from below: any value from its lower bound {from} to {to}{unit} \
-                         agrees with them at 95 %"
-                    ),
-                    [false, true] => format!(
-                        "the data do not bound {name} from above: any value from {from} to its upper bound {to}{unit} \
-                         agrees with them at 95 %"
-                    ),
-                    _ => format!(
-                        "the data do not determine {name}: any value from {from} to {to}{unit} agrees with them at 95 %"
-                    ),
-                }
+                let (lower, upper, what) = match open {
+                    [true, false] => ("its lower bound ", "", format!("bound {name} from below")),
+                    [false, true] => ("", "its upper bound ", format!("bound {name} from above")),
+                    _ => ("", "", format!("determine {name}")),
+                };
+                let part = |(place, part): (usize, &[f64; 2])| {
+                    let [from, to] = part.map(|u| self.value(*parameter, u));
+                    let lower = if place == 0 { lower } else { "" };
+                    let upper = if place + 1 == intervals.len() { upper } else { "" };
+                    format!("from {lower}{from} to {upper}{to}{unit}")
+                };
+                let parts: Vec<String> = intervals.iter().enumerate().map(part).collect();
+                format!("the data do not {what}: any value {} agrees with them at 95 %", parts.join(" or "))
             }
             FindingKind::AtBound { parameter, upper } => format!(
                 "the best {} lies at its {} bound {}{}: values beyond may agree still better, so widen the range if \
@@ -96,28 +95,14 @@ impl SentenceWriter<'_> {
                 short_digits(*correlation, 3),
                 if *correlation > 0.0 { "larger" } else { "smaller" }
             ),
-            FindingKind::WeakDirection { free, fixed, reach } => {
-                let step = (*reach).min(room(minimum, free));
-                let back = (*reach).min(room(minimum, &free.iter().map(|share| -share).collect::<Vec<_>>()));
-                format!(
-                    "the data fix {} (each as a share of its range) but hardly {}: any point from {} to {} agrees with \
-                     them at 95 %",
-                    self.combination(fixed),
-                    self.combination(free),
-                    self.place(minimum, free, -back),
-                    self.place(minimum, free, step)
-                )
-            }
+            FindingKind::WeakDirection { free, fixed, within: [back, step], .. } => format!(
+                "the data fix {} (each as a share of its range) but hardly {}: any point from {} to {} agrees with them at \
+                 95 %",
+                self.combination(fixed),
+                self.combination(free),
+                self.place(minimum, free, -back),
+                self.place(minimum, free, *step)
+            ),
         }
     }
-}
-
-/// The longest step along a direction within the cube.
-fn room(point: &[f64], direction: &[f64]) -> f64 {
-    let along = |(u, share): (&f64, &f64)| match share.total_cmp(&0.0) {
-        std::cmp::Ordering::Greater => (1.0 - u) / share,
-        std::cmp::Ordering::Less => -u / share,
-        std::cmp::Ordering::Equal => f64::INFINITY,
-    };
-    point.iter().zip(direction).map(along).fold(f64::INFINITY, f64::min)
 }

@@ -144,6 +144,25 @@ pub struct SearchResult {
     pub every_start: bool,
 }
 
+/// Distance along every axis of the unit cube up to which a run covers it, and points at which that is tested.
+const COVERED: f64 = 0.25;
+const COVERAGE_POINTS: usize = 1024;
+
+impl SearchResult {
+    /// Share of the unit cube that lies near a point at which the model worked `[-]`: minima elsewhere may be unknown.
+    #[must_use]
+    pub fn covered(&self) -> f64 {
+        let near = |place: &&Vec<f64>| {
+            let worked = self.history.iter().filter(|evaluated| evaluated.chi_squared.is_some());
+            worked
+                .map(|evaluated| &evaluated.point)
+                .any(|point| point.iter().zip(place.iter()).all(|(a, b)| (a - b).abs() <= COVERED))
+        };
+        let places = crate::sampling::design::sobol(COVERAGE_POINTS, self.best.len(), 1);
+        places.iter().filter(near).count() as f64 / COVERAGE_POINTS as f64
+    }
+}
+
 /// Error of a search that has found nothing. Completes "failed to search: …".
 #[derive(Debug, thiserror::Error)]
 pub enum SearchError<E> {
@@ -239,6 +258,27 @@ pub fn continue_search<M: Evaluate>(
         }
     }
     recorder.finish(outcome, minima, every_start)
+}
+
+/// Descends to minima beside known ones that the emulator of all evaluations promises downhill of some places, with a χ² up to
+/// `worst`; evaluates at most the budget's number of further points.
+///
+/// # Errors
+/// An error of the model itself.
+pub(super) fn search_beside<M: Evaluate>(
+    model: &mut M,
+    before: SearchResult,
+    places: &[Vec<f64>],
+    worst: f64,
+    budget: &Budget,
+) -> Result<SearchResult, SearchError<M::Error>> {
+    let most = before.history.len() + budget.evaluations;
+    let mut recorder = Recorder::with(model, before.history, most);
+    let mut minima = before.minima;
+    match starts::descend_from(&mut recorder, &mut minima, budget, places, &[], worst) {
+        Ok(_) => recorder.finish(Ok(before.stopped), minima, before.every_start),
+        Err(halt) => recorder.finish(Err(halt), minima, before.every_start),
+    }
 }
 
 /// Descends on from the best point, whose minimum takes the place of those near it.

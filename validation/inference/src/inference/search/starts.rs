@@ -27,17 +27,30 @@ pub(super) fn follow<M: Evaluate>(
     let dimensions = minima[0].point.len();
     // the design of the model is the beginning of that of its emulator
     let places = sobol(DESCENTS * budget.starts, dimensions, budget.seed);
-    let mut tried: Vec<LocalMinimum> = Vec::new();
     match recorder.residuals(&places[..budget.starts]) {
         Err(Halt::BudgetSpent) => return Ok(false),
         other => other?,
     };
+    descend_from(recorder, minima, budget, &places, &places[..budget.starts], f64::INFINITY)
+}
+
+/// Descends to minima that the emulator promises downhill of some places, with a χ² up to `worst`, and from a start that it
+/// misses; whether all descents came to their ends within the budget.
+pub(super) fn descend_from<M: Evaluate>(
+    recorder: &mut Recorder<'_, M>,
+    minima: &mut Vec<LocalMinimum>,
+    budget: &Budget,
+    places: &[Vec<f64>],
+    starts: &[Vec<f64>],
+    worst: f64,
+) -> Result<bool, Halt<M::Error>> {
+    let mut tried: Vec<LocalMinimum> = Vec::new();
     let mut doubtful = DOUBTFUL;
     loop {
-        let promised = next(recorder, minima, &tried, &places, budget);
+        let promised = next(recorder, minima, &tried, places, budget).filter(|lead| lead.chi_squared <= worst);
         let start = promised.or_else(|| {
             doubtful = doubtful.checked_sub(1)?;
-            misunderstood(recorder, minima, &tried, &places[..budget.starts], budget)
+            misunderstood(recorder, minima, &tried, starts, budget)
         });
         let Some(start) = start else { break };
         let descent = trust_region::run(recorder, &start.point, budget, minima);

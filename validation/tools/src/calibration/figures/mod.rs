@@ -1,6 +1,7 @@
 //! Figures of a calibration, from its outcome alone.
 
 mod corner;
+mod pairs;
 
 use super::result::{CalibrationResult, DatumComparison};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
@@ -11,6 +12,7 @@ pub(super) fn all(outcome: &CalibrationResult) -> Vec<Figure> {
     let mut figures = Vec::new();
     figures.extend(history(outcome));
     figures.extend(profiles(outcome));
+    figures.extend(pairs::figure(outcome));
     figures.extend(corner::figure(outcome));
     if outcome.trials.is_empty() {
         figures.extend(agreement("fit", "Data that were fitted, and the model.", &outcome.fit));
