@@ -100,6 +100,17 @@ fn export_contains_all_inputs() {
     for file in ["case.toml", "submission.toml", "reference/velocity-profile.csv"] {
         assert!(place.path("out").join(file).is_file(), "{file}");
     }
+    // boundaries and start are those of the scene: its period, its surface, its weight along the slope of 10°
+    let table = |name: &str| std::fs::read_to_string(place.path("out").join(name)).expect("written");
+    let run = "\"fluid=bingham,particles=jittered,resolution=20\"";
+    for row in
+        ["bottom,no slip,position,0,m", "top,free surface,position,0.01,m", "left and right,periodic,period,0.004,m"]
+    {
+        assert!(table("boundary.csv").contains(&format!("{run},{row}\n")), "{row}: {}", table("boundary.csv"));
+    }
+    for row in ["flow: upper y,0.01,m", "flow: mean velocity x,0.0641373,m/s", "gravity x,1.70349,m/s^2"] {
+        assert!(table("start.csv").contains(&format!("{run},{row}\n")), "{row}: {}", table("start.csv"));
+    }
     let definitions = std::fs::read_to_string(place.path("out/definitions.md")).expect("written");
     let limit = "- `velocity_l2` of `fluid=bingham,particles=jittered,resolution=20`: ≤ 3.";
     assert!(definitions.contains("`herschel-bulkley`: η = τ_y") && definitions.contains(limit), "{definitions}");

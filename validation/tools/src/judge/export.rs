@@ -4,7 +4,7 @@ use super::blank::{blank, of_case, wrapped};
 use super::error::JudgeError;
 use super::inputs::digest;
 use super::laws;
-use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema, PreparedCase, Tier};
+use crate::case::{AnyCase, CaseResult, Conditions, ExternalColumn, ExternalSchema, PreparedCase, Tier};
 use crate::evidence::shipped_tables;
 use crate::figure::{Mark, Series};
 use crate::metric::{Metric, MetricKind};
@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
 
-/// Writes `case.toml`, `definitions.md`, `submission.toml` and `reference/` into a folder. With results of our own runs also their
+/// Writes `case.toml`, `definitions.md`, `boundary.csv`, `start.csv`, `submission.toml` and `reference/` into a folder. With results of our own runs also their
 /// first pictures, the initial particles, in `particles/`, and their profiles and histories in `bagnold/`.
 ///
 /// # Errors
@@ -46,6 +46,7 @@ fn inputs(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, folder: &Path
         format!("# inputs = \"{}\": their digest without numerics, for `submission.toml`\n", digest(parameters));
     std::fs::write(folder.join("case.toml"), digest + parameters)?;
     std::fs::write(folder.join("definitions.md"), definitions(case, prepared, &asked.metrics))?;
+    conditions(prepared, folder)?;
     let put = |name: &str, text: &str| {
         let path = folder.join("reference").join(name);
         std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
@@ -65,6 +66,34 @@ fn inputs(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, folder: &Path
         }
     }
     Ok(())
+}
+
+/// Writes `boundary.csv` and `start.csv`, from the scenes that our own runs start with.
+fn conditions(prepared: &dyn PreparedCase, folder: &Path) -> io::Result<()> {
+    let runs: Vec<(String, Conditions)> = (0..prepared.run_count())
+        .filter_map(|run| Some((prepared.variant(run).to_string(), prepared.conditions(run)?)))
+        .collect();
+    if runs.is_empty() {
+        return Ok(());
+    }
+    let number = |value: f64| {
+        let rounded = format!("{value:.5e}").parse().unwrap_or(value) + 0.0;
+        if value.is_finite() { rounded.to_string() } else { String::new() }
+    };
+    let mut boundaries = csv::Writer::from_path(folder.join("boundary.csv"))?;
+    boundaries.write_record(["run", "boundary", "kind", "quantity", "value", "unit"])?;
+    let mut start = csv::Writer::from_path(folder.join("start.csv"))?;
+    start.write_record(["run", "quantity", "value", "unit"])?;
+    for (run, conditions) in &runs {
+        for row in &conditions.boundaries {
+            let value = number(row.value);
+            boundaries.write_record([run, &row.boundary, row.kind, row.quantity, &value, row.unit])?;
+        }
+        for row in &conditions.start {
+            start.write_record([run, &row.quantity, &number(row.value), row.unit])?;
+        }
+    }
+    boundaries.flush().and_then(|()| start.flush())
 }
 
 /// Writes the first pictures and the tables of our own runs.
@@ -104,7 +133,8 @@ fn definitions(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, asked: &
     let mut text = format!("# {}\n\n{}\n", case.name(), paragraph(case.description()));
     text.push_str(
         "\nGeometry, material and gravity are in `case.toml`, in SI units, angles in degrees; every key is explained there. Of a run's \
-         keys the resolution and the numerics are a code's own business. `reference/` holds exact, measured and published curves. With \
+         keys the resolution and the numerics are a code's own business. `boundary.csv` and `start.csv` hold the boundary conditions \
+         and the start of every run, which are those of our own scenes. `reference/` holds exact, measured and published curves. With \
          `bagnold export --simulate`, `particles/` holds the initial particles of our runs and `bagnold/` our profiles and histories.\n",
     );
     text.push_str("\n## Runs\n\n");

@@ -2,7 +2,7 @@
 //! its observations, and what its observer keeps are one checkpoint.
 
 use super::Recordable;
-use crate::case::{ParameterError, Progress, StateOutput};
+use crate::case::{Conditions, ParameterError, Progress, StateOutput};
 use crate::checkpoint::{Checkpoints, count_stopped, is_interrupted};
 use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -18,6 +18,8 @@ pub enum StartState {
     New,
     /// A run that is continued: of its flow only the number of particles counts.
     Continued,
+    /// A run that is described and not simulated, without what comes before its start.
+    Described,
 }
 
 /// A simulation that can be saved and continued.
@@ -26,6 +28,8 @@ pub trait Restartable<const D: usize>: Recordable + Sized {
     type Scene;
     /// Form in which the simulation is saved.
     type Saved: DeserializeOwned;
+    /// Boundaries and start of a scene.
+    fn conditions(scene: &Self::Scene) -> Conditions;
     /// Sets it up.
     ///
     /// # Errors
@@ -123,6 +127,11 @@ where
 {
     let now = Instant::now();
     let SimulationStage { progress, end, interval, context } = stage;
+    if let Some(conditions) = progress.conditions() {
+        let described = scene(StartState::Described).map_err(Into::into)?;
+        conditions.get_or_init(|| S::conditions(&described));
+        return Err(ParameterError::Interrupted);
+    }
     let checkpoints = progress.checkpoints();
     let left = checkpoints.and_then(|checkpoints| {
         checkpoints.take(|bytes| {
