@@ -17,9 +17,16 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
          case = \"{name}\"\ntier = \"{tier}\"\n# base = \"my-case.toml\"  # a case file with the parameters, such as a scene of one's own\n\
          # with = {{ … }}          # parameters that differ from the tier's, or from those of `base`\n\n\
          # Law of the runs: \"same\" as the case's, \"own\", or \"grains\"; only the same is judged against exact solutions.\n\
-         law = \"same\"\n# Digest of the inputs without numerics: another value is refused.\ninputs = \"{inputs}\"\n\n\
+         law = \"same\"\n# Digest of the inputs without numerics: another value is refused.\ninputs = \"{inputs}\"\n{gates}\n\
          [code]\nname = \"my code\"\nversion = \"1.0\"\n\n",
         inputs = super::inputs::digest(prepared.parameters_toml()),
+        gates = match super::gates::gates_of(case, tier)? {
+            (gates, _) if gates.is_empty() => String::new(),
+            (gates, limits) => format!(
+                "# Digests of the gates and of each limit: limits that have moved since are reported.\n\
+                 gates = \"{gates}\"\nlimits = \"{limits}\"\n"
+            ),
+        },
         name = case.name(),
         summary = case.summary(),
     );
