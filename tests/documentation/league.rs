@@ -5,7 +5,9 @@ use bagnold_harness::case::{Silent, execute};
 use bagnold_harness::metric::{Metric, Verdict};
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_tools::judge::{LawOrigin, judge};
-use bagnold_tools::league::{League, LeagueRow, blind, league, read, split, submissions};
+use bagnold_tools::league::{
+    League, LeagueRow, ORDER_HEADINGS, WIDTH_HEADINGS, blind, league, orders, read, split, submissions, widths,
+};
 use bagnold_validation::REGISTRY;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -23,6 +25,24 @@ judged as those of Bagnold. `bagnold league` writes the page with all sources;
 const VALUES: &str = "
 ✓ passes, ✗ fails, ○ is not judged. The standard deviation is that of Bagnold and of the codes of
 the same law: by so much two methods differ under one law.
+";
+
+const ORDERS: &str = "
+## Order of convergence of the codes
+
+The observed order is ln(error on the coarse mesh/error on the fine mesh) over ln(ratio of the
+cells). An error that changes its sign has no order, and one that is about to change it has a high
+order. An error of the law, such as a regularisation, stays and lowers the order.
+
+";
+
+const WIDTHS: &str = "
+## Limits beside the scatter of codes
+
+The table holds gated quantities of at least three codes of one law, Bagnold included. The width is
+half of an interval; for a bound it is the distance from the mean of the codes. A width below one
+standard deviation is narrow, from two on it is wide; its reason is that of the gate.
+
 ";
 
 const BLIND: &str = "
@@ -113,6 +133,14 @@ fn the_page_on_other_codes_is_that_of_the_stored_results() {
         for own in rows {
             let _ = writeln!(text, "{}", row(own, &codes));
         }
+    }
+    let _ = writeln!(text, "{ORDERS}| {} |\n|{}", ORDER_HEADINGS.join(" | "), "---|".repeat(ORDER_HEADINGS.len()));
+    for row in orders(&league) {
+        let _ = writeln!(text, "| {} |", row.map(|words| cell(&words)).join(" | "));
+    }
+    let _ = writeln!(text, "{WIDTHS}| {} |\n|{}", WIDTH_HEADINGS.join(" | "), "---|".repeat(WIDTH_HEADINGS.len()));
+    for row in widths(&league) {
+        let _ = writeln!(text, "| {} |", row.map(|words| cell(&words)).join(" | "));
     }
     text.push_str(BLIND);
     let _ = writeln!(text, "| {} |\n|{}", blind::HEADINGS.join(" | "), "---|".repeat(blind::HEADINGS.len()));

@@ -3,13 +3,18 @@
 //! A league is a folder with a submission for each code and case, `CODE/CASE/submission.toml`. Codes of one law tell how far apart
 //! methods are; that is what "the same to another method" is worth.
 
+mod archive;
 pub mod blind;
 mod page;
+mod widths;
 
-pub use page::write;
+pub use page::{ORDER_HEADINGS, orders, write};
+pub use widths::{HEADINGS as WIDTH_HEADINGS, widths};
 
 use crate::case::{PreparedCase, Registry, Tier};
-use crate::judge::{CaseSubmissions, CodeComparison, JudgeError, JudgedCode, LawOrigin, MetricComparison, Submission};
+use crate::judge::{
+    CaseSubmissions, CodeComparison, JudgeError, JudgedCode, LawOrigin, MetricComparison, ObservedOrder, Submission,
+};
 use crate::metric::{Metric, MetricKind, Variant};
 use crate::output::FileError;
 use std::path::{Path, PathBuf};
@@ -33,7 +38,7 @@ pub struct LeagueRow {
 }
 
 /// All submissions, judged.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct League {
     /// Names of the codes with their versions.
     pub codes: Vec<String>,
@@ -43,6 +48,10 @@ pub struct League {
     pub counts: Vec<(usize, usize, (usize, usize, usize))>,
     /// The quantities in the order of the cases.
     pub rows: Vec<LeagueRow>,
+    /// Observed orders of convergence, of a code (first) and a case (second).
+    pub orders: Vec<(usize, usize, ObservedOrder)>,
+    /// Files of the submissions, of a code (first) and a case (second).
+    pub submissions: Vec<(usize, usize, PathBuf)>,
 }
 
 /// The submissions of a league, in the order of their paths.
@@ -98,7 +107,7 @@ pub fn split(groups: Vec<CaseSubmissions>) -> Groups {
 /// Puts judged groups beside each other.
 #[must_use]
 pub fn league(groups: &[CodeComparison]) -> League {
-    let mut league = League { codes: Vec::new(), cases: Vec::new(), counts: Vec::new(), rows: Vec::new() };
+    let mut league = League::default();
     // rows of the case's own parameters come first, and name the others'
     let has_parameters = |group: &&CodeComparison| group.codes.iter().any(|code| code.has_parameters);
     let (with, without): (Vec<_>, Vec<_>) = groups.iter().partition(has_parameters);
@@ -108,6 +117,8 @@ pub fn league(groups: &[CodeComparison]) -> League {
             let name = format!("{} {}", judged.code.name, judged.code.version);
             let code = place(&mut league.codes, name.trim_end());
             league.counts.push((code, case, judged.counts()));
+            league.submissions.push((code, case, judged.file.clone()));
+            league.orders.extend(judged.orders.iter().map(|order| (code, case, order.clone())));
             for one in judged.metrics.iter().filter(|one| one.foreign.is_some()) {
                 enter(&mut league.rows, &group.own.name, code, judged, one);
             }
@@ -173,9 +184,14 @@ impl LeagueRow {
     /// Name of our run without its numerics.
     #[must_use]
     pub fn variant(&self) -> Variant {
-        let parts = self.own.variant.parts().filter(|(key, _)| !crate::judge::NUMERICS.contains(key));
-        parts.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()))
+        physics(&self.own.variant)
     }
+}
+
+/// A run's name without its numerics.
+fn physics(variant: &Variant) -> Variant {
+    let parts = variant.parts().filter(|(key, _)| !crate::judge::NUMERICS.contains(key));
+    parts.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()))
 }
 
 #[cfg(test)]
