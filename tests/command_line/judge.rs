@@ -108,7 +108,9 @@ fn export_contains_all_inputs() {
     {
         assert!(table("boundary.csv").contains(&format!("{run},{row}\n")), "{row}: {}", table("boundary.csv"));
     }
-    for row in ["flow: upper y,0.01,m", "flow: mean velocity x,0.0641373,m/s", "gravity x,1.70349,m/s^2"] {
+    for row in
+        ["flow,start,upper y,0.01,m", "flow,start,mean velocity x,0.0641373,m/s", "all,start,gravity x,1.70349,m/s^2"]
+    {
         assert!(table("start.csv").contains(&format!("{run},{row}\n")), "{row}: {}", table("start.csv"));
     }
     let definitions = std::fs::read_to_string(place.path("out/definitions.md")).expect("written");

@@ -24,7 +24,8 @@ judged as those of Bagnold. `bagnold league` writes the page with all sources;
 
 const VALUES: &str = "
 ✓ passes, ✗ fails, ○ is not judged. The standard deviation is that of Bagnold and of the codes of
-the same law: by so much two methods differ under one law.
+the same law: by so much two methods differ under one law. Behind *grains* stands that of the codes
+of the same grains.
 ";
 
 const ORDERS: &str = "
@@ -100,7 +101,9 @@ fn row(row: &LeagueRow, codes: &[usize]) -> String {
         })
     });
     let theirs: Vec<String> = theirs.collect();
-    let scatter = row.of_one_law().map(|(_, deviation)| number(deviation)).unwrap_or_default();
+    let own = row.of_one_law().map(|(_, deviation)| number(deviation));
+    let grains = row.of_grains().map(|(_, deviation)| format!("grains {}", number(deviation)));
+    let scatter = own.into_iter().chain(grains).collect::<Vec<_>>().join("; ");
     let limit = row.own.gate.as_ref().map(|gate| gate.limit.in_words(number)).unwrap_or_default();
     let name = format!("`{}` [{}] {}", row.own.name, row.own.unit, row.variant());
     format!("| {} | {limit} | {} | {} | {scatter} |", cell(&name), value(&row.own), theirs.join(" | "))

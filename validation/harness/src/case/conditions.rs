@@ -1,7 +1,7 @@
 //! Boundaries and start of a run for an external code, read from the scene that is simulated.
 
 use bagnold_solver::domain::{AxisBoundary, Domain};
-use bagnold_solver::incompressible::{Bed, IncompressibleScene};
+use bagnold_solver::incompressible::{Bed, IncompressibleScene, ParticleSet};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -11,28 +11,20 @@ use bagnold_solver::weakly_compressible::walls::Surface;
 const ENDS: [[&str; 2]; 3] = [["left", "right"], ["bottom", "top"], ["near", "far"]];
 /// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
+/// Kind of the conditions at the start.
+const START: &str = "start";
 
-/// A boundary condition.
+/// A number of a boundary, or of the start.
 #[derive(Debug, Clone, PartialEq)]
-pub struct BoundaryCondition {
-    /// Name of the boundary.
-    pub boundary: String,
-    /// Kind: `no slip`, `free slip`, `periodic`, `free surface`, `imposed velocity`, `friction` or `rough-wall law`.
+pub struct Condition {
+    /// Name of the boundary, or of the part of the flow.
+    pub part: String,
+    /// Kind of the boundary: `no slip`, `free slip`, `periodic`, `free surface`, `imposed velocity`, `friction` or
+    /// `rough-wall law`; or `start`.
     pub kind: &'static str,
     /// Quantity of the value.
-    pub quantity: &'static str,
-    /// Value in the unit; not a number where the boundary has no single one.
-    pub value: f64,
-    /// SI unit, `-` for none.
-    pub unit: &'static str,
-}
-
-/// A number of the start.
-#[derive(Debug, Clone, PartialEq)]
-pub struct InitialValue {
-    /// Name of the quantity.
     pub quantity: String,
-    /// Value in the unit.
+    /// Value in the unit; not a number where a boundary has no single one.
     pub value: f64,
     /// SI unit, `-` for none.
     pub unit: &'static str,
@@ -41,72 +33,68 @@ pub struct InitialValue {
 /// Boundaries and start of a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Conditions {
-    /// Boundary conditions.
-    pub boundaries: Vec<BoundaryCondition>,
-    /// Numbers of the start.
-    pub start: Vec<InitialValue>,
+    /// Its conditions, boundaries first.
+    pub rows: Vec<Condition>,
+}
+
+impl Condition {
+    /// Whether it belongs to the start.
+    #[must_use]
+    pub fn is_of_start(&self) -> bool {
+        self.kind == START
+    }
 }
 
 impl Conditions {
-    fn bound(
-        &mut self,
-        boundary: &str,
-        kind: &'static str,
-        (quantity, value, unit): (&'static str, f64, &'static str),
-    ) {
-        self.boundaries.push(BoundaryCondition { boundary: boundary.to_owned(), kind, quantity, value, unit });
+    fn enter(&mut self, part: &str, kind: &'static str, quantity: impl Into<String>, value: f64, unit: &'static str) {
+        self.rows.push(Condition { part: part.to_owned(), kind, quantity: quantity.into(), value, unit });
     }
 
-    fn begin(&mut self, quantity: impl Into<String>, value: f64, unit: &'static str) {
-        self.start.push(InitialValue { quantity: quantity.into(), value, unit });
+    fn has(&self, part: &str) -> bool {
+        self.rows.iter().any(|row| row.part == part)
+    }
+
+    fn vector<const D: usize>(&mut self, part: &str, quantity: &str, vector: &Vector<D>, unit: &'static str) {
+        for (name, value) in AXES.iter().zip(vector.iter()) {
+            self.enter(part, START, format!("{quantity} {name}"), *value, unit);
+        }
     }
 
     /// Extents, volume and mean velocity of particles at a spacing `[m]`. The extents are those of the lattice, from which
     /// particles are displaced.
-    fn fill<const D: usize>(&mut self, what: &str, places: &[Vector<D>], velocities: &[Vector<D>], spacing: f64) {
-        let count = places.len() as f64;
+    fn fill<const D: usize>(&mut self, part: &str, places: &[Vector<D>], velocities: &[Vector<D>], spacing: f64) {
+        let mut volume = 1.0;
         for (axis, name) in AXES.iter().enumerate().take(D) {
             let [lower, upper] = extent(places, spacing, axis);
-            self.begin(format!("{what}: lower {name}"), lower, "m");
-            self.begin(format!("{what}: upper {name}"), upper, "m");
+            self.enter(part, START, format!("lower {name}"), lower, "m");
+            self.enter(part, START, format!("upper {name}"), upper, "m");
+            volume *= upper - lower;
         }
-        let boxed: f64 = (0..D).map(|axis| extent(places, spacing, axis)).map(|[lower, upper]| upper - lower).product();
-        let (size, unit) = if D == 3 { ("volume", "m^3") } else { ("area", "m^2") };
+        let count = places.len() as f64;
         let filled = count * spacing.powi(D as i32);
-        self.begin(format!("{what}: {size}"), filled, unit);
-        self.begin(format!("{what}: share of the box between these ends"), filled / boxed, "-");
-        for (axis, name) in AXES.iter().enumerate().take(D) {
-            let mean = velocities.iter().map(|velocity| velocity[axis]).sum::<f64>() / count;
-            self.begin(format!("{what}: mean velocity {name}"), mean, "m/s");
-        }
-    }
-
-    fn pull<const D: usize>(&mut self, gravity: &Vector<D>) {
-        for (axis, name) in AXES.iter().enumerate().take(D) {
-            self.begin(format!("gravity {name}"), gravity[axis], "m/s^2");
-        }
+        let (size, unit) = if D == 3 { ("volume", "m^3") } else { ("area", "m^2") };
+        self.enter(part, START, size, filled, unit);
+        self.enter(part, START, "share of the box between these ends", filled / volume, "-");
+        self.vector(part, "mean velocity", &(velocities.iter().sum::<Vector<D>>() / count), "m/s");
     }
 
     /// Periods, mirrors, and free surfaces where nothing else bounds the flow.
     fn enclose<const D: usize>(&mut self, domain: &Domain<D>, places: &[Vector<D>], spacing: f64) {
         for (axis, boundary) in domain.axes.iter().enumerate() {
-            let [lower_end, upper_end] = ENDS[axis];
-            if let AxisBoundary::Periodic { lower, upper } = *boundary {
-                let both = format!("{lower_end} and {upper_end}");
-                self.bound(&both, "periodic", ("period", upper - lower, "m"));
-                continue;
-            }
             let mirrors = match *boundary {
+                AxisBoundary::Periodic { lower, upper } => {
+                    self.enter(&ENDS[axis].join(" and "), "periodic", "period", upper - lower, "m");
+                    continue;
+                }
                 AxisBoundary::Mirror { lower, upper } => [lower, upper],
-                _ => [None, None],
+                AxisBoundary::Open => [None, None],
             };
             let flow = extent(places, spacing, axis);
-            for (end, name) in [lower_end, upper_end].into_iter().enumerate() {
-                let is_bound = self.boundaries.iter().any(|row| row.boundary == name);
+            for (end, name) in ENDS[axis].into_iter().enumerate() {
                 match mirrors[end] {
-                    Some(place) => self.bound(name, "free slip", ("position", place, "m")),
-                    None if is_bound => {}
-                    None => self.bound(name, "free surface", ("position", flow[end], "m")),
+                    Some(place) => self.enter(name, "free slip", "position", place, "m"),
+                    None if self.has(name) => {}
+                    None => self.enter(name, "free surface", "position", flow[end], "m"),
                 }
             }
         }
@@ -115,9 +103,9 @@ impl Conditions {
 
 /// Lower and upper end `[m]` of the lattice cells of particles along an axis.
 fn extent<const D: usize>(places: &[Vector<D>], spacing: f64, axis: usize) -> [f64; 2] {
-    let ends = places.iter().map(|place| place[axis]);
-    let ends = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |ends, place| (ends.0.min(place), ends.1.max(place)));
-    [ends.0 - 0.5 * spacing, ends.1 + 0.5 * spacing].map(|end| (end / spacing).round() * spacing)
+    let lower = places.iter().fold(f64::INFINITY, |least, place| least.min(place[axis])) - 0.5 * spacing;
+    let upper = places.iter().fold(f64::NEG_INFINITY, |most, place| most.max(place[axis])) + 0.5 * spacing;
+    [lower, upper].map(|end| (end / spacing).round() * spacing)
 }
 
 fn slip(roughness: Surface) -> &'static str {
@@ -126,70 +114,67 @@ fn slip(roughness: Surface) -> &'static str {
 
 impl<const D: usize> From<&Scene<D>> for Conditions {
     fn from(scene: &Scene<D>) -> Self {
-        let mut all = Self::default();
-        let (flow, spacing) = (&scene.flow, scene.spacing);
+        let (mut all, flow, material) = (Self::default(), &scene.flow, scene.equation_of_state);
         for wall in &scene.walls {
             let name = if wall.region.is_some() { "gate" } else { ENDS[wall.axis][usize::from(wall.side < 0.0)] };
             // the other faces of a gate are its thickness, which is a choice of ours
-            if all.boundaries.iter().any(|row| row.boundary == name) {
-                continue;
-            }
-            all.bound(name, slip(wall.roughness), ("position", wall.surface, "m"));
-            let speed = wall.velocity.norm();
-            if speed > 0.0 {
-                all.bound(name, "imposed velocity", ("speed", speed, "m/s"));
+            if !all.has(name) {
+                all.enter(name, slip(wall.roughness), "position", wall.surface, "m");
+                let speed = wall.velocity.norm();
+                if speed > 0.0 {
+                    all.enter(name, "imposed velocity", "speed", speed, "m/s");
+                }
             }
         }
         for wall in &scene.enclosure.walls {
             let kind = if wall.motion == Motion::default() { slip(wall.roughness) } else { "imposed velocity" };
-            all.bound(&wall.name, kind, ("position", f64::NAN, "m"));
+            all.enter(&wall.name, kind, "position", f64::NAN, "m");
         }
-        all.enclose(&scene.domain, &flow.position, spacing);
+        all.enclose(&scene.domain, &flow.position, scene.spacing);
         if let Some(plates) = &scene.side_walls {
-            all.bound("near and far", "friction", ("coefficient", plates.friction, "-"));
-            all.bound("near and far", "friction", ("distance", plates.width, "m"));
+            all.enter("near and far", "friction", "coefficient", plates.friction, "-");
+            all.enter("near and far", "friction", "distance", plates.width, "m");
         }
-        all.fill("flow", &flow.position, &flow.velocity, spacing);
-        let material = scene.equation_of_state;
+        all.fill("flow", &flow.position, &flow.velocity, scene.spacing);
         let pressure = flow.density.iter().map(|density| material.pressure(*density)).sum::<f64>();
-        all.begin("flow: mean pressure", pressure / flow.density.len() as f64, "Pa");
-        all.begin("flow: density without pressure", material.reference_density, "kg/m^3");
+        all.enter("flow", START, "mean pressure", pressure / flow.density.len() as f64, "Pa");
+        all.enter("flow", START, "density without pressure", material.reference_density, "kg/m^3");
         if let Some(grain_density) = scene.rheology.grain_density() {
-            all.begin("flow: solid fraction", material.reference_density / grain_density, "-");
+            all.enter("flow", START, "solid fraction", material.reference_density / grain_density, "-");
         }
-        all.pull(&scene.gravity);
+        all.vector("all", "gravity", &scene.gravity, "m/s^2");
         all
     }
 }
 
 impl<const D: usize> From<&IncompressibleScene<D>> for Conditions {
     fn from(scene: &IncompressibleScene<D>) -> Self {
-        let mut all = Self::default();
-        let fluid = &scene.fluid;
+        let (mut all, fluid) = (Self::default(), &scene.fluid);
         match fluid.bed {
-            Bed::NoSlip(level) => all.bound("bottom", "no slip", ("position", level, "m")),
+            Bed::NoSlip(level) => all.enter("bottom", "no slip", "position", level, "m"),
             Bed::Slip if fluid.wall.is_empty() => {}
             Bed::Slip => {
                 let floor = extent(&fluid.wall, fluid.spacing, D - 1)[1];
-                all.bound("bottom", "free slip", ("position", floor, "m"));
+                all.enter("bottom", "free slip", "position", floor, "m");
             }
             Bed::Rough { level, origin_offset, law } => {
-                all.bound("bottom", "rough-wall law", ("position", level, "m"));
-                all.bound("bottom", "rough-wall law", ("origin below the position", origin_offset, "m"));
-                all.bound("bottom", "rough-wall law", ("sand roughness", law.sand_roughness, "m"));
+                all.enter("bottom", "rough-wall law", "position", level, "m");
+                all.enter("bottom", "rough-wall law", "origin below the position", origin_offset, "m");
+                all.enter("bottom", "rough-wall law", "sand roughness", law.sand_roughness, "m");
             }
         }
-        all.enclose(&scene.domain, &fluid.particles.position, fluid.spacing);
-        all.fill("fluid", &fluid.particles.position, &fluid.particles.velocity, fluid.spacing);
-        all.begin("fluid: density", fluid.density, "kg/m^3");
+        let ParticleSet { position, velocity } = &fluid.particles;
+        all.enclose(&scene.domain, position, fluid.spacing);
+        all.fill("fluid", position, velocity, fluid.spacing);
+        all.enter("fluid", START, "density", fluid.density, "kg/m^3");
         if let Some(sediment) = &scene.sediment {
-            let grains = &sediment.particles;
-            all.fill("sediment", &grains.position, &grains.velocity, sediment.spacing);
+            let ParticleSet { position, velocity } = &sediment.particles;
+            all.fill("sediment", position, velocity, sediment.spacing);
             let filling = sediment.filling.iter().sum::<f64>() / sediment.filling.len() as f64;
-            all.begin("sediment: solid fraction", filling, "-");
-            all.begin("sediment: grain density", sediment.density, "kg/m^3");
+            all.enter("sediment", START, "solid fraction", filling, "-");
+            all.enter("sediment", START, "grain density", sediment.density, "kg/m^3");
         }
-        all.pull(&fluid.gravity);
+        all.vector("all", "gravity", &fluid.gravity, "m/s^2");
         all
     }
 }

@@ -202,16 +202,13 @@ impl Progress for CheckpointedProgress<'_> {
 type Slot<R> = (R, OnceLock<(Recorded<<R as Run>::Observation>, bool)>);
 
 /// Progress of a run that is described and not simulated.
-#[derive(Default)]
-struct Description(OnceLock<Conditions>);
-
-impl Progress for Description {
+impl Progress for OnceLock<Conditions> {
     fn advance(&self, _: f64, _: f64, _: f64) {}
 
     fn resumed(&self, _: f64) {}
 
-    fn conditions(&self) -> Option<&OnceLock<Conditions>> {
-        Some(&self.0)
+    fn conditions(&self) -> Option<&Self> {
+        Some(self)
     }
 }
 
@@ -328,13 +325,12 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     }
 
     fn conditions(&self, run: usize) -> Option<Conditions> {
-        let description = Description::default();
-        let run = &self.slots[run].0;
+        let described = OnceLock::new();
         // a run of particles ends before its first step; what a case of another crate does is unknown
         if C::ORIGIN == CodeOrigin::PACKAGE {
-            run.simulate(&description).err()?;
+            self.slots[run].0.simulate(&described).err()?;
         }
-        description.0.into_inner()
+        described.into_inner()
     }
 
     fn judge_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {

@@ -32,7 +32,7 @@ mod tables;
 
 pub use changes::Changes;
 pub use changes::twice_given;
-pub use conditions::{BoundaryCondition, Conditions, InitialValue};
+pub use conditions::{Condition, Conditions};
 pub use erased::{AnyCase, PreparedCase};
 pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};

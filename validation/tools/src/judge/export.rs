@@ -4,7 +4,7 @@ use super::blank::{blank, of_case, wrapped};
 use super::error::JudgeError;
 use super::inputs::digest;
 use super::laws;
-use crate::case::{AnyCase, CaseResult, Conditions, ExternalColumn, ExternalSchema, PreparedCase, Tier};
+use crate::case::{AnyCase, CaseResult, Condition, ExternalColumn, ExternalSchema, PreparedCase, Tier};
 use crate::evidence::shipped_tables;
 use crate::figure::{Mark, Series};
 use crate::metric::{Metric, MetricKind};
@@ -70,30 +70,22 @@ fn inputs(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, folder: &Path
 
 /// Writes `boundary.csv` and `start.csv`, from the scenes that our own runs start with.
 fn conditions(prepared: &dyn PreparedCase, folder: &Path) -> io::Result<()> {
-    let runs: Vec<(String, Conditions)> = (0..prepared.run_count())
-        .filter_map(|run| Some((prepared.variant(run).to_string(), prepared.conditions(run)?)))
-        .collect();
-    if runs.is_empty() {
-        return Ok(());
-    }
-    let number = |value: f64| {
-        let rounded = format!("{value:.5e}").parse().unwrap_or(value) + 0.0;
-        if value.is_finite() { rounded.to_string() } else { String::new() }
+    let of_run = |run| {
+        let rows = prepared.conditions(run).unwrap_or_default().rows;
+        rows.into_iter().map(move |row| (prepared.variant(run).to_string(), row))
     };
-    let mut boundaries = csv::Writer::from_path(folder.join("boundary.csv"))?;
-    boundaries.write_record(["run", "boundary", "kind", "quantity", "value", "unit"])?;
-    let mut start = csv::Writer::from_path(folder.join("start.csv"))?;
-    start.write_record(["run", "quantity", "value", "unit"])?;
-    for (run, conditions) in &runs {
-        for row in &conditions.boundaries {
-            let value = number(row.value);
-            boundaries.write_record([run, &row.boundary, row.kind, row.quantity, &value, row.unit])?;
+    let all: Vec<(String, Condition)> = (0..prepared.run_count()).flat_map(of_run).collect();
+    for (name, is_start) in [("boundary.csv", false), ("start.csv", true)].into_iter().filter(|_| !all.is_empty()) {
+        let mut table = csv::Writer::from_path(folder.join(name))?;
+        table.write_record(["run", if is_start { "part" } else { "boundary" }, "kind", "quantity", "value", "unit"])?;
+        for (run, row) in all.iter().filter(|(_, row)| row.is_of_start() == is_start) {
+            let rounded: f64 = format!("{:.5e}", row.value).parse().unwrap_or(row.value);
+            let value = if rounded.is_finite() { (rounded + 0.0).to_string() } else { String::new() };
+            table.write_record([run, &row.part, row.kind, &row.quantity, &value, row.unit])?;
         }
-        for row in &conditions.start {
-            start.write_record([run, &row.quantity, &number(row.value), row.unit])?;
-        }
+        table.flush()?;
     }
-    boundaries.flush().and_then(|()| start.flush())
+    Ok(())
 }
 
 /// Writes the first pictures and the tables of our own runs.

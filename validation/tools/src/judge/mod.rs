@@ -28,7 +28,7 @@ use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCas
 use crate::evaluation::PlanError;
 use crate::figure::Figure;
 use crate::input::FieldError;
-use crate::metric::{Limit, Metric, Variant, Verdict};
+use crate::metric::{Metric, Variant, Verdict};
 use std::path::{Path, PathBuf};
 
 /// Submissions of one case, with the runs of ours that they are compared with.
@@ -202,14 +202,7 @@ fn entry(
         let coarse = coarse.metrics.iter().find(is_coarse).filter(|metric| coarse.is_measured(metric))?;
         Some(ObservedOrder { fine: fine.clone(), coarse: coarse.value, ratio: ratio(fine)? })
     };
-    let is_error = |metric: &&Metric| {
-        let is_around_zero = |limit| match limit {
-            Limit::AtMost(_) => true,
-            Limit::Within(lower, upper) => lower + upper == 0.0,
-            Limit::AtLeast(_) => false,
-        };
-        metric.unit == "%" && metric.gate.as_ref().is_some_and(|gate| is_around_zero(gate.limit))
-    };
+    let is_error = |metric: &&Metric| metric.unit == "%" && metric.gate.is_some();
     let orders = result.metrics.iter().filter(is_error).filter_map(order).collect();
     let variants = places.iter().map(|&place| prepared.variant(place)).collect();
     Ok(CodeResults { submission, variants, result, moved: None, orders })

@@ -50,12 +50,16 @@ fn header(name: &str, size: usize) -> io::Result<[u8; RECORD]> {
     }
     let mut put = |at: usize, text: &str| header[at..at + text.len()].copy_from_slice(text.as_bytes());
     put(0, name);
-    put(100, "0000644\00000000\00000000");
+    // mode, user and group
+    put(100, "0000644");
+    put(108, "0000000");
+    put(116, "0000000");
     put(124, &format!("{size:011o}"));
     put(136, "00000000000");
     // the sum counts its own field as blanks
     put(148, "        0");
-    put(257, "ustar\000");
+    put(257, "ustar");
+    put(263, "00");
     let sum: u32 = header.iter().map(|byte| u32::from(*byte)).sum();
     header[148..156].copy_from_slice(format!("{sum:06o}\0 ").as_bytes());
     Ok(header)

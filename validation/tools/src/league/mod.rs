@@ -172,13 +172,17 @@ impl LeagueRow {
     /// Mean of the codes of our law and ours, and their standard deviation; none of fewer than three.
     #[must_use]
     pub fn of_one_law(&self) -> Option<(f64, f64)> {
-        let same = self.values.iter().filter(|(_, law, _)| *law == LawOrigin::Same);
-        let values: Vec<f64> =
-            same.map(|(_, _, metric)| metric.value).chain([self.own.value]).filter(|value| value.is_finite()).collect();
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let square = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0);
-        (values.len() >= FEWEST).then_some((mean, square.sqrt()))
+        scatter(self.of(LawOrigin::Same).chain([self.own.value]), FEWEST)
+    }
+
+    /// Mean of the codes of grains, and their standard deviation; none of fewer than two.
+    #[must_use]
+    pub fn of_grains(&self) -> Option<(f64, f64)> {
+        scatter(self.of(LawOrigin::Grains), 2)
+    }
+
+    fn of(&self, law: LawOrigin) -> impl Iterator<Item = f64> {
+        self.values.iter().filter(move |(_, own, _)| *own == law).map(|(_, _, metric)| metric.value)
     }
 
     /// Name of our run without its numerics.
@@ -186,6 +190,15 @@ impl LeagueRow {
     pub fn variant(&self) -> Variant {
         physics(&self.own.variant)
     }
+}
+
+/// Mean and standard deviation of the finite of some values; none of fewer than `fewest`.
+fn scatter(values: impl Iterator<Item = f64>, fewest: usize) -> Option<(f64, f64)> {
+    let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let square = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0);
+    (values.len() >= fewest).then_some((mean, square.sqrt()))
 }
 
 /// A run's name without its numerics.
@@ -197,6 +210,7 @@ fn physics(variant: &Variant) -> Variant {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::metric::Limit;
 
     fn row(values: &[(LawOrigin, f64)]) -> LeagueRow {
         let metric = |value| Metric::observed("run_out", &Variant::of("a", 1).and("resolution", 20), value, "-");
@@ -212,5 +226,29 @@ mod tests {
         assert_eq!((mean, deviation), (3.0, 1.0));
         assert_eq!(row(&[(LawOrigin::Same, 3.0), (LawOrigin::Grains, 9.0)]).of_one_law(), None);
         assert_eq!(row(&[]).variant(), Variant::of("a", 1));
+        assert_eq!(
+            row(&[(LawOrigin::Grains, 9.0), (LawOrigin::Grains, 11.0)]).of_grains(),
+            Some((10.0, 2.0f64.sqrt()))
+        );
+    }
+
+    #[test]
+    fn a_limit_that_is_narrow_or_wide_beside_the_scatter_shows_its_reason() {
+        // a standard deviation of 1
+        let mut row = row(&[(LawOrigin::Same, 3.0), (LawOrigin::Same, 4.0)]);
+        let mut reason = |limit| {
+            row.own = row.own.clone().gated(limit, "two rows of 20");
+            widths(&League { rows: vec![row.clone()], ..League::default() })[0][4..].join(" ")
+        };
+        assert_eq!(reason(Limit::Within(1.5, 4.5)), "1.5 1.0 1.5 ");
+        assert_eq!(reason(Limit::Within(2.5, 3.5)), "0.5 1.0 0.5 narrow: two rows of 20");
+        assert_eq!(reason(Limit::AtMost(5.5)), "2.5 1.0 2.5 wide: two rows of 20");
+    }
+
+    #[test]
+    fn the_observed_order_is_that_of_the_errors_and_none_where_they_change_their_sign() {
+        let fine = Metric::observed("velocity_l2", &Variant::default(), 0.5, "%");
+        let order = |coarse| ObservedOrder { fine: fine.clone(), coarse, ratio: 2.0 }.order();
+        assert_eq!((order(2.0), order(-2.0)), (Some(2.0), None));
     }
 }

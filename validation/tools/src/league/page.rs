@@ -74,7 +74,7 @@ fn document(league: &League, blind: &[BlindComparison]) -> Value {
         let gives = |code: usize| rows.iter().any(|row| row.values.iter().any(|value| value.0 == code));
         let codes: Vec<usize> = (0..league.codes.len()).filter(|code| gives(*code)).collect();
         let heads: Vec<&String> = codes.iter().map(|code| &league.codes[*code]).collect();
-        let has_scatter = rows.iter().any(|row| row.of_one_law().is_some());
+        let has_scatter = rows.iter().any(|row| row.of_one_law().or(row.of_grains()).is_some());
         json!({ "name": case, "has_scatter": has_scatter, "heads": heads, "rows": rows.iter().map(|row| entry(row, &codes)).collect::<Vec<_>>() })
     };
     json!({
@@ -102,10 +102,12 @@ fn entry(row: &LeagueRow, codes: &[usize]) -> Value {
             cell
         })
     });
-    let scatter = row.of_one_law().map(|(mean, deviation)| {
+    let words = |(mean, deviation): (f64, f64)| {
         let share = 100.0 * deviation / mean.abs();
         format!("{} ({} %)", two_digits(deviation), two_digits(share))
-    });
+    };
+    let grains = row.of_grains().map(|of| format!("grains {}", words(of)));
+    let scatter: Vec<String> = row.of_one_law().map(words).into_iter().chain(grains).collect();
     json!({
         "metric": own.name,
         "unit": own.unit,
@@ -115,7 +117,7 @@ fn entry(row: &LeagueRow, codes: &[usize]) -> Value {
         "limit": own.gate.as_ref().map(|gate| gate.limit.in_words(four_digits)),
         "own": cell(own, Value::Null),
         "cells": theirs.collect::<Vec<_>>(),
-        "scatter": scatter,
+        "scatter": scatter.join("; "),
     })
 }
 

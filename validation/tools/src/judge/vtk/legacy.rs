@@ -1,7 +1,7 @@
 //! Points of the legacy format `.vtk`: keywords with counts, each followed by values as text or in big-endian order.
 
 use super::array::{ByteOrder, Scalar};
-use super::{NamedArrays, PLACES, PointArrays, Refusal, centres, part};
+use super::{PLACES, PointArrays, Refusal, centres, part};
 
 /// Remainder of a file.
 struct Legacy<'file> {
@@ -13,25 +13,8 @@ struct Legacy<'file> {
     centres: Vec<f64>,
 }
 
-/// Owner of the attributes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum AttributeOwner {
-    Dataset,
-    Points(usize),
-    /// Cells, with their number.
-    Cells(usize),
-}
-
-impl AttributeOwner {
-    /// Arrays of the owner; none of the whole dataset.
-    fn arrays(self, points: &mut PointArrays) -> Option<&mut NamedArrays> {
-        match self {
-            Self::Dataset => None,
-            Self::Points(_) => Some(&mut points.arrays),
-            Self::Cells(_) => Some(&mut points.cells),
-        }
-    }
-}
+/// Number of points or cells that own attributes, and whether they are cells; none for those of the dataset.
+type Owner = Option<(usize, bool)>;
 
 /// Reads the points.
 ///
@@ -53,7 +36,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
         return Err(format!("a grid of another kind, {}", shortened(&dataset[1])).into());
     }
     let mut points = PointArrays::default();
-    let mut owner = AttributeOwner::Dataset;
+    let mut owner = None;
     while let Some(keyword) = file.next_word()? {
         file.section(&keyword.to_ascii_uppercase(), &mut owner, &mut points)?;
     }
@@ -61,7 +44,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
 }
 
 impl<'file> Legacy<'file> {
-    fn section(&mut self, keyword: &str, owner: &mut AttributeOwner, points: &mut PointArrays) -> Result<(), Refusal> {
+    fn section(&mut self, keyword: &str, owner: &mut Owner, points: &mut PointArrays) -> Result<(), Refusal> {
         match keyword {
             "POINTS" => {
                 let count = self.count()?;
@@ -84,7 +67,7 @@ impl<'file> Legacy<'file> {
                 if count != given {
                     return Err(format!("of {given} points, but with data of {count}").into());
                 }
-                *owner = AttributeOwner::Points(count);
+                *owner = Some((count, false));
             }
             "CELL_DATA" => {
                 let (count, given) = (self.count()?, self.centres.len() / 3);
@@ -94,7 +77,7 @@ impl<'file> Legacy<'file> {
                 if points.cells.is_empty() {
                     part(&mut points.cells, PLACES, 3, &self.centres);
                 }
-                *owner = AttributeOwner::Cells(count);
+                *owner = Some((count, true));
             }
             "METADATA" => self.metadata(),
             "FIELD" => {
@@ -104,8 +87,8 @@ impl<'file> Legacy<'file> {
                     let (components, tuples) = (self.count()?, self.count()?);
                     let scalar = self.scalar()?;
                     let values = self.values(scalar, tuples, components)?;
-                    if let Some(arrays) = owner.arrays(points) {
-                        part(arrays, &name, components, &values);
+                    if let Some((_, at_cells)) = *owner {
+                        part(points.at(at_cells), &name, components, &values);
                     }
                 }
             }
@@ -116,14 +99,9 @@ impl<'file> Legacy<'file> {
                 self.values(scalar, count, 4)?;
             }
             _ => {
-                let count = match *owner {
-                    AttributeOwner::Points(count) | AttributeOwner::Cells(count) => count,
-                    AttributeOwner::Dataset => return Err(unknown(keyword)),
-                };
+                let (count, at_cells) = owner.ok_or_else(|| unknown(keyword))?;
                 let (name, components, values) = self.attribute(keyword, count)?;
-                if let Some(arrays) = owner.arrays(points) {
-                    part(arrays, &name, components, &values);
-                }
+                part(points.at(at_cells), &name, components, &values);
             }
         }
         Ok(())

@@ -83,6 +83,11 @@ impl PointArrays {
         })
     }
 
+    /// Arrays at points or at cells.
+    fn at(&mut self, cells: bool) -> &mut NamedArrays {
+        if cells { &mut self.cells } else { &mut self.arrays }
+    }
+
     fn checked(self) -> Result<Self, Refusal> {
         let places = format!("{PLACES}:0");
         let counts = [&self.arrays, &self.cells].map(|arrays| arrays.get(&places).map_or(0, Vec::len));

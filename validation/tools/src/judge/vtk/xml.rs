@@ -168,8 +168,8 @@ impl ArraySource<'_> {
                 continue;
             }
             let array = |name: &'static str| {
-                let arrays = child(piece, kind).into_iter().flat_map(|cells| cells.children());
-                let found = arrays.filter(|node| node.attribute("Name") == Some(name)).next();
+                let mut arrays = child(piece, kind).into_iter().flat_map(|cells| cells.children());
+                let found = arrays.find(|node| node.attribute("Name") == Some(name));
                 found.ok_or_else(|| format!("without `{name}` of its cells"))
             };
             let ends = self.values(array("offsets")?, "offsets", number, 1)?;
