@@ -1,25 +1,17 @@
 //! Digests of the gates that a submission was made for.
 
 use super::Submission;
-use crate::case::{AnyCase, Changes, ParameterError, Tier};
 use crate::metric::Metric;
 use crate::result::gates_digest;
 
 /// Digits of the digest of one limit.
 const DIGITS: usize = 4;
 
-/// Digest of the gates of a case at a tier, and those of its limits, separated by blanks; empty for a case without limits before a run.
-///
-/// # Errors
-/// A tier whose parameters the case refuses, which no case does.
-pub(super) fn gates_of(case: &'static dyn AnyCase, tier: Tier) -> Result<(String, String), ParameterError> {
-    Ok(digests(&case.prepare(tier, &Changes::default())?.asked().metrics))
-}
-
-fn digests(metrics: &[Metric]) -> (String, String) {
-    let gated: Vec<&Metric> = metrics.iter().filter(|metric| metric.gate.is_some()).collect();
-    let limits: Vec<String> = gated.iter().map(|metric| gates_digest([*metric])[..DIGITS].to_owned()).collect();
-    if gated.is_empty() { Default::default() } else { (gates_digest(gated), limits.join(" ")) }
+/// Digest of the gates of metrics, and those of their limits, separated by blanks.
+pub(super) fn digests(metrics: &[Metric]) -> (String, String) {
+    let gated = metrics.iter().filter(|metric| metric.gate.is_some());
+    let limits: Vec<String> = gated.map(|metric| gates_digest([metric])[..DIGITS].to_owned()).collect();
+    (gates_digest(metrics), limits.join(" "))
 }
 
 /// Notice of a submission that was made for other gates than today's.

@@ -144,10 +144,12 @@ impl CaseSubmissions {
         let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[], ..Changes::default() };
         let all = case.prepare(first.tier, &changes).map_err(|error| PlanError::of(error, &first.path))?;
         // the export has the tier's parameters, whatever a submission lays over them
-        let exported = inputs_of(case, first.tier).map_err(|error| PlanError::of(error, &first.path))?;
-        let gates = gates::gates_of(case, first.tier).map_err(|error| PlanError::of(error, &first.path))?;
+        let exported =
+            case.prepare(first.tier, &Changes::default()).map_err(|error| PlanError::of(error, &first.path))?;
+        let inputs = inputs::digest(exported.parameters_toml());
+        let gates = gates::digests(&exported.asked().metrics);
         for submission in &submissions {
-            inputs::check(submission.inputs.as_deref(), &exported).map_err(|error| error.in_file(&submission.path))?;
+            inputs::check(submission.inputs.as_deref(), &inputs).map_err(|error| error.in_file(&submission.path))?;
         }
         // the runs of ours that any code gives something of, in our order
         let places: Vec<Vec<usize>> =

@@ -1,7 +1,6 @@
 //! Records of incompressible simulations.
 
 use super::{Recordable, RecordedState, Restartable, picture};
-use crate::case::Conditions;
 use crate::observation::Frame;
 use bagnold_solver::incompressible::{
     IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot, SavedIncompressible,
@@ -50,10 +49,6 @@ impl Recordable for IncompressibleSimulation<2> {
 impl Restartable<2> for IncompressibleSimulation<2> {
     type Scene = IncompressibleScene<2>;
     type Saved = SavedIncompressible<2>;
-
-    fn conditions(scene: &IncompressibleScene<2>) -> Conditions {
-        scene.into()
-    }
 
     fn begin(scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
         Self::new(scene)

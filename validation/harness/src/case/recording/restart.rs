@@ -28,8 +28,6 @@ pub trait Restartable<const D: usize>: Recordable + Sized {
     type Scene;
     /// Form in which the simulation is saved.
     type Saved: DeserializeOwned;
-    /// Boundaries and start of a scene.
-    fn conditions(scene: &Self::Scene) -> Conditions;
     /// Sets it up.
     ///
     /// # Errors
@@ -124,12 +122,13 @@ where
     O: Serialize + DeserializeOwned,
     C: Serialize + DeserializeOwned,
     E: Into<ParameterError> + Display,
+    for<'scene> Conditions: From<&'scene S::Scene>,
 {
     let now = Instant::now();
     let SimulationStage { progress, end, interval, context } = stage;
     if let Some(conditions) = progress.conditions() {
         let described = scene(StartState::Described).map_err(Into::into)?;
-        conditions.get_or_init(|| S::conditions(&described));
+        conditions.get_or_init(|| Conditions::from(&described));
         return Err(ParameterError::Interrupted);
     }
     let checkpoints = progress.checkpoints();

@@ -1,7 +1,6 @@
 //! Records of weakly compressible simulations.
 
 use super::{Recordable, RecordedState, Restartable, picture};
-use crate::case::Conditions;
 use crate::observation::Frame;
 use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
@@ -57,10 +56,6 @@ where
 {
     type Scene = Scene<D>;
     type Saved = SavedSimulation<'static, D>;
-
-    fn conditions(scene: &Scene<D>) -> Conditions {
-        scene.into()
-    }
 
     fn begin(scene: Scene<D>) -> Result<Self, SceneError> {
         Self::new(scene)
