@@ -31,7 +31,7 @@ const EXPORT_EXAMPLES: &str = "Examples:
   bagnold export film --for openfoam --out film         also deck/run.sh and the matching submission.toml
 
 The folder receives case.toml (geometry, material), boundary.csv and start.csv (boundary conditions and start of each run),
-reference/ (exact and measured curves), definitions.md (laws, metrics, limits) and submission.toml for `bagnold judge`. --simulate adds particles/ (initial particles as CSV and VTU) and
+reference/ (exact and measured curves), definitions.md (laws, limits) and submission.toml for `bagnold judge`. --simulate adds particles/ (initial particles as CSV and VTU) and
 bagnold/ (profiles and histories).";
 
 /// `bagnold judge`

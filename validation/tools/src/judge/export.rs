@@ -4,7 +4,7 @@ use super::blank::{blank, of_case, wrapped};
 use super::error::JudgeError;
 use super::inputs::digest;
 use super::laws;
-use crate::case::{AnyCase, CaseResult, Condition, ExternalColumn, ExternalSchema, PreparedCase, Tier};
+use crate::case::{AnyCase, CaseResult, Condition, PreparedCase, Tier};
 use crate::evidence::shipped_tables;
 use crate::figure::{Mark, Series};
 use crate::metric::{Metric, MetricKind};
@@ -126,7 +126,8 @@ fn definitions(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, asked: &
     text.push_str(
         "\nGeometry, material and gravity are in `case.toml`, in SI units, angles in degrees; every key is explained there. Of a run's \
          keys the resolution and the numerics are a code's own business. `boundary.csv` and `start.csv` hold the boundary conditions \
-         and the start of every run, which are those of our own scenes. `reference/` holds exact, measured and published curves. With \
+         and the start of every run, which are those of our own scenes. `submission.toml` lists every column and number \
+         with its unit. `reference/` holds exact, measured and published curves. With \
          `bagnold export --simulate`, `particles/` holds the initial particles of our runs and `bagnold/` our profiles and histories.\n",
     );
     text.push_str("\n## Runs\n\n");
@@ -138,31 +139,12 @@ fn definitions(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, asked: &
     if !form.description.is_empty() {
         let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(&of_case(form.description, case)));
     }
-    text.push_str(&items(form));
-    text.push_str("\n## Numbers\n\n");
-    for quantity in case.quantities() {
-        let _ = writeln!(text, "- `{}` [{}]: {}", quantity.name, quantity.unit, quantity.description);
-    }
     text.push_str("\n## Limits\n\n");
     for metric in asked.iter().filter(|metric| metric.kind != MetricKind::Bookkeeping) {
         let Some(gate) = &metric.gate else { continue };
         let source = metric.reference.as_ref().map(|of| format!(" Reference: {}.", of.source)).unwrap_or_default();
         let limit = gate.limit.in_words(four_digits);
         let _ = writeln!(text, "- `{}` of `{}`: {limit}. {}.{source}", metric.name, metric.variant, gate.reason);
-    }
-    text
-}
-
-fn items(form: &ExternalSchema) -> String {
-    let mut text = String::new();
-    for (name, items) in [("Particles", form.particles), ("Time series", form.series), ("Profile", form.profile)] {
-        if items.is_empty() {
-            continue;
-        }
-        let _ = write!(text, "\n## {name}\n\n");
-        for ExternalColumn { name, unit, description } in items {
-            let _ = writeln!(text, "- `{name}` [{unit}]: {description}");
-        }
     }
     text
 }

@@ -240,9 +240,9 @@ mod tests {
             row.own = row.own.clone().gated(limit, "two rows of 20");
             widths(&League { rows: vec![row.clone()], ..League::default() })[0][4..].join(" ")
         };
-        assert_eq!(reason(Limit::Within(1.5, 4.5)), "1.5 1.0 1.5 ");
-        assert_eq!(reason(Limit::Within(2.5, 3.5)), "0.5 1.0 0.5 narrow: two rows of 20");
-        assert_eq!(reason(Limit::AtMost(5.5)), "2.5 1.0 2.5 wide: two rows of 20");
+        assert_eq!(reason(Limit::Within(1.5, 4.5)), "1.5 1 1.5 ");
+        assert_eq!(reason(Limit::Within(2.5, 3.5)), "0.5 1 0.5 narrow: two rows of 20");
+        assert_eq!(reason(Limit::AtMost(5.5)), "2.5 1 2.5 wide: two rows of 20");
     }
 
     #[test]
