@@ -100,6 +100,19 @@ fn export_contains_all_inputs() {
     for file in ["case.toml", "submission.toml", "reference/velocity-profile.csv"] {
         assert!(place.path("out").join(file).is_file(), "{file}");
     }
+    // boundaries and start are those of the scene: its period, its surface, its weight along the slope of 10°
+    let table = |name: &str| std::fs::read_to_string(place.path("out").join(name)).expect("written");
+    let run = "\"fluid=bingham,particles=jittered,resolution=20\"";
+    for row in
+        ["bottom,no slip,position,0,m", "top,free surface,position,0.01,m", "left and right,periodic,period,0.004,m"]
+    {
+        assert!(table("boundary.csv").contains(&format!("{run},{row}\n")), "{row}: {}", table("boundary.csv"));
+    }
+    for row in
+        ["flow,start,upper y,0.01,m", "flow,start,mean velocity x,0.0641373,m/s", "all,start,gravity x,1.70349,m/s^2"]
+    {
+        assert!(table("start.csv").contains(&format!("{run},{row}\n")), "{row}: {}", table("start.csv"));
+    }
     let definitions = std::fs::read_to_string(place.path("out/definitions.md")).expect("written");
     let limit = "- `velocity_l2` of `fluid=bingham,particles=jittered,resolution=20`: ≤ 3.";
     assert!(definitions.contains("`herschel-bulkley`: η = τ_y") && definitions.contains(limit), "{definitions}");
@@ -119,6 +132,19 @@ fn export_contains_all_inputs() {
     let refused = place.bagnold(&["judge", "other.toml", "--quiet"]).assert().code(2);
     let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
     assert!(message.contains("`inputs` is \"00000000\", but must be"), "{message}");
+    // one of other gates is judged with a notice of the limits that have moved
+    let given = text.replace("# velocity_l2 = 0.0", "velocity_l2 = 0.1");
+    let gates = text.lines().find_map(|line| line.strip_prefix("gates = ")).expect("the digest").trim_matches('"');
+    let limits = text.lines().find_map(|line| line.strip_prefix("limits = ")).expect("the limits").trim_matches('"');
+    place.file("same.toml", &given);
+    place.file("moved.toml", &given.replace(gates, "3f2a3f2a").replace(&limits[..4], "zzzz"));
+    for (file, notice) in [("same.toml", None), ("moved.toml", Some("made for gates 3f2a3f2a, now "))] {
+        let told = place.bagnold(&["judge", file, "--out", "judged", "--quiet"]).assert().code(0);
+        let told = String::from_utf8_lossy(&told.get_output().stdout).into_owned();
+        assert_eq!(told.contains(": limits of 1 moved\n"), notice.is_some(), "{told}");
+        let moved = read(&place, "judged/metrics.json")["codes"][0]["moved"].as_str().map(str::to_owned);
+        assert_eq!(moved.is_some_and(|moved| moved.starts_with(notice.unwrap_or_default())), notice.is_some());
+    }
 }
 
 #[test]

@@ -5,7 +5,9 @@ use bagnold_harness::case::{Silent, execute};
 use bagnold_harness::metric::{Metric, Verdict};
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_tools::judge::{LawOrigin, judge};
-use bagnold_tools::league::{League, LeagueRow, blind, league, read, split, submissions};
+use bagnold_tools::league::{
+    League, LeagueRow, ORDER_HEADINGS, WIDTH_HEADINGS, blind, league, orders, read, split, submissions, widths,
+};
 use bagnold_validation::REGISTRY;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -22,7 +24,26 @@ judged as those of Bagnold. `bagnold league` writes the page with all sources;
 
 const VALUES: &str = "
 ✓ passes, ✗ fails, ○ is not judged. The standard deviation is that of Bagnold and of the codes of
-the same law: by so much two methods differ under one law.
+the same law: by so much two methods differ under one law. Behind *grains* stands that of the codes
+of the same grains.
+";
+
+const ORDERS: &str = "
+## Order of convergence of the codes
+
+The observed order is ln(error on the coarse mesh/error on the fine mesh) over ln(ratio of the
+cells). An error that changes its sign has no order, and one that is about to change it has a high
+order. An error of the law, such as a regularisation, stays and lowers the order.
+
+";
+
+const WIDTHS: &str = "
+## Limits beside the scatter of codes
+
+The table holds gated quantities of at least three codes of one law, Bagnold included. The width is
+half of an interval; for a bound it is the distance from the mean of the codes. A width below one
+standard deviation is narrow, from two on it is wide; its reason is that of the gate.
+
 ";
 
 const BLIND: &str = "
@@ -80,7 +101,9 @@ fn row(row: &LeagueRow, codes: &[usize]) -> String {
         })
     });
     let theirs: Vec<String> = theirs.collect();
-    let scatter = row.of_one_law().map(|(_, deviation)| number(deviation)).unwrap_or_default();
+    let own = row.of_one_law().map(|(_, deviation)| number(deviation));
+    let grains = row.of_grains().map(|(_, deviation)| format!("grains {}", number(deviation)));
+    let scatter = own.into_iter().chain(grains).collect::<Vec<_>>().join("; ");
     let limit = row.own.gate.as_ref().map(|gate| gate.limit.in_words(number)).unwrap_or_default();
     let name = format!("`{}` [{}] {}", row.own.name, row.own.unit, row.variant());
     format!("| {} | {limit} | {} | {} | {scatter} |", cell(&name), value(&row.own), theirs.join(" | "))
@@ -113,6 +136,14 @@ fn the_page_on_other_codes_is_that_of_the_stored_results() {
         for own in rows {
             let _ = writeln!(text, "{}", row(own, &codes));
         }
+    }
+    let _ = writeln!(text, "{ORDERS}| {} |\n|{}", ORDER_HEADINGS.join(" | "), "---|".repeat(ORDER_HEADINGS.len()));
+    for row in orders(&league) {
+        let _ = writeln!(text, "| {} |", row.map(|words| cell(&words)).join(" | "));
+    }
+    let _ = writeln!(text, "{WIDTHS}| {} |\n|{}", WIDTH_HEADINGS.join(" | "), "---|".repeat(WIDTH_HEADINGS.len()));
+    for row in widths(&league) {
+        let _ = writeln!(text, "| {} |", row.map(|words| cell(&words)).join(" | "));
     }
     text.push_str(BLIND);
     let _ = writeln!(text, "| {} |\n|{}", blind::HEADINGS.join(" | "), "---|".repeat(blind::HEADINGS.len()));

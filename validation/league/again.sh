@@ -27,7 +27,7 @@ for cell in "${cells[@]}"; do
         *) echo "$cell: ended with $code: $(tail -n 1 "$folder/output")"; differ=1; continue ;;
     esac
     case $cell in
-        lammps/* | mpm/* | newton/*) tolerance=0.03 ;;
+        lammps/* | yade/* | mpm/* | newton/*) tolerance=0.03 ;;
         *) tolerance=0.001 ;;
     esac
     python3 - "$league/$cell/results" "$folder/results" "$tolerance" "$cell" << 'END' || differ=1

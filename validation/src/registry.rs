@@ -100,6 +100,22 @@ mod tests {
         }
     }
 
+    /// Cases without particles solve a layer over its depth and a file, and have no scene to read.
+    #[test]
+    fn every_case_of_particles_has_boundaries_and_a_start() {
+        for case in REGISTRY.iter().filter(|case| !case.is_study()) {
+            let prepared = case.prepare(Tier::Quick, &Changes::default()).expect("the tier is valid");
+            let Some(all) = prepared.conditions(0) else {
+                assert!(["bed-load-1d", "submerged-layer"].contains(&case.name()), "{}", case.name());
+                continue;
+            };
+            let (start, boundaries): (Vec<_>, Vec<_>) = all.rows.iter().partition(|row| row.is_of_start());
+            assert!(!boundaries.is_empty(), "{}", case.name());
+            assert!(start.iter().all(|row| row.value.is_finite()), "{}: {start:?}", case.name());
+            assert!(start.iter().any(|row| row.quantity == "gravity x"), "{}", case.name());
+        }
+    }
+
     #[test]
     fn every_case_has_accepted_values() {
         for case in REGISTRY.iter() {

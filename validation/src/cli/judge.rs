@@ -94,7 +94,11 @@ fn verdicts(judgement: &CodeComparison) -> String {
         } else {
             ""
         };
-        format!("{}: {holding} gates pass, {failing} fail, {not_given} without data\n{nothing}{table}", name.trim())
+        let moved = judged.moved.as_ref().map(|notice| format!("{notice}\n")).unwrap_or_default();
+        format!(
+            "{}: {holding} gates pass, {failing} fail, {not_given} without data\n{moved}{nothing}{table}",
+            name.trim()
+        )
     };
     judgement.codes.iter().map(line).collect()
 }

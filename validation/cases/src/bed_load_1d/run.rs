@@ -146,6 +146,9 @@ impl Run for BedLoad1dRun {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadLayerObservation>, ParameterError> {
+        if progress.conditions().is_some() {
+            return Err(ParameterError::Interrupted);
+        }
         let started = Instant::now();
         let start = match self.purpose {
             LayerPurpose::FastStart(speed) => InitialVelocity::Moving(speed),

@@ -232,8 +232,8 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty, has
                 .exactly(steepest, "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front")
                 .gated(
                     flattest(run).map_or(Limit::AtMost(steepest), |flattest| Limit::Within(flattest, steepest)),
-                    "grains without cohesion rest on no slope steeper than their angle of friction; a planar heap of the sand is no flatter \
-                     than one from the height to the front of Lajeunesse's laws, the longer of both experiments, less 15 %",
+                    "grains without cohesion rest on no slope steeper than their angle of friction; a planar heap of the sand is at least as \
+                     steep as one from the height to the front of Lajeunesse's laws, the longer of both experiments, less 15 %",
                 )
         } else {
             slope

@@ -207,6 +207,7 @@ impl Layer<'_> {
         match beginning {
             StartState::New => self.prepared_scene(),
             StartState::Continued => Ok(self.scene()),
+            StartState::Described => Ok(self.started(self.scene())),
         }
     }
 

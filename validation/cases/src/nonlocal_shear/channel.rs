@@ -119,7 +119,9 @@ impl Channel<'_> {
                     UpperBoundary::Surface(_) => raised(settled, self.width),
                 }))
             }
-            StartState::Continued => Ok(Scene { gravity: Vector::from(self.gravity), ..self.moving(self.at_rest()) }),
+            StartState::Continued | StartState::Described => {
+                Ok(Scene { gravity: Vector::from(self.gravity), ..self.moving(self.at_rest()) })
+            }
         }
     }
 

@@ -137,6 +137,9 @@ impl Run for SubmergedLayerRun {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SubmergedLayerObservation>, ParameterError> {
+        if progress.conditions().is_some() {
+            return Err(ParameterError::Interrupted);
+        }
         let started = Instant::now();
         let mut data = SubmergedLayerObservation::default();
         let outcome = match self.march(&mut data, progress) {

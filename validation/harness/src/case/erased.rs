@@ -9,8 +9,8 @@ use super::guard::{Guard, with_changed};
 use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{
-    Case, CaseFile, Estimate, ExternalData, ExternalSchema, Parameters, Progress, RecordOf, Run, RunOf, StateOutput,
-    Tier, schema, tables_to_add,
+    Case, CaseFile, Conditions, Estimate, ExternalData, ExternalSchema, Parameters, Progress, RecordOf, Run, RunOf,
+    StateOutput, Tier, schema, tables_to_add,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::control::{self, Control};
@@ -100,6 +100,10 @@ pub trait PreparedCase: Send + Sync {
     /// Limits and references of runs of which another code gives nothing yet; empty where the case takes single numbers only.
     fn asked(&self) -> ExternalResult {
         ExternalResult::default()
+    }
+    /// Boundaries and start of a run; none of a case that is not simulated by particles.
+    fn conditions(&self, _run: usize) -> Option<Conditions> {
+        None
     }
     /// Judges and draws the records. Runs that were not simulated are left out.
     ///
@@ -201,6 +205,17 @@ impl Progress for CheckpointedProgress<'_> {
 
 /// A run and, once it is done, its record and whether that came from the store.
 type Slot<R> = (R, OnceLock<(Recorded<<R as Run>::Observation>, bool)>);
+
+/// Progress of a run that is described and not simulated.
+impl Progress for OnceLock<Conditions> {
+    fn advance(&self, _: f64, _: f64, _: f64) {}
+
+    fn resumed(&self, _: f64) {}
+
+    fn conditions(&self) -> Option<&Self> {
+        Some(self)
+    }
+}
 
 struct CasePlan<C: Case> {
     tier: Tier,
@@ -315,6 +330,15 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             figures: C::figures(&self.parameters, &records),
             ..ExternalResult::default()
         }
+    }
+
+    fn conditions(&self, run: usize) -> Option<Conditions> {
+        let described = OnceLock::new();
+        // a run of particles ends before its first step; what a case of another crate does is unknown
+        if C::ORIGIN == CodeOrigin::PACKAGE {
+            self.slots[run].0.simulate(&described).err()?;
+        }
+        described.into_inner()
     }
 
     fn judge_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {

@@ -2,6 +2,7 @@
 
 mod causes;
 mod changes;
+mod conditions;
 pub mod cost;
 mod erased;
 mod error;
@@ -31,6 +32,7 @@ mod tables;
 
 pub use changes::Changes;
 pub use changes::twice_given;
+pub use conditions::{Condition, Conditions};
 pub use erased::{AnyCase, PreparedCase};
 pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};
@@ -56,6 +58,7 @@ use crate::store::CodeOrigin;
 use bagnold_solver::material::rheology::Rheology;
 use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
+use std::sync::OnceLock;
 
 /// Cost of a case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize, JsonSchema, clap::ValueEnum)]
@@ -184,6 +187,10 @@ pub trait Progress: Sync {
     }
     /// States near the end of finished runs that this one may continue, and that it leaves; none if nothing is kept.
     fn ends(&self) -> Option<&Checkpoints> {
+        None
+    }
+    /// Place for boundaries and start of the run, which then ends before its first step; none for a run that is simulated.
+    fn conditions(&self) -> Option<&OnceLock<Conditions>> {
         None
     }
     /// Receiver of states during the run; none if no states are requested.

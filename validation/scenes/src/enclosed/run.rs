@@ -129,7 +129,7 @@ where
             stage,
             |beginning| match beginning {
                 StartState::New => self.prepared(made.clone()),
-                StartState::Continued => Ok(made.clone()),
+                StartState::Continued | StartState::Described => Ok(made.clone()),
             },
             |simulation: &Simulation<D>| (simulation.snapshot(), begin(simulation)),
             |(last_good, watch): &mut (Snapshot<D>, SceneObserver<D>), simulation| {

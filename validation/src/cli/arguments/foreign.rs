@@ -20,7 +20,8 @@ const LEAGUE_EXAMPLES: &str = "Examples:
   bagnold league my-codes --out compared                a folder of your own
 
 The page has a row per code and a column per case, and for each case all metrics with the distance from their reference.
-From three codes of one law on it tells their standard deviation.
+From three codes of one law on it has their standard deviation beside the limit. The folder also receives an archive of each
+submission, CODE-CASE.tar.
 
 Exit codes: 0 judged, whatever the verdicts, 2 bad input, 3 a run of ours diverged.";
 
@@ -29,8 +30,8 @@ const EXPORT_EXAMPLES: &str = "Examples:
   bagnold export bagnold --tier paper --out for-my-code
   bagnold export film --for openfoam --out film         also deck/run.sh and the matching submission.toml
 
-The folder receives case.toml (geometry, material), reference/ (exact and measured curves), definitions.md (laws, metrics,
-limits) and submission.toml for `bagnold judge`. --simulate adds particles/ (initial particles as CSV and VTU) and
+The folder receives case.toml (geometry, material), boundary.csv and start.csv (boundary conditions and start of each run),
+reference/ (exact and measured curves), definitions.md (laws, limits) and submission.toml for `bagnold judge`. --simulate adds particles/ (initial particles as CSV and VTU) and
 bagnold/ (profiles and histories).";
 
 /// `bagnold judge`
@@ -83,7 +84,7 @@ pub struct ExportArguments {
     /// Folder to write.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Also write the deck of this code with run.sh: openfoam, gerris or lammps.
+    /// Also write the deck of this code with run.sh: openfoam, gerris, lammps, newton or yade.
     #[arg(long = "for", value_name = "CODE")]
     pub code: Option<String>,
     /// Also simulate the case: initial particles, and profiles of Bagnold

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 /// A tier whose parameters the case refuses, which no case does.
 pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, ParameterError> {
     let prepared = case.prepare(tier, &Changes::default())?;
-    let form = case.form();
+    let (form, (gates, limits)) = (case.form(), super::gates::digests(&prepared.asked().metrics));
     let mut text = format!(
         "# What another code gives of the case `{name}`, for `bagnold judge`.\n# {summary}\n#\n# Leave out what the code does not \
          give: it reads \"not given\" and is never judged.\n# `bagnold show {name} --tier {tier}` prints geometry and \
@@ -17,7 +17,9 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
          case = \"{name}\"\ntier = \"{tier}\"\n# base = \"my-case.toml\"  # a case file with the parameters, such as a scene of one's own\n\
          # with = {{ … }}          # parameters that differ from the tier's, or from those of `base`\n\n\
          # Law of the runs: \"same\" as the case's, \"own\", or \"grains\"; only the same is judged against exact solutions.\n\
-         law = \"same\"\n# Digest of the inputs without numerics: another value is refused.\ninputs = \"{inputs}\"\n\n\
+         law = \"same\"\n# Digest of the inputs without numerics: another value is refused.\ninputs = \"{inputs}\"\n\
+         # Digests of the gates and of each limit: limits that have moved since are counted.\n\
+         gates = \"{gates}\"\nlimits = \"{limits}\"\n\n\
          [code]\nname = \"my code\"\nversion = \"1.0\"\n\n",
         inputs = super::inputs::digest(prepared.parameters_toml()),
         name = case.name(),

@@ -41,6 +41,8 @@ pub(super) fn document(judgement: &CodeComparison) -> Value {
             "name": judged.code.name,
             "version": judged.code.version,
             "law": judged.law,
+            // null where it was made for today's gates, or does not say
+            "moved": judged.moved,
             "holding": holding,
             "failing": failing,
             "not_given": not_given,

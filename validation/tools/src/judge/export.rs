@@ -4,7 +4,7 @@ use super::blank::{blank, of_case, wrapped};
 use super::error::JudgeError;
 use super::inputs::digest;
 use super::laws;
-use crate::case::{AnyCase, CaseResult, ExternalColumn, ExternalSchema, PreparedCase, Tier};
+use crate::case::{AnyCase, CaseResult, Condition, PreparedCase, Tier};
 use crate::evidence::shipped_tables;
 use crate::figure::{Mark, Series};
 use crate::metric::{Metric, MetricKind};
@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 use std::io;
 use std::path::Path;
 
-/// Writes `case.toml`, `definitions.md`, `submission.toml` and `reference/` into a folder. With results of our own runs also their
+/// Writes `case.toml`, `definitions.md`, `boundary.csv`, `start.csv`, `submission.toml` and `reference/` into a folder. With results of our own runs also their
 /// first pictures, the initial particles, in `particles/`, and their profiles and histories in `bagnold/`.
 ///
 /// # Errors
@@ -46,6 +46,7 @@ fn inputs(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, folder: &Path
         format!("# inputs = \"{}\": their digest without numerics, for `submission.toml`\n", digest(parameters));
     std::fs::write(folder.join("case.toml"), digest + parameters)?;
     std::fs::write(folder.join("definitions.md"), definitions(case, prepared, &asked.metrics))?;
+    conditions(prepared, folder)?;
     let put = |name: &str, text: &str| {
         let path = folder.join("reference").join(name);
         std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
@@ -63,6 +64,26 @@ fn inputs(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, folder: &Path
         if !figure.panels.is_empty() {
             put(&format!("{}.csv", figure.name), &crate::figure::csv(&figure))?;
         }
+    }
+    Ok(())
+}
+
+/// Writes `boundary.csv` and `start.csv`, from the scenes that our own runs start with.
+fn conditions(prepared: &dyn PreparedCase, folder: &Path) -> io::Result<()> {
+    let of_run = |run| {
+        let rows = prepared.conditions(run).unwrap_or_default().rows;
+        rows.into_iter().map(move |row| (prepared.variant(run).to_string(), row))
+    };
+    let all: Vec<(String, Condition)> = (0..prepared.run_count()).flat_map(of_run).collect();
+    for (name, is_start) in [("boundary.csv", false), ("start.csv", true)].into_iter().filter(|_| !all.is_empty()) {
+        let mut table = csv::Writer::from_path(folder.join(name))?;
+        table.write_record(["run", if is_start { "part" } else { "boundary" }, "kind", "quantity", "value", "unit"])?;
+        for (run, row) in all.iter().filter(|(_, row)| row.is_of_start() == is_start) {
+            let rounded: f64 = format!("{:.5e}", row.value).parse().unwrap_or(row.value);
+            let value = if rounded.is_finite() { (rounded + 0.0).to_string() } else { String::new() };
+            table.write_record([run, &row.part, row.kind, &row.quantity, &value, row.unit])?;
+        }
+        table.flush()?;
     }
     Ok(())
 }
@@ -104,7 +125,9 @@ fn definitions(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, asked: &
     let mut text = format!("# {}\n\n{}\n", case.name(), paragraph(case.description()));
     text.push_str(
         "\nGeometry, material and gravity are in `case.toml`, in SI units, angles in degrees; every key is explained there. Of a run's \
-         keys the resolution and the numerics are a code's own business. `reference/` holds exact, measured and published curves. With \
+         keys the resolution and the numerics are a code's own business. `boundary.csv` and `start.csv` hold the boundary conditions \
+         and the start of every run, which are those of our own scenes. `submission.toml` lists every column and number \
+         with its unit. `reference/` holds exact, measured and published curves. With \
          `bagnold export --simulate`, `particles/` holds the initial particles of our runs and `bagnold/` our profiles and histories.\n",
     );
     text.push_str("\n## Runs\n\n");
@@ -116,31 +139,12 @@ fn definitions(case: &'static dyn AnyCase, prepared: &dyn PreparedCase, asked: &
     if !form.description.is_empty() {
         let _ = write!(text, "\n## How measurements are taken\n\n{}\n", paragraph(&of_case(form.description, case)));
     }
-    text.push_str(&items(form));
-    text.push_str("\n## Numbers\n\n");
-    for quantity in case.quantities() {
-        let _ = writeln!(text, "- `{}` [{}]: {}", quantity.name, quantity.unit, quantity.description);
-    }
     text.push_str("\n## Limits\n\n");
     for metric in asked.iter().filter(|metric| metric.kind != MetricKind::Bookkeeping) {
         let Some(gate) = &metric.gate else { continue };
         let source = metric.reference.as_ref().map(|of| format!(" Reference: {}.", of.source)).unwrap_or_default();
         let limit = gate.limit.in_words(four_digits);
         let _ = writeln!(text, "- `{}` of `{}`: {limit}. {}.{source}", metric.name, metric.variant, gate.reason);
-    }
-    text
-}
-
-fn items(form: &ExternalSchema) -> String {
-    let mut text = String::new();
-    for (name, items) in [("Particles", form.particles), ("Time series", form.series), ("Profile", form.profile)] {
-        if items.is_empty() {
-            continue;
-        }
-        let _ = write!(text, "\n## {name}\n\n");
-        for ExternalColumn { name, unit, description } in items {
-            let _ = writeln!(text, "- `{name}` [{unit}]: {description}");
-        }
     }
     text
 }

@@ -4,6 +4,7 @@ mod blank;
 mod document;
 mod error;
 mod export;
+mod gates;
 mod inputs;
 mod lammps;
 mod laws;
@@ -20,7 +21,7 @@ pub use export::export;
 pub use inputs::inputs_of;
 pub(crate) use page::other_limit;
 pub use page::write;
-pub use submission::{Code, ForeignRun, LawOrigin, ParticleFiles, Submission, TableFile};
+pub use submission::{CoarseRun, Code, ForeignRun, LawOrigin, ParticleFiles, Submission, TableFile};
 pub use verdicts::MetricComparison;
 
 use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCase, Registry};
@@ -47,6 +48,30 @@ pub struct CodeResults {
     variants: Vec<Variant>,
     /// Result computed from the files of the code.
     pub result: ExternalResult,
+    /// Notice of other gates than today's, for which it was made.
+    moved: Option<String>,
+    /// Observed orders of convergence.
+    orders: Vec<ObservedOrder>,
+}
+
+/// A code's own convergence between two meshes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObservedOrder {
+    /// The error on the finer mesh.
+    pub fine: Metric,
+    /// The error on the coarser mesh, in the unit of the finer one's.
+    pub coarse: f64,
+    /// Ratio r of the cell sizes `[-]`.
+    pub ratio: f64,
+}
+
+impl ObservedOrder {
+    /// Observed order ln(e_coarse/e_fine)/ln r `[-]`; none where the error changes its sign.
+    #[must_use]
+    pub fn order(&self) -> Option<f64> {
+        let reduction = self.coarse / self.fine.value;
+        (reduction > 0.0).then(|| reduction.ln() / self.ratio.ln())
+    }
 }
 
 /// A code's verdicts.
@@ -60,8 +85,12 @@ pub struct JudgedCode {
     pub law: LawOrigin,
     /// Whether it lays parameters over those of the case.
     pub has_parameters: bool,
+    /// Notice of other gates than today's, for which the submission was made.
+    pub moved: Option<String>,
     /// Metrics in our order.
     pub metrics: Vec<MetricComparison>,
+    /// Observed orders of convergence.
+    pub orders: Vec<ObservedOrder>,
 }
 
 /// All codes beside our own.
@@ -115,9 +144,12 @@ impl CaseSubmissions {
         let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[], ..Changes::default() };
         let all = case.prepare(first.tier, &changes).map_err(|error| PlanError::of(error, &first.path))?;
         // the export has the tier's parameters, whatever a submission lays over them
-        let exported = inputs_of(case, first.tier).map_err(|error| PlanError::of(error, &first.path))?;
+        let exported =
+            case.prepare(first.tier, &Changes::default()).map_err(|error| PlanError::of(error, &first.path))?;
+        let inputs = inputs::digest(exported.parameters_toml());
+        let gates = gates::digests(&exported.asked().metrics);
         for submission in &submissions {
-            inputs::check(submission.inputs.as_deref(), &exported).map_err(|error| error.in_file(&submission.path))?;
+            inputs::check(submission.inputs.as_deref(), &inputs).map_err(|error| error.in_file(&submission.path))?;
         }
         // the runs of ours that any code gives something of, in our order
         let places: Vec<Vec<usize>> =
@@ -132,9 +164,10 @@ impl CaseSubmissions {
             .map(|(submission, places)| {
                 let own: Vec<usize> =
                     places.iter().filter_map(|place| chosen.iter().position(|chosen| chosen == place)).collect();
-                entry(submission, &own, case.form(), prepared.as_ref())
+                let moved = gates::notice(&submission, &gates);
+                Ok(CodeResults { moved, ..entry(submission, &own, case.form(), prepared.as_ref())? })
             })
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<_, JudgeError>>()?;
         Ok(Self { prepared, entries })
     }
 }
@@ -147,17 +180,34 @@ fn entry(
     prepared: &dyn PreparedCase,
 ) -> Result<CodeResults, JudgeError> {
     let folder = submission.path.parent().unwrap_or_else(|| Path::new("")).to_owned();
-    let mut given = vec![ExternalData::default(); prepared.run_count()];
-    for (number, (run, &place)) in submission.runs.iter().zip(places).enumerate() {
-        let field = format!("run {}", number + 1);
-        given[place] = reading::read(run, form, &field, &folder).map_err(|error| error.in_file(&submission.path))?;
-    }
-    let result = prepared.judge_external(&given).map_err(|(place, error)| {
-        let number = places.iter().position(|own| *own == place).map_or(0, |number| number + 1);
-        error.within(&format!("run {number}")).in_file(&submission.path)
-    })?;
+    let judged = |runs: &[ForeignRun]| -> Result<ExternalResult, JudgeError> {
+        let mut given = vec![ExternalData::default(); prepared.run_count()];
+        for (number, (run, &place)) in runs.iter().zip(places).enumerate() {
+            let field = format!("run {}", number + 1);
+            given[place] =
+                reading::read(run, form, &field, &folder).map_err(|error| error.in_file(&submission.path))?;
+        }
+        Ok(prepared.judge_external(&given).map_err(|(place, error)| {
+            let number = places.iter().position(|own| *own == place).map_or(0, |number| number + 1);
+            error.within(&format!("run {number}")).in_file(&submission.path)
+        })?)
+    };
+    let result = judged(&submission.runs)?;
+    let coarse = judged(&submission.runs.iter().map(ForeignRun::on_coarser_mesh).collect::<Vec<_>>())?;
+    let ratio = |metric: &Metric| {
+        let own =
+            submission.runs.iter().zip(places).find(|(_, place)| metric.variant.includes(&prepared.variant(**place)));
+        Some(own?.0.coarse.as_ref()?.ratio)
+    };
+    let order = |fine: &Metric| {
+        let is_coarse = |coarse: &&Metric| (&coarse.name, &coarse.variant) == (&fine.name, &fine.variant);
+        let coarse = coarse.metrics.iter().find(is_coarse).filter(|metric| coarse.is_measured(metric))?;
+        Some(ObservedOrder { fine: fine.clone(), coarse: coarse.value, ratio: ratio(fine)? })
+    };
+    let is_error = |metric: &&Metric| metric.unit == "%" && metric.gate.is_some();
+    let orders = result.metrics.iter().filter(is_error).filter_map(order).collect();
     let variants = places.iter().map(|&place| prepared.variant(place)).collect();
-    Ok(CodeResults { submission, variants, result })
+    Ok(CodeResults { submission, variants, result, moved: None, orders })
 }
 
 /// Keys of runs that are the numerics of ours: a code that names none of them is compared with the first run of the case.
@@ -231,7 +281,8 @@ pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison,
             let metrics =
                 verdicts::compare(&asked, &entry.result, &numbers, *law).map_err(|error| error.in_file(path))?;
             let has_parameters = !with.is_empty();
-            Ok(JudgedCode { code: code.clone(), file: path.clone(), law: *law, has_parameters, metrics })
+            let (code, file, moved) = (code.clone(), path.clone(), entry.moved.clone());
+            Ok(JudgedCode { code, file, law: *law, has_parameters, moved, metrics, orders: entry.orders.clone() })
         })
         .collect::<Result<_, JudgeError>>()?;
     let theirs: Vec<(&str, &[Figure])> =

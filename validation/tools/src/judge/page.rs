@@ -55,6 +55,7 @@ fn code_row(judged: &JudgedCode) -> Value {
         "version": judged.code.version,
         "law": judged.law,
         "file": judged.file.display().to_string(),
+        "moved": judged.moved,
         "holding": holding,
         "failing": failing,
         "not_given": not_given,

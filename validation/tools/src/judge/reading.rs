@@ -2,7 +2,7 @@
 
 use super::lammps;
 use super::submission::{ForeignRun, ParticleFiles, TableFile, rising, sources};
-use super::vtk::{self, PLACES, PointArrays};
+use super::vtk::{self, NamedArrays, PLACES, PointArrays};
 use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame};
 use crate::evaluation::PlanError;
 use crate::input::{self, FieldError, TextTable, did_you_mean, nearest};
@@ -181,27 +181,39 @@ fn of_table(table: &TextTable, plan: &ColumnAssignments, file: &Path) -> Result<
 }
 
 fn of_points(points: &PointArrays, plan: &ColumnAssignments, file: &Path) -> Result<NamedColumns, FieldError> {
-    let count = points.arrays.get(&format!("{PLACES}:0")).map_or(0, Vec::len);
+    let is_found = |arrays: &NamedArrays, source: &ColumnSource| match source {
+        ColumnSource::Heading { text, name, .. } => array(arrays, text, name).is_some(),
+        ColumnSource::Constant { .. } => true,
+    };
+    let has_all = |arrays: &NamedArrays| plan.iter().all(|(_, source, ..)| is_found(arrays, source));
+    let at_cells = !has_all(&points.arrays) && has_all(&points.cells);
+    let arrays = if at_cells { &points.cells } else { &points.arrays };
+    let count = arrays.get(&format!("{PLACES}:0")).map_or(0, Vec::len);
     let column = |source: &ColumnSource, field: &str| match source {
-        ColumnSource::Heading { text, name, .. } => {
-            // `velocity [m/s]:0` is the first component of an array whose name holds its unit
-            let component = name.rsplit_once(':').filter(|(_, number)| number.parse::<u8>().is_ok());
-            let unit = text.trim().rsplit_once('[').map_or("", |(_, unit)| unit);
-            let with_unit = component.map(|(name, number)| format!("{name} [{unit}:{number}"));
-            let names = [Some(text.clone()), Some(name.clone()), with_unit];
-            let found = names.iter().flatten().find_map(|name| points.arrays.get(name));
-            found.cloned().ok_or_else(|| {
-                let guess = did_you_mean(&nearest(name, points.arrays.keys().map(String::as_str)));
-                let names: Vec<&str> = points.arrays.keys().map(String::as_str).collect();
-                let rule = format!("an array of {}: {}", file.display(), names.join(", "));
-                let remedy =
-                    format!("{guess}places are Points:0, Points:1, Points:2, parts of a vector NAME:0 and so on");
-                FieldError::new(field, format!("\"{text}\""), &rule, &remedy)
-            })
-        }
+        ColumnSource::Heading { text, name, .. } => array(arrays, text, name).cloned().ok_or_else(|| {
+            let guess = did_you_mean(&nearest(name, arrays.keys().map(String::as_str)));
+            let names = |arrays: &NamedArrays| arrays.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
+            let at_cells = if points.cells.is_empty() {
+                String::new()
+            } else {
+                format!("; at its cells {}", names(&points.cells))
+            };
+            let rule = format!("an array of {}: {}{at_cells}", file.display(), names(arrays));
+            let remedy = format!("{guess}places are Points:0, Points:1, Points:2, parts of a vector NAME:0 and so on");
+            FieldError::new(field, format!("\"{text}\""), &rule, &remedy)
+        }),
         ColumnSource::Constant { value, .. } => Ok(vec![*value; count]),
     };
     in_si(plan, file, column)
+}
+
+/// The array that a heading names, whose name may hold its unit.
+fn array<'arrays>(arrays: &'arrays NamedArrays, text: &str, name: &str) -> Option<&'arrays Vec<f64>> {
+    // `velocity [m/s]:0` is the first component of an array whose name holds its unit
+    let component = name.rsplit_once(':').filter(|(_, number)| number.parse::<u8>().is_ok());
+    let unit = text.trim().rsplit_once('[').map_or("", |(_, unit)| unit);
+    let with_unit = component.map(|(name, number)| format!("{name} [{unit}:{number}"));
+    arrays.get(text).or_else(|| arrays.get(name)).or_else(|| arrays.get(&with_unit?))
 }
 
 /// All columns of a plan in SI units; every number must be finite.
@@ -224,4 +236,43 @@ fn in_si(
             Ok((item.name.to_owned(), values))
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// OpenFOAM's `foamToVTK` names a grid by blocks; the boundary is no part of the flow.
+    #[test]
+    fn blocks_with_data_at_cells_are_read_at_the_centres_of_cells() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let put = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("written");
+        put(
+            "case.vtm",
+            "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet><DataSet name=\"internal\" file=\"internal.vtu\"/>\
+             <Block name=\"boundary\"><DataSet file=\"wall.vtp\"/></Block></vtkMultiBlockDataSet></VTKFile>",
+        );
+        put(
+            "internal.vtu",
+            "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><PointData>\
+             <DataArray type=\"Float64\" Name=\"pressure\" format=\"ascii\">1 2 3</DataArray></PointData><CellData>\
+             <DataArray type=\"Float64\" Name=\"area [cm^2]\" format=\"ascii\">1</DataArray></CellData><Points><DataArray \
+             type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 3 0 0 0 6 0</DataArray></Points><Cells>\
+             <DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2</DataArray><DataArray type=\"Int32\" \
+             Name=\"offsets\" format=\"ascii\">3</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>",
+        );
+        const COLUMNS: &[ExternalColumn] =
+            &[ExternalColumn::new("y", "m", "height"), ExternalColumn::new("area", "m^2", "area")];
+        let read = |area: &str| {
+            let text = format!(
+                "files = [\"case.vtm\"]\ntimes = [0.0]\ncolumns = {{ y = \"Points:1 [m]\", area = \"{area}\" }}\n"
+            );
+            let files: ParticleFiles = toml::from_str(&text).expect("files");
+            pictures(&files, &plan(&files.columns, COLUMNS, "particles").expect("columns"), folder.path())
+        };
+        let seen = read("area [cm^2]").expect("a picture");
+        assert_eq!((&seen[0].columns["y"][..], &seen[0].columns["area"][..]), (&[2.0][..], &[1e-4][..]));
+        let message = read("volume [m^2]").expect_err("no such array").to_string();
+        assert!(message.contains("pressure; at its cells Points:0"), "{message}");
+    }
 }

@@ -35,6 +35,12 @@ pub struct Submission {
     /// Digest of the inputs that it was made from, as the export names it.
     #[serde(default)]
     pub inputs: Option<String>,
+    /// Digest of the gates that it was made for, as the export names it.
+    #[serde(default)]
+    pub gates: Option<String>,
+    /// Digests of the limits, separated by blanks: they count the limits that have moved.
+    #[serde(default)]
+    pub limits: String,
     /// Its runs.
     #[serde(rename = "run", default)]
     pub runs: Vec<ForeignRun>,
@@ -85,6 +91,18 @@ pub struct ForeignRun {
     pub series: Option<TableFile>,
     /// A profile.
     pub profile: Option<TableFile>,
+    /// The run on a coarser mesh, for the code's own order of convergence.
+    pub coarse: Option<CoarseRun>,
+}
+
+/// Profile of a run on a coarser mesh, with the columns of the run's own profile.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CoarseRun {
+    /// Cell size over that of the run `[-]`.
+    pub ratio: f64,
+    /// The file, beside the submission.
+    pub profile: PathBuf,
 }
 
 /// Files of particles, one a time.
@@ -146,6 +164,18 @@ impl Submission {
         Ok(file.fields)
     }
 
+    /// Files that it names, as it names them.
+    #[must_use]
+    pub fn files(&self) -> Vec<PathBuf> {
+        let of_run = |run: &ForeignRun| {
+            let tables = [&run.series, &run.profile].map(|table| table.as_ref().map(|table| table.file.clone()));
+            let coarse = run.coarse.as_ref().map(|coarse| coarse.profile.clone());
+            let particles = run.particles.iter().flat_map(|particles| particles.files.clone());
+            tables.into_iter().chain([coarse]).flatten().chain(particles).collect::<Vec<_>>()
+        };
+        self.runs.iter().flat_map(of_run).collect()
+    }
+
     fn check(&self) -> Result<(), FieldError> {
         if self.code.name.trim().is_empty() || self.code.name.chars().count() > 60 {
             let rule = "a name of 1 to 60 letters";
@@ -165,6 +195,12 @@ impl Submission {
                 let remedy = "leave out what was not measured";
                 return Err(FieldError::new(&format!("{field}.numbers.{name}"), value, "a number", remedy));
             }
+            let is_coarser = |coarse: &CoarseRun| coarse.ratio > 1.0 && coarse.ratio.is_finite();
+            if let Some(coarse) = run.coarse.as_ref().filter(|coarse| !is_coarser(coarse) || run.profile.is_none()) {
+                let remedy = "give the ratio of the cell sizes, such as 2, beside the profile of the finer mesh";
+                let rule = "finite, larger than 1 and beside a profile";
+                return Err(FieldError::new(&format!("{field}.coarse.ratio"), coarse.ratio, rule, remedy));
+            }
             if let Some(files) = &run.particles {
                 files.check().map_err(|error| error.within(&field))?;
             }
@@ -176,6 +212,22 @@ impl Submission {
             }
         }
         Ok(())
+    }
+}
+
+impl ForeignRun {
+    /// What is given of the run on its coarser mesh; nothing without one.
+    pub(super) fn on_coarser_mesh(&self) -> Self {
+        let table = |coarse: &CoarseRun| Some(TableFile { file: coarse.profile.clone(), ..self.profile.clone()? });
+        let profile = self.coarse.as_ref().and_then(table);
+        Self {
+            profile,
+            variant: self.variant.clone(),
+            numbers: BTreeMap::new(),
+            particles: None,
+            series: None,
+            coarse: None,
+        }
     }
 }
 

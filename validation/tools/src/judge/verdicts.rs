@@ -113,6 +113,7 @@ mod tests {
             particles: None,
             series: None,
             profile: None,
+            coarse: None,
         };
         let theirs = foreign(Vec::new(), Vec::new());
         let of = |run: &ForeignRun| {

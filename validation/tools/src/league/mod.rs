@@ -3,13 +3,18 @@
 //! A league is a folder with a submission for each code and case, `CODE/CASE/submission.toml`. Codes of one law tell how far apart
 //! methods are; that is what "the same to another method" is worth.
 
+mod archive;
 pub mod blind;
 mod page;
+mod widths;
 
-pub use page::write;
+pub use page::{ORDER_HEADINGS, orders, write};
+pub use widths::{HEADINGS as WIDTH_HEADINGS, widths};
 
 use crate::case::{PreparedCase, Registry, Tier};
-use crate::judge::{CaseSubmissions, CodeComparison, JudgeError, JudgedCode, LawOrigin, MetricComparison, Submission};
+use crate::judge::{
+    CaseSubmissions, CodeComparison, JudgeError, JudgedCode, LawOrigin, MetricComparison, ObservedOrder, Submission,
+};
 use crate::metric::{Metric, MetricKind, Variant};
 use crate::output::FileError;
 use std::path::{Path, PathBuf};
@@ -33,7 +38,7 @@ pub struct LeagueRow {
 }
 
 /// All submissions, judged.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct League {
     /// Names of the codes with their versions.
     pub codes: Vec<String>,
@@ -43,6 +48,10 @@ pub struct League {
     pub counts: Vec<(usize, usize, (usize, usize, usize))>,
     /// The quantities in the order of the cases.
     pub rows: Vec<LeagueRow>,
+    /// Observed orders of convergence, of a code (first) and a case (second).
+    pub orders: Vec<(usize, usize, ObservedOrder)>,
+    /// Files of the submissions, of a code (first) and a case (second).
+    pub submissions: Vec<(usize, usize, PathBuf)>,
 }
 
 /// The submissions of a league, in the order of their paths.
@@ -98,7 +107,7 @@ pub fn split(groups: Vec<CaseSubmissions>) -> Groups {
 /// Puts judged groups beside each other.
 #[must_use]
 pub fn league(groups: &[CodeComparison]) -> League {
-    let mut league = League { codes: Vec::new(), cases: Vec::new(), counts: Vec::new(), rows: Vec::new() };
+    let mut league = League::default();
     // rows of the case's own parameters come first, and name the others'
     let has_parameters = |group: &&CodeComparison| group.codes.iter().any(|code| code.has_parameters);
     let (with, without): (Vec<_>, Vec<_>) = groups.iter().partition(has_parameters);
@@ -108,6 +117,8 @@ pub fn league(groups: &[CodeComparison]) -> League {
             let name = format!("{} {}", judged.code.name, judged.code.version);
             let code = place(&mut league.codes, name.trim_end());
             league.counts.push((code, case, judged.counts()));
+            league.submissions.push((code, case, judged.file.clone()));
+            league.orders.extend(judged.orders.iter().map(|order| (code, case, order.clone())));
             for one in judged.metrics.iter().filter(|one| one.foreign.is_some()) {
                 enter(&mut league.rows, &group.own.name, code, judged, one);
             }
@@ -161,26 +172,45 @@ impl LeagueRow {
     /// Mean of the codes of our law and ours, and their standard deviation; none of fewer than three.
     #[must_use]
     pub fn of_one_law(&self) -> Option<(f64, f64)> {
-        let same = self.values.iter().filter(|(_, law, _)| *law == LawOrigin::Same);
-        let values: Vec<f64> =
-            same.map(|(_, _, metric)| metric.value).chain([self.own.value]).filter(|value| value.is_finite()).collect();
-        let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
-        let square = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0);
-        (values.len() >= FEWEST).then_some((mean, square.sqrt()))
+        scatter(self.of(LawOrigin::Same).chain([self.own.value]), FEWEST)
+    }
+
+    /// Mean of the codes of grains, and their standard deviation; none of fewer than two.
+    #[must_use]
+    pub fn of_grains(&self) -> Option<(f64, f64)> {
+        scatter(self.of(LawOrigin::Grains), 2)
+    }
+
+    fn of(&self, law: LawOrigin) -> impl Iterator<Item = f64> {
+        self.values.iter().filter(move |(_, own, _)| *own == law).map(|(_, _, metric)| metric.value)
     }
 
     /// Name of our run without its numerics.
     #[must_use]
     pub fn variant(&self) -> Variant {
-        let parts = self.own.variant.parts().filter(|(key, _)| !crate::judge::NUMERICS.contains(key));
-        parts.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()))
+        physics(&self.own.variant)
     }
+}
+
+/// Mean and standard deviation of the finite of some values; none of fewer than `fewest`.
+fn scatter(values: impl Iterator<Item = f64>, fewest: usize) -> Option<(f64, f64)> {
+    let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let square = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0);
+    (values.len() >= fewest).then_some((mean, square.sqrt()))
+}
+
+/// A run's name without its numerics.
+fn physics(variant: &Variant) -> Variant {
+    let parts = variant.parts().filter(|(key, _)| !crate::judge::NUMERICS.contains(key));
+    parts.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::metric::Limit;
 
     fn row(values: &[(LawOrigin, f64)]) -> LeagueRow {
         let metric = |value| Metric::observed("run_out", &Variant::of("a", 1).and("resolution", 20), value, "-");
@@ -196,5 +226,29 @@ mod tests {
         assert_eq!((mean, deviation), (3.0, 1.0));
         assert_eq!(row(&[(LawOrigin::Same, 3.0), (LawOrigin::Grains, 9.0)]).of_one_law(), None);
         assert_eq!(row(&[]).variant(), Variant::of("a", 1));
+        assert_eq!(
+            row(&[(LawOrigin::Grains, 9.0), (LawOrigin::Grains, 11.0)]).of_grains(),
+            Some((10.0, 2.0f64.sqrt()))
+        );
+    }
+
+    #[test]
+    fn a_limit_that_is_narrow_or_wide_beside_the_scatter_shows_its_reason() {
+        // a standard deviation of 1
+        let mut row = row(&[(LawOrigin::Same, 3.0), (LawOrigin::Same, 4.0)]);
+        let mut reason = |limit| {
+            row.own = row.own.clone().gated(limit, "two rows of 20");
+            widths(&League { rows: vec![row.clone()], ..League::default() })[0][4..].join(" ")
+        };
+        assert_eq!(reason(Limit::Within(1.5, 4.5)), "1.5 1 1.5 ");
+        assert_eq!(reason(Limit::Within(2.5, 3.5)), "0.5 1 0.5 narrow: two rows of 20");
+        assert_eq!(reason(Limit::AtMost(5.5)), "2.5 1 2.5 wide: two rows of 20");
+    }
+
+    #[test]
+    fn the_observed_order_is_that_of_the_errors_and_none_where_they_change_their_sign() {
+        let fine = Metric::observed("velocity_l2", &Variant::default(), 0.5, "%");
+        let order = |coarse| ObservedOrder { fine: fine.clone(), coarse, ratio: 2.0 }.order();
+        assert_eq!((order(2.0), order(-2.0)), (Some(2.0), None));
     }
 }

@@ -1,8 +1,9 @@
 //! Files of a league: the page and its numbers.
 
+use super::archive::archive;
 use super::blind::{self, BlindComparison};
 use super::{League, LeagueRow};
-use crate::judge::other_limit;
+use crate::judge::{ObservedOrder, Submission, other_limit};
 use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
 use crate::page;
@@ -11,18 +12,53 @@ use crate::result::pretty;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// Writes `index.html` and `league.json` into a folder.
+/// Writes `index.html`, `league.json` and an archive of each submission into a folder.
 ///
 /// # Errors
-/// Files that cannot be written.
+/// Files that cannot be read or written.
 pub fn write(league: &League, blind: &[BlindComparison], folder: &Path) -> Result<(), ReportError> {
     let document = document(league, blind);
-    let put = |name: &str, text: &str| {
+    let put = |name: &str, bytes: &[u8]| {
         let path = folder.join(name);
-        std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source })
+        std::fs::write(&path, bytes).map_err(|source| ReportError::Write { path, source })
     };
-    put("league.json", &pretty(&document))?;
-    put("index.html", &page::fill(&[("league.html", include_str!("league.html"))], "league.html", &document)?)
+    for (_, _, file) in &league.submissions {
+        let (name, cell) = (archive_name(file), file.parent().unwrap_or(Path::new("")));
+        let read = |source| ReportError::Write { path: cell.to_owned(), source };
+        let named = Submission::read(file).map(|submission| submission.files()).unwrap_or_default();
+        put(&format!("{name}.tar"), &archive(cell, &named, &name).map_err(read)?)?;
+    }
+    put("league.json", pretty(&document).as_bytes())?;
+    put("index.html", page::fill(&[("league.html", include_str!("league.html"))], "league.html", &document)?.as_bytes())
+}
+
+/// Name of the archive of a submission: its code and case.
+fn archive_name(file: &Path) -> String {
+    let parts: Vec<_> =
+        file.components().rev().skip(1).take(2).map(|part| part.as_os_str().to_string_lossy()).collect();
+    parts.into_iter().rev().collect::<Vec<_>>().join("-")
+}
+
+/// Headings of [`orders`].
+pub const ORDER_HEADINGS: [&str; 8] =
+    ["code", "case", "metric", "run", "coarse mesh", "fine mesh", "ratio of cells", "observed order"];
+
+/// Errors of codes on two meshes with the observed order, a row each.
+#[must_use]
+pub fn orders(league: &League) -> Vec<[String; 8]> {
+    let row = |(code, case, order): &(usize, usize, ObservedOrder)| {
+        [
+            league.codes[*code].clone(),
+            league.cases[*case].clone(),
+            format!("{} [{}]", order.fine.name, order.fine.unit),
+            super::physics(&order.fine.variant).to_string(),
+            two_digits(order.coarse),
+            two_digits(order.fine.value),
+            two_digits(order.ratio),
+            order.order().map_or_else(|| "–".to_owned(), two_digits),
+        ]
+    };
+    league.orders.iter().map(row).collect()
 }
 
 fn document(league: &League, blind: &[BlindComparison]) -> Value {
@@ -38,7 +74,7 @@ fn document(league: &League, blind: &[BlindComparison]) -> Value {
         let gives = |code: usize| rows.iter().any(|row| row.values.iter().any(|value| value.0 == code));
         let codes: Vec<usize> = (0..league.codes.len()).filter(|code| gives(*code)).collect();
         let heads: Vec<&String> = codes.iter().map(|code| &league.codes[*code]).collect();
-        let has_scatter = rows.iter().any(|row| row.of_one_law().is_some());
+        let has_scatter = rows.iter().any(|row| row.of_one_law().or(row.of_grains()).is_some());
         json!({ "name": case, "has_scatter": has_scatter, "heads": heads, "rows": rows.iter().map(|row| entry(row, &codes)).collect::<Vec<_>>() })
     };
     json!({
@@ -46,6 +82,11 @@ fn document(league: &League, blind: &[BlindComparison]) -> Value {
         "cases": league.cases,
         "matrix": matrix.collect::<Vec<_>>(),
         "tables": league.cases.iter().map(of_case).collect::<Vec<_>>(),
+        "orders": { "headings": ORDER_HEADINGS, "rows": orders(league) },
+        "widths": { "headings": super::WIDTH_HEADINGS, "rows": super::widths(league) },
+        "archives": league.submissions.iter().map(|(code, case, file)| {
+            json!({ "code": league.codes[*code], "case": league.cases[*case], "file": format!("{}.tar", archive_name(file)) })
+        }).collect::<Vec<_>>(),
         "blind": { "headings": blind::HEADINGS, "rows": blind::table(blind) },
     })
 }
@@ -61,10 +102,12 @@ fn entry(row: &LeagueRow, codes: &[usize]) -> Value {
             cell
         })
     });
-    let scatter = row.of_one_law().map(|(mean, deviation)| {
+    let words = |(mean, deviation): (f64, f64)| {
         let share = 100.0 * deviation / mean.abs();
         format!("{} ({} %)", two_digits(deviation), two_digits(share))
-    });
+    };
+    let grains = row.of_grains().map(|of| format!("grains {}", words(of)));
+    let scatter: Vec<String> = row.of_one_law().map(words).into_iter().chain(grains).collect();
     json!({
         "metric": own.name,
         "unit": own.unit,
@@ -74,7 +117,7 @@ fn entry(row: &LeagueRow, codes: &[usize]) -> Value {
         "limit": own.gate.as_ref().map(|gate| gate.limit.in_words(four_digits)),
         "own": cell(own, Value::Null),
         "cells": theirs.collect::<Vec<_>>(),
-        "scatter": scatter,
+        "scatter": scatter.join("; "),
     })
 }
 

@@ -2,7 +2,7 @@
 //! its observations, and what its observer keeps are one checkpoint.
 
 use super::Recordable;
-use crate::case::{ParameterError, Progress, StateOutput};
+use crate::case::{Conditions, ParameterError, Progress, StateOutput};
 use crate::checkpoint::{Checkpoints, count_stopped, is_interrupted};
 use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -18,6 +18,8 @@ pub enum StartState {
     New,
     /// A run that is continued: of its flow only the number of particles counts.
     Continued,
+    /// A run that is described and not simulated, without what comes before its start.
+    Described,
 }
 
 /// A simulation that can be saved and continued.
@@ -120,6 +122,7 @@ where
     O: Serialize + DeserializeOwned,
     C: Serialize + DeserializeOwned,
     E: Into<ParameterError> + Display,
+    for<'scene> Conditions: From<&'scene S::Scene>,
 {
     follow_on(stage, scene, keep, observe, |_| false)
 }
@@ -141,9 +144,15 @@ where
     O: Serialize + DeserializeOwned,
     C: Serialize + DeserializeOwned,
     E: Into<ParameterError> + Display,
+    for<'scene> Conditions: From<&'scene S::Scene>,
 {
     let now = Instant::now();
     let SimulationStage { progress, end, interval, context } = stage;
+    if let Some(conditions) = progress.conditions() {
+        let described = scene(StartState::Described).map_err(Into::into)?;
+        conditions.get_or_init(|| Conditions::from(&described));
+        return Err(ParameterError::Interrupted);
+    }
     let checkpoints = progress.checkpoints();
     let restore = |bytes: &[u8]| {
         let read: RestoredCheckpoint<C, O, S::Saved> =

@@ -1,29 +1,27 @@
 //! Points of the legacy format `.vtk`: keywords with counts, each followed by values as text or in big-endian order.
 
 use super::array::{ByteOrder, Scalar};
-use super::{PLACES, PointArrays, Refusal};
+use super::{PLACES, PointArrays, Refusal, centres, part};
 
 /// Remainder of a file.
 struct Legacy<'file> {
     rest: &'file [u8],
     is_binary: bool,
+    /// Places of the points, three values each.
+    places: Vec<f64>,
+    /// Centres of the cells, three values each.
+    centres: Vec<f64>,
 }
 
-/// Owner of the attributes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum AttributeOwner {
-    Dataset,
-    Points(usize),
-    /// Cells, with their number.
-    Cells(usize),
-}
+/// Number of points or cells that own attributes, and whether they are cells; none for those of the dataset.
+type Owner = Option<(usize, bool)>;
 
 /// Reads the points.
 ///
 /// # Errors
 /// A file that is none of points, is damaged, or announces more values than it has.
 pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
-    let mut file = Legacy { rest: bytes, is_binary: false };
+    let mut file = Legacy { rest: bytes, is_binary: false, places: Vec::new(), centres: Vec::new() };
     if !file.line().to_ascii_lowercase().starts_with(b"# vtk datafile version") {
         return Err("no file of VTK".into());
     }
@@ -35,10 +33,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
     };
     let dataset = [file.word()?, file.word()?].map(str::to_ascii_uppercase);
     if dataset[0] != "DATASET" || !["UNSTRUCTURED_GRID", "POLYDATA"].contains(&dataset[1].as_str()) {
-        return Err("a grid of another kind".into());
+        return Err(format!("a grid of another kind, {}", shortened(&dataset[1])).into());
     }
     let mut points = PointArrays::default();
-    let mut owner = AttributeOwner::Dataset;
+    let mut owner = None;
     while let Some(keyword) = file.next_word()? {
         file.section(&keyword.to_ascii_uppercase(), &mut owner, &mut points)?;
     }
@@ -46,7 +44,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
 }
 
 impl<'file> Legacy<'file> {
-    fn section(&mut self, keyword: &str, owner: &mut AttributeOwner, points: &mut PointArrays) -> Result<(), Refusal> {
+    fn section(&mut self, keyword: &str, owner: &mut Owner, points: &mut PointArrays) -> Result<(), Refusal> {
         match keyword {
             "POINTS" => {
                 let count = self.count()?;
@@ -55,7 +53,8 @@ impl<'file> Legacy<'file> {
                 }
                 let scalar = self.scalar()?;
                 let values = self.values(scalar, count, 3)?;
-                points.part(PLACES, 3, &values);
+                part(&mut points.arrays, PLACES, 3, &values);
+                self.places = values;
             }
             "CELLS" | "VERTICES" | "LINES" | "POLYGONS" | "TRIANGLE_STRIPS" => self.cells()?,
             "CELL_TYPES" => {
@@ -68,9 +67,18 @@ impl<'file> Legacy<'file> {
                 if count != given {
                     return Err(format!("of {given} points, but with data of {count}").into());
                 }
-                *owner = AttributeOwner::Points(count);
+                *owner = Some((count, false));
             }
-            "CELL_DATA" => *owner = AttributeOwner::Cells(self.count()?),
+            "CELL_DATA" => {
+                let (count, given) = (self.count()?, self.centres.len() / 3);
+                if count != given {
+                    return Err(format!("of {given} cells, but with data of {count}").into());
+                }
+                if points.cells.is_empty() {
+                    part(&mut points.cells, PLACES, 3, &self.centres);
+                }
+                *owner = Some((count, true));
+            }
             "METADATA" => self.metadata(),
             "FIELD" => {
                 self.word()?;
@@ -79,8 +87,8 @@ impl<'file> Legacy<'file> {
                     let (components, tuples) = (self.count()?, self.count()?);
                     let scalar = self.scalar()?;
                     let values = self.values(scalar, tuples, components)?;
-                    if let AttributeOwner::Points(_) = owner {
-                        points.part(&name, components, &values);
+                    if let Some((_, at_cells)) = *owner {
+                        part(points.at(at_cells), &name, components, &values);
                     }
                 }
             }
@@ -91,14 +99,9 @@ impl<'file> Legacy<'file> {
                 self.values(scalar, count, 4)?;
             }
             _ => {
-                let count = match *owner {
-                    AttributeOwner::Points(count) | AttributeOwner::Cells(count) => count,
-                    AttributeOwner::Dataset => return Err(unknown(keyword)),
-                };
+                let (count, at_cells) = owner.ok_or_else(|| unknown(keyword))?;
                 let (name, components, values) = self.attribute(keyword, count)?;
-                if let AttributeOwner::Points(_) = owner {
-                    points.part(&name, components, &values);
-                }
+                part(points.at(at_cells), &name, components, &values);
             }
         }
         Ok(())
@@ -136,19 +139,33 @@ impl<'file> Legacy<'file> {
         Ok((name, components, self.values(scalar, count, components)?))
     }
 
-    /// Passes cells, as numbers of points with points, or since version 5.1 as two arrays.
+    /// Centres of cells, which are numbers of points with points, or since version 5.1 two arrays.
     fn cells(&mut self) -> Result<(), Refusal> {
         let (first, second) = (self.count()?, self.count()?);
-        if !self.next_is("OFFSETS") {
-            return self.values(Scalar::Int32, second, 1).map(drop);
-        }
-        for (heading, count) in [("OFFSETS", first), ("CONNECTIVITY", second)] {
-            if !self.word()?.eq_ignore_ascii_case(heading) {
-                return Err(format!("damaged (no {heading} of cells)").into());
+        let (mut connectivity, mut ends) = (Vec::new(), Vec::new());
+        if self.next_is("OFFSETS") {
+            for (heading, count, array) in [("OFFSETS", first, &mut ends), ("CONNECTIVITY", second, &mut connectivity)]
+            {
+                if !self.word()?.eq_ignore_ascii_case(heading) {
+                    return Err(format!("damaged (no {heading} of cells)").into());
+                }
+                let scalar = self.scalar()?;
+                *array = self.values(scalar, count, 1)?;
             }
-            let scalar = self.scalar()?;
-            self.values(scalar, count, 1)?;
+            // the first offset is where the first cell begins
+            ends = ends.split_off(first.min(1));
+        } else {
+            let values = self.values(Scalar::Int32, second, 1)?;
+            let mut rest = &values[..];
+            while let Some((size, points)) = rest.split_first() {
+                let (cell, after) =
+                    points.split_at_checked(*size as usize).ok_or("with cells of points that it lacks")?;
+                connectivity.extend(cell);
+                ends.push(connectivity.len() as f64);
+                rest = after;
+            }
         }
+        self.centres.extend(centres(&self.places, &connectivity, &ends)?);
         Ok(())
     }
 

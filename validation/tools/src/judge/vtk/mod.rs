@@ -19,11 +19,16 @@ use std::path::Path;
 
 pub(super) use collection::{PARALLEL, collection, pieces};
 
-/// Points with their arrays, each value by value; vectors are parted into `name:0`, `name:1`, `name:2`.
+/// Arrays by name, value by value; vectors are parted into `name:0`, `name:1`, `name:2`.
+pub(super) type NamedArrays = BTreeMap<String, Vec<f64>>;
+
+/// Points and cells with their arrays.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct PointArrays {
-    /// Arrays by name; the places are `Points:0`, `Points:1`, `Points:2`.
-    pub(super) arrays: BTreeMap<String, Vec<f64>>,
+    /// Arrays at points; the places are `Points:0`, `Points:1`, `Points:2`.
+    pub(super) arrays: NamedArrays,
+    /// Arrays at cells; the places are the means of the points of each cell. Empty for a file without data at cells.
+    pub(super) cells: NamedArrays,
 }
 
 /// Name of the places among the arrays.
@@ -45,7 +50,7 @@ struct Refusal {
 
 impl From<String> for Refusal {
     fn from(value: String) -> Self {
-        let remedy = "write points with arrays at points, as ParaView reads them";
+        let remedy = "write points with arrays at points or at cells, as ParaView reads them";
         Self { value, rule: "an unstructured grid or polygonal data of VTK", remedy }
     }
 }
@@ -78,24 +83,48 @@ impl PointArrays {
         })
     }
 
-    fn checked(self) -> Result<Self, Refusal> {
-        let count = self.arrays.get(&format!("{PLACES}:0")).map_or(0, Vec::len);
-        if count == 0 {
-            return Err("without points".into());
-        }
-        match self.arrays.iter().find(|(_, values)| values.len() != count) {
-            Some((name, values)) => Err(format!("of {count} points, but {} values of `{name}`", values.len()).into()),
-            None => Ok(self),
-        }
+    /// Arrays at points or at cells.
+    fn at(&mut self, cells: bool) -> &mut NamedArrays {
+        if cells { &mut self.cells } else { &mut self.arrays }
     }
 
-    /// Parts an array into its components.
-    fn part(&mut self, name: &str, components: usize, values: &[f64]) {
-        for component in 0..components {
-            let name = if components == 1 { name.to_owned() } else { format!("{name}:{component}") };
-            self.arrays.entry(name).or_default().extend(values.iter().skip(component).step_by(components));
+    fn checked(self) -> Result<Self, Refusal> {
+        let places = format!("{PLACES}:0");
+        let counts = [&self.arrays, &self.cells].map(|arrays| arrays.get(&places).map_or(0, Vec::len));
+        if counts[0] == 0 {
+            return Err("without points".into());
         }
+        for ((arrays, count), what) in [&self.arrays, &self.cells].into_iter().zip(counts).zip(["points", "cells"]) {
+            if let Some((name, values)) = arrays.iter().find(|(_, values)| values.len() != count) {
+                return Err(format!("of {count} {what}, but {} values of `{name}`", values.len()).into());
+            }
+        }
+        Ok(self)
     }
+}
+
+/// Parts an array into its components.
+fn part(arrays: &mut NamedArrays, name: &str, components: usize, values: &[f64]) {
+    for component in 0..components {
+        let name = if components == 1 { name.to_owned() } else { format!("{name}:{component}") };
+        arrays.entry(name).or_default().extend(values.iter().skip(component).step_by(components));
+    }
+}
+
+/// Means of the points of each cell, three values a cell. `ends` are the places in `connectivity` where cells end.
+fn centres(points: &[f64], connectivity: &[f64], ends: &[f64]) -> Result<Vec<f64>, Refusal> {
+    let (points, _) = points.as_chunks::<3>();
+    let mut start = 0;
+    let mut centre = |end: f64| {
+        let cell = connectivity.get(start..end as usize).filter(|cell| !cell.is_empty())?;
+        start = end as usize;
+        let corners = cell.iter().map(|&corner| points.get((corner >= 0.0).then_some(corner as usize)?));
+        let corners: Vec<&[f64; 3]> = corners.collect::<Option<_>>()?;
+        let sum: [f64; 3] = std::array::from_fn(|axis| corners.iter().map(|corner| corner[axis]).sum());
+        Some(sum.map(|sum| sum / cell.len() as f64))
+    };
+    let centres: Option<Vec<[f64; 3]>> = ends.iter().map(|end| centre(*end)).collect();
+    Ok(centres.ok_or("with cells of points that it lacks")?.concat())
 }
 
 #[cfg(test)]

@@ -39,6 +39,38 @@ fn a_legacy_file_gives_its_arrays() {
     assert_eq!(points.arrays["velocity:1"], [0.0, 1.0]);
 }
 
+/// A square and a triangle beside it, with data at cells alone.
+const CELLS: &str = "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">\
+    <CellData><DataArray type=\"Float64\" Name=\"alpha.water\" format=\"ascii\">0.5 1</DataArray></CellData>\
+    <Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 2 0 0 2 2 0 0 2 0 5 1 0</DataArray></Points>\
+    <Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 1 2 3 1 4 2</DataArray>\
+    <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4 7</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+const LEGACY_CELLS: &str = "# vtk DataFile Version 3.0\ncells\nASCII\nDATASET POLYDATA\nPOINTS 5 float\n0 0 0 2 0 0 2 2 0 0 2 0 5 1 0\n\
+    POLYGONS 2 9\n4 0 1 2 3\n3 1 4 2\nCELL_DATA 2\nSCALARS alpha.water double 1\nLOOKUP_TABLE default\n0.5 1\n";
+
+#[test]
+fn data_at_cells_stand_at_the_means_of_their_points() {
+    let since_5_1 = LEGACY_CELLS.replace(
+        "POLYGONS 2 9\n4 0 1 2 3\n3 1 4 2",
+        "POLYGONS 3 7\nOFFSETS vtktypeint64\n0 4 7\nCONNECTIVITY vtktypeint64\n0 1 2 3 1 4 2",
+    );
+    for (text, name) in [(CELLS, "a.vtu"), (LEGACY_CELLS, "a.vtk"), (&since_5_1, "b.vtk")] {
+        let points = PointArrays::parse(text.as_bytes(), Path::new(name)).expect("a grid");
+        assert_eq!(points.arrays.len(), 3, "{name}: places alone");
+        assert_eq!(points.cells["alpha.water"], [0.5, 1.0], "{name}");
+        assert_eq!((&points.cells["Points:0"][..], &points.cells["Points:1"][..]), (&[1.0, 3.0][..], &[1.0, 1.0][..]));
+    }
+    for (text, name) in
+        [(CELLS.replace("1 4 2<", "1 5 2<"), "a.vtu"), (LEGACY_CELLS.replace("3 1 4 2", "3 1 5 2"), "a.vtk")]
+    {
+        let message = PointArrays::parse(text.as_bytes(), Path::new(name)).expect_err("a point too many").to_string();
+        assert!(message.contains("with cells of points that it lacks"), "{message}");
+    }
+    let image = "<VTKFile type=\"ImageData\"><ImageData/></VTKFile>";
+    let message = PointArrays::parse(image.as_bytes(), Path::new("a.vti")).expect_err("an image").to_string();
+    assert!(message.contains("a grid of another kind, ImageData"), "{message}");
+}
+
 #[test]
 fn invalid_vtk_is_refused_without_a_panic() {
     for text in
@@ -224,11 +256,13 @@ static FOREIGN: LazyLock<Vec<(PathBuf, Vec<u8>)>> = LazyLock::new(readable);
 proptest! {
     #[test]
     fn a_damaged_file_is_read_or_refused(damages in vec(Damage::strategy(), 1..4), kind in any::<usize>()) {
-        let (mut bytes, name) = match kind % (3 + FOREIGN.len()) {
+        let (mut bytes, name) = match kind % (5 + FOREIGN.len()) {
             0 => (LEGACY.as_bytes().to_vec(), Path::new("a.vtk")),
             1 => (TEXT.as_bytes().to_vec(), Path::new("a.vtu")),
             2 => (binary().into_bytes(), Path::new("a.vtu")),
-            kind => (FOREIGN[kind - 3].1.clone(), FOREIGN[kind - 3].0.as_path()),
+            3 => (CELLS.as_bytes().to_vec(), Path::new("a.vtu")),
+            4 => (LEGACY_CELLS.as_bytes().to_vec(), Path::new("a.vtk")),
+            kind => (FOREIGN[kind - 5].1.clone(), FOREIGN[kind - 5].0.as_path()),
         };
         for damage in &damages {
             damage.to(&mut bytes);

@@ -2,7 +2,7 @@
 
 use super::array::{ByteOrder, Scalar};
 use super::stored::{EncodedArray, Encoding};
-use super::{PLACES, PointArrays, Refusal, nesting};
+use super::{NamedArrays, PLACES, PointArrays, Refusal, centres, nesting, part};
 use roxmltree::Node;
 
 /// The section behind the document to which arrays point by offsets.
@@ -43,7 +43,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PointArrays, Refusal> {
         "vtkMultiBlockDataSet" | "vtkPartitionedDataSet" | "vtkPartitionedDataSetCollection" => {
             return Err(format!("a collection of grids, {kind}").into());
         }
-        _ => return Err("a grid of another kind".into()),
+        _ => return Err(format!("a grid of another kind, {kind}").into()),
     }
     let appended = match (section, child(root, "AppendedData")) {
         (Some(bytes), Some(node)) => Some(appended(bytes, node)?),
@@ -135,15 +135,49 @@ impl ArraySource<'_> {
             return Err("with places of points that have not 3 components".into());
         }
         let values = self.values(places, PLACES, number, 3)?;
-        points.part(PLACES, 3, &values);
-        let data = child(piece, "PointData").into_iter().flat_map(|data| data.children());
-        for array in data.filter(is_array).filter(|array| array.attribute("type") != Some("String")) {
-            let name = array.attribute("Name").ok_or("with an array without a name")?;
-            let components = count(array, "NumberOfComponents")?.unwrap_or(1).max(1);
-            let values = self.values(array, name, number, components)?;
-            points.part(name, components, &values);
+        part(&mut points.arrays, PLACES, 3, &values);
+        self.data(piece, "PointData", number, &mut points.arrays)?;
+        let has_arrays = |data: Node<'_, '_>| data.children().any(|node| is_array(&node));
+        if child(piece, "CellData").is_some_and(has_arrays) {
+            let centres = self.centres(piece, &values)?;
+            part(&mut points.cells, PLACES, 3, &centres);
+            self.data(piece, "CellData", centres.len() / 3, &mut points.cells)?;
         }
         Ok(())
+    }
+
+    /// Arrays at points or at cells.
+    fn data(&mut self, piece: Node<'_, '_>, at: &str, tuples: usize, arrays: &mut NamedArrays) -> Result<(), Refusal> {
+        let data = child(piece, at).into_iter().flat_map(|data| data.children());
+        let is_number = |array: &Node<'_, '_>| array.attribute("type") != Some("String");
+        for array in data.filter(|node| node.has_tag_name("DataArray")).filter(is_number) {
+            let name = array.attribute("Name").ok_or("with an array without a name")?;
+            let components = count(array, "NumberOfComponents")?.unwrap_or(1).max(1);
+            let values = self.values(array, name, tuples, components)?;
+            part(arrays, name, components, &values);
+        }
+        Ok(())
+    }
+
+    /// Centres of the cells, in the order of their data.
+    fn centres(&mut self, piece: Node<'_, '_>, points: &[f64]) -> Result<Vec<f64>, Refusal> {
+        let mut all = Vec::new();
+        for kind in ["Cells", "Verts", "Lines", "Strips", "Polys"] {
+            let number = count(piece, &format!("NumberOf{kind}"))?.unwrap_or(0);
+            if number == 0 {
+                continue;
+            }
+            let array = |name: &'static str| {
+                let mut arrays = child(piece, kind).into_iter().flat_map(|cells| cells.children());
+                let found = arrays.find(|node| node.attribute("Name") == Some(name));
+                found.ok_or_else(|| format!("without `{name}` of its cells"))
+            };
+            let ends = self.values(array("offsets")?, "offsets", number, 1)?;
+            let size = ends.last().map_or(0, |end| *end as usize);
+            let connectivity = self.values(array("connectivity")?, "connectivity", size, 1)?;
+            all.extend(centres(points, &connectivity, &ends)?);
+        }
+        Ok(all)
     }
 
     /// All values of an array.
