@@ -39,7 +39,7 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
             height(),
         ),
         Panel::new("solid fraction", Axis::linear("φ [-]"), height()),
-        Panel::new("drag on the grains", Axis::linear("K (u_f − u_s) [N/m³]"), height()),
+        Panel::new("drag on the grains", Axis::linear("K (u_f − u_s) [kN/m³]"), height()),
         Panel::new("stresses", Axis { limits: Some((0.0, 1.6)), ..Axis::linear("τ/(ρ_f g h tanθ) [-]") }, height()),
     ];
     for (slot, &(run, state)) in layers.iter().enumerate() {
@@ -51,7 +51,7 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
         };
         let with_grains = |k: usize| state.solid_fraction[k] > 0.0;
         let relative: Vec<f64> = state.fluid_velocity.iter().map(|u| u / stream.shear_velocity()).collect();
-        let drag = state.drag();
+        let drag: Vec<f64> = state.drag().iter().map(|force| 1e-3 * force).collect();
         let curves = [
             cells(&relative, &|k| state.height[k] > 0.0),
             cells(&state.grain_velocity, &with_grains),
