@@ -3,10 +3,13 @@
 use super::InclineCollapseRecord;
 use crate::collapse::other_codes::Beside;
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
-use crate::figure::{Animation, Axis, Field, Figure, Panel};
+use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::observation::pictures::{View, animation};
 use crate::observation::{Frame, Recorded};
-use crate::reference::collapse::{SLOPE_EXPERIMENT, slope_run_out};
+use super::metrics::MARGIN;
+use crate::evidence::shipped_table;
+use crate::reference::collapse::{RoughIncline, SLOPE_EXPERIMENT, slope_run_out};
+use crate::reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
 
 /// Times at which thickness profiles are drawn `[s]`.
 const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
@@ -70,37 +73,73 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
             beside.draw(&mut energy, true, slot, |(time, energy)| (time * time_scale, energy * scale));
         }
     }
-    Figure::new(
-        "fronts",
-        "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
-         rest; above it they run on, and the run ends when the first grain is near the end of the channel. Points are another code under the same law.",
-        vec![front, energy],
-    )
+    let points = if energy.series.iter().any(|series| series.mark == Mark::Points) {
+        " Points are another code under the same law."
+    } else {
+        ""
+    };
+    let caption = format!(
+        "Displacement of the front from the gate and kinetic energy. Below the friction angle of 20.9° the grains come to rest; above it they \
+         run on, and the run ends when the first grain is near the end of the channel.{points}"
+    );
+    Figure::new("fronts", &caption, vec![front, energy])
 }
 
 fn thickness(records: &[InclineCollapseRecord]) -> Figure {
     let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
-    let panels = records.iter().enumerate().map(|(place, (run, record))| {
-        let y = Axis::linear("thickness [cm]").between(0.0, 100.0 * high);
+    let is_seen = |time: f64| {
+        let ends = records.iter().filter_map(|(_, record)| record.data.collapse.time.last());
+        ends.fold(0.0_f64, |latest, end| latest.max(*end)) >= time - 1e-9
+    };
+    let stated = shipped_table("flow-thickness/statements.csv").ok();
+    let mut lines = Vec::new();
+    let panels: Vec<Panel> = records.iter().enumerate().map(|(place, (run, record))| {
+        let y = Axis::linear("thickness [cm]").between(0.0, (100.0 * high).ceil() + 1.0);
         let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
         for (slot, time) in PROFILES.iter().enumerate() {
-            let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else { continue };
+            // a run that ended earlier has the entry alone
+            let entry = if place == 0 && is_seen(*time) { format!("{time} s") } else { String::new() };
+            let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else {
+                panel.line(&entry, slot, []);
+                continue;
+            };
             let r = run.reservoir.reservoir_length;
             let profile = &record.data.thickness[index];
             let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
             let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
             let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r));
-            let entry = if place == 0 { format!("{time} s") } else { String::new() };
             panel.line(&entry, slot, points);
         }
+        let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front)) * run.reservoir.reservoir_length;
+        let mut line = |name: &str, thickness: f64| {
+            panel.reference(name, [(0.0, thickness), (far, thickness)]);
+            lines.push(format!("{name} at {}° {thickness:.2} cm", run.slope_angle));
+        };
+        // the paper states the thickness of one slope, and (44) has none below the friction angle
+        let paper = stated.as_ref().filter(|table| table.numbers("slope angle").is_ok_and(|angles| angles.contains(&run.slope_angle)));
+        if let Some(Ok(thickness)) = paper.map(|table| table.numbers("thickness")) {
+            line("largest thickness by the paper", thickness[0]);
+            if let Some(thickness) = beads().flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians()) {
+                line("by its (44)", 100.0 * thickness);
+            }
+        }
         panel
-    });
-    Figure::new(
-        "thickness",
-        "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.",
-        panels.collect(),
-    )
-    .in_columns(2)
+    }).collect();
+    let mut caption = "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.".to_owned();
+    if !lines.is_empty() {
+        caption += &format!(" Horizontal lines: {}.", lines.join(", "));
+    }
+    Figure::new("thickness", &caption, panels).in_columns(2)
+}
+
+/// The rough bed under the glass beads of Table 1.
+fn beads() -> RoughIncline {
+    let law = GLASS_BEADS.law;
+    RoughIncline {
+        length_scale: GLASS_BEADS_FLOW_RULE.deposit_length * law.grain_diameter,
+        static_friction: law.static_friction,
+        limiting_friction: law.limiting_friction,
+    }
 }
 
 /// Final run-out over the slope, with the band of the experiments' fit.
@@ -115,11 +154,16 @@ fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     };
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     let (short, long) = (curve(friction, lower), curve(friction, upper));
-    panel.band("k = 0.4 to 0.5, tanδ = μ_s of the run", short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)));
-    let entry = format!("k = {lower} and {upper}, δ = {}° of the experiment", SLOPE_EXPERIMENT.repose_angle);
+    let judged = short.iter().zip(&long).map(|(a, b)| (a.0, (1.0 - MARGIN) * a.1, (1.0 + MARGIN) * b.1));
+    panel.band(&format!("where a run-out must lie: {:.0} % beyond k = {lower} and {upper} by μ_s", 100.0 * MARGIN), judged);
     let experiment = libm::tan(SLOPE_EXPERIMENT.repose_angle.to_radians());
-    for (k, entry) in [(lower, entry.as_str()), (upper, "")] {
-        panel.reference(entry, curve(experiment, k));
+    for (friction, name) in [
+        (friction, "tanδ = μ_s of the run".to_owned()),
+        (experiment, format!("δ = {}° of the experiment", SLOPE_EXPERIMENT.repose_angle)),
+    ] {
+        for k in [lower, upper] {
+            panel.reference(&format!("k = {lower} and {upper}, {name}"), curve(friction, k));
+        }
     }
     let points: Vec<(f64, f64)> = records
         .iter()
@@ -129,8 +173,9 @@ fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     panel.points("at rest", 0, points);
     Figure::new(
         "run-out",
-        "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
-         h_0 2k/(tanδ − tanθ).",
+        "Final run-out from the gate of the grains that came to rest, over the slope θ, with the fit to experiments h_0 2k/(tanδ − tanθ) of \
+         Mangeney et al. 2010 as quoted. Runs are judged by the friction of their own law, tanδ = μ_s, not by the angle of repose of the \
+         experiment. The collapse paper states that its own run-out is 15 % shorter than the experiment's; it prints no number of either.",
         vec![panel],
     )
 }
@@ -156,8 +201,9 @@ fn velocities((run, record): &InclineCollapseRecord) -> Figure {
 
 /// The viscosity in time: the paper's figure 5.
 fn viscosities((run, record): &InclineCollapseRecord) -> Figure {
-    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The viscosity of \
-                   grains that hardly move has no upper bound.";
+    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s, on which yellow is 1.5 Pa·s or more, and on a \
+                   logarithmic one from 0.1 to 10⁴ Pa·s, whose ends hold all values beyond. The viscosity of grains that hardly move has \
+                   no upper bound.";
     fields("fields", caption, run, record, |frame| {
         let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();
