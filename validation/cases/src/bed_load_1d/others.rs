@@ -219,7 +219,10 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
                 let off = metrics.iter().find(|metric| metric.name == GRAIN_VELOCITY_DIFFERENCE.name);
                 let off = off.map_or(f64::NAN, |metric| metric.value);
                 let ratio = state.transport() / theirs.transport;
-                found.push(format!("{}: q* {ratio:.2} of theirs, velocity of the grains {off:.0} % off", of.name()));
+                found.push(format!(
+                    "{}: q* {ratio:.2} of theirs, rms difference of the grain velocity {off:.0} % of the largest",
+                    of.name()
+                ));
             }
             fraction.series.push(Series::new(
                 &format!("layer{suffix}"),
@@ -264,8 +267,8 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     }
     let caption = format!(
         "The layer beside a grain simulation (Maurin et al.; 6 mm, slope 0.05, τ* 0.6) and a measured sheet flow (Revil-Baudard et al. \
-         2015; plastic of 3 mm, τ* 0.44). Found are: {}. The gates are {:.2} to {:.2} for the ratio of q* and {VELOCITY_LIMIT} % of their largest \
-         velocity (rms). The sources state no uncertainty. Grains of the sheet flow are measured far above those of the layer; dispersion by \
+         2015; plastic of 3 mm, τ* 0.44). Found are: {}. The gates are {:.2} to {:.2} for the ratio of q* and {VELOCITY_LIMIT} % for the \
+         velocity. The sources state no uncertainty. Grains of the sheet flow are measured far above those of the layer; dispersion by \
          eddies (Schmidt number {SCHMIDT}) adds a part of these. Velocities of the layer's grains are drawn from a fraction of {GRAINS_FROM} on. \
          The measured stress is the covariance −⟨u'w'⟩; the layer's is what the grains leave to the water.",
         found.join("; "),

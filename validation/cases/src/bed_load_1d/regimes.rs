@@ -157,8 +157,7 @@ pub(super) fn figure(
         (label, [point(range.0), point(range.1)])
     };
     let range = |points: &[(f64, f64)]| Some((points.first()?.0, points.last()?.0));
-    let lowest: Vec<(f64, f64)> =
-        measured.points.iter().copied().filter(|point| point.0 <= LOWEST_LAYER_TOP).collect();
+    let lowest: Vec<(f64, f64)> = measured.points.iter().copied().filter(|point| point.0 <= LOWEST_LAYER_TOP).collect();
     let (entry, line) = fit("lowest layer of Sumer et al.", measured.law, range(&lowest)?);
     panel.reference(&entry, line);
     let mut misfits = Vec::new();

@@ -119,9 +119,7 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
             }
         }
         for (slot, (material, resolution)) in kinds.into_iter().enumerate() {
-            let own = || {
-                records.iter().filter(|(run, _)| (run.material, run.resolution) == (material, resolution))
-            };
+            let own = || records.iter().filter(|(run, _)| (run.material, run.resolution) == (material, resolution));
             let holds = |run: &ColumnRun, value: f64| gate(run).is_none_or(|(limit, _)| limit.holds(value));
             let title = own().next().map_or(String::new(), |(run, _)| run.material.title_with(&run.law));
             for (mark, inside) in [(Mark::Points, true), (Mark::OpenPoints, false)] {
@@ -164,10 +162,13 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
     }
     if round {
         let percent = 200.0 * measured.scatter;
-        caption += &format!(" Bars of the measured points are twice their scatter about the line through their neighbours, ± {percent:.0} %.");
+        caption += &format!(
+            " Bars of the measured points are twice their scatter about the line through their neighbours, ± {percent:.0} %."
+        );
     }
     for law in height_laws.iter().filter(|law| law.confidence == Confidence::Unverified) {
-        caption += &format!(" The height of {}: no document at hand quotes this law, and it judges nothing.", law.source);
+        caption +=
+            &format!(" The height of {}: no document at hand quotes this law, and it judges nothing.", law.source);
     }
     Figure::new("scaling", &caption, panels)
 }
@@ -214,7 +215,8 @@ fn histories(records: &[&CollapseRecord]) -> Figure {
             beside.draw(&mut energy, true, slot, |point| point);
         }
     }
-    let has_points = [&front, &energy].iter().any(|panel| panel.series.iter().any(|series| series.mark == Mark::Points));
+    let has_points =
+        [&front, &energy].iter().any(|panel| panel.series.iter().any(|series| series.mark == Mark::Points));
     let points = if has_points {
         "Points are other codes under the same law, in the colour of their column or, of a second code, in one of their own; bars are twice \
          their uncertainty."

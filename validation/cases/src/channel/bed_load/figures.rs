@@ -11,7 +11,7 @@ use super::tiers::FITTED;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load::TransportFormula;
 use crate::shared::transport_panel;
-use crate::statistics::{BlockProfile, mean};
+use crate::statistics::{BlockProfile, FittedValue};
 use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 
 pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
@@ -226,7 +226,8 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         .replace("= -", "= −");
     }
     if slopes.iter().any(|slope| beside_paper(records, *slope).any(|(name, ..)| name == DILATING)) {
-        caption += "Grains that dilate are binned in half millimetres, in which their rows show; dashed is the 1-D layer. ";
+        caption +=
+            "Grains that dilate are binned in half millimetres, in which their rows show; dashed is the 1-D layer. ";
     }
     let columns = slopes.len();
     velocities.extend(drags);
@@ -311,6 +312,7 @@ type RunFilter = fn(&BedLoadRun) -> bool;
 
 fn transport(records: &[BedLoadRecord]) -> Figure {
     let mut panel = transport_panel::formulas();
+    let mut largest_error: f64 = 0.0;
     let kinds: [(&str, usize, RunFilter); 5] = [
         (PARTICLES, 0, |run| run.formulation.kind() == Some(GrainKind::Stabilised)),
         (FROZEN, 2, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
@@ -319,14 +321,17 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
         ("other laws between pairs", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
     ];
     for (name, slot, belongs) in kinds {
-        let points: Vec<(f64, f64)> = records
+        let rates: Vec<(f64, FittedValue)> = records
             .iter()
             .filter(|(run, _)| belongs(run))
-            .map(|(run, record)| (run.stream().shields_number(), mean(&record.data.transport_in_window())))
-            .filter(|(_, value)| *value > 0.0)
+            .map(|(run, record)| (run.stream().shields_number(), record.data.channel.average(&record.data.transport)))
+            .filter(|(_, rate)| rate.value > 0.0)
             .collect();
-        if !points.is_empty() {
-            panel.points(name, slot, points);
+        let errors = rates.iter().map(|(_, rate)| rate.standard_error / rate.value);
+        largest_error = errors.filter(|error| error.is_finite()).fold(largest_error, f64::max);
+        if !rates.is_empty() {
+            let points = rates.iter().map(|(shields, rate)| (*shields, rate.value));
+            panel.points(name, slot, points).error = rates.iter().map(|(_, rate)| rate.standard_error).collect();
         }
     }
     let held: Vec<(f64, f64)> = held_out(records)
@@ -336,13 +341,13 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
     if !held.is_empty() {
         panel.points("one particle a grain, fitted to the other slopes", 7, held);
     }
-    Figure::new(
-        "transport",
-        "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's \
-         formula is the scatter of the experiments behind it. Grains that dilate start in the 1-D layer's water, where no other start is \
-         named; from another start the flow is not steady.",
-        vec![panel],
-    )
+    let caption = format!(
+        "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's formula is the scatter of the \
+         experiments behind it. Grains that dilate start in the 1-D layer's water, where no other start is named. Bars are statistical errors \
+         from blocks of time, at most {:.0} % of the rate, where they are larger than the mark.",
+        100.0 * largest_error
+    );
+    Figure::new("transport", &caption, vec![panel])
 }
 
 fn over_time(records: &[BedLoadRecord]) -> Figure {

@@ -1,13 +1,13 @@
 //! The case's figures.
 
 use super::InclineCollapseRecord;
+use super::metrics::MARGIN;
 use crate::collapse::other_codes::Beside;
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
+use crate::evidence::shipped_table;
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::observation::pictures::{View, animation};
 use crate::observation::{Frame, Recorded};
-use super::metrics::MARGIN;
-use crate::evidence::shipped_table;
 use crate::reference::collapse::{RoughIncline, SLOPE_EXPERIMENT, slope_run_out};
 use crate::reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
 
@@ -79,7 +79,7 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
         ""
     };
     let caption = format!(
-        "Displacement of the front from the gate and kinetic energy. Below the friction angle of 20.9° the grains come to rest; above it they \
+        "Front beyond the gate over time, and kinetic energy. Below the friction angle of 20.9° the grains come to rest; above it they \
          run on, and the run ends when the first grain is near the end of the channel.{points}"
     );
     Figure::new("fronts", &caption, vec![front, energy])
@@ -93,38 +93,47 @@ fn thickness(records: &[InclineCollapseRecord]) -> Figure {
     };
     let stated = shipped_table("flow-thickness/statements.csv").ok();
     let mut lines = Vec::new();
-    let panels: Vec<Panel> = records.iter().enumerate().map(|(place, (run, record))| {
-        let y = Axis::linear("thickness [cm]").between(0.0, (100.0 * high).ceil() + 1.0);
-        let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
-        for (slot, time) in PROFILES.iter().enumerate() {
-            // a run that ended earlier has the entry alone
-            let entry = if place == 0 && is_seen(*time) { format!("{time} s") } else { String::new() };
-            let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else {
-                panel.line(&entry, slot, []);
-                continue;
-            };
-            let r = run.reservoir.reservoir_length;
-            let profile = &record.data.thickness[index];
-            let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
-            let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
-            let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r));
-            panel.line(&entry, slot, points);
-        }
-        let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front)) * run.reservoir.reservoir_length;
-        let mut line = |name: &str, thickness: f64| {
-            panel.reference(name, [(0.0, thickness), (far, thickness)]);
-            lines.push(format!("{name} at {}° {thickness:.2} cm", run.slope_angle));
-        };
-        // the paper states the thickness of one slope, and (44) has none below the friction angle
-        let paper = stated.as_ref().filter(|table| table.numbers("slope angle").is_ok_and(|angles| angles.contains(&run.slope_angle)));
-        if let Some(Ok(thickness)) = paper.map(|table| table.numbers("thickness")) {
-            line("largest thickness by the paper", thickness[0]);
-            if let Some(thickness) = beads().flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians()) {
-                line("by its (44)", 100.0 * thickness);
+    let panels: Vec<Panel> = records
+        .iter()
+        .enumerate()
+        .map(|(place, (run, record))| {
+            let y = Axis::linear("thickness [cm]").between(0.0, (100.0 * high).ceil() + 1.0);
+            let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
+            for (slot, time) in PROFILES.iter().enumerate() {
+                // a run that ended earlier has the entry alone
+                let entry = if place == 0 && is_seen(*time) { format!("{time} s") } else { String::new() };
+                let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else {
+                    panel.line(&entry, slot, []);
+                    continue;
+                };
+                let r = run.reservoir.reservoir_length;
+                let profile = &record.data.thickness[index];
+                let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
+                let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
+                let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r));
+                panel.line(&entry, slot, points);
             }
-        }
-        panel
-    }).collect();
+            let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front))
+                * run.reservoir.reservoir_length;
+            let mut line = |name: &str, thickness: f64| {
+                panel.reference(name, [(0.0, thickness), (far, thickness)]);
+                lines.push(format!("{name} at {}° {thickness:.2} cm", run.slope_angle));
+            };
+            // the paper states the thickness of one slope, and (44) has none below the friction angle
+            let paper = stated
+                .as_ref()
+                .filter(|table| table.numbers("slope angle").is_ok_and(|angles| angles.contains(&run.slope_angle)));
+            if let Some(Ok(thickness)) = paper.map(|table| table.numbers("thickness")) {
+                line("largest thickness by the paper", thickness[0]);
+                if let Some(thickness) =
+                    beads().flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians())
+                {
+                    line("by its (44)", 100.0 * thickness);
+                }
+            }
+            panel
+        })
+        .collect();
     let mut caption = "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.".to_owned();
     if !lines.is_empty() {
         caption += &format!(" Horizontal lines: {}.", lines.join(", "));
@@ -155,7 +164,10 @@ fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     let (short, long) = (curve(friction, lower), curve(friction, upper));
     let judged = short.iter().zip(&long).map(|(a, b)| (a.0, (1.0 - MARGIN) * a.1, (1.0 + MARGIN) * b.1));
-    panel.band(&format!("where a run-out must lie: {:.0} % beyond k = {lower} and {upper} by μ_s", 100.0 * MARGIN), judged);
+    panel.band(
+        &format!("where a run-out must lie: {:.0} % beyond k = {lower} and {upper} by μ_s", 100.0 * MARGIN),
+        judged,
+    );
     let experiment = libm::tan(SLOPE_EXPERIMENT.repose_angle.to_radians());
     for (friction, name) in [
         (friction, "tanδ = μ_s of the run".to_owned()),
@@ -173,7 +185,7 @@ fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     panel.points("at rest", 0, points);
     Figure::new(
         "run-out",
-        "Final run-out from the gate of the grains that came to rest, over the slope θ, with the fit to experiments h_0 2k/(tanδ − tanθ) of \
+        "Displacement of the front from the gate at rest, the run-out, over the slope θ, with the fit to experiments h_0 2k/(tanδ − tanθ) of \
          Mangeney et al. 2010 as quoted. Runs are judged by the friction of their own law, tanδ = μ_s, not by the angle of repose of the \
          experiment. The collapse paper states that its own run-out is 15 % shorter than the experiment's; it prints no number of either.",
         vec![panel],

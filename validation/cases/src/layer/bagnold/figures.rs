@@ -117,8 +117,8 @@ fn transients(records: &[&BagnoldRecord]) -> Figure {
     }
     Figure::new(
         "approach",
-        "Depth mean of the velocity from rest, against the one-dimensional solver, which shares nothing with the \
-         particles but the law.",
+        "Depth mean of the velocity from rest, against the one-dimensional transient solver, which shares nothing with the \
+         particles but the law. The error of the mean is judged at half and at the end of the approach.",
         vec![panel],
     )
 }

@@ -190,7 +190,9 @@ fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records:
         let curve: Vec<(f64, f64)> = curve.collect();
         if let [.., (x, y), (far, end)] = curve[..] {
             let slope = libm::log(end / y) / libm::log(far / x);
-            steepness = format!(" Its curve still rises with the power {slope:.1} of h/h_stop at its end, where the flow rule has the power 1.");
+            steepness = format!(
+                " Its curve still rises with the power {slope:.1} of h/h_stop at its end, where the flow rule has the power 1."
+            );
         }
         panel.line("nonlocal law, without particles", 1, curve);
     }
