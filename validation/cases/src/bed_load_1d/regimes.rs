@@ -160,24 +160,23 @@ pub(super) fn figure(
     let lowest: Vec<(f64, f64)> = measured.points.iter().copied().filter(|point| point.0 <= LOWEST_LAYER_TOP).collect();
     let (entry, line) = fit("lowest layer of Sumer et al.", measured.law, range(&lowest)?);
     panel.reference(&entry, line);
-    let mut misfits = Vec::new();
+    let mut bends = Vec::new();
     for (slot, (run, state)) in layers.iter().enumerate() {
         let points = lowest_layer(run, state, speed);
-        let (Some(law), Some(ends), Some(misfit)) = (power_law(&points), range(&points), PowerMisfit::of(&points))
-        else {
-            continue;
-        };
+        let (Some(law), Some(ends)) = (power_law(&points), range(&points)) else { continue };
         let (entry, line) = fit(&name(run), law, ends);
+        let local = points.windows(2).filter_map(power_law).map(|law| law.value);
+        let (least, most) = local.fold((f64::INFINITY, 0.0_f64), |(least, most), n| (least.min(n), most.max(n)));
+        bends.push(format!("{least:.2} to {most:.2} at {}", name(run)));
         panel.line(&entry, slot + 1, points);
         panel.reference("", line);
-        misfits.push(format!("{:.0} % at {}", 100.0 * misfit.relative, name(run)));
     }
     let caption = format!(
         "Velocity of the water among moving grains over the height above the grains at rest, where a power law is straight. Dashed are the \
-         fits, each over its range, with the standard error of the exponent from the scatter about the fit. The layers bend: a power misses \
-         the velocities by {} (rms, over the largest). Points are the sheet flow that Sumer et al. (1996) measured at a much greater Shields \
-         number, whose columns are inferred; its fit covers the points up to {LOWEST_LAYER_TOP} d.",
-        misfits.join(", ")
+         fits, each over its range, with the standard error of the exponent from the scatter about the fit. The layers bend: their local \
+         exponents are {}. Points are the sheet flow that Sumer et al. (1996) measured at a much greater Shields number, whose columns are \
+         inferred. Its lowest layer are the points up to {LOWEST_LAYER_TOP} d.",
+        bends.join(", ")
     );
     Some(Figure::new("lowest-layer", &caption, vec![panel]))
 }

@@ -61,10 +61,12 @@ pub(super) fn over_time(records: &[ClearWaterRecord]) -> Figure {
             let values = &record.data.series.mean_velocity;
             let share = |value: Option<&f64>| value.map_or(f64::NAN, |value| value / run.reference().mean_velocity());
             let (first, last) = (share(values.first()), share(values.last()));
-            format!("{}: {first:.3} at first, {last:.3} in the end", label(run.slope))
+            format!(" At {} U/U_log is {first:.3} at first and {last:.3} in the end.", label(run.slope))
         };
-        let courses = records.iter().map(course).collect::<Vec<_>>().join("; ");
-        format!("The run has a fixed end and no criterion of stationarity. U/U_log is {courses}.")
+        format!(
+            "The run has a fixed end and no criterion of stationarity.{}",
+            records.iter().map(course).collect::<String>()
+        )
     } else {
         "Points are the ends of the intervals U/(2 g i) of the criterion; the last of them is where the flow counts as stationary and the \
          averaging window begins."

@@ -9,7 +9,6 @@ use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::observation::pictures::{View, animation};
 use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{RoughIncline, SLOPE_EXPERIMENT, slope_run_out};
-use crate::reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
 
 /// Times at which thickness profiles are drawn `[s]`.
 const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
@@ -87,68 +86,40 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
 
 fn thickness(records: &[InclineCollapseRecord]) -> Figure {
     let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
-    let is_seen = |time: f64| {
-        let ends = records.iter().filter_map(|(_, record)| record.data.collapse.time.last());
-        ends.fold(0.0_f64, |latest, end| latest.max(*end)) >= time - 1e-9
-    };
+    let index_at =
+        |record: &Recorded<SlopeCollapse>, time: f64| record.data.collapse.time.iter().position(|t| *t >= time - 1e-9);
+    // the paper states the thickness of one slope
     let stated = shipped_table("flow-thickness/statements.csv").ok();
-    let mut lines = Vec::new();
-    let panels: Vec<Panel> = records
-        .iter()
-        .enumerate()
-        .map(|(place, (run, record))| {
-            let y = Axis::linear("thickness [cm]").between(0.0, (100.0 * high).ceil() + 1.0);
-            let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
-            for (slot, time) in PROFILES.iter().enumerate() {
-                // a run that ended earlier has the entry alone
-                let entry = if place == 0 && is_seen(*time) { format!("{time} s") } else { String::new() };
-                let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else {
-                    panel.line(&entry, slot, []);
-                    continue;
-                };
-                let r = run.reservoir.reservoir_length;
-                let profile = &record.data.thickness[index];
-                let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
-                let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
-                let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r));
-                panel.line(&entry, slot, points);
-            }
-            let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front))
-                * run.reservoir.reservoir_length;
-            let mut line = |name: &str, thickness: f64| {
-                panel.reference(name, [(0.0, thickness), (far, thickness)]);
-                lines.push(format!("{name} at {}° {thickness:.2} cm", run.slope_angle));
-            };
-            // the paper states the thickness of one slope, and (44) has none below the friction angle
-            let paper = stated
-                .as_ref()
-                .filter(|table| table.numbers("slope angle").is_ok_and(|angles| angles.contains(&run.slope_angle)));
-            if let Some(Ok(thickness)) = paper.map(|table| table.numbers("thickness")) {
-                line("largest thickness by the paper", thickness[0]);
-                if let Some(thickness) =
-                    beads().flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians())
-                {
-                    line("by its (44)", 100.0 * thickness);
-                }
-            }
-            panel
-        })
-        .collect();
+    let stated =
+        stated.and_then(|table| Some((table.numbers("slope angle").ok()?[0], table.numbers("thickness").ok()?[0])));
     let mut caption = "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.".to_owned();
-    if !lines.is_empty() {
-        caption += &format!(" Horizontal lines: {}.", lines.join(", "));
+    let mut panels = Vec::new();
+    for (run, record) in records {
+        let y = Axis::linear("thickness [cm]").between(0.0, (100.0 * high).round() + 1.0);
+        let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
+        let r = run.reservoir.reservoir_length;
+        for (slot, time) in PROFILES.iter().enumerate() {
+            // the first panel names the times of all
+            let is_named = panels.is_empty() && records.iter().any(|(_, record)| index_at(record, *time).is_some());
+            let entry = if is_named { format!("{time} s") } else { String::new() };
+            let profile = index_at(record, *time).map_or(&[][..], |index| &record.data.thickness[index]);
+            let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
+            let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
+            panel.line(&entry, slot, profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r)));
+        }
+        if let Some((angle, stated)) = stated.filter(|(angle, _)| *angle == run.slope_angle) {
+            let law = RoughIncline::of_glass_beads().flow_thickness(run.reservoir.initial_height, angle.to_radians());
+            let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front)) * r;
+            let law = 100.0 * law.unwrap_or(f64::NAN);
+            panel.reference("largest thickness by the paper", [(0.0, stated), (far, stated)]);
+            panel.reference("by its (44)", [(0.0, law), (far, law)]);
+            caption += &format!(
+                " At {angle}° the paper's largest thickness is about {stated} cm, and its (44) gives {law:.2} cm."
+            );
+        }
+        panels.push(panel);
     }
     Figure::new("thickness", &caption, panels).in_columns(2)
-}
-
-/// The rough bed under the glass beads of Table 1.
-fn beads() -> RoughIncline {
-    let law = GLASS_BEADS.law;
-    RoughIncline {
-        length_scale: GLASS_BEADS_FLOW_RULE.deposit_length * law.grain_diameter,
-        static_friction: law.static_friction,
-        limiting_friction: law.limiting_friction,
-    }
 }
 
 /// Final run-out over the slope, with the band of the experiments' fit.
@@ -213,9 +184,8 @@ fn velocities((run, record): &InclineCollapseRecord) -> Figure {
 
 /// The viscosity in time: the paper's figure 5.
 fn viscosities((run, record): &InclineCollapseRecord) -> Figure {
-    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s, on which yellow is 1.5 Pa·s or more, and on a \
-                   logarithmic one from 0.1 to 10⁴ Pa·s, whose ends hold all values beyond. The viscosity of grains that hardly move has \
-                   no upper bound.";
+    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s, and on a logarithmic one. Yellow is 1.5 Pa·s \
+                   or more on the left and 10⁴ Pa·s or more on the right. The viscosity of grains that hardly move has no upper bound.";
     fields("fields", caption, run, record, |frame| {
         let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();

@@ -118,7 +118,7 @@ fn transients(records: &[&BagnoldRecord]) -> Figure {
     Figure::new(
         "approach",
         "Depth mean of the velocity from rest, against the one-dimensional transient solver, which shares nothing with the \
-         particles but the law. The error of the mean is judged at half and at the end of the approach.",
+         particles but the law. The error of the mean is measured at a quarter, half and three quarters of the rise time.",
         vec![panel],
     )
 }
@@ -134,20 +134,16 @@ fn arrest_and_runaway(records: &[&BagnoldRecord]) -> Figure {
         panel.line("particles", slot, drawn(&particle_history(&record.data), f64::INFINITY));
         panel
     });
-    let sentences = [
-        (
-            BagnoldPurpose::Arrest,
-            "Below the static friction angle a layer that starts with a steady profile comes to rest.",
-        ),
-        (
-            BagnoldPurpose::Runaway,
-            "Above the limiting friction angle a layer from rest accelerates without end; its run stops when its mean passes half the sound \
-             speed.",
-        ),
-    ];
-    let drawn = sentences.iter().filter(|(purpose, _)| records.iter().any(|(run, _)| run.purpose == *purpose));
-    let caption = drawn.map(|(_, sentence)| *sentence).collect::<Vec<_>>().join(" ");
-    Figure::new("arrest-and-runaway", &caption, panels.collect())
+    let has = |purpose| records.iter().any(|(run, _)| run.purpose == purpose);
+    let mut caption = String::new();
+    if has(BagnoldPurpose::Arrest) {
+        caption += "Below the static friction angle a layer that starts with a steady profile comes to rest. ";
+    }
+    if has(BagnoldPurpose::Runaway) {
+        caption += "Above the limiting friction angle a layer from rest accelerates without end; its run stops when its mean passes half the \
+                    sound speed. ";
+    }
+    Figure::new("arrest-and-runaway", caption.trim_end(), panels.collect())
 }
 
 fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Option<Figure> {
