@@ -291,7 +291,7 @@ fn energy_budget(records: &[&CollapseRecord]) -> Figure {
 fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Figure> {
     let stations = stations(run, record);
     let caption = format!(
-        "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a line through the flowing layer, \
+        "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a linear fit to the flowing layer, \
          the points faster than 0.35 of the largest velocity, with its share R² of the variance. Right, one exponential for all stations \
          below that layer, down to 0.05 of the largest velocity; three points at least make a tail.",
         label(run)

@@ -195,14 +195,17 @@ pub(super) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
             failure.line("", slot + 1, centimetres(&wedge.boundary));
         }
     }
-    Some(Figure::new(
-        "bars-surface",
+    let altered = if piles.iter().any(|(run, ..)| !run.material.is_published()) {
+        " μ and μ_2 in the legend are friction coefficients that differ from the bars' own."
+    } else {
+        ""
+    };
+    let caption = format!(
         "A pile of aluminium bars after its collapse against a wall at x = 0, beside the measured one (Bui et al. 2008, points). (a) Surface; \
          bars are twice the uncertainty of reading and of the area under the points. (b) Border of the part that stayed in its place: \
-         particles that moved by less than a spacing. The experiment does not say how it found that border. Colours are those of (a); μ, μ_s \
-         and μ_2 in the legend are friction coefficients that differ from the bars' own.",
-        vec![surface, failure],
-    ))
+         particles that moved by less than a spacing. The experiment does not say how it found that border. Colours are those of (a).{altered}"
+    );
+    Some(Figure::new("bars-surface", &caption, vec![surface, failure]))
 }
 
 #[cfg(test)]

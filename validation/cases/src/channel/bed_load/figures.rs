@@ -217,7 +217,7 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         let drag = record.data.drag_profile();
         let Some((top, _)) = drag.last() else { continue };
         caption += &format!(
-            "With one particle a grain a point is a row: at {} the topmost row lies at z = {:.2} d, and the drag on it is {:.2} times the drag \
+            "With one particle a grain a point is a row. At {} the topmost row lies at z = {:.2} d, and the drag on it is {:.2} times the drag \
              on the row below. ",
             percent(run.slope),
             top / run.materials.grain_diameter,
@@ -279,8 +279,8 @@ fn against_layer(stage: Stage, records: &[&BedLoadRecord]) -> Figure {
         Stage::Dilating => "(b) the water near the bed, (c) the grains and (d) their solid fraction",
     };
     let mut caption = format!(
-        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is independent: \
-         (a) velocity of the water over the whole depth, {near}."
+        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is independent. Panels \
+         are (a) the water over the whole depth, {near}."
     );
     for (run, record) in records.iter().filter(|(run, _)| run.start() != 1.0) {
         let Some(layer) = &record.data.layer else { continue };

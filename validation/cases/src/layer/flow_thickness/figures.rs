@@ -80,7 +80,7 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Flow
          colours of the marks are the exact h_stop of each nonlocal law, which depends on the fluidity at the surface: it vanishes there, or has \
          no flux. The local law has one stopping slope for every thickness (dashed, exact). Left of the fit h_stop(θ) the experiments have no \
          flow. No uncertainty of h_stop is at hand.",
-        tried.join(", ")
+        tried.join("; ")
     );
     Figure::new("start-stop", &caption, vec![panel])
 }
