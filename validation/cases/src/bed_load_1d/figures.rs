@@ -39,7 +39,7 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
             height(),
         ),
         Panel::new("solid fraction", Axis::linear("φ [-]"), height()),
-        Panel::new("drag on the grains", Axis::linear("K (u_f − u_s) [N/m³]"), height()),
+        Panel::new("drag on the grains", Axis::linear("K (u_f − u_s) [kN/m³]"), height()),
         Panel::new("stresses", Axis { limits: Some((0.0, 1.6)), ..Axis::linear("τ/(ρ_f g h tanθ) [-]") }, height()),
     ];
     for (slot, &(run, state)) in layers.iter().enumerate() {
@@ -51,7 +51,7 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
         };
         let with_grains = |k: usize| state.solid_fraction[k] > 0.0;
         let relative: Vec<f64> = state.fluid_velocity.iter().map(|u| u / stream.shear_velocity()).collect();
-        let drag = state.drag();
+        let drag: Vec<f64> = state.drag().iter().map(|force| 1e-3 * force).collect();
         let curves = [
             cells(&relative, &|k| state.height[k] > 0.0),
             cells(&state.grain_velocity, &with_grains),
@@ -74,10 +74,10 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
     }
     Figure::new(
         "profiles",
-        "Steady layers on the slopes, over the height in grain diameters: velocity of the grains as in figures 10 (3 %) and 11 (5 %) of \
-         the bed-load paper, as a function of the height concave above the bed's level and convex below, and drag as in its figures 12 and 13, which peaks at the \
-         bed and is less at the topmost grains. The paper's curves are lost and its yield stress of 1220 Pa and viscosity of 0.26 Pa·s \
-         are not used: the closures are the literature's. The stresses of both phases together carry the weight above.",
+        "Steady layers on the slopes, over the height in grain diameters. The velocity of the grains, as in figures 10 (3 %) and 11 (5 %) of the \
+         bed-load paper, is a function of the height that is concave above the bed's level and convex below. The drag, as in its figures 12 \
+         and 13, peaks at the bed and is less at the topmost grains. The paper's curves are lost, and its yield stress of 1220 Pa and viscosity \
+         of 0.26 Pa·s are not used: the closures are the literature's. The stresses of both phases together carry the weight above.",
         panels.into(),
     )
     .in_columns(2)

@@ -4,7 +4,7 @@ use super::BedLoad1dRecord;
 use super::records::of;
 use super::replacements::Replaced;
 use super::run::{BedLoad1dRun, LayerPurpose, percent};
-use crate::figure::{Axis, Band, Figure, Mark, Panel, Series};
+use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::reference::one_dimension::bed_load::{LayerState, MixingLengthClosure};
 use bagnold_solver::material::drag::DragLaw;
@@ -90,8 +90,12 @@ pub(super) fn model_input_uncertainty(
 /// Transport over the value of each closure.
 pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &LayerState)]) -> Option<Figure> {
     let mut panels = Vec::new();
+    let mut caption = "Transport over that of Wong & Parker's formula when one closure is replaced and the others are kept. Dashed is the \
+                       value with which the case is judged."
+        .to_owned();
     for (name, label) in DRAWN {
-        let mut panel = Panel::new("", Axis::linear(label), Axis::logarithmic("q*/q* of Wong & Parker [-]"));
+        let mut panel = Panel::new("", Axis::linear(label), Axis::linear("q*/q* of Wong & Parker [-]"));
+        let mut own_place = None;
         for (slot, (run, state)) in layers.iter().enumerate() {
             let expected = TransportFormula::WongParker.transport(run.stream.shields_number());
             let mut points: Vec<(f64, f64)> = of(records, |purpose| matches!(purpose, LayerPurpose::Sensitivity(_)))
@@ -106,32 +110,33 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
             if points.is_empty() || expected <= 0.0 {
                 continue;
             }
-            points.push((place(own(name, run)), state.transport() / expected));
+            // one value for all slopes
+            let chosen = place(own(name, run));
+            own_place = Some(chosen);
+            points.push((chosen, state.transport() / expected));
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
             let entry = if panels.is_empty() { percent(run) } else { String::new() };
             let mark = if matches!(name, "drag" | "mixing_length") { Mark::Points } else { Mark::LinePoints };
             panel.series.push(Series::new(&entry, mark, slot, points));
         }
-        if panel.series.is_empty() {
-            continue;
-        }
+        let Some(own_place) = own_place else { continue };
         let places = || panel.series.iter().flat_map(|series| series.points.iter().map(|point| point.0));
         let (from, to) = (places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max));
         let entry = if panels.is_empty() { "gate of the transport" } else { "" };
-        panel.bands.push(Band {
-            label: entry.to_owned(),
-            points: vec![(from, MEASURED_BAND.0, MEASURED_BAND.1), (to, MEASURED_BAND.0, MEASURED_BAND.1)],
+        panel.band(entry, [from, to].map(|place| (place, MEASURED_BAND.0, MEASURED_BAND.1)));
+        let entry = if panels.is_empty() { "value of the case" } else { "" };
+        panel.reference(entry, [(own_place, MEASURED_BAND.0), (own_place, MEASURED_BAND.1)]);
+        caption.push_str(match name {
+            "bed_roughness_fade_length" => " No literature gives the length over which the roughness of the bed fades.",
+            "drag" => {
+                " Drag laws are 1 Morsi–Alexander, 2 Schiller–Naumann, 3 Wen–Yu, 4 Ergun, 5 Gidaspow, 6 Di Felice."
+            }
+            "mixing_length" => {
+                " Mixing lengths are 1 integral over the room between the grains, 2 κ z √(1 − z/h), 3 κ z."
+            }
+            _ => "",
         });
         panels.push(panel);
     }
-    (!panels.is_empty()).then(|| Figure {
-        name: "sensitivities".to_owned(),
-        caption: "Transport over that of Wong & Parker's formula when one closure is replaced, the others kept, a panel for each closure \
-                  that the tier varies. No literature gives the length over which the roughness of the bed fades. Where they are drawn, \
-                  drag laws are 1 Morsi–Alexander, 2 Schiller–Naumann, 3 Wen–Yu, 4 Ergun, 5 Gidaspow, 6 Di Felice, and mixing lengths \
-                  1 integral over the room between the grains, 2 κ z √(1 − z/h), 3 κ z."
-            .to_owned(),
-        panels,
-        columns: 2,
-    })
+    (!panels.is_empty()).then(|| Figure::new("sensitivities", &caption, panels))
 }

@@ -9,8 +9,8 @@ use super::material::{ExperimentGrains, Material};
 use super::other_codes::Beside;
 use super::{convergence, measured, scaling, stress_updates, velocity_profile, wedge};
 use crate::case::Run;
-use crate::figure::{Animation, Axis, Field, Figure, Panel};
-use crate::metric::Limit;
+use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
+use crate::metric::{Confidence, Limit};
 use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
@@ -75,62 +75,102 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
         own.run_out.iter().chain([CollapseLawSource::Lube.law(&other.run_out)]).collect();
     let lube_of_planar = round.then(|| CollapseLawSource::Lube.law(&other.height));
     let height_laws: Vec<&CollapseLaw> = own.height.iter().chain(lube_of_planar).collect();
-    let panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
+    // a source keeps its colour from panel to panel and from figure to figure
+    let round_run_out = CollapseLawSource::Lube.law(&ROUND_COLLAPSE.run_out);
+    let sources: Vec<&CollapseLaw> = PLANAR_COLLAPSE.run_out.iter().chain([round_run_out]).collect();
+    let measured = &*ROUND_COLUMN_RUN_OUTS;
+    let mut fits = 0;
+    let mut panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
         let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));
         for law in laws {
-            // a source keeps its colour from panel to panel
-            let known =
-                run_out_laws.iter().position(|other| other.source.split(',').next() == law.source.split(',').next());
-            let slot = known.unwrap_or(run_out_laws.len());
+            let known = sources.iter().position(|other| other.source.split(',').next() == law.source.split(',').next());
+            let slot = known.unwrap_or(sources.len());
+            // the laws that the collapse paper prints, and those that the panel beside does not name
+            let number = match (law.source.as_str(), legend) {
+                (source, true) if source == round_run_out.source => " (45)",
+                (source, false) if source == CollapseLawSource::Lube.law(&PLANAR_COLLAPSE.height).source => " (46)",
+                _ => "",
+            };
+            let is_named = legend || !number.is_empty() || !run_out_laws.iter().any(|other| other.source == law.source);
             for (part, curve) in law.curves().into_iter().enumerate() {
-                let entry = if legend && part == 0 { law.source.as_str() } else { "" };
-                panel.line(entry, slot + 3, curve);
+                let entry = if is_named && part == 0 { format!("{}{number}", law.source) } else { String::new() };
+                panel.line(&entry, slot + 3, curve);
             }
         }
         if round && legend {
-            let measured = &*ROUND_COLUMN_RUN_OUTS;
             let bars = measured.points.iter().map(|(_, run_out)| 2.0 * measured.scatter * run_out).collect();
-            panel.points("measured, with twice their scatter", 1, measured.points.iter().copied()).error = bars;
-            panel.points("measured, doubtful", 2, measured.doubtful.iter().copied());
+            panel.draw("measured", Mark::OpenPoints, 13, measured.points.iter().copied()).error = bars;
+            panel.draw("measured, doubtful", Mark::OpenPoints, 9, measured.doubtful.iter().copied());
         }
-        for (run, _) in records {
+        let gate = |run: &ColumnRun| {
             let (run_out_law, height_law) = bands::laws_of(run);
-            let gate = if legend { bands::run_out(run, run_out_law, false) } else { bands::height(run, height_law) };
-            if let Some((Limit::Within(low, high), _)) = gate {
+            if legend { bands::run_out(run, run_out_law, false) } else { bands::height(run, height_law) }
+        };
+        for (run, _) in records {
+            if let Some((Limit::Within(low, high), _)) = gate(run) {
                 let entry = if legend && panel.bands.is_empty() { "where a result must lie" } else { "" };
                 panel.band(entry, [0.93, 1.07].map(|part| (part * run.initial_height(), low, high)));
             }
         }
-        for (slot, material) in materials(records).into_iter().enumerate() {
-            let points: Vec<(f64, f64)> = records
-                .iter()
-                .filter(|(run, _)| run.material == material)
-                .map(|(run, record)| (run.initial_height(), measure(&record.data)))
-                .collect();
-            let law = records.iter().find(|(run, _)| run.material == material).map(|(run, _)| &run.law);
-            if let Some(law) = law.filter(|_| !points.is_empty()) {
-                let entry = if legend { material.title_with(law) } else { String::new() };
-                panel.points(&entry, slot, points);
+        let mut kinds: Vec<(Material, usize)> = Vec::new();
+        for (run, _) in records {
+            if !kinds.contains(&(run.material, run.resolution)) {
+                kinds.push((run.material, run.resolution));
             }
+        }
+        for (slot, (material, resolution)) in kinds.into_iter().enumerate() {
+            let own = || records.iter().filter(|(run, _)| (run.material, run.resolution) == (material, resolution));
+            let holds = |run: &ColumnRun, value: f64| gate(run).is_none_or(|(limit, _)| limit.holds(value));
+            let title = own().next().map_or(String::new(), |(run, _)| run.material.title_with(&run.law));
+            for (mark, inside) in [(Mark::Points, true), (Mark::OpenPoints, false)] {
+                let points: Vec<(f64, f64)> = own()
+                    .map(|(run, record)| (run, measure(&record.data)))
+                    .filter(|(run, value)| holds(run, *value) == inside)
+                    .map(|(run, value)| (run.initial_height(), value))
+                    .collect();
+                let entry = match (inside, legend) {
+                    (true, true) => format!("{title}, {resolution} particles over r0"),
+                    (true, false) => String::new(),
+                    (false, _) => format!("outside of its gate, {title}"),
+                };
+                if inside || !points.is_empty() {
+                    panel.draw(&entry, mark, slot, points);
+                }
+            }
+        }
+        for material in materials(records) {
             if let Some(found) = scaling::fit(records, material, measure) {
                 let ends = [found.range.0, found.range.1];
                 let curve = ends.map(|a| (a, found.law.coefficient * libm::pow(a, found.law.value)));
                 let exponent = format!("fit: {:.2} ± {:.2}", found.law.value, found.half_width);
                 panel.reference(&exponent, curve.to_vec());
+                fits += 1;
             }
         }
         panel
     };
-    Figure::new(
-        "scaling",
-        "Run-out and final height of the columns over their aspect ratio, with the published laws of their geometry \
-         and Lube's run-out of the other one. Fits are power laws through the tall columns, with the 95 % interval \
-         of the exponent. Coefficients depend on the grains, exponents much less.",
-        vec![
-            panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),
-            panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
-        ],
-    )
+    let panels = vec![
+        panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),
+        panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
+    ];
+    let mut caption = "Run-out and final height of the columns over their aspect ratio, with the published laws of their geometry and \
+                       Lube's run-out of the other one. Numbers in brackets are the equations of the collapse paper. No scatter of the points \
+                       behind the laws is published. Filled marks lie within their gate or have none."
+        .to_owned();
+    if fits > 0 {
+        caption += " Fits are power laws through the tall columns, with the 95 % interval of the exponent.";
+    }
+    if round {
+        let percent = 200.0 * measured.scatter;
+        caption += &format!(
+            " Bars of the measured points are twice their scatter about the line through their neighbours, ± {percent:.0} %."
+        );
+    }
+    for law in height_laws.iter().filter(|law| law.confidence == Confidence::Unverified) {
+        caption +=
+            &format!(" The height of {}: no document at hand quotes this law, and it judges nothing.", law.source);
+    }
+    Figure::new("scaling", &caption, panels)
 }
 
 fn label(run: &ColumnRun) -> String {
@@ -175,12 +215,19 @@ fn histories(records: &[&CollapseRecord]) -> Figure {
             beside.draw(&mut energy, true, slot, |point| point);
         }
     }
-    Figure::new(
-        &of_material("histories", records),
-        "The way of the front at a thickness of 0.05 r0 over the aspect ratio and the kinetic energy over the initial potential energy, in times of \
-         free fall √(h0/g). Deposits come to rest. Points are other codes under the same law, in the colour of their column or, of a second code, in one of their own; bars are twice their uncertainty. The front at the start is that of the first bin.",
-        vec![front, energy],
-    )
+    let has_points =
+        [&front, &energy].iter().any(|panel| panel.series.iter().any(|series| series.mark == Mark::Points));
+    let points = if has_points {
+        "Points are other codes under the same law, in the colour of their column or, of a second code, in one of their own; bars are twice \
+         their uncertainty."
+    } else {
+        "No measured front over time and no other code of these columns is at hand."
+    };
+    let caption = format!(
+        "Displacement of the front at a thickness of 0.05 r0 over the aspect ratio and kinetic energy over the initial potential energy, in \
+         times of free fall √(h0/g). {points} The front at the start is that of the first bin."
+    );
+    Figure::new(&of_material("histories", records), &caption, vec![front, energy])
 }
 
 /// The values of a run's variant as a file name: `sand-0.9-20`.
@@ -216,10 +263,16 @@ pub(crate) fn animations(records: &[CollapseRecord]) -> Vec<Animation> {
 /// The paper's pictures: speed and pressure at absolute times.
 fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
     let shown: Vec<&Frame> = run.shown_times.iter().filter_map(|&time| Frame::nearest(frames, time)).collect();
+    let source = match run.aspect_ratio {
+        0.9 => "figure 7 (0.07 and 0.30 s), which is captioned glass beads, and of its text (0.11 s)",
+        2.75 => "figure 8",
+        _ => "figure 9",
+    };
     let caption = format!(
-        "{}: speed on the left and pressure on the right of the symmetry plane, at the times of the collapse paper's \
-         figures 7–9; the left half is the mirror image of the simulated right one.",
-        label(run)
+        "{}, {}: speed on the left and pressure on the right of the symmetry plane. The times are those of the collapse paper's {source}. The \
+         left half is the mirror image of the simulated right one.",
+        label(run),
+        run.material.title()
     );
     (!shown.is_empty()).then(|| halves(&format!("halves-{}", stem(run)), &caption, &shown, &view(run)))
 }
@@ -238,9 +291,9 @@ fn energy_budget(records: &[&CollapseRecord]) -> Figure {
 fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Figure> {
     let stations = stations(run, record);
     let caption = format!(
-        "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a line through the \
-         flowing layer (faster than 0.35 of the largest velocity); right, one exponential for all stations below it, \
-         down to 0.05 of the largest velocity, where at least three points make a tail.",
+        "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a linear fit to the flowing layer, \
+         the points faster than 0.35 of the largest velocity, with its share R² of the variance. Right, one exponential for all stations \
+         below that layer, down to 0.05 of the largest velocity; three points at least make a tail.",
         label(run)
     );
     let name = format!("velocity-{}", stem(run));

@@ -176,11 +176,11 @@ pub(super) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
     let centimetres = |points: &[(f64, f64)]| points.iter().map(|(x, y)| (100.0 * x, 100.0 * y)).collect::<Vec<_>>();
     let axis = |label: &str| Axis::linear(label);
     let mut surface = Panel::new("final surface", axis("x [cm]"), axis("height [cm]"));
-    let mut failure = Panel::new("what did not move", axis("x [cm]"), axis("height [cm]"));
+    let mut failure = Panel::new("border of the part at rest", axis("x [cm]"), axis("height [cm]"));
     let (length, height) = (100.0 * pile.length, 100.0 * pile.height);
     surface.reference("at first", [(0.0, height), (length, height), (length, 0.0)]);
     let bar = 200.0 * (pile.reading.powi(2) + (pile.excess() * 0.5 * pile.height).powi(2)).sqrt();
-    surface.points("measured, twice u_D", 0, centimetres(&pile.surface)).error = vec![bar; pile.surface.len()];
+    surface.points("measured", 0, centimetres(&pile.surface)).error = vec![bar; pile.surface.len()];
     failure.points("", 0, centimetres(&pile.failure));
     for (slot, (run, record, _)) in piles.iter().enumerate() {
         let r = 100.0 * run.half_width;
@@ -195,13 +195,17 @@ pub(super) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
             failure.line("", slot + 1, centimetres(&wedge.boundary));
         }
     }
-    Some(Figure::new(
-        "bars-surface",
-        "A pile of aluminium bars after its collapse against a wall: its surface beside the measured one (Bui et al. 2008), with twice \
-         the uncertainty of reading and of its area as bars; and the part that stayed in its place, which for particles is what moved by \
-         less than a spacing, and of which the experiment does not say how it was told.",
-        vec![surface, failure],
-    ))
+    let altered = if piles.iter().any(|(run, ..)| !run.material.is_published()) {
+        " μ and μ_2 in the legend are friction coefficients that differ from the bars' own."
+    } else {
+        ""
+    };
+    let caption = format!(
+        "A pile of aluminium bars after its collapse against a wall at x = 0, beside the measured one (Bui et al. 2008, points). (a) Surface; \
+         bars are twice the uncertainty of reading and of the area under the points. (b) Border of the part that stayed in its place: \
+         particles that moved by less than a spacing. The experiment does not say how it found that border. Colours are those of (a).{altered}"
+    );
+    Some(Figure::new("bars-surface", &caption, vec![surface, failure]))
 }
 
 #[cfg(test)]

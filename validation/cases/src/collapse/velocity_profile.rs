@@ -122,14 +122,13 @@ pub(crate) fn figure(name: &str, caption: &str, stations: &[Station], (unit_leng
     let decay = decay_length(stations);
     let axes = |points: &[(f64, f64)]| points.iter().map(|&(y, u)| (u, y / unit_length)).collect::<Vec<_>>();
     for (slot, station) in stations.iter().enumerate() {
-        let label = format!("x = {:.2} {unit}", station.x / unit_length);
+        let share = station.shear.map(|fit| format!(", R² = {:.2}", fit.r_squared)).unwrap_or_default();
+        let label = format!("x = {:.2} {unit}{share}", station.x / unit_length);
         linear.points(&label, slot, axes(&station.profile));
         decaying.points("", slot, axes(&station.profile));
         if let (Some(fit), Some(top), Some(bottom)) = (station.shear, station.flowing.first(), station.flowing.last()) {
             let end = |y: f64| (y, fit.intercept + fit.slope * y);
-            // down to where the line says that nothing moves
-            let foot = (-fit.intercept / fit.slope).min(bottom.0);
-            linear.reference("fits", axes(&[end(foot.max(0.0)), end(top.0)]));
+            linear.reference("fits", axes(&[end(bottom.0), end(top.0)]));
         }
         if let (Some(decay), true) = (decay, station.tail.len() >= FEWEST) {
             let count = station.tail.len() as f64;

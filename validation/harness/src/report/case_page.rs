@@ -11,7 +11,7 @@ use super::view::{VerdictMark, typed};
 use super::{DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
-use crate::metric::{Metric, MetricKind, Verdict};
+use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use crate::number::{count, four_digits};
 use crate::observation::Outcome;
 use serde_json::{Value, json};
@@ -49,9 +49,10 @@ pub(super) fn tables(case: &str) -> impl Iterator<Item = (&'static str, &'static
 fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> Value {
     let case = judged.case;
     let mut rows = rows(&case.name, &judged.metrics);
+    let runs: Vec<&Variant> = case.runs.iter().map(|run| &run.variant).collect();
     for (row, judged) in rows.iter_mut().zip(&judged.metrics) {
         if judged.metric.kind != MetricKind::Bookkeeping {
-            row["figure"] = figure(judged.metric, drawn).into();
+            row["figure"] = figure(judged.metric, drawn, &runs).into();
         }
     }
     let not_judged = case.not_judged.iter().map(|(key, reason)| format!("{}: {reason}", vanished(key)));
@@ -98,8 +99,15 @@ fn groups(rows: Vec<Value>, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
     groups.iter().filter(|(_, rows)| !rows.is_empty()).map(view).collect()
 }
 
-/// The figure that is named like a value of a metric's variant, else the one that shares most words with its name; nothing where none does.
-fn figure(metric: &Metric, drawn: &[DrawnFigure]) -> String {
+/// The figure that is named like a value of a metric's variant, else the one that shares most words with its name and, of equals, that of
+/// the metric's own run; nothing where none does. A figure of another run alone is none.
+fn figure(metric: &Metric, drawn: &[DrawnFigure], runs: &[&Variant]) -> String {
+    // a figure `velocity-sand-0.9-20` is that of the run with the values `sand-0.9-20`
+    let run_of = |drawn: &DrawnFigure| {
+        let named = |run: &&&Variant| drawn.name.ends_with(&format!("-{}", run.file_name_of_values()));
+        runs.iter().filter(named).max_by_key(|run| run.parts().count())
+    };
+    let is_own = |run: &&Variant| metric.variant.includes(run);
     let is_word_of = |text: &str, word: &str| text.split(|c: char| !c.is_alphanumeric()).any(|other| other == word);
     let shared = |drawn: &DrawnFigure| {
         let caption = drawn.caption.to_lowercase();
@@ -120,10 +128,11 @@ fn figure(metric: &Metric, drawn: &[DrawnFigure]) -> String {
         };
         metric.variant.parts().map(|(_, value)| by_value(&value.to_string())).max().unwrap_or_default()
     };
-    let fit = |drawn: &DrawnFigure| (of_run(drawn), shared(drawn));
+    let fit = |drawn: &DrawnFigure| (of_run(drawn), shared(drawn), run_of(drawn).is_some());
+    let candidates = drawn.iter().filter(|drawn| drawn.failure.is_none() && run_of(drawn).is_none_or(is_own));
     // the first of equals
-    let best = drawn.iter().filter(|drawn| drawn.failure.is_none()).rev().max_by_key(|drawn| fit(drawn));
-    best.filter(|best| fit(best) > (0, 0)).map(|best| best.name.clone()).unwrap_or_default()
+    let best = candidates.rev().max_by_key(|drawn| fit(drawn));
+    best.filter(|best| fit(best) >= (0, 1, false)).map(|best| best.name.clone()).unwrap_or_default()
 }
 
 /// Numbers of a case's metrics by status, in words.
@@ -170,4 +179,33 @@ fn run(run: &RunSummary) -> Value {
         "short_hash": run.state_hash.chars().take(12).collect::<String>(),
         "from_store": run.from_store,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_metric_links_to_the_figure_of_its_own_run() {
+        let caption = "velocity over depth, with a line through the flowing layer";
+        let drawn = ["scaling", "velocity-sand-0.9-20", "velocity-sand-3-20"].map(|name| DrawnFigure {
+            caption: caption.to_owned(),
+            name: name.to_owned(),
+            moves: false,
+            size: None,
+            failure: None,
+        });
+        let [shallow, tall, other] = ["0.9", "3", "5"].map(|ratio| {
+            format!("material=sand,aspect_ratio={ratio},resolution=20").parse::<Variant>().expect("a variant")
+        });
+        let runs = [&shallow, &tall, &other];
+        let linked = |name: &str, run: &Variant| {
+            let metric = Metric::observed(name, &run.clone().and("part", 1), 1.0, "-");
+            figure(&metric, &drawn, &runs)
+        };
+        assert_eq!(linked("flowing_layer_r_squared", &tall), "velocity-sand-3-20");
+        assert_eq!(linked("flowing_layer_r_squared", &shallow), "velocity-sand-0.9-20");
+        assert_eq!(linked("flowing_layer_r_squared", &other), "scaling", "not that of another run");
+        assert_eq!(linked("rest_time", &tall), "", "a run's figure that says nothing of it");
+    }
 }

@@ -230,9 +230,14 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
         }
     }
     let powers = cases.iter().flat_map(|case| case.metrics.iter().map(|metric| GatePower::of(case, metric)));
-    let blind = powers.filter(|power| *power == GatePower::CannotTell).count();
+    let blind = powers.filter(GatePower::is_blind).count();
     if blind > 0 {
-        add(VerdictMark::KNOWN, format!("{blind} of the gates that hold reject none of the deliberate errors"));
+        add(
+            VerdictMark::KNOWN,
+            format!(
+                "{blind} of the gates that hold cannot tell: they reject none of the deliberate errors, or the value is less certain than the gate is wide"
+            ),
+        );
     }
     lines
 }

@@ -93,7 +93,7 @@ impl JudgedCase<'_> {
 pub struct GateTally {
     /// Gates that hold and reject a control, or that none was asked of.
     pub hold: usize,
-    /// Gates that hold and reject no control.
+    /// Gates that hold and reject no control, or whose value is less certain than they are wide.
     pub cannot_tell: usize,
     /// Gates that fail and are not listed.
     pub fail: usize,
@@ -167,7 +167,7 @@ impl Judgement<'_> {
         self.tallies().iter().map(|tally| tally.fail + tally.known).sum()
     }
 
-    /// Gates of any kind that hold and reject no control.
+    /// Gates of any kind that hold and cannot tell a right value from a wrong one.
     #[must_use]
     pub fn blind_gates(&self) -> usize {
         self.tallies().iter().map(|tally| tally.cannot_tell).sum()
@@ -236,7 +236,7 @@ impl Judgement<'_> {
         };
         match (judged.verdict, &judged.standing) {
             (Verdict::Observed, _) => {}
-            (Verdict::Pass, _) if judged.power == GatePower::CannotTell => tally.cannot_tell += 1,
+            (Verdict::Pass, _) if judged.power.is_blind() => tally.cannot_tell += 1,
             (Verdict::Pass, _) => tally.hold += 1,
             (Verdict::Fail, KnownFailureStatus::Known(_)) => tally.known += 1,
             (Verdict::Fail, _) => tally.fail += 1,

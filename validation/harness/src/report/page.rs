@@ -130,7 +130,10 @@ fn counts(judgement: &Judgement<'_>) -> Vec<Value> {
             details.push(format!("{} {known}", tally.known));
         }
         if tally.cannot_tell > 0 {
-            details.push(format!("{} cannot tell: they reject no control", tally.cannot_tell));
+            details.push(format!(
+                "{} cannot tell: they reject no control, or are narrower than the uncertainty",
+                tally.cannot_tell
+            ));
         }
         let mark = match tally {
             GateTally { hold: 0, cannot_tell: 0, fail: 0, known: 0 } => VerdictMark::OBSERVED,

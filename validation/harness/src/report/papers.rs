@@ -1,6 +1,7 @@
 //! Status of every element of the papers, by the metrics of a report.
 
 use super::CaseReport;
+use super::width::share_of_gate;
 use crate::case::RunSummary;
 use crate::evidence::{Element, ElementStatus, MetricName, PAPERS, Paper, RunName};
 use crate::metric::{Metric, Verdict};
@@ -13,7 +14,8 @@ pub enum Status {
     Contradicted,
     /// A gate on it fails, or our number falls short of what the paper shows.
     NotReproduced,
-    /// It would count as reproduced with wrong physics or a wrong input as well, by a control that it is meant to feel.
+    /// It would count as reproduced with wrong physics or a wrong input as well, by a control that it is meant to feel, or its value is
+    /// less certain than the gate is wide.
     NotShown,
     /// Gates hold, numbers agree, or tests hold it, and every control that it is meant to feel makes it fall.
     Reproduced,
@@ -59,7 +61,11 @@ impl Status {
     /// gate; none for an observed metric.
     #[must_use]
     pub fn of(name: &MetricName, metric: &Metric) -> Option<Self> {
-        Self::of_value(name, metric.value, metric.verdict())
+        let is_uncertain = name.printed.is_none() && share_of_gate(metric).is_some_and(|share| share > 1.0);
+        match Self::of_value(name, metric.value, metric.verdict()) {
+            Some(Self::Reproduced) if is_uncertain => Some(Self::NotShown),
+            status => status,
+        }
     }
 
     /// Status that a value and the verdict of its gate give to an element that names the metric.

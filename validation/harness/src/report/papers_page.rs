@@ -132,14 +132,19 @@ fn run(ended: &Ended<'_>) -> Value {
     })
 }
 
-/// A printed range in words.
+/// A printed number with the range that counts as equal, or the range in which a statement without a number is read, in words.
 fn range(printed: Printed, unit: &str) -> String {
     let (low, high) = (printed.lowest, printed.highest);
-    match (low.is_finite(), high.is_finite()) {
+    let range = match (low.is_finite(), high.is_finite()) {
         (true, true) if low == high => with_unit(low, unit),
         (true, true) => format!("{} … {}", four_digits(low), with_unit(high, unit)),
         (true, false) => format!("≥ {}", with_unit(low, unit)),
         _ => format!("≤ {}", with_unit(high, unit)),
+    };
+    match printed.value {
+        Some(_) if low == high => format!("the paper {range}"),
+        Some(value) => format!("the paper {}, our tolerance {range}", with_unit(value, unit)),
+        None => format!("our reading {range}"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Power of a gate: the controls that it rejects, and the table of gates and controls of a case.
 
 use super::CaseReport;
+use super::width::share_of_gate;
 use crate::control::{Answer, ControlKind, ControlTrial, ErrorSeries};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use serde_json::{Value, json};
@@ -16,11 +17,16 @@ pub enum GatePower {
     By(Variant),
     /// It rejects none.
     CannotTell,
+    /// The stated uncertainty of its value is larger than the gate's half width.
+    Uncertain,
 }
 
 impl GatePower {
     /// Power of the gate of a metric, by the controls of its case.
     pub(super) fn of(case: &CaseReport, metric: &Metric) -> Self {
+        if metric.verdict() == Verdict::Pass && share_of_gate(metric).is_some_and(|share| share > 1.0) {
+            return Self::Uncertain;
+        }
         if case.controls.is_empty() || metric.kind == MetricKind::Bookkeeping || metric.verdict() != Verdict::Pass {
             return Self::NotAsked;
         }
@@ -35,6 +41,11 @@ impl GatePower {
         }
     }
 
+    /// Whether the gate holds and shows nothing.
+    pub(super) fn is_blind(&self) -> bool {
+        matches!(self, Self::CannotTell | Self::Uncertain)
+    }
+
     /// In a few words; nothing where it was not asked.
     pub(super) fn words(&self) -> String {
         match self {
@@ -43,6 +54,7 @@ impl GatePower {
             Self::Rejects(number) => format!("rejects {number} controls"),
             Self::By(variant) => format!("controls by {variant}"),
             Self::CannotTell => "cannot tell: it rejects no control".to_owned(),
+            Self::Uncertain => "cannot tell: the stated uncertainty is larger than the gate's half width".to_owned(),
         }
     }
 }

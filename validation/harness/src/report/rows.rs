@@ -100,6 +100,9 @@ pub(super) fn worst_mark(judged: &JudgedMetric<'_>) -> VerdictMark {
 /// The mark of the gate alone: drift has a column of its own.
 fn gate_mark(judged: &JudgedMetric<'_>) -> VerdictMark {
     match judged.severity() {
+        Severity::Pass | Severity::Drifted if judged.verdict == Verdict::Pass && judged.power.is_blind() => {
+            VerdictMark::CANNOT_TELL
+        }
         Severity::Drifted if judged.verdict == Verdict::Observed => VerdictMark::OBSERVED,
         Severity::Drifted => VerdictMark::PASS,
         _ => worst_mark(judged),

@@ -18,6 +18,7 @@ impl VerdictMark {
     pub(super) const KNOWN: Self = Self { class: "known", symbol: "✗", word: "known failure" };
     pub(super) const DRIFT: Self = Self { class: "drift", symbol: "≠", word: "drifted" };
     pub(super) const PASS: Self = Self { class: "pass", symbol: "✓", word: "holds" };
+    pub(super) const CANNOT_TELL: Self = Self { class: "known", symbol: "○", word: "cannot tell" };
     pub(super) const OBSERVED: Self = Self { class: "observed", symbol: "○", word: "observed" };
 }
 

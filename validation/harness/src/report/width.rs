@@ -7,13 +7,20 @@ use serde_json::{Value, json};
 /// Length of a bar that fills the gate `[px]`.
 const LENGTH: f64 = 120.0;
 
+/// Twice the stated standard uncertainty of a metric over the half width of its gate `[-]`; none where one of them is unknown. Above 1 the gate
+/// cannot tell a right value from a wrong one.
+pub(super) fn share_of_gate(metric: &Metric) -> Option<f64> {
+    let half_width = metric.gate.as_ref().and_then(half_width)?;
+    Some(COVERAGE * metric.uncertainty.standard()? / half_width)
+}
+
 /// The bar of a metric; none where nothing is known.
 pub(super) fn width(metric: &Metric) -> Option<Value> {
     let standard = metric.uncertainty.standard().filter(|standard| *standard > 0.0)?;
     let unit = |value: f64| with_unit(value, &metric.unit);
     let expanded = COVERAGE * standard;
-    let gate = metric.gate.as_ref().and_then(half_width);
-    let share = gate.map_or(1.0, |half_width| expanded / half_width);
+    let of_gate = share_of_gate(metric);
+    let share = of_gate.unwrap_or(1.0);
     // Uncertainties add as squares: a part's length is its share of the square of the sum.
     let length = LENGTH * share.min(1.0);
     let mut x = 0.0;
@@ -25,7 +32,8 @@ pub(super) fn width(metric: &Metric) -> Option<Value> {
         x += wide;
         words.push(format!("{} {}: {}", part.origin.name(), unit(part.standard), part.source));
     }
-    let of_gate = gate.map(|_| format!(", {}\u{202f}% of the gate", two_digits(100.0 * share))).unwrap_or_default();
+    let of_gate =
+        of_gate.map(|share| format!(", {}\u{202f}% of the gate", two_digits(100.0 * share))).unwrap_or_default();
     let names: Vec<&str> = metric.uncertainty.parts().iter().map(|part| part.origin.name()).collect();
     let statement = format!("± {} known{of_gate}: {}", unit(expanded), names.join(", "));
     // the sum in words below the bar, and everything in words, with the source of each part

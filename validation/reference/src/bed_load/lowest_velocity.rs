@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 /// Height over the grain diameter up to which the points are taken for the layer of grains `[-]`: from there on the velocity
 /// follows the logarithm of the height more closely.
-const LAYER: f64 = 13.0;
+pub const LOWEST_LAYER_TOP: f64 = 13.0;
 
 /// Its points and the power law through those of the layer of grains.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +28,7 @@ pub static SHEET_FLOW_LOWEST_VELOCITY: LazyLock<LowestVelocity> = LazyLock::new(
         let (heights, velocities) =
             (table.numbers("height over diameter")?, table.numbers("velocity over friction velocity")?);
         let points: Vec<(f64, f64)> = heights.iter().copied().zip(velocities.iter().copied()).collect();
-        let layer: Vec<(f64, f64)> = points.iter().copied().filter(|point| point.0 <= LAYER).collect();
+        let layer: Vec<(f64, f64)> = points.iter().copied().filter(|point| point.0 <= LOWEST_LAYER_TOP).collect();
         let none = Exponent { value: f64::NAN, standard_error: f64::NAN, coefficient: f64::NAN };
         Ok(LowestVelocity {
             law: power_law(&layer).unwrap_or(none),

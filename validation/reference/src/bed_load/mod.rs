@@ -8,7 +8,7 @@ mod profiles;
 mod transport;
 
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
-pub use lowest_velocity::{LowestVelocity, SHEET_FLOW_LOWEST_VELOCITY};
+pub use lowest_velocity::{LOWEST_LAYER_TOP, LowestVelocity, SHEET_FLOW_LOWEST_VELOCITY};
 pub use motion_thresholds::{MOTION_THRESHOLDS, MotionThresholds, ThresholdBand};
 pub use onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
 pub use profiles::MeasuredBedLoad;

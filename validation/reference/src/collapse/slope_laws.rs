@@ -3,6 +3,7 @@
 //! Angles in `[rad]`, lengths in the unit of what is given.
 
 use crate::evidence::read_shipped;
+use crate::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
@@ -48,6 +49,17 @@ pub struct RoughIncline {
 }
 
 impl RoughIncline {
+    /// The incline under the glass beads of Table 1.
+    #[must_use]
+    pub fn of_glass_beads() -> Self {
+        let law = GLASS_BEADS.law;
+        Self {
+            length_scale: GLASS_BEADS_FLOW_RULE.deposit_length * law.grain_diameter,
+            static_friction: law.static_friction,
+            limiting_friction: law.limiting_friction,
+        }
+    }
+
     /// Thickness h_stop(θ) `[m]` of the deposit that a steady flow leaves; none outside of μ_s < tanθ < μ_2.
     #[must_use]
     pub fn deposit_thickness(&self, slope_angle: f64) -> Option<f64> {
@@ -76,16 +88,6 @@ impl RoughIncline {
 mod tests {
     use super::*;
     use crate::evidence::shipped_table;
-    use crate::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
-
-    fn glass() -> RoughIncline {
-        let law = GLASS_BEADS.law;
-        RoughIncline {
-            length_scale: GLASS_BEADS_FLOW_RULE.deposit_length * law.grain_diameter,
-            static_friction: law.static_friction,
-            limiting_friction: law.limiting_friction,
-        }
-    }
 
     #[test]
     fn the_tabulated_thicknesses_come_out() {
@@ -96,18 +98,21 @@ mod tests {
         let flows = column("flow-thickness/estimate.csv", "flow thickness");
         let deposits = column("bagnold/thickness.csv", "deposit thickness");
         for ((angle, flow), deposit) in angles.into_iter().zip(flows).zip(deposits) {
-            let found =
-                (glass().flow_thickness(0.14, angle.to_radians()), glass().deposit_thickness(angle.to_radians()));
+            let found = (
+                RoughIncline::of_glass_beads().flow_thickness(0.14, angle.to_radians()),
+                RoughIncline::of_glass_beads().deposit_thickness(angle.to_radians()),
+            );
             let (Some(thickness), Some(left)) = found else { panic!("{found:?}") };
             assert!((thickness - flow).abs() < 1e-4, "{thickness} m at {angle}°");
             assert!((left - 1e-3 * deposit).abs() < 1e-5, "{left} m at {angle}°");
-            assert!((glass().stopping_angle(left).to_degrees() - angle).abs() < 1e-9);
+            assert!((RoughIncline::of_glass_beads().stopping_angle(left).to_degrees() - angle).abs() < 1e-9);
         }
-        assert_eq!(glass().deposit_thickness(0.3), None);
-        assert_eq!(glass().flow_thickness(0.14, 0.6), None);
+        assert_eq!(RoughIncline::of_glass_beads().deposit_thickness(0.3), None);
+        assert_eq!(RoughIncline::of_glass_beads().flow_thickness(0.14, 0.6), None);
         // the paper: about 5 cm at 22°
         let stated = column("flow-thickness/statements.csv", "thickness")[0];
-        let computed = glass().flow_thickness(0.14, 22f64.to_radians()).map(|thickness| 100.0 * thickness);
+        let computed =
+            RoughIncline::of_glass_beads().flow_thickness(0.14, 22f64.to_radians()).map(|thickness| 100.0 * thickness);
         assert!(computed.is_some_and(|computed| (computed - stated).abs() < 0.5), "{computed:?}");
         assert_eq!(SLOPE_EXPERIMENT.run_out_coefficients, (0.4, 0.5));
     }

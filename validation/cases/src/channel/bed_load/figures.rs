@@ -2,13 +2,17 @@
 
 use super::BedLoadRecord;
 use super::fit::held_out;
+use super::metrics::has_forgotten;
 use super::parameters::Stage;
+use super::profiles::{drag_top_ratio, fluid_mean, velocity_at};
 use super::run::{BedLoadFormulation, BedLoadRun, ContinuumRun, GrainKind};
 use super::runs::pair_law_name;
+use super::tiers::FITTED;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load::TransportFormula;
 use crate::shared::transport_panel;
-use crate::statistics::{BlockProfile, mean};
+use crate::statistics::{BlockProfile, FittedValue};
+use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 
 pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
     let mut figures = Vec::new();
@@ -44,13 +48,33 @@ fn percent(slope: f64) -> String {
     format!("{} %", (1e4 * slope).round() / 100.0)
 }
 
+/// Name of particles that are a grain each, in every legend.
+const PARTICLES: &str = "one particle a grain";
+/// Name of grains that dilate, in every legend.
+const DILATING: &str = "grains that dilate";
+/// Name of grains of a given solid fraction, in every legend.
+const FROZEN: &str = "grains of a given solid fraction";
+
 /// Names a run beside others of the case.
 fn label(run: &BedLoadRun) -> String {
     match &run.formulation {
-        BedLoadFormulation::Grains(kind, _) => format!("{}, {}", kind.name(), percent(run.slope)),
+        BedLoadFormulation::Grains(kind, grains) => {
+            let model = format!("{PARTICLES}, {}", percent(run.slope));
+            match kind {
+                GrainKind::Stabilised | GrainKind::Fit(_) => model,
+                GrainKind::Paper => format!("{model}, as printed"),
+                GrainKind::AtRest => format!("{model}, held"),
+                GrainKind::OtherStart => format!("{model}, start {}", grains.start),
+            }
+        }
         BedLoadFormulation::Continuum(own) => {
             let ContinuumRun { stage, pair_law, start, spacing, .. } = own;
-            let mut label = format!("{}, {}", stage.name(), percent(run.slope));
+            let model = match stage {
+                Stage::Porous => "fixed grains",
+                Stage::Frozen => FROZEN,
+                Stage::Dilating => DILATING,
+            };
+            let mut label = format!("{model}, {}", percent(run.slope));
             if let (false, Some(law)) = (own.is_judged(), pair_law) {
                 label += &format!(", {}", pair_law_name(*law));
             }
@@ -75,15 +99,61 @@ fn beside_paper(records: &[BedLoadRecord], slope: f64) -> impl Iterator<Item = (
     let is_dilating = move |(run, _): &&BedLoadRecord| {
         stage_of(run) == Some(Stage::Dilating) && run.slope == slope && run.start() == 1.0
     };
-    let grains = of_kind(records, GrainKind::Stabilised, slope).map(|record| ("one particle a grain", 0, record));
-    let dilating = records.iter().find(is_dilating).map(|record| ("grains that dilate", 1, record));
+    let grains = of_kind(records, GrainKind::Stabilised, slope).map(|record| (PARTICLES, 0, record));
+    let dilating = records.iter().find(is_dilating).map(|record| (DILATING, 1, record));
     grains.into_iter().chain(dilating)
 }
 
-const PRINTED: &str = "The paper's curves are lost, so that nothing measured is drawn. Of its parameters the yield stress of 1220 Pa \
-    holds every grain (863 Pa as well): here it is 5.1 Pa and 0.6 of the grains' weight, fitted to transport; its viscosity of \
-    0.26 Pa·s is 1.67 Pa·s. Grains that dilate have closures of the literature and start in the 1-D layer's water. Runs of the quick \
-    tier have not forgotten their start.";
+/// Origin of the parameters of the drawn runs, and whether the runs have forgotten their start.
+fn parameters(records: &[BedLoadRecord], slopes: &[f64]) -> String {
+    let CoulombBingham { yield_stress, friction, plastic_viscosity, .. } = FITTED;
+    let drawn = || slopes.iter().flat_map(|slope| beside_paper(records, *slope));
+    let fitted = |run: &BedLoadRun| match &run.formulation {
+        BedLoadFormulation::Grains(_, grains) => grains.material == Rheology::CoulombBingham(FITTED),
+        BedLoadFormulation::Continuum(_) => false,
+    };
+    let mut text = "The paper's curves are lost, so that nothing measured is drawn. It calibrated a yield stress of 1220 Pa and a viscosity \
+                    of 0.26 Pa·s on the slope of 2 %, by a measured velocity of the water. Its yield stress holds every grain, also as \
+                    863 Pa = 1220 Pa/√2, its value as a shear stress. "
+        .to_owned();
+    if drawn().any(|(_, _, (run, _))| fitted(run)) {
+        text += &format!(
+            "Instead, one particle a grain has {yield_stress} Pa, {friction} of the weight of the grains above, and {plastic_viscosity} Pa·s, \
+             fitted to Wong & Parker's transport at 2 and 5 %. "
+        );
+    }
+    if drawn().any(|(name, ..)| name == DILATING) {
+        text += "Grains that dilate have closures of the literature and start in the 1-D layer's water. ";
+    }
+    if !drawn().any(|(_, _, (run, _))| has_forgotten(records, run)) {
+        text += "None of the runs is shown to have forgotten its start.";
+    }
+    text
+}
+
+/// Water over one particle a grain beside the water over the same bed at rest, slope by slope, in words.
+fn with_and_without_motion(records: &[BedLoadRecord], slopes: &[f64]) -> String {
+    let mut text = String::new();
+    let mut missing = Vec::new();
+    for &slope in slopes {
+        let of = |kind| of_kind(records, kind, slope);
+        let (Some((run, own)), Some((_, rest))) = (of(GrainKind::Stabilised), of(GrainKind::AtRest)) else {
+            missing.push(percent(slope));
+            continue;
+        };
+        let excess = |height: f64| {
+            let [own, rest] = [own, rest].map(|record| record.data.channel.profile.points());
+            let difference = velocity_at(run, &own, height) - velocity_at(run, &rest, height);
+            format!("{} by {:.2} u_*", if difference < 0.0 { "slower" } else { "faster" }, difference.abs())
+        };
+        let (near, far) = (excess(0.5 * run.materials.grain_diameter), excess(0.5 * run.materials.depth));
+        text += &format!("At {} it is {near} half a grain above the bed and {far} at half the depth. ", percent(slope));
+    }
+    if !missing.is_empty() {
+        text += &format!("At {} this tier runs neither of the two. ", missing.join(" and "));
+    }
+    text
+}
 
 /// Water over the height, with and without moving grains, a panel for each slope.
 fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
@@ -102,10 +172,18 @@ fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         }
         panel
     };
-    let caption = "Mean velocity of the water in half-logarithmic axes over moving grains and over the same bed at rest (the run with \
-        all grains held), as in figures 7 and 8 (3 %) and 9 (5 %) of the paper; bars are statistical errors from blocks of time. The bed at rest is that of one particle a grain. \
-        In the paper the water over moving grains is slower near the bed and equal above; here it is not. ";
-    Figure::new("water", &format!("{caption}{PRINTED}"), slopes.iter().map(panel).collect()).in_columns(3)
+    let panels: Vec<Panel> = slopes.iter().map(panel).collect();
+    let errors = panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.error);
+    let caption = format!(
+        "Mean velocity of the water in half-logarithmic axes over moving grains, as in figures 7 and 8 (3 %) and 9 (5 %) of the paper. \
+         Statistical errors from blocks of time are at most {:.2} u_*. In the paper the water over moving grains is slower near the bed than \
+         over the bed at rest, and equal above. Here one particle a grain is compared with the same bed at rest, the run with all grains held. \
+         {}Grains that dilate have no run with their bed at rest; the case bed-load-1d has that comparison. {}",
+        errors.copied().filter(|error| error.is_finite()).fold(0.0, f64::max),
+        with_and_without_motion(records, slopes),
+        parameters(records, slopes)
+    );
+    Figure::new("water", &caption, panels).in_columns(3)
 }
 
 /// Velocity of the grains and drag on them over the height, a panel of each for each slope.
@@ -131,13 +209,29 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         velocities.push(velocity);
         drags.push(drag);
     }
-    let caption = "Mean velocity of the grains, as in figures 10 (3 %) and 11 (5 %) of the paper, and drag on them per volume, as in its \
-        figures 12 and 13, over the height. The paper's velocities as functions of the height are concave above the bed's level and convex below, its drag peaks \
-        beside the bed and is less on the topmost grains. With one particle a grain a row moves as a whole and none rises: its \
-        points are rows, its drag is greatest in the topmost. Grains that dilate are binned in half millimetres, in which their rows show. Dashed is the 1-D layer. ";
+    let mut caption = "Mean velocity of the grains, as in figures 10 (3 %) and 11 (5 %) of the paper, and drag on them per volume, as in \
+        its figures 12 and 13, over the height. The paper's velocities are concave functions of the height above the bed's level and convex \
+        below. Its drag peaks beside the bed and is less on the topmost grains. "
+        .to_owned();
+    for (run, record) in slopes.iter().filter_map(|slope| of_kind(records, GrainKind::Stabilised, *slope)) {
+        let drag = record.data.drag_profile();
+        let Some((top, _)) = drag.last() else { continue };
+        caption += &format!(
+            "With one particle a grain a point is a row. At {} the topmost row lies at z = {:.2} d, and the drag on it is {:.2} times the drag \
+             on the row below. ",
+            percent(run.slope),
+            top / run.materials.grain_diameter,
+            drag_top_ratio(&drag)
+        )
+        .replace("= -", "= −");
+    }
+    if slopes.iter().any(|slope| beside_paper(records, *slope).any(|(name, ..)| name == DILATING)) {
+        caption +=
+            "Grains that dilate are binned in half millimetres, in which their rows show; dashed is the 1-D layer. ";
+    }
     let columns = slopes.len();
     velocities.extend(drags);
-    Figure::new("sediment", &format!("{caption}{PRINTED}"), velocities).in_columns(columns)
+    Figure::new("sediment", &(caption + &parameters(records, slopes)), velocities).in_columns(columns)
 }
 
 /// A stage of `continuum` against the 1-D layer.
@@ -179,10 +273,24 @@ fn against_layer(stage: Stage, records: &[&BedLoadRecord]) -> Figure {
         Stage::Dilating => vec![water, close, grains, fraction],
     };
     let name = stage.name();
-    let caption = format!(
-        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is \
-         independent: the whole depth of the water and the neighbourhood of the bed."
+    let near = match stage {
+        Stage::Porous => "(b) the water near the bed",
+        Stage::Frozen => "(b) the water near the bed and (c) the grains",
+        Stage::Dilating => "(b) the water near the bed, (c) the grains and (d) their solid fraction",
+    };
+    let mut caption = format!(
+        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is independent. Panels \
+         are (a) the water over the whole depth, {near}."
     );
+    for (run, record) in records.iter().filter(|(run, _)| run.start() != 1.0) {
+        let Some(layer) = &record.data.layer else { continue };
+        let reached = fluid_mean(run, &record.data.channel.profile.points(), layer);
+        caption += &format!(
+            " The run \"{}\" began with that share of the layer's velocity and has reached {reached:.2} of it (mean over the depth): it is not \
+             steady.",
+            label(run)
+        );
+    }
     Figure::new(&format!("layer-{name}"), &caption, panels)
 }
 
@@ -204,22 +312,26 @@ type RunFilter = fn(&BedLoadRun) -> bool;
 
 fn transport(records: &[BedLoadRecord]) -> Figure {
     let mut panel = transport_panel::formulas();
+    let mut largest_error: f64 = 0.0;
     let kinds: [(&str, usize, RunFilter); 5] = [
-        ("Bingham grains, fitted elsewhere", 0, |run| run.formulation.kind() == Some(GrainKind::Stabilised)),
-        ("grains of a given solid fraction", 2, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
-        ("grains that dilate", 5, |run| is_dilating(run) && begins_as_layer(run)),
-        ("the same from half of its velocity, not steady", 4, |run| is_dilating(run) && !begins_as_layer(run)),
+        (PARTICLES, 0, |run| run.formulation.kind() == Some(GrainKind::Stabilised)),
+        (FROZEN, 2, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
+        (DILATING, 5, |run| is_dilating(run) && begins_as_layer(run)),
+        ("grains that dilate, from another start", 4, |run| is_dilating(run) && !begins_as_layer(run)),
         ("other laws between pairs", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
     ];
     for (name, slot, belongs) in kinds {
-        let points: Vec<(f64, f64)> = records
+        let rates: Vec<(f64, FittedValue)> = records
             .iter()
             .filter(|(run, _)| belongs(run))
-            .map(|(run, record)| (run.stream().shields_number(), mean(&record.data.transport_in_window())))
-            .filter(|(_, value)| *value > 0.0)
+            .map(|(run, record)| (run.stream().shields_number(), record.data.channel.average(&record.data.transport)))
+            .filter(|(_, rate)| rate.value > 0.0)
             .collect();
-        if !points.is_empty() {
-            panel.points(name, slot, points);
+        let errors = rates.iter().map(|(_, rate)| rate.standard_error / rate.value);
+        largest_error = errors.filter(|error| error.is_finite()).fold(largest_error, f64::max);
+        if !rates.is_empty() {
+            let points = rates.iter().map(|(shields, rate)| (*shields, rate.value));
+            panel.points(name, slot, points).error = rates.iter().map(|(_, rate)| rate.standard_error).collect();
         }
     }
     let held: Vec<(f64, f64)> = held_out(records)
@@ -227,14 +339,15 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
         .map(|fit| (fit.shields_number, fit.ratio * TransportFormula::WongParker.transport(fit.shields_number)))
         .collect();
     if !held.is_empty() {
-        panel.points("stabilised, slope held out", 7, held);
+        panel.points("one particle a grain, fitted to the other slopes", 7, held);
     }
-    Figure::new(
-        "transport",
-        "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's \
-         formula is the scatter of the experiments behind it.",
-        vec![panel],
-    )
+    let caption = format!(
+        "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's formula is the scatter of the \
+         experiments behind it. Grains that dilate start in the 1-D layer's water, where no other start is named. Bars are statistical errors \
+         from blocks of time, at most {:.0} % of the rate, where they are larger than the mark.",
+        100.0 * largest_error
+    );
+    Figure::new("transport", &caption, vec![panel])
 }
 
 fn over_time(records: &[BedLoadRecord]) -> Figure {
@@ -250,7 +363,8 @@ fn over_time(records: &[BedLoadRecord]) -> Figure {
     }
     Figure::new(
         "over-time",
-        "Velocity of the stream above the bed over that of clear water, and the transport rate, from the start on.",
+        "Mean velocity U of the water above the bed over U_clear, the depth mean of the logarithmic law over a rough bed, and the transport \
+         rate q*, from the start on. A start is the velocity at first over that of this law or, of grains that dilate, of the 1-D layer.",
         vec![velocity, rate],
     )
 }

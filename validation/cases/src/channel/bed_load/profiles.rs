@@ -153,6 +153,12 @@ pub(super) fn drag_ratio(drag: &[(f64, f64)], layer: &LayerState) -> f64 {
     own / other
 }
 
+/// Drag per volume on the topmost bin of grains over the drag on the bin below, of a profile upwards; not a number with fewer than two
+/// bins `[-]`.
+pub(super) fn drag_top_ratio(drag: &[(f64, f64)]) -> f64 {
+    if let [.., (_, below), (_, top)] = drag { top / below } else { f64::NAN }
+}
+
 /// Root mean square of u_s − u_1D where the layer's grains are faster than 1 cm/s, over u_* `[-]`.
 pub(super) fn grain_rms(run: &BedLoadRun, points: &[ProfilePoint], layer: &LayerState) -> f64 {
     let errors = points.iter().filter_map(|point| {
@@ -194,6 +200,12 @@ mod tests {
     use super::super::runs::runs;
     use super::*;
     use crate::case::{Parameters, Tier};
+
+    #[test]
+    fn drag_on_the_topmost_row_is_compared_with_the_row_below() {
+        assert_eq!(drag_top_ratio(&[(-12.5e-3, 1.0), (-7.5e-3, 4.0), (-2.5e-3, 2.0)]), 0.5);
+        assert!(drag_top_ratio(&[(-2.5e-3, 2.0)]).is_nan());
+    }
 
     #[test]
     fn clear_water_has_one_layer_of_the_slope_one() {

@@ -27,6 +27,7 @@ quantities! {
         stated("grain_curvature_above", "u_*/d²", "curvature of the grains' profile above the top of the bed"),
     GRAIN_CURVATURE_BELOW: stated("grain_curvature_below", "u_*/d²", "curvature of the grains' profile below the top of the bed"),
     DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "height of the largest drag on the grains"),
+    DRAG_TOP_RATIO: stated("drag_top_ratio", "-", "drag on the topmost row of grains over the drag on the row below"),
     DRAG_RATIO: verified("drag_ratio", "-", "drag on the grains over the drag in the 1-D layer"),
     FLUID_VELOCITY_RMS:
         verified("fluid_velocity_rms", "u_*", "√⟨(u_f − u_layer)²⟩ over the depth"),

@@ -6,8 +6,9 @@ use super::observation::BedLoadObservation;
 use super::parameters::GrainParticles;
 use super::profiles::{self, LAYERS};
 use super::quantities::{
-    LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT, RELATIVE_DEFICIT,
-    SEMI_LOG_SLOPE, SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH, TRANSPORT_RATIO,
+    DRAG_TOP_RATIO, LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT,
+    RELATIVE_DEFICIT, SEMI_LOG_SLOPE, SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH,
+    TRANSPORT_RATIO,
 };
 use super::run::{BedLoadRun, GrainKind};
 use super::tiers::FITTED;
@@ -120,6 +121,8 @@ pub(super) fn stabilised(
     metrics.extend([observed(SHEARED_UP_TO, above, 1e3), observed(SHEARED_FROM, below, 1e3)]);
     // particles of grains are too few for a curvature
     grains(metrics, run, data, false);
+    let ratio = DRAG_TOP_RATIO.of(&variant, profiles::drag_top_ratio(&data.drag_profile()));
+    metrics.push(stated(ratio, None, "less drag on the topmost grains than below").with_snapshot_tolerance(0.1, 0.0));
 }
 
 /// The layers that a segmented regression finds, with the errors of their slopes and borders. Their number judges nothing: lines are

@@ -32,9 +32,9 @@ pub(super) fn profiles(records: &[ClearWaterRecord]) -> Figure {
     }
     Figure::new(
         "velocity-profile",
-        "Mean velocity in units of the friction velocity over the distance from the wall law's origin in units of \
-         the roughness length, against the logarithmic law, and the difference, both with the statistical error from \
-         blocks of time. Bins are one spacing high.",
+        "Left: mean velocity u over the friction velocity u_*, against the logarithmic law; z′ is the distance from the origin of the wall \
+         law and z₀ the roughness length. Right: the difference from the law over the height above the bed, with the limit of its rms from \
+         0.1 to 0.9 h. Bars are the statistical errors from blocks of time, where they are wider than the marks. Bins are one spacing high.",
         vec![profile, residual],
     )
 }
@@ -55,15 +55,29 @@ pub(super) fn over_time(records: &[ClearWaterRecord]) -> Figure {
         let marks = data.marks.iter().map(|mark| (mark.time, mark.mean_velocity / mean)).collect();
         intervals.push(Series::new("", Mark::Points, slot, marks));
     }
-    velocity.series.extend(intervals.into_iter().filter(|series| !series.points.is_empty()));
+    intervals.retain(|series| !series.points.is_empty());
+    let criterion = if intervals.is_empty() {
+        let course = |(run, record): &ClearWaterRecord| {
+            let values = &record.data.series.mean_velocity;
+            let share = |value: Option<&f64>| value.map_or(f64::NAN, |value| value / run.reference().mean_velocity());
+            let (first, last) = (share(values.first()), share(values.last()));
+            format!(" At {} U/U_log is {first:.3} at first and {last:.3} in the end.", label(run.slope))
+        };
+        format!(
+            "The run has a fixed end and no criterion of stationarity.{}",
+            records.iter().map(course).collect::<String>()
+        )
+    } else {
+        "Points are the ends of the intervals U/(2 g i) of the criterion; the last of them is where the flow counts as stationary and the \
+         averaging window begins."
+            .to_owned()
+    };
+    velocity.series.extend(intervals);
     for panel in [&mut velocity, &mut shear] {
         panel.reference("", [(0.0, 1.0), (longest, 1.0)]);
     }
-    Figure::new(
-        "stationarity",
-        "Depth mean of the velocity over that of the logarithmic law, and the friction of the bed over ρ g h i. \
-         Points are the ends of the intervals U/(2 g i) of the criterion; the last of them is where the flow counts \
-         as stationary and the averaging window begins.",
-        vec![velocity, shear],
-    )
+    let caption = format!(
+        "Depth mean U of the velocity over that of the logarithmic law, U_log, and the friction of the bed over ρ g h i. {criterion}"
+    );
+    Figure::new("stationarity", &caption, vec![velocity, shear])
 }

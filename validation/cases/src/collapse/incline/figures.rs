@@ -1,12 +1,14 @@
 //! The case's figures.
 
 use super::InclineCollapseRecord;
+use super::metrics::MARGIN;
 use crate::collapse::other_codes::Beside;
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
-use crate::figure::{Animation, Axis, Field, Figure, Panel};
+use crate::evidence::shipped_table;
+use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::observation::pictures::{View, animation};
 use crate::observation::{Frame, Recorded};
-use crate::reference::collapse::{SLOPE_EXPERIMENT, slope_run_out};
+use crate::reference::collapse::{RoughIncline, SLOPE_EXPERIMENT, slope_run_out};
 
 /// Times at which thickness profiles are drawn `[s]`.
 const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
@@ -70,37 +72,54 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
             beside.draw(&mut energy, true, slot, |(time, energy)| (time * time_scale, energy * scale));
         }
     }
-    Figure::new(
-        "fronts",
-        "The front's way from the gate and the kinetic energy. Below the friction angle of 20.9° the grains come to \
-         rest; above it they run on, and the run ends when the first grain is near the end of the channel. Points are another code under the same law.",
-        vec![front, energy],
-    )
+    let points = if energy.series.iter().any(|series| series.mark == Mark::Points) {
+        " Points are another code under the same law."
+    } else {
+        ""
+    };
+    let caption = format!(
+        "Front beyond the gate over time, and kinetic energy. Below the friction angle of 20.9° the grains come to rest; above it they \
+         run on, and the run ends when the first grain is near the end of the channel.{points}"
+    );
+    Figure::new("fronts", &caption, vec![front, energy])
 }
 
 fn thickness(records: &[InclineCollapseRecord]) -> Figure {
     let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
-    let panels = records.iter().enumerate().map(|(place, (run, record))| {
-        let y = Axis::linear("thickness [cm]").between(0.0, 100.0 * high);
+    let index_at =
+        |record: &Recorded<SlopeCollapse>, time: f64| record.data.collapse.time.iter().position(|t| *t >= time - 1e-9);
+    // the paper states the thickness of one slope
+    let stated = shipped_table("flow-thickness/statements.csv").ok();
+    let stated =
+        stated.and_then(|table| Some((table.numbers("slope angle").ok()?[0], table.numbers("thickness").ok()?[0])));
+    let mut caption = "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.".to_owned();
+    let mut panels = Vec::new();
+    for (run, record) in records {
+        let y = Axis::linear("thickness [cm]").between(0.0, (100.0 * high).round() + 1.0);
         let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
+        let r = run.reservoir.reservoir_length;
         for (slot, time) in PROFILES.iter().enumerate() {
-            let Some(index) = record.data.collapse.time.iter().position(|t| *t >= time - 1e-9) else { continue };
-            let r = run.reservoir.reservoir_length;
-            let profile = &record.data.thickness[index];
+            // the first panel names the times of all
+            let is_named = panels.is_empty() && records.iter().any(|(_, record)| index_at(record, *time).is_some());
+            let entry = if is_named { format!("{time} s") } else { String::new() };
+            let profile = index_at(record, *time).map_or(&[][..], |index| &record.data.thickness[index]);
             let end = profile.iter().rposition(|&thickness| thickness > 0.0).map_or(0, |last| last + 1);
             let place_of = |bin: usize| (bin as f64 + 0.5) * BIN_WIDTH * r;
-            let points = profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r));
-            let entry = if place == 0 { format!("{time} s") } else { String::new() };
-            panel.line(&entry, slot, points);
+            panel.line(&entry, slot, profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r)));
         }
-        panel
-    });
-    Figure::new(
-        "thickness",
-        "Thickness along the slope in time: volume per bin of 2 cm. The gate stands at 0.2 m.",
-        panels.collect(),
-    )
-    .in_columns(2)
+        if let Some((angle, stated)) = stated.filter(|(angle, _)| *angle == run.slope_angle) {
+            let law = RoughIncline::of_glass_beads().flow_thickness(run.reservoir.initial_height, angle.to_radians());
+            let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front)) * r;
+            let law = 100.0 * law.unwrap_or(f64::NAN);
+            panel.reference("largest thickness by the paper", [(0.0, stated), (far, stated)]);
+            panel.reference("by its (44)", [(0.0, law), (far, law)]);
+            caption += &format!(
+                " At {angle}° the paper's largest thickness is about {stated} cm, and its (44) gives {law:.2} cm."
+            );
+        }
+        panels.push(panel);
+    }
+    Figure::new("thickness", &caption, panels).in_columns(2)
 }
 
 /// Final run-out over the slope, with the band of the experiments' fit.
@@ -115,11 +134,19 @@ fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     };
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
     let (short, long) = (curve(friction, lower), curve(friction, upper));
-    panel.band("k = 0.4 to 0.5, tanδ = μ_s of the run", short.iter().zip(&long).map(|(a, b)| (a.0, a.1, b.1)));
-    let entry = format!("k = {lower} and {upper}, δ = {}° of the experiment", SLOPE_EXPERIMENT.repose_angle);
+    let judged = short.iter().zip(&long).map(|(a, b)| (a.0, (1.0 - MARGIN) * a.1, (1.0 + MARGIN) * b.1));
+    panel.band(
+        &format!("where a run-out must lie: {:.0} % beyond k = {lower} and {upper} by μ_s", 100.0 * MARGIN),
+        judged,
+    );
     let experiment = libm::tan(SLOPE_EXPERIMENT.repose_angle.to_radians());
-    for (k, entry) in [(lower, entry.as_str()), (upper, "")] {
-        panel.reference(entry, curve(experiment, k));
+    for (friction, name) in [
+        (friction, "tanδ = μ_s of the run".to_owned()),
+        (experiment, format!("δ = {}° of the experiment", SLOPE_EXPERIMENT.repose_angle)),
+    ] {
+        for k in [lower, upper] {
+            panel.reference(&format!("k = {lower} and {upper}, {name}"), curve(friction, k));
+        }
     }
     let points: Vec<(f64, f64)> = records
         .iter()
@@ -129,8 +156,9 @@ fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     panel.points("at rest", 0, points);
     Figure::new(
         "run-out",
-        "Final run-out from the gate of the grains that came to rest, over the slope, with the fit to experiments \
-         h_0 2k/(tanδ − tanθ).",
+        "Displacement of the front from the gate at rest, the run-out, over the slope θ, with the fit to experiments h_0 2k/(tanδ − tanθ) of \
+         Mangeney et al. 2010 as quoted. Runs are judged by the friction of their own law, tanδ = μ_s, not by the angle of repose of the \
+         experiment. The collapse paper states that its own run-out is 15 % shorter than the experiment's; it prints no number of either.",
         vec![panel],
     )
 }
@@ -156,8 +184,8 @@ fn velocities((run, record): &InclineCollapseRecord) -> Figure {
 
 /// The viscosity in time: the paper's figure 5.
 fn viscosities((run, record): &InclineCollapseRecord) -> Figure {
-    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s and on a logarithmic one. The viscosity of \
-                   grains that hardly move has no upper bound.";
+    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s, and on a logarithmic one. Yellow is 1.5 Pa·s \
+                   or more on the left and 10⁴ Pa·s or more on the right. The viscosity of grains that hardly move has no upper bound.";
     fields("fields", caption, run, record, |frame| {
         let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();

@@ -40,7 +40,7 @@ const EARLIEST_STATED: f64 = 0.11;
 const NEAR_SURFACE: f64 = 1.0 / 3.0;
 
 /// What the gate allows beyond the band of the law's two quotations `[-]`.
-const MARGIN: f64 = 0.15;
+pub(super) const MARGIN: f64 = 0.15;
 /// Time at which the flow is compared with other codes, over √(h_0/g) `[-]`: the latest that they tell.
 const WELL_DOWN_THE_SLOPE: f64 = 4.0;
 /// Times at which the front is reported `[s]`.

@@ -25,7 +25,7 @@ pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> 
     let other_grains = of(&|run| run.purpose == BagnoldPurpose::OtherGrains);
     let mut figures = Vec::new();
     if !steady.is_empty() {
-        let profiles = profiles("velocity-profile", PROFILES, &steady);
+        let profiles = profiles("velocity-profile", &(PROFILES.to_owned() + &set_up(&steady[0].0)), &steady);
         figures.extend([profiles, stresses(&steady), transients(&steady)]);
     }
     if !other_grains.is_empty() {
@@ -36,6 +36,18 @@ pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> 
     }
     figures.extend(convergence(parameters, records));
     figures
+}
+
+/// Thickness, grains and resolution of a layer, in a sentence.
+fn set_up(run: &BagnoldRun) -> String {
+    let exact = run.profile();
+    format!(
+        " The layer is {:.0} mm thick, of grains of {:.2} mm and a solid fraction of {:.2}, with {} rows of particles.",
+        1e3 * exact.layer_height,
+        1e3 * exact.grain_diameter,
+        exact.solid_fraction,
+        run.layer.resolution
+    )
 }
 
 fn label(run: &BagnoldRun) -> String {
@@ -105,8 +117,8 @@ fn transients(records: &[&BagnoldRecord]) -> Figure {
     }
     Figure::new(
         "approach",
-        "Depth mean of the velocity from rest, against the one-dimensional solver, which shares nothing with the \
-         particles but the law.",
+        "Depth mean of the velocity from rest, against the one-dimensional transient solver, which shares nothing with the \
+         particles but the law. The error of the mean is measured at a quarter, half and three quarters of the rise time.",
         vec![panel],
     )
 }
@@ -122,13 +134,16 @@ fn arrest_and_runaway(records: &[&BagnoldRecord]) -> Figure {
         panel.line("particles", slot, drawn(&particle_history(&record.data), f64::INFINITY));
         panel
     });
-    Figure::new(
-        "arrest-and-runaway",
-        "Below the static friction angle a layer that starts with a steady profile comes to rest; above the limiting \
-         friction angle a layer from rest accelerates without end (stopped when its mean passes half the sound \
-         speed).",
-        panels.collect(),
-    )
+    let has = |purpose| records.iter().any(|(run, _)| run.purpose == purpose);
+    let mut caption = String::new();
+    if has(BagnoldPurpose::Arrest) {
+        caption += "Below the static friction angle a layer that starts with a steady profile comes to rest. ";
+    }
+    if has(BagnoldPurpose::Runaway) {
+        caption += "Above the limiting friction angle a layer from rest accelerates without end; its run stops when its mean passes half the \
+                    sound speed. ";
+    }
+    Figure::new("arrest-and-runaway", caption.trim_end(), panels.collect())
 }
 
 fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Option<Figure> {

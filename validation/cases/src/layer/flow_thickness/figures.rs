@@ -62,18 +62,27 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Flow
     panel.line("fit to experiments: h_stop(θ)", 2, experiment);
     panel.reference("local law, exact: tanθ = μ_s", [(local, 1e3 * DRAWN.0), (local, 1e3 * DRAWN.1)]);
     draw_searches(&mut panel, searches(records));
+    let mut tried: Vec<(String, Vec<String>)> = Vec::new();
+    for (run, _) in searches(records) {
+        let (law, thickness) = (law_name(run), format!("{:.0}", 1e3 * run.layer.layer.layer_height));
+        match tried.iter_mut().find(|(known, _)| *known == law) {
+            Some((_, thicknesses)) => thicknesses.push(thickness),
+            None => tried.push((law, vec![thickness])),
+        }
+    }
+    let tried: Vec<String> =
+        tried.iter().map(|(law, thicknesses)| format!("{law} at {} mm", thicknesses.join(" and "))).collect();
     // for the legend alone
     panel.points("kept flowing", 6, []);
     panel.draw("stopped", Mark::OpenPoints, 6, []);
-    Figure::new(
-        "start-stop",
-        "Runs whose layer stopped (open marks) or kept flowing (filled marks), over slope and thickness. Curves in the colours of the marks \
-         are the exact h_stop of each nonlocal law. \
-         The local μ(I) law stops them all at one slope; in experiments thin layers stop on steeper slopes, and so they do under the nonlocal law, whose own \
-         h_stop depends on its fluidity at the surface: it vanishes there, or has no flux. Left of the curve of h_stop the \
-         experiments have no flow, right of the dashed line the law has no deposit.",
-        vec![panel],
-    )
+    let caption = format!(
+        "Runs whose layer stopped (open marks) or kept flowing (filled marks), over slope and thickness. The runs are of the {}. Curves in the \
+         colours of the marks are the exact h_stop of each nonlocal law, which depends on the fluidity at the surface: it vanishes there, or has \
+         no flux. The local law has one stopping slope for every thickness (dashed, exact). Left of the fit h_stop(θ) the experiments have no \
+         flow. No uncertainty of h_stop is at hand.",
+        tried.join("; ")
+    );
+    Figure::new("start-stop", &caption, vec![panel])
 }
 
 /// Thicknesses of curves `[m]`.
@@ -81,12 +90,16 @@ fn thicknesses() -> impl Iterator<Item = f64> {
     (0..=60).map(|step| DRAWN.0 * libm::pow(DRAWN.1 / DRAWN.0, f64::from(step) / 60.0))
 }
 
+/// Name of the law of a search.
+fn law_name(run: &StartStopRun) -> String {
+    run.layer.nonlocal.map_or("local law".to_owned(), |choice| format!("nonlocal law, {}", choice.surface_name()))
+}
+
 /// Marks of each law, filled where a layer kept flowing and open where it stopped, and the curve of its own h_stop.
 fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a StartStopRun, &'a StartStop)>) {
     let mut laws: Vec<String> = Vec::new();
     for (run, found) in searches {
-        let nonlocal = run.layer.nonlocal.map(|choice| format!("nonlocal law, {}", choice.surface_name()));
-        let law = nonlocal.unwrap_or("local law".to_owned());
+        let law = law_name(run);
         let place = laws.iter().position(|known| *known == law).unwrap_or(laws.len());
         let slot = LAWS[place % LAWS.len()];
         let runs = format!("{law}: runs");
@@ -156,6 +169,7 @@ fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records:
     let thickness = |angle: f64| incline.deposit_thickness(angle.to_radians());
     let relative = |step: i32| libm::pow(1.3 * farthest, f64::from(step) / f64::from(CURVE_POINTS));
     let steps = || (0..=CURVE_POINTS).map(relative);
+    let mut steepness = String::new();
     if let (Some(thick), Some(own), Some(thin)) =
         (thickness(angle - SLOPE_ERROR), thickness(angle), thickness(angle + SLOPE_ERROR))
     {
@@ -173,18 +187,24 @@ fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records:
                 (velocity > 0.0).then_some((times, froude))
             })
         });
-        panel.line("nonlocal law, without particles", 1, curve.collect::<Vec<_>>());
+        let curve: Vec<(f64, f64)> = curve.collect();
+        if let [.., (x, y), (far, end)] = curve[..] {
+            let slope = libm::log(end / y) / libm::log(far / x);
+            steepness = format!(
+                " Its curve still rises with the power {slope:.1} of h/h_stop at its end, where the flow rule has the power 1."
+            );
+        }
+        panel.line("nonlocal law, without particles", 1, curve);
     }
     panel.reference("flow rule of the experiments, β h/h_stop", steps().map(|times| (times, coefficient * times)));
     panel.points("local law, particles", 0, local);
     panel.points("nonlocal law, particles", 1, nonlocal);
-    Figure::new(
-        "froude-number",
+    let caption = format!(
         "Depth mean of the velocity over √(gh) against the thickness over the h_stop(θ) of experiments, for both laws. The local law lies on the \
-         published line by an identity, however thin the layer; the nonlocal law comes to it far above h_stop only and is at rest below its own. \
-         The published points are not at hand, nor how they scatter: the band is what half a degree of the slope makes of h_stop.",
-        vec![panel],
-    )
+         published line by an identity, however thin the layer. The nonlocal law lies below it and is at rest below its own h_stop.{steepness} \
+         The published points and the uncertainty of h_stop are not at hand: the band is what half a degree of the slope makes of h_stop."
+    );
+    Figure::new("froude-number", &caption, vec![panel])
 }
 
 #[cfg(test)]

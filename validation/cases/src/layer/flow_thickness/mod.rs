@@ -125,7 +125,7 @@ impl Case for FlowThickness {
         slope. The stopping slope under the nonlocal law against the exact slope at which its first mode grows, and \
         its steady profile against a solution without particles. (iii) Mean velocity against (42), Ū/√(gh) = β \
         h/h_stop. With (41) this is an identity of the law: it verifies the solver only.\n\n\
-        Observed only. (i) Thickness at stations beside (44) of the paper. Equation (44) describes a steady \
+        Observed only. (i), in the paper tier: thickness at stations beside (44) of the paper. Equation (44) describes a steady \
         discharge of β √(g h_0³) per width, which the study `fed-slope` feeds; a released block discharges less and \
         less.";
     type Parameters = FlowThicknessParameters;
