@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the wheel, installs it into a new virtual environment and runs its tests and its notebook there:
 # bash tests/python/wheel.sh [PROGRAM]. With a program bagnold of the same sources the numbers are compared to the last digit.
+# The wheel stays in target/wheels; a machine that installs it needs no Rust.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 program=${1:+$(realpath "$1")}
@@ -22,4 +23,6 @@ export HOME="$work/home" BAGNOLD_PROGRAM="${program:-}"
 mkdir "$HOME"
 "$python" -m pytest -q -rs tests
 BAGNOLD_STORE="$work/store" "$python" -m pytest -q --nbmake notebooks
-echo "the wheel $(basename "$wheel") works"
+mkdir -p "$root/target/wheels"
+cp "$wheel" "$root/target/wheels/"
+echo "the wheel target/wheels/$(basename "$wheel") works"
