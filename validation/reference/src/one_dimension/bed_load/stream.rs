@@ -23,6 +23,8 @@ pub struct Stream {
     pub grain_density: f64,
     /// Diameter d of the grains `[m]`.
     pub grain_diameter: f64,
+    /// Diameter of the sphere with the drag of a grain, over d `[-]`; 1 for spheres, less for grains that settle slower.
+    pub drag_diameter: f64,
 }
 
 impl Stream {
