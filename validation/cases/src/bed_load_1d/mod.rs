@@ -15,12 +15,14 @@ mod replacements;
 mod run;
 mod sensitivities;
 mod similar;
+mod suspension;
 mod tiers;
 
 pub use grain_units::{GrainUnits, LayerConditions, Onset};
 pub use parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 pub use replacements::Sensitivities;
 pub use run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose};
+pub use suspension::{SuspendedFlow, SuspensionInput, SuspensionInputs};
 
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;

@@ -14,7 +14,6 @@ use super::dilation::Dilation;
 use super::profile::LayerState;
 use super::suspension::{SettlingTable, Stirring, Suspension};
 use super::{BedLoadLayer, GrainMotion, InitialVelocity};
-use crate::settling::SettlingGrains;
 
 /// Solid fraction below which suspended grains go with those below them `[-]`.
 const SPARSE: f64 = 1e-6;
@@ -82,16 +81,8 @@ impl<'a> TwoPhaseColumn<'a> {
         let (fraction, fluid) = (fraction.collect(), (0..cells).map(speed).collect());
         let grains = (0..cells).map(|k| if k < held { 0.0 } else { speed(k) }).collect();
         let BedLoadLayer { stream, closures, .. } = layer;
-        let settling = (closures.turbulent_schmidt > 0.0).then(|| {
-            let grains = SettlingGrains {
-                grain_diameter: stream.drag_diameter * stream.grain_diameter,
-                grain_density: stream.grain_density,
-                fluid_density: stream.fluid_density,
-                kinematic_viscosity: stream.kinematic_viscosity,
-                gravity: stream.submerged_weight() / (stream.grain_density - stream.fluid_density),
-            };
-            SettlingTable::new(&grains, closures.drag, closures.largest_fraction)
-        });
+        let settling = (closures.turbulent_schmidt > 0.0)
+            .then(|| SettlingTable::new(&stream.settling_grains(), closures.drag, closures.largest_fraction));
         Self { layer, held, fraction, fluid, grains, settling }
     }
 
