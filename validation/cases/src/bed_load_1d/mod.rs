@@ -16,13 +16,14 @@ mod run;
 mod sensitivities;
 mod similar;
 mod suspension;
+mod suspension_inputs;
 mod tiers;
 
 pub use grain_units::{GrainUnits, LayerConditions, Onset};
 pub use parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 pub use replacements::Sensitivities;
 pub use run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose};
-pub use suspension::{SuspendedFlow, SuspensionInput, SuspensionInputs};
+pub use suspension_inputs::{SuspendedFlow, SuspensionInput, SuspensionInputs};
 
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;

@@ -2,7 +2,8 @@
 
 use super::BedLoad1dRecord;
 use super::run::{BedLoad1dRun, LayerPurpose};
-use super::suspension::{self, SuspendedFlow, SuspensionInput};
+use super::suspension;
+use super::suspension_inputs::{SuspendedFlow, SuspensionInput};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, quantities};

@@ -2,7 +2,7 @@
 
 use super::grain_units::{LayerConditions, Onset};
 use super::replacements::Sensitivities;
-use super::suspension::SuspensionInputs;
+use super::suspension_inputs::SuspensionInputs;
 use crate::case::ParameterError;
 use crate::reference::bed_load::MeasuredBedLoad;
 use crate::reference::one_dimension::bed_load::{Closures, Stream};

@@ -2,7 +2,7 @@
 
 use super::onset_criterion::moves_by_some_criterion;
 use super::replacements::Replaced;
-use super::suspension::{self, SuspendedFlow, SuspensionInput};
+use super::suspension_inputs::{self, SuspendedFlow, SuspensionInput};
 use crate::case::{ParameterError, Progress, Run};
 use crate::checkpoint::is_interrupted;
 use crate::metric::{FlowRegime, Variant};
@@ -127,7 +127,7 @@ impl Run for BedLoad1dRun {
                 let schmidt = self.closures.turbulent_schmidt;
                 Variant::of("layer", of.name()).and("turbulent_schmidt", schmidt)
             }
-            LayerPurpose::Suspended(flow, input) => suspension::variant(flow, input, &self.stream),
+            LayerPurpose::Suspended(flow, input) => suspension_inputs::variant(flow, input, &self.stream),
         }
     }
 

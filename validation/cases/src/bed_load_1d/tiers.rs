@@ -4,7 +4,7 @@ use super::grain_units::{GrainUnits, LayerConditions, Onset};
 use super::parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 use super::replacements::Sensitivities;
 use super::run::{BedLoad1dRun, LayerPurpose, check_sliding};
-use super::suspension::SuspensionInputs;
+use super::suspension_inputs::SuspensionInputs;
 use super::{others, similar, suspension};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::reference::bed_load::MeasuredBedLoad;
