@@ -45,6 +45,7 @@ fn transports([limiting_friction, dilation]: [f64; 2], cell_height: f64) -> Opti
             kinematic_viscosity: 1e-6,
             grain_density: 2600.0,
             grain_diameter: 5e-3,
+            drag_diameter: 1.0,
         };
         let layer =
             BedLoadLayer { stream, closures, grains: GrainMotion::Dilating, cell_height, steady_change: STEADY };

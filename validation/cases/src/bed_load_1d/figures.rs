@@ -19,6 +19,7 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
     figures.extend(convergence(records, &layers));
     figures.extend(super::onset::figure(records));
     figures.extend(super::others::figure(records));
+    figures.extend(super::suspension::figure(records));
     figures.extend(super::regimes::figure(&layers, super::metrics::MOVING, percent));
     figures.extend(super::sensitivities::figure(records, &layers));
     figures

@@ -7,6 +7,7 @@ use super::records::{literature, of};
 use super::regimes;
 use super::run::{BedLoad1dRun, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
 use super::sensitivities::model_input_uncertainty;
+use super::suspension;
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant, quantities};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
@@ -19,7 +20,8 @@ quantities! {
         bed_at_rest::VELOCITY_DEFICIT, bed_at_rest::LAYER_SLOPE_RATIO, others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
         others::TURBULENT_STRESS_DIFFERENCE, regimes::ROWS_IN_MOTION, regimes::POWER_LAW_MISFIT_RATIO,
         regimes::POWER_LAW_MISFIT,
-        regimes::LOWEST_LAYER_EXPONENT, regimes::TRANSPORT_OVER_MEASURED, printed_laws::LAW_ERROR,
+        regimes::LOWEST_LAYER_EXPONENT, regimes::TRANSPORT_OVER_MEASURED, printed_laws::LAW_ERROR, suspension::DUCT_VELOCITY_DIFFERENCE,
+        suspension::SUSPENDED_TRANSPORT, suspension::SETTLING_RATIO,
     ]
     TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over q* of the formula or of a published layer"),
     TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
@@ -98,6 +100,7 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     second_states(&mut metrics, records);
     metrics.extend(super::onset::metrics(records, [ONSET_RATIO, ONSET, ONSET_OVER_MEASURED], START_DIFFERENCE));
     metrics.extend(others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
+    metrics.extend(suspension::metrics(records, TRANSPORT));
     with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
     for (run, state) in of(records, |purpose| matches!(purpose, LayerPurpose::Sensitivity(_))) {
         if let Some((_, own)) = literature(records).find(|(other, _)| other.stream.slope == run.stream.slope) {

@@ -15,12 +15,15 @@ mod replacements;
 mod run;
 mod sensitivities;
 mod similar;
+mod suspension;
+mod suspension_inputs;
 mod tiers;
 
 pub use grain_units::{GrainUnits, LayerConditions, Onset};
 pub use parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 pub use replacements::Sensitivities;
 pub use run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose};
+pub use suspension_inputs::{SuspendedFlow, SuspensionInput, SuspensionInputs};
 
 use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
@@ -44,7 +47,7 @@ impl Case for BedLoad1d {
         Setup. Water flows down a slope and drags the upper grains of a bed along. Both phases are continua over the \
         depth, without particles. Grains have μ(I), a solid fraction that falls with I, and drag; water has a mixing \
         length that grows where grains leave room. No parameter is fitted to the transport. One is chosen: the \
-        length over which bed roughness fades.\n\n\
+        length over which bed roughness fades. In the layers `grains=suspended` eddies also lift grains.\n\n\
         Judged. Transport on three slopes against a formula fitted to flume experiments. Two starts must reach one \
         steady state, balance and converge. Water over the moving bed against water over the same bed at rest. \
         Velocity of grains, transport of sheet flow and the onset of motion (Shields' curve) against measurements.\n\n\

@@ -2,11 +2,13 @@
 
 use super::BedLoad1dRecord;
 use super::run::{BedLoad1dRun, LayerPurpose};
+use super::suspension;
+use super::suspension_inputs::{SuspendedFlow, SuspensionInput};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, quantities};
 use crate::reference::bed_load::{MEASURED_BAND, MeasuredBedLoad};
-use crate::reference::one_dimension::bed_load::{Closures, STEADY};
+use crate::reference::one_dimension::bed_load::{Closures, LayerState, STEADY};
 use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 
 quantities! {
@@ -44,29 +46,24 @@ const GRAINS_FROM: f64 = 1e-3;
 const SCATTER: &str =
     "an upper bound: distance of their points to the line through their neighbours, which holds the profile's own bend";
 
-/// Turbulent Schmidt number of grains that eddies carry `[-]`: of order 1 (0.4 to 1 in the literature on suspensions).
-const SCHMIDT: f64 = 1.0;
-
-/// Every layer with the case's closures, and where eddies are said to carry grains once more with their dispersion.
+/// Every layer with the case's closures.
 pub(super) fn runs(measured: &[MeasuredBedLoad], closures: Closures) -> Vec<BedLoad1dRun> {
-    let new = |of: &MeasuredBedLoad, closures| BedLoad1dRun {
+    let new = |of: &MeasuredBedLoad| BedLoad1dRun {
         purpose: LayerPurpose::Measured(*of),
         stream: of.stream(),
         closures,
         cell_height: CELL_HEIGHT,
         steady_change: STEADY,
     };
-    let mut runs: Vec<BedLoad1dRun> = measured.iter().map(|of| new(of, closures)).collect();
-    let suspended = measured.iter().filter(|of| **of == MeasuredBedLoad::SheetFlow);
-    if closures.turbulent_schmidt == 0.0 {
-        runs.extend(suspended.map(|of| new(of, Closures { turbulent_schmidt: SCHMIDT, ..closures })));
-    }
-    runs
+    measured.iter().map(new).collect()
 }
 
 fn all(records: &[BedLoad1dRecord]) -> impl Iterator<Item = (&BedLoad1dRecord, MeasuredBedLoad)> {
     records.iter().filter_map(|record| match record.0.purpose {
         LayerPurpose::Measured(of) => Some((record, of)),
+        LayerPurpose::Suspended(SuspendedFlow::SheetFlow, SuspensionInput::Own) => {
+            Some((record, MeasuredBedLoad::SheetFlow))
+        }
         _ => None,
     })
 }
@@ -82,7 +79,6 @@ fn difference(height: &[f64], values: &[f64], theirs: &[(f64, f64)]) -> f64 {
 /// Profiles beside theirs.
 fn profile_metrics((run, record): &BedLoad1dRecord, of: MeasuredBedLoad) -> Vec<Metric> {
     let (theirs, state) = (of.profiles(), &record.data.state);
-    let is_own = run.closures.turbulent_schmidt == 0.0;
     let of_profile =
         |quantity: Quantity, values: &[f64], points: &[(f64, f64)], scale: f64, limit: f64, reason: &str| {
             if points.is_empty() || values.len() != state.height.len() || values.len() < 2 {
@@ -93,7 +89,7 @@ fn profile_metrics((run, record): &BedLoad1dRecord, of: MeasuredBedLoad) -> Vec<
                 metric.against(Some(0.0), &theirs.source, Confidence::Medium).with_snapshot_tolerance(1e-3, 0.0);
             let scatter = neighbour_scatter(points).map(|scatter| scale * scatter);
             let metric = metric.known_to(Origin::Experiment, scatter, SCATTER);
-            Some(metric.gated_by(is_own.then_some(Limit::AtMost(limit)), reason))
+            Some(metric.gated(Limit::AtMost(limit), reason))
         };
     let largest = |points: &[(f64, f64)]| 100.0 / points.iter().fold(0.0_f64, |most, point| most.max(point.1.abs()));
     let fraction = "a tenth, a sixth of the packed fraction: the source states no uncertainty";
@@ -119,7 +115,6 @@ fn stress_metric((run, record): &BedLoad1dRecord, of: MeasuredBedLoad) -> Option
     if points.is_empty() || state.face.len() != state.fluid_stress.len() {
         return None;
     }
-    let is_own = run.closures.turbulent_schmidt == 0.0;
     let scatter = 100.0 * theirs.stress_scatter * run.stream.fluid_density / bed;
     Some(
         TURBULENT_STRESS_DIFFERENCE
@@ -131,14 +126,11 @@ fn stress_metric((run, record): &BedLoad1dRecord, of: MeasuredBedLoad) -> Option
                 Some(scatter),
                 "scatter of the points about the line through their neighbours",
             )
-            .gated_by(
-                is_own.then_some(Limit::AtMost(STRESS_LIMIT)),
-                "a fifth of the stress on the bed, as of the velocities",
-            ),
+            .gated(Limit::AtMost(STRESS_LIMIT), "a fifth of the stress on the bed, as of the velocities"),
     )
 }
 
-/// Transport and profiles beside theirs; with the case's own closures they are judged.
+/// Transport and profiles beside theirs.
 pub(super) fn metrics(
     records: &[BedLoad1dRecord],
     ratio: Quantity,
@@ -151,20 +143,25 @@ pub(super) fn metrics(
         let theirs = of.profiles();
         let variant = run.variant();
         let own = record.data.state.transport();
+        let metric = ratio
+            .of(&variant, own / theirs.transport)
+            .against(Some(1.0), &theirs.source, Confidence::Medium)
+            .with_snapshot_tolerance(1e-3, 0.0)
+            .known_to(
+                Origin::Digitisation,
+                Some(THINNED * own / theirs.transport),
+                "the points that are kept integrate to within 6 % of what all of them do, taken for an even spread",
+            );
+        metrics.push(if matches!(run.purpose, LayerPurpose::Suspended(..)) {
+            let value = |_: &BedLoad1dRun, state: &LayerState| state.transport() / theirs.transport;
+            let (limit, reason) = suspension::transport_limit();
+            let spread = suspension::spread(records, SuspendedFlow::SheetFlow, value);
+            suspension::with_spread(metric, spread).gated(limit, reason)
+        } else {
+            let reason = "nine tenths of the runs that Meyer-Peter & Müller measured from τ* = 0.1 on lie there";
+            metric.gated(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1), reason)
+        });
         metrics.extend([
-            ratio
-                .of(&variant, own / theirs.transport)
-                .against(Some(1.0), &theirs.source, Confidence::Medium)
-                .with_snapshot_tolerance(1e-3, 0.0)
-                .known_to(
-                    Origin::Digitisation,
-                    Some(THINNED * own / theirs.transport),
-                    "the points that are kept integrate to within 6 % of what all of them do, taken for an even spread",
-                )
-                .gated_by(
-                    (run.closures.turbulent_schmidt == 0.0).then_some(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1)),
-                    "nine tenths of the runs that Meyer-Peter & Müller measured from τ* = 0.1 on lie there",
-                ),
             transport
                 .of(&variant, own)
                 .against(Some(theirs.transport), &theirs.source, Confidence::Medium)
@@ -186,7 +183,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let mut found = Vec::new();
     for of in [MeasuredBedLoad::GrainSimulation, MeasuredBedLoad::SheetFlow] {
         let layers: Vec<&BedLoad1dRecord> =
-            all(records).filter(|(_, other)| *other == of).map(|(record, _)| record).collect();
+            records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Measured(of)).collect();
         if layers.is_empty() {
             continue;
         }
@@ -203,7 +200,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
             velocity.series.push(Series::new("water, theirs", Mark::Points, 1, inside(&theirs.fluid_velocity)));
         }
         let states: Vec<_> = layers.iter().map(|(_, record)| &record.data.state).collect();
-        for (slot, (run, record)) in layers.iter().enumerate() {
+        for (slot, (_, record)) in layers.iter().enumerate() {
             let state = &record.data.state;
             let curve = |values: &[f64], least_fraction: f64| -> Vec<(f64, f64)> {
                 let drawn = |k: &usize| {
@@ -213,35 +210,18 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
                 };
                 (0..values.len()).filter(drawn).map(|k| (values[k], 1e3 * state.height[k])).collect()
             };
-            let suffix = if run.closures.turbulent_schmidt > 0.0 { ", with dispersion" } else { "" };
-            if run.closures.turbulent_schmidt == 0.0 {
-                let metrics = profile_metrics(layers[slot], of);
-                let off = metrics.iter().find(|metric| metric.name == GRAIN_VELOCITY_DIFFERENCE.name);
-                let off = off.map_or(f64::NAN, |metric| metric.value);
-                let ratio = state.transport() / theirs.transport;
-                found.push(format!(
-                    "{}: q* {ratio:.2} of theirs, rms difference of the grain velocity {off:.0} % of the largest",
-                    of.name()
-                ));
-            }
-            fraction.series.push(Series::new(
-                &format!("layer{suffix}"),
-                Mark::Line,
-                2 * slot,
-                curve(&state.solid_fraction, 0.0),
+            let metrics = profile_metrics(layers[slot], of);
+            let off = metrics.iter().find(|metric| metric.name == GRAIN_VELOCITY_DIFFERENCE.name);
+            let off = off.map_or(f64::NAN, |metric| metric.value);
+            let ratio = state.transport() / theirs.transport;
+            found.push(format!(
+                "{}: q* {ratio:.2} of theirs, rms difference of the grain velocity {off:.0} % of the largest",
+                of.name()
             ));
-            velocity.series.push(Series::new(
-                &format!("grains{suffix}"),
-                Mark::Line,
-                2 * slot,
-                curve(&state.grain_velocity, GRAINS_FROM),
-            ));
-            velocity.series.push(Series::new(
-                &format!("water{suffix}"),
-                Mark::Line,
-                2 * slot + 1,
-                curve(&state.fluid_velocity, 0.0),
-            ));
+            fraction.series.push(Series::new("layer", Mark::Line, 2 * slot, curve(&state.solid_fraction, 0.0)));
+            let grains = curve(&state.grain_velocity, GRAINS_FROM);
+            velocity.series.push(Series::new("grains", Mark::Line, 2 * slot, grains));
+            velocity.series.push(Series::new("water", Mark::Line, 2 * slot + 1, curve(&state.fluid_velocity, 0.0)));
         }
         let mut stress = Panel::new("", Axis::linear("water's stress over that on the bed [-]"), height());
         if !theirs.turbulent_stress.is_empty() {
@@ -268,8 +248,8 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let caption = format!(
         "The layer beside a grain simulation (Maurin et al.; 6 mm, slope 0.05, τ* 0.6) and a measured sheet flow (Revil-Baudard et al. \
          2015; plastic of 3 mm, τ* 0.44). Found are: {}. The gates are {:.2} to {:.2} for the ratio of q* and {VELOCITY_LIMIT} % for the \
-         velocity. The sources state no uncertainty. Grains of the sheet flow are measured far above those of the layer; dispersion by \
-         eddies (Schmidt number {SCHMIDT}) adds a part of these. Velocities of the layer's grains are drawn from a fraction of {GRAINS_FROM} on. \
+         velocity. The sources state no uncertainty. Grains of the sheet flow are measured far above those of the layer, which has no \
+         suspension here. Velocities of the layer's grains are drawn from a fraction of {GRAINS_FROM} on. \
          The measured stress is the covariance −⟨u'w'⟩; the layer's is what the grains leave to the water.",
         found.join("; "),
         MEASURED_BAND.0,

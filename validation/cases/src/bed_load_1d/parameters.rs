@@ -2,6 +2,7 @@
 
 use super::grain_units::{LayerConditions, Onset};
 use super::replacements::Sensitivities;
+use super::suspension_inputs::SuspensionInputs;
 use crate::case::ParameterError;
 use crate::reference::bed_load::MeasuredBedLoad;
 use crate::reference::one_dimension::bed_load::{Closures, Stream};
@@ -82,6 +83,8 @@ pub struct BedLoad1dParameters {
     pub onset: Onset,
     /// Layers of others to compare with.
     pub measured: Vec<MeasuredBedLoad>,
+    /// Grains in suspension; without the measured sheet flow no layer has them.
+    pub suspension: SuspensionInputs,
 }
 
 impl BedLoad1dParameters {
@@ -97,6 +100,7 @@ impl BedLoad1dParameters {
             kinematic_viscosity: self.water.kinematic_viscosity,
             grain_density: self.grains.density,
             grain_diameter: self.grains.diameter,
+            drag_diameter: 1.0,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::onset_criterion::moves_by_some_criterion;
 use super::replacements::Replaced;
+use super::suspension_inputs::{self, SuspendedFlow, SuspensionInput};
 use crate::case::{ParameterError, Progress, Run};
 use crate::checkpoint::is_interrupted;
 use crate::metric::{FlowRegime, Variant};
@@ -54,6 +55,8 @@ pub enum LayerPurpose {
     Onset,
     /// A layer that others have simulated or measured.
     Measured(MeasuredBedLoad),
+    /// A layer whose grains eddies also carry.
+    Suspended(SuspendedFlow, SuspensionInput),
 }
 
 impl LayerPurpose {
@@ -124,6 +127,7 @@ impl Run for BedLoad1dRun {
                 let schmidt = self.closures.turbulent_schmidt;
                 Variant::of("layer", of.name()).and("turbulent_schmidt", schmidt)
             }
+            LayerPurpose::Suspended(flow, input) => suspension_inputs::variant(flow, input, &self.stream),
         }
     }
 
@@ -240,6 +244,7 @@ impl BedLoad1dRun {
                 | LayerPurpose::Similar
                 | LayerPurpose::Onset
                 | LayerPurpose::Measured(_)
+                | LayerPurpose::Suspended(_, SuspensionInput::Own)
         )
     }
 

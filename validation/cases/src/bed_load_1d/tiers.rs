@@ -4,7 +4,8 @@ use super::grain_units::{GrainUnits, LayerConditions, Onset};
 use super::parameters::{BedGrains, BedLoad1dParameters, WaterStream};
 use super::replacements::Sensitivities;
 use super::run::{BedLoad1dRun, LayerPurpose, check_sliding};
-use super::{others, similar};
+use super::suspension_inputs::SuspensionInputs;
+use super::{others, similar, suspension};
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::reference::bed_load::MeasuredBedLoad;
 use crate::reference::one_dimension::bed_load::{Closures, STEADY, Stream};
@@ -29,6 +30,7 @@ impl Parameters for BedLoad1dParameters {
             similar: LayerConditions::NONE,
             onset: Onset::of(&[5e-4, 1e-3, 2e-3, 6e-3], GrainUnits::SHALLOW),
             measured: vec![MeasuredBedLoad::GrainSimulation, MeasuredBedLoad::SheetFlow],
+            suspension: SuspensionInputs::literature(),
         };
         let paper = Self {
             dilating_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4, 6.25e-5],
@@ -108,6 +110,9 @@ fn all(parameters: &BedLoad1dParameters) -> Vec<BedLoad1dRun> {
     }
     runs.extend(similar::runs(parameters));
     runs.extend(others::runs(&parameters.measured, parameters.closures));
+    let slopes: Vec<_> =
+        parameters.slopes.iter().map(|slope| (parameters.stream(*slope), parameters.cell_height)).collect();
+    runs.extend(suspension::runs(&parameters.suspension, &parameters.measured, &slopes, parameters.closures));
     runs
 }
 

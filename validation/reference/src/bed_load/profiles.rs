@@ -71,6 +71,7 @@ impl MeasuredBedLoad {
             kinematic_viscosity: 1e-6,
             grain_density,
             grain_diameter,
+            drag_diameter: 1.0,
         };
         match self {
             Self::GrainSimulation => water(0.05, 0.108, 2500.0, 6e-3),

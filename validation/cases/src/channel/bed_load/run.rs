@@ -125,6 +125,7 @@ impl BedLoadRun {
             kinematic_viscosity,
             grain_density,
             grain_diameter,
+            drag_diameter: 1.0,
         }
     }
 }

@@ -191,13 +191,9 @@ impl Closures {
         StressResponse { value: secant * rate, tangent: inertia * (water.viscosity + 2.0 * eddy), secant }
     }
 
-    /// Pressure D φ `[Pa]` with which eddies carry grains, per φ, at an exchange coefficient over φ `[kg/(m³ s)]`, a rate
-    /// of the water `[1/s]` and a solid fraction: D = (K/φ) l² |γ|/(Sc (1 − φ)).
-    pub(super) fn dispersion(&self, exchange: f64, length: f64, rate: f64, solid_fraction: f64) -> f64 {
-        if self.turbulent_schmidt <= 0.0 {
-            return 0.0;
-        }
-        exchange * eddy_viscosity(length, rate.abs()) / (self.turbulent_schmidt * (1.0 - solid_fraction))
+    /// Diffusivity ε = ν_t/Sc `[m²/s]` of grains that eddies carry, at a rate of the water `[1/s]`; 0 if they carry none.
+    pub(super) fn diffusivity(&self, length: f64, rate: f64) -> f64 {
+        if self.turbulent_schmidt > 0.0 { eddy_viscosity(length, rate.abs()) / self.turbulent_schmidt } else { 0.0 }
     }
 
     /// Mixing length `[m]` at a height, given the room ∫ (1 − φ/φ_max) dz below it and its roughness `[m]`.

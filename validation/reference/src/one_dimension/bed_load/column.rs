@@ -10,8 +10,9 @@
 
 use super::block_tridiagonal::{BlockRow, solve};
 use super::closures::{Between, StressResponse};
-use super::dilation::{Dilation, Loosening};
+use super::dilation::Dilation;
 use super::profile::LayerState;
+use super::suspension::{SettlingTable, Stirring, Suspension};
 use super::{BedLoadLayer, GrainMotion, InitialVelocity};
 
 /// Solid fraction below which suspended grains go with those below them `[-]`.
@@ -29,6 +30,8 @@ pub(super) struct TwoPhaseColumn<'a> {
     fluid: Vec<f64>,
     /// u_s `[m/s]`.
     grains: Vec<f64>,
+    /// w(φ); none if eddies carry no grains.
+    settling: Option<SettlingTable>,
 }
 
 /// Quantities at the faces, from the base to the surface.
@@ -77,7 +80,10 @@ impl<'a> TwoPhaseColumn<'a> {
         let speed = |k: usize| start.velocity(layer.face(k) + 0.5 * width, &layer.stream);
         let (fraction, fluid) = (fraction.collect(), (0..cells).map(speed).collect());
         let grains = (0..cells).map(|k| if k < held { 0.0 } else { speed(k) }).collect();
-        Self { layer, held, fraction, fluid, grains }
+        let BedLoadLayer { stream, closures, .. } = layer;
+        let settling = (closures.turbulent_schmidt > 0.0)
+            .then(|| SettlingTable::new(&stream.settling_grains(), closures.drag, closures.largest_fraction));
+        Self { layer, held, fraction, fluid, grains, settling }
     }
 
     /// One step.
@@ -113,22 +119,24 @@ impl<'a> TwoPhaseColumn<'a> {
             return (0.0, 0.0);
         }
         let BedLoadLayer { stream, closures, .. } = self.layer;
-        let dilation = Dilation {
-            cell_height: self.layer.cell_height,
-            weight: closures.largest_fraction * stream.bed_depth * stream.submerged_weight(),
-            submerged_weight: stream.submerged_weight(),
-            largest_fraction: closures.largest_fraction,
-        };
+        let (cell_height, largest_fraction) = (self.layer.cell_height, closures.largest_fraction);
+        let submerged_weight = stream.submerged_weight();
+        let weight = largest_fraction * stream.bed_depth * submerged_weight;
         let unit = closures.dilation * stream.inertia_unit();
         let cells = self.fraction.len();
-        let dispersion = self.dispersion();
-        let loosening = (0..cells).map(|k| {
+        let shear = (0..cells).map(|k| {
             let lower = self.rate(&self.grains, k, self.held);
             let upper = if k + 1 < cells { self.rate(&self.grains, k + 1, self.held) } else { lower };
-            Loosening { shear: unit * (0.5 * (lower + upper)).abs(), dispersion: dispersion[k] }
+            unit * (0.5 * (lower + upper)).abs()
         });
+        let shear: Vec<f64> = shear.collect();
         let mut fraction = vec![0.0; cells];
-        let left_over = dilation.march(loosening, &mut fraction);
+        let left_over = if self.settling.is_some() {
+            let suspension = Suspension { cell_height, weight, submerged_weight, largest_fraction };
+            suspension.fractions(&Stirring { shear: &shear, dispersion: &self.dispersion() }, &mut fraction).abs()
+        } else {
+            Dilation { cell_height, weight, submerged_weight, largest_fraction }.march(&shear, &mut fraction)
+        };
         let mut largest = 0.0_f64;
         for (old, new) in self.fraction.iter_mut().zip(fraction) {
             largest = largest.max((new - *old).abs());
@@ -154,37 +162,42 @@ impl<'a> TwoPhaseColumn<'a> {
             .collect()
     }
 
-    /// Pressure of the eddies per φ `[Pa]` in the cells; all 0 if they carry no grains.
+    /// D = c ν_t/(Sc w(φ)) `[Pa]` at the faces, w the settling velocity by the drag law; all 0 if eddies carry no grains.
     fn dispersion(&self) -> Vec<f64> {
-        let closures = &self.layer.closures;
+        let BedLoadLayer { stream, closures, .. } = self.layer;
         let cells = self.fraction.len();
-        if closures.turbulent_schmidt <= 0.0 {
-            return vec![0.0; cells];
-        }
+        let Some(settling) = &self.settling else {
+            return vec![0.0; cells + 1];
+        };
         let length = self.lengths();
-        (0..cells)
-            .map(|k| {
-                let rate = 0.5 * (self.rate(&self.fluid, k, 0) + self.rate(&self.fluid, k + 1, 0));
-                // K is proportional to φ where φ is small
-                let fraction = self.fraction[k].max(SPARSE);
-                let exchange = self.exchange_at(fraction, (self.fluid[k] - self.grains[k]).abs()) / fraction;
-                closures.dispersion(exchange, 0.5 * (length[k] + length[k + 1]), rate, fraction)
+        (0..=cells)
+            .map(|face| {
+                let diffusivity = closures.diffusivity(length[face], self.rate(&self.fluid, face, 0));
+                let below = self.fraction[face.saturating_sub(1)];
+                let velocity = settling.at(0.5 * (below + self.fraction[face.min(cells - 1)]));
+                if velocity > 0.0 { stream.submerged_weight() * diffusivity / velocity } else { 0.0 }
             })
             .collect()
     }
 
-    /// p′ `[Pa]` at the faces: the weight above less what eddies carry.
+    /// p′ `[Pa]` at the faces: the weight above less what the water carries, ∫ D ∂_z φ dz.
     fn pressure(&self) -> Vec<f64> {
         let weight = self.layer.stream.submerged_weight() * self.layer.cell_height;
         let cells = self.fraction.len();
-        let mut pressure = vec![0.0; cells + 1];
-        for k in (0..cells).rev() {
-            pressure[k] = pressure[k + 1] + self.fraction[k] * weight;
-        }
         let dispersion = self.dispersion();
-        for k in 1..cells {
-            let carried = 0.5 * (dispersion[k] * self.fraction[k] + dispersion[k - 1] * self.fraction[k - 1]);
-            pressure[k] = (pressure[k] - carried).max(0.0);
+        let mut pressure = vec![0.0; cells + 1];
+        let mut carried = 0.0;
+        let mut above = 0.0;
+        for k in (0..cells).rev() {
+            above += self.fraction[k] * weight;
+            if k > 0 {
+                // half of a face's share, as the other half is below it
+                let share = 0.5 * dispersion[k] * (self.fraction[k - 1] - self.fraction[k]);
+                pressure[k] = (above - carried - share).max(0.0);
+                carried += 2.0 * share;
+            } else {
+                pressure[k] = (above - carried).max(0.0);
+            }
         }
         pressure
     }
@@ -214,19 +227,15 @@ impl<'a> TwoPhaseColumn<'a> {
 
     /// K `[kg/(m³ s)]` of a cell at a slip `[m/s]`.
     fn exchange(&self, cell: usize, slip: f64) -> f64 {
-        self.exchange_at(self.fraction[cell], slip)
-    }
-
-    fn exchange_at(&self, fraction: f64, slip: f64) -> f64 {
         let BedLoadLayer { stream, closures, .. } = self.layer;
         let (density, viscosity) = (stream.fluid_density, stream.kinematic_viscosity);
-        closures.drag.exchange_coefficient(fraction, slip, stream.grain_diameter, density, viscosity)
+        let diameter = stream.drag_diameter * stream.grain_diameter;
+        closures.drag.exchange_coefficient(self.fraction[cell], slip, diameter, density, viscosity)
     }
 
     /// Whether a cell has too few grains for a balance of their own: none, or the last of a suspension.
     fn is_empty(&self, cell: usize) -> bool {
-        let suspended = self.layer.closures.turbulent_schmidt > 0.0;
-        self.fraction[cell] <= if suspended { SPARSE } else { 0.0 }
+        self.fraction[cell] <= if self.settling.is_some() { SPARSE } else { 0.0 }
     }
 
     /// Drag `[N/m³]` on the grains of a cell, and its derivative by the slip.

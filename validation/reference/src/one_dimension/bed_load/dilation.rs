@@ -1,8 +1,5 @@
 //! Solid fraction of grains that dilate with their inertial number: φ = φ_max/(1 + B I), I = γ d √ρ_s/√p′.
 //!
-//! Eddies, if they are asked to, carry a part D φ of the weight, D = (K/φ) ν_t/(Sc (1 − φ)), so that p′ = P − D φ of the
-//! weight P above: where D is constant, that is the diffusion (ν_t/Sc) ∂_z φ that balances the settling of the grains.
-//!
 //! The pressure at the base is the weight of all grains. From there the march goes up, cell by cell: p′ in the middle of
 //! a cell and γ give φ, whose weight leads to the next cell, until nothing is left. The last cell takes what remains, so
 //! that no grain is lost.
@@ -20,26 +17,16 @@ pub(super) struct Dilation {
     pub(super) largest_fraction: f64,
 }
 
-/// Loosening of the grains of a cell.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Loosening {
-    /// B γ d √ρ_s `[√Pa]`.
-    pub(super) shear: f64,
-    /// Pressure of eddies per φ `[Pa]`.
-    pub(super) dispersion: f64,
-}
-
 /// Part of the weight that is no cell of its own, but the rounding of those below.
 const ROUNDING: f64 = 1e-13;
 
 impl Dilation {
-    /// Solid fractions from what loosens each cell; returns the weight `[Pa]` for which there was no room.
-    pub(super) fn march(&self, loosening: impl Iterator<Item = Loosening>, fraction: &mut [f64]) -> f64 {
+    /// Solid fractions from B γ d √ρ_s `[√Pa]` of each cell; returns the weight `[Pa]` for which there was no room.
+    pub(super) fn march(&self, shear: &[f64], fraction: &mut [f64]) -> f64 {
         let weight_of_cell = self.cell_height * self.submerged_weight;
         let mut below = self.weight;
-        for (loosening, fraction) in loosening.zip(fraction) {
-            let carried = (0.5 * weight_of_cell + loosening.dispersion) * self.largest_fraction;
-            let share = share(below, loosening.shear, carried);
+        for (shear, fraction) in shear.iter().zip(fraction) {
+            let share = share(below, *shear, 0.5 * weight_of_cell * self.largest_fraction);
             *fraction = (share * self.largest_fraction).min(below / weight_of_cell);
             below = (below - *fraction * weight_of_cell).max(0.0);
             if below < ROUNDING * self.weight {
@@ -52,7 +39,7 @@ impl Dilation {
 }
 
 /// x = φ/φ_max of a cell over a pressure: the root of x (r + a) = r with r² = p − c x, what the grains carry in its middle.
-fn share(below: f64, looseness: f64, carried: f64) -> f64 {
+pub(super) fn share(below: f64, looseness: f64, carried: f64) -> f64 {
     if looseness <= 0.0 && carried <= below {
         return 1.0;
     }
@@ -133,7 +120,7 @@ mod tests {
 
     fn marched(looseness: f64) -> (Vec<f64>, f64) {
         let mut fraction = vec![f64::NAN; 344];
-        let left = BED.march(std::iter::repeat(Loosening { shear: looseness, dispersion: 0.0 }), &mut fraction);
+        let left = BED.march(&[looseness; 344], &mut fraction);
         (fraction, left)
     }
 
@@ -143,25 +130,6 @@ mod tests {
             let (fraction, left) = marched(looseness);
             let weight: f64 = fraction.iter().map(|fraction| fraction * 15_696.0 * 2.5e-4).sum();
             assert!(((weight + left) / 376.0 - 1.0).abs() < 1e-13, "{looseness}: {weight} and {left} Pa");
-        }
-    }
-
-    /// With an eddy pressure D φ alone, φ = P/D and dP/dz = −c φ: φ falls exponentially over D/c.
-    #[test]
-    fn eddies_alone_make_an_exponential_suspension() {
-        let dispersion = 30.0;
-        let dilation = Dilation { weight: 2.0, ..BED };
-        let mut fraction = vec![f64::NAN; 344];
-        let left = dilation.march(std::iter::repeat(Loosening { shear: 0.0, dispersion }), &mut fraction);
-        assert_eq!(left, 0.0);
-        for cell in [0, 10, 40, 80] {
-            let z = (f64::from(cell) + 0.5) * 2.5e-4;
-            let exact = 2.0 / dispersion * (-15_696.0 * z / dispersion).exp();
-            let computed = fraction[cell as usize];
-            // a cell's own φ lacks ε²/8, every step from cell to cell ε³/12 of it
-            let step: f64 = 15_696.0 * 2.5e-4 / dispersion;
-            let bound = 1.1 * step * step * (1.0 / 8.0 + step * f64::from(cell) / 12.0);
-            assert!((computed / exact - 1.0).abs() < bound, "{z}: {computed} {exact}");
         }
     }
 

@@ -11,6 +11,8 @@
 //! - l = κ √(1 − z/h) [∫ (1 − φ/φ_max) dz + r]: eddies grow where grains leave them room, and start from the roughness r of
 //!   grains that rest (the solver's `GrainRoughness`), which fades where grains have loosened.
 //!
+//! Where a turbulent Schmidt number is given, eddies carry a part of the weight (`suspension.rs`) and p′ is what remains.
+//!
 //! Both velocities vanish at the base, both stresses at z = h. Three ways to treat the grains ([`GrainMotion`]) isolate what a
 //! two-phase program does: the flow over and through grains that rest (drag and turbulence), grains that move with a
 //! given fraction (friction and both momenta), and all of it. Finite volumes of second order, no particles; of
@@ -37,6 +39,7 @@ mod profile;
 mod solid_fraction;
 mod states;
 mod stream;
+mod suspension;
 #[cfg(test)]
 mod tests;
 
@@ -220,6 +223,7 @@ impl BedLoadLayer {
             ("fluid_density", stream.fluid_density),
             ("kinematic_viscosity", stream.kinematic_viscosity),
             ("grain_diameter", stream.grain_diameter),
+            ("drag_diameter", stream.drag_diameter),
             ("cell_height", self.cell_height),
             ("steady_change", self.steady_change),
             ("static_friction", closures.static_friction),

@@ -1,5 +1,7 @@
 //! The stream: its depths, its slope and the two materials.
 
+use crate::settling::{GrainForm, SettlingGrains};
+use bagnold_solver::material::drag::DragLaw;
 use serde::{Deserialize, Serialize};
 
 /// A stream over a bed of grains, infinitely long. z is normal to the bed, 0 at the bed's top before anything moves.
@@ -23,6 +25,8 @@ pub struct Stream {
     pub grain_density: f64,
     /// Diameter d of the grains `[m]`.
     pub grain_diameter: f64,
+    /// Diameter of the sphere with the drag of a grain, over d `[-]`; 1 for spheres, less for grains that settle slower.
+    pub drag_diameter: f64,
 }
 
 impl Stream {
@@ -61,6 +65,24 @@ impl Stream {
     pub fn transport_unit(&self) -> f64 {
         let d = self.grain_diameter;
         ((self.grain_density / self.fluid_density - 1.0) * self.gravity * d * d * d).sqrt()
+    }
+
+    /// Its grains as they settle, with the diameter of their drag.
+    pub(super) fn settling_grains(&self) -> SettlingGrains {
+        SettlingGrains {
+            grain_diameter: self.drag_diameter * self.grain_diameter,
+            grain_density: self.grain_density,
+            fluid_density: self.fluid_density,
+            kinematic_viscosity: self.kinematic_viscosity,
+            gravity: self.gravity / self.root(),
+        }
+    }
+
+    /// Settling velocity of a grain alone over u_* `[-]`, none where the law has none: eddies carry grains up to about 1.25
+    /// (Bagnold 1966).
+    #[must_use]
+    pub fn settling_ratio(&self, law: DragLaw) -> Option<f64> {
+        Some(self.settling_grains().terminal_velocity(law, GrainForm::Sphere)? / self.shear_velocity())
     }
 
     /// d √ρ_s `[√(kg/m)]`: I = γ d √ρ_s/√p′.

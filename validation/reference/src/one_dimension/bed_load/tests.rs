@@ -14,6 +14,7 @@ pub(super) fn stream(slope: f64) -> Stream {
         kinematic_viscosity: 1e-6,
         grain_density: 2600.0,
         grain_diameter: 5e-3,
+        drag_diameter: 1.0,
     }
 }
 
