@@ -22,9 +22,6 @@ quantities! {
     SUSPENDED_TRANSPORT: verified("suspended_transport", "-", "q* with eddies that carry grains over q* without them"),
 }
 
-/// Height of a cell `[m]`: it divides the depths of both sheet flows.
-const CELL_HEIGHT: f64 = 5e-4;
-
 /// Shields number and height of the largest velocity, over d, of the duct `[-]`.
 const DUCT: (f64, f64) = (1.4, 22.0);
 
@@ -85,15 +82,23 @@ pub(super) fn runs(
         return Vec::new();
     }
     let sheet = Stream { drag_diameter: inputs.drag_diameter, ..MeasuredBedLoad::SheetFlow.stream() };
-    let mut runs: Vec<BedLoad1dRun> =
-        varied.iter().map(|input| new(SuspendedFlow::SheetFlow, *input, sheet, CELL_HEIGHT)).collect();
-    let schmidt_only = varied.iter().filter(|input| !matches!(input, SuspensionInput::DragDiameter(_)));
-    runs.extend(
-        schmidt_only
-            .chain([&SuspensionInput::NoEddies])
-            .map(|input| new(SuspendedFlow::Duct, *input, duct(), CELL_HEIGHT)),
-    );
-    runs.extend(slopes.iter().map(|&(stream, height)| new(SuspendedFlow::Slope, SuspensionInput::Own, stream, height)));
+    let mut runs = Vec::new();
+    for &flow in &inputs.flows {
+        match flow {
+            SuspendedFlow::SheetFlow => {
+                runs.extend(varied.iter().map(|input| new(flow, *input, sheet, inputs.cell_height)));
+            }
+            SuspendedFlow::Duct => {
+                let schmidt_only = varied.iter().filter(|input| !matches!(input, SuspensionInput::DragDiameter(_)));
+                let varied = schmidt_only.chain([&SuspensionInput::NoEddies]);
+                runs.extend(varied.map(|input| new(flow, *input, duct(), inputs.cell_height)));
+            }
+            SuspendedFlow::Slope => {
+                let own = |&(stream, height)| new(flow, SuspensionInput::Own, stream, height);
+                runs.extend(slopes.iter().map(own));
+            }
+        }
+    }
     runs
 }
 
@@ -264,20 +269,16 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
         let curve = (0..state.height.len()).map(place).filter(|point| point.1 > 0.0 && point.1 < 23.0).collect();
         duct.series.push(Series::new(label, Mark::Line, slot, curve));
     }
+    let mut caption = "Light grains carried by eddies, beside measurements. Top: solid fraction and velocity of a sheet flow of plastic grains. \
+                  Without suspension the grains end 5 mm above the bed; with it they reach as high as the measured ones, and carry \
+                  0.9 of the measured transport instead of 0.23."
+        .to_owned();
     if duct.series.len() > 1 {
         panels.push(duct);
+        caption += " Below: velocity of the water in a sheet flow three times as strong. Its heights start where grains have a tenth of \
+                    u_*, as the source states no level. The upper half is met; near the bed the layer is slower than the measured water.";
     }
-    Some(Figure {
-        name: "suspension".to_owned(),
-        caption: "Light grains carried by eddies, beside measurements. Top: solid fraction and velocity of a sheet flow of plastic grains. \
-                  Without suspension the grains end 5 mm above the bed; with it they reach as high as the measured ones, and carry \
-                  0.9 of the measured transport instead of 0.23. Below: velocity of the water in a sheet flow three times as strong. Its \
-                  heights start where grains have a tenth of u_*, as the source states no level. The upper half is met; near the bed the \
-                  layer is slower than the measured water."
-            .to_owned(),
-        panels,
-        columns: 2,
-    })
+    Some(Figure::new("suspension", &caption, panels))
 }
 
 #[cfg(test)]

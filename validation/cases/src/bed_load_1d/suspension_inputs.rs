@@ -9,6 +9,11 @@ use serde::{Deserialize, Serialize};
 /// Inputs of grains in suspension. Each list is varied alone; an empty list varies nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SuspensionInputs {
+    /// Flows whose grains eddies carry; empty for none.
+    pub flows: Vec<SuspendedFlow>,
+    /// Height of a cell of the measured sheet flows `[m]`.
+    #[schemars(transform = positive("give it in metres, such as 1e-3"))]
+    pub cell_height: f64,
     /// Turbulent Schmidt number Sc `[-]`, eddy viscosity over the diffusivity of grains; a large one is no suspension.
     #[schemars(transform = between(0.05, 1e9, "0.4 to 1 for suspensions, 1e6 for no suspension"))]
     pub schmidt_number: f64,
@@ -33,6 +38,8 @@ impl SuspensionInputs {
     /// Values of the literature, chosen before the runs (`reference-data/bed-load-1d/README.md`).
     pub(super) fn literature() -> Self {
         Self {
+            flows: vec![SuspendedFlow::SheetFlow, SuspendedFlow::Duct, SuspendedFlow::Slope],
+            cell_height: 5e-4,
             schmidt_number: 0.7,
             drag_diameter: 0.5,
             schmidt_numbers: vec![0.4, 1.0],
@@ -41,10 +48,20 @@ impl SuspensionInputs {
             cell_heights: vec![1e-3],
         }
     }
+
+    /// The measured sheet flow alone, in coarse cells.
+    pub(super) fn quick() -> Self {
+        Self {
+            flows: vec![SuspendedFlow::SheetFlow],
+            cell_height: 1e-3,
+            cell_heights: vec![2e-3],
+            ..Self::literature()
+        }
+    }
 }
 
 /// Flow whose grains eddies carry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SuspendedFlow {
     /// Sheet flow of Revil-Baudard et al.

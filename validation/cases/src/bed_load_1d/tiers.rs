@@ -30,13 +30,14 @@ impl Parameters for BedLoad1dParameters {
             similar: LayerConditions::NONE,
             onset: Onset::of(&[5e-4, 1e-3, 2e-3, 6e-3], GrainUnits::SHALLOW),
             measured: vec![MeasuredBedLoad::GrainSimulation, MeasuredBedLoad::SheetFlow],
-            suspension: SuspensionInputs::literature(),
+            suspension: SuspensionInputs::quick(),
         };
         let paper = Self {
             dilating_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4, 6.25e-5],
             frozen_cell_heights: vec![5e-4, 2.5e-4, 1.25e-4, 6.25e-5],
             sensitivities: Sensitivities::literature(),
             onset: Onset::of(&[5e-4, 1e-3, 2e-3, 3e-3, 5e-3, 6e-3], GrainUnits::DEEP),
+            suspension: SuspensionInputs::literature(),
             ..quick.clone()
         };
         match tier {
