@@ -171,7 +171,7 @@ fn two_runs_are_compared_number_by_number() {
     assert_ne!(moved, text, "a limit of zero");
     std::fs::write(place.path("thicker/metrics.json"), moved).expect("written");
     let told = place.bagnold(&["compare", "first", "thicker", "--out", "moved"]).assert().code(0);
-    let line = "limits of 1 gates differ: the verdicts come from different versions of the gates";
+    let line = "limits of 1 gates differ: other versions of the gates, or limits that follow from the runs";
     assert!(String::from_utf8_lossy(&told.get_output().stdout).contains(line));
     // of the same parameters only the gates can have moved
     let text = std::fs::read_to_string(place.path("again/metrics.json")).expect("written");
@@ -192,9 +192,19 @@ fn two_runs_are_compared_number_by_number() {
     let finer = CHEAP.iter().map(|word| if *word == "resolution=10" { "resolution=11" } else { word });
     let finer: Vec<&str> = ["run", "--out", "finer", "--quiet"].into_iter().chain(finer).collect();
     place.bagnold(&finer).assert().code(0);
-    let apart = place.bagnold(&["compare", "first", "finer", "--out", "none"]).assert().code(2);
+    // one key apart: paired, with their numbers and curves
+    let paired = place.bagnold(&["compare", "first", "finer", "--out", "paired"]).assert().code(0);
+    let told = String::from_utf8_lossy(&paired.get_output().stdout).into_owned();
+    assert!(told.contains("film: runs with resolution=11 beside those with resolution=10"), "{told}");
+    assert!(!told.contains("not in every folder"), "{told}");
+    let figures = std::fs::read_dir(place.path("paired/figures")).expect("figures").count();
+    assert!(figures >= 4, "{figures} files of profile and history");
+    std::fs::create_dir(place.path("water")).expect("writable");
+    let renamed = text.replacen("\"case\": \"film\"", "\"case\": \"hydrostatic\"", 1);
+    std::fs::write(place.path("water/metrics.json"), renamed).expect("written");
+    let apart = place.bagnold(&["compare", "first", "water", "--out", "none"]).assert().code(2);
     let message = String::from_utf8_lossy(&apart.get_output().stderr).into_owned();
-    assert!(message.contains("first and finer have no variant of a case in common"), "{message}");
+    assert!(message.contains("first and water have no variant of a case in common"), "{message}");
     let wrong = place.bagnold(&["compare", "first", "store", "--out", "none"]).assert().code(2);
     let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
     assert!(message.contains("holds neither a run's metrics.json nor a report's"), "{message}");

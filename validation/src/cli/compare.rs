@@ -4,7 +4,7 @@ use super::arguments::CompareArguments;
 use super::error::ProgramError;
 use super::{Exit, say};
 use crate::case::ParameterError;
-use crate::compare::{self, Difference, Results};
+use crate::compare::{self, Difference, PairedKey, Results};
 use crate::number::four_digits;
 use crate::output::OutputFolder;
 use crate::result::MetricEntry;
@@ -35,6 +35,13 @@ pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send
         let values: Vec<&str> = one.values.iter().map(|value| value.as_deref().unwrap_or("–")).collect();
         say(output, &format!("parameter {}: {}\n", one.path, values.join(" → ")));
     }
+    for PairedKey { case, key, values } in all.iter().flat_map(|results| &results.paired) {
+        say(output, &format!("{case}: runs with {key}={} beside those with {key}={}\n", values[1], values[0]));
+    }
+    let apart = compare::differences(&all).iter().filter(|one| one.entries.iter().any(Option::is_none)).count();
+    if apart > 0 {
+        say(output, &format!("{apart} numbers are not in every folder, so not compared\n"));
+    }
     let shown = match moved.len() {
         0..=MOST_SHOWN => "",
         _ => ", the largest differences first; index.html has all",
@@ -46,7 +53,9 @@ pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send
     if limits > 0 {
         say(
             output,
-            &format!("limits of {limits} gates differ: the verdicts come from different versions of the gates\n"),
+            &format!(
+                "limits of {limits} gates differ: other versions of the gates, or limits that follow from the runs\n"
+            ),
         );
     }
     say(output, &format!("written to {}\n", command.out.join("index.html").display()));

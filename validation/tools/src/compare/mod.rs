@@ -5,8 +5,10 @@ mod figures;
 mod page;
 mod parameters;
 mod reading;
+mod roles;
 
 pub use difference::{Difference, differences};
 pub use page::write;
 pub use parameters::{ChangedParameter, changed};
 pub use reading::{CompareError, Results};
+pub use roles::PairedKey;

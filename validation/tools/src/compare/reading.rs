@@ -1,5 +1,6 @@
 //! Reads folders of `bagnold run` and `bagnold report`.
 
+use super::roles::{self, PairedKey};
 use crate::input::{STORED, read_text, shown, text_fault};
 use crate::metric::Limit;
 use crate::output::{FileError, Table};
@@ -48,6 +49,8 @@ pub struct Results {
     pub folder: PathBuf,
     /// Label in legends and tables: the folder's name, as far as needed to distinguish it from others.
     pub label: String,
+    /// Keys by which its runs are paired with those of the first folder.
+    pub paired: Vec<PairedKey>,
     /// Cases by name.
     pub cases: BTreeMap<String, CaseResults>,
 }
@@ -72,6 +75,14 @@ impl Results {
         let mut all: Vec<Self> = folders.iter().map(|folder| Self::of(folder)).collect::<Result<_, _>>()?;
         for (place, label) in labels(folders).into_iter().enumerate() {
             all[place].label = label;
+        }
+        if let Some((first, others)) = all.split_first_mut() {
+            for other in others {
+                for (name, own) in &first.cases {
+                    let Some(theirs) = other.cases.get_mut(name) else { continue };
+                    other.paired.extend(roles::pair(&own.document, &mut theirs.document, &mut theirs.tables));
+                }
+            }
         }
         if let Some((first, others)) = all.split_first() {
             let key = |(case, metric): (&str, &MetricEntry)| format!("{case} {} {}", metric.name, metric.variant);
@@ -144,7 +155,7 @@ impl Results {
         if cases.is_empty() {
             return Err(CompareError::NoResults { folder: folder.to_owned() });
         }
-        Ok(Self { folder: folder.to_owned(), label: String::new(), cases })
+        Ok(Self { folder: folder.to_owned(), label: String::new(), paired: Vec::new(), cases })
     }
 }
 
