@@ -77,6 +77,10 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
     };
     if is_on_plateau(&found, usual.difference) {
         found = leave_plateau(model, found, &usual)?;
+    } else if found.stopped == Termination::Converged && !found.minima.iter().any(|known| known.is_at(&found.best)) {
+        // a start that is lower than where the descents ended
+        let branches = vec![found.best.clone()];
+        found = search_beside(model, found, Leads { branches, ..Leads::default() }, &usual)?;
     }
     let searched = found.history.len();
     let (mut restarts, mut continued, mut beside, mut correlation) = (0, false, 0, None);
@@ -258,12 +262,12 @@ mod tests {
         }
     }
 
-    fn plan() -> SolvePlan {
+    fn plan(starts: usize) -> SolvePlan {
         SolvePlan {
             start: vec![0.1],
             method: Method::TrustRegion,
             design: Vec::new(),
-            budget: Budget::default(),
+            budget: Budget { starts, ..Budget::default() },
             region_evaluations: 20,
             runs: Repeatability::Smooth,
             series: Vec::new(),
@@ -272,19 +276,21 @@ mod tests {
 
     #[test]
     fn a_search_leaves_a_plateau() {
-        let found = solve(&mut Peak(100.0), &plan()).expect("it works").search;
-        assert!((found.best[0] - 0.8).abs() < 0.02 && found.stopped == Termination::Converged, "{found:?}");
+        for starts in [0, 4, 8] {
+            let found = solve(&mut Peak(100.0), &plan(starts)).expect("it works").search;
+            assert!((found.best[0] - 0.8).abs() < 0.02 && found.stopped == Termination::Converged, "{found:?}");
+        }
     }
 
     #[test]
     fn a_plateau_without_an_edge_is_not_convergence() {
-        let found = solve(&mut Peak(1e-9), &plan()).expect("it works").search;
+        let found = solve(&mut Peak(1e-9), &plan(4)).expect("it works").search;
         assert!(found.stopped == Termination::Plateau && found.stopped.to_string().contains("move the start"));
     }
 
     #[test]
     fn a_search_is_begun_anew_from_a_lower_point() {
-        let answer = solve(&mut DoubleWell, &plan()).expect("it works");
+        let answer = solve(&mut DoubleWell, &plan(0)).expect("it works");
         assert!(answer.restarts == 1 && (answer.search.best[0] - 0.9).abs() < 0.02, "{:?}", answer.search.best);
         assert_eq!(answer.search.minima.len(), 2);
         let explored = answer.explored.expect("enough points");

@@ -128,7 +128,7 @@ impl LocalMinimum {
     }
 
     /// Whether it lies at a point.
-    pub(super) fn is_at(&self, point: &[f64]) -> bool {
+    pub(in crate::inference) fn is_at(&self, point: &[f64]) -> bool {
         self.point.iter().zip(point).all(|(a, b)| (a - b).abs() <= SAME)
     }
 }
