@@ -64,12 +64,13 @@ class Calibration:
 
     @property
     def parameters(self) -> pd.DataFrame:
-        """A row a parameter: best value, 95 % interval, and whether the model has confirmed its ends."""
+        """A row a parameter: best value, 95 % interval with the gaps in it, and whether the model has confirmed its ends."""
         rows = []
         for found in self.document["parameters"]:
             lower, upper = found["interval"] or (None, None)
             row = {key: found[key] for key in ("name", "unit", "best")}
-            rows.append(row | {"lower": lower, "upper": upper, "settled": all(found["settled"])})
+            gaps = [tuple(gap) for gap in found.get("gaps", [])]
+            rows.append(row | {"lower": lower, "upper": upper, "gaps": gaps, "settled": all(found["settled"])})
         return pd.DataFrame(rows)
 
     @property
@@ -86,7 +87,9 @@ class Calibration:
         found = []
         for parameter in self.document["parameters"]:
             interval = parameter["interval"]
-            ends = f" [{interval[0]:.4g}, {interval[1]:.4g}]" if interval else ""
+            inner = [end for gap in parameter.get("gaps", []) for end in gap]
+            edges = [interval[0], *inner, interval[1]] if interval else []
+            ends = " or".join(f" [{low:.4g}, {high:.4g}]" for low, high in zip(edges[::2], edges[1::2]))
             found.append(f"{parameter['name']} {parameter['best']:.4g}{ends} {parameter['unit']}")
         left_open = f"; {len(self.findings)} findings" if self.findings else ""
         return f"<{', '.join(found)}{left_open}>"

@@ -71,6 +71,9 @@ def test_a_calibration_gives_parameters_with_intervals(folder):
     assert repr(found).startswith(f"<{viscosity['name']} {viscosity['best']:.4g} [") and "Pa·s" in repr(found)
     written = json.loads((folder / "found" / "result.json").read_text(encoding="utf-8"))
     assert viscosity["best"] == written["parameters"][0]["best"]
+    assert viscosity["gaps"] == []
+    written["parameters"][0] |= {"best": 0.35, "interval": [0.31, 0.6], "gaps": [[0.42, 0.55]]}
+    assert "[0.31, 0.42] or [0.55, 0.6]" in repr(type(found)(written, folder))
     assert isinstance(found.fit, pd.DataFrame) and len(found.fit) == 3 and found.hold_out.empty
     with pytest.raises(bagnold.Refused, match="--resume"):
         bagnold.calibrate("plan.toml", out="found")

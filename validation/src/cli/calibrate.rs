@@ -104,7 +104,7 @@ fn text(outcome: &CalibrationResult) -> String {
     text += &error("fit error", &outcome.fit);
     text += &error("held-out error", &outcome.hold_out);
     for finding in &outcome.findings {
-        text += &format!("open: {finding}\n");
+        text += &format!("finding: {finding}\n");
     }
     text
 }

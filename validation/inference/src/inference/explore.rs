@@ -9,7 +9,7 @@ use super::emulator::{Degree, Emulator, Minimum};
 use super::ends::{CLOSE, IntervalEnd, IntervalSide, TOLERANCE};
 use super::profile::ProfileLikelihood;
 use super::region::{Region, Uncertainties};
-use super::{Budget, Evaluate, Evaluated};
+use super::{Budget, Evaluate, Evaluated, LocalMinimum};
 use nalgebra::SymmetricEigen;
 
 /// Rounds of further points.
@@ -20,6 +20,9 @@ pub(super) const FAR: f64 = 25.0;
 
 /// Points on other branches that are tried for each parameter, though an emulator that is not at home there may promise many.
 const PROMISES: usize = 1;
+
+/// Share of a parameter's range beyond its interval that is too wide to be left unseen.
+const STRETCH: f64 = 0.2;
 
 /// Shares of the threshold at which the joint region is checked, inside and outside.
 const EDGE: [f64; 2] = [0.8, 1.25];
@@ -46,6 +49,39 @@ impl Explored {
     #[must_use]
     pub fn is_settled(&self) -> bool {
         self.joint_settled && self.ends.iter().flatten().all(|end| end.settled)
+    }
+
+    /// The lowest evaluated point of every part of an interval in which no known minimum lies.
+    pub(super) fn branches_without(&self, known: &[LocalMinimum]) -> Vec<Vec<f64>> {
+        let mut lowest: Vec<Vec<f64>> = Vec::new();
+        for (k, profile) in self.region.profiles.iter().enumerate().filter(|(_, profile)| !profile.gaps.is_empty()) {
+            for [from, to] in profile.intervals(k) {
+                let has = |point: &[f64]| (from..=to).contains(&point[k]);
+                if known.iter().map(|minimum| &minimum.point).chain(&lowest).any(|point| has(point)) {
+                    continue;
+                }
+                let inside: Vec<Evaluated> =
+                    self.history.iter().filter(|evaluated| has(&evaluated.point)).cloned().collect();
+                lowest.extend(best(&inside).map(|minimum| minimum.point));
+            }
+        }
+        lowest
+    }
+
+    /// Points in the wide stretches that the intervals of the least determined parameter leave out, along the emulator's valley.
+    pub(super) fn scouts(&self) -> Vec<Vec<f64>> {
+        let share = |k: &usize| self.region.profiles[*k].intervals(*k).iter().map(|[from, to]| to - from).sum::<f64>();
+        let Some(k) = (0..self.ends.len()).max_by(|a, b| share(a).total_cmp(&share(b))) else { return Vec::new() };
+        let [below, above] = &self.ends[k];
+        let mut points = Vec::new();
+        for (end, bound) in [(below, 0.0), (above, 1.0)] {
+            let stretch = bound - end.point[k];
+            if stretch.abs() > STRETCH {
+                let at = |part: f64| self.region.held(&end.point, k, end.point[k] + part * stretch).point;
+                points.extend([0.5, 0.8, 1.0].map(at));
+            }
+        }
+        points
     }
 }
 

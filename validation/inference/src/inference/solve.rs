@@ -6,11 +6,12 @@ use super::explore::{Explored, FAR, explore};
 use super::region::{Uncertainties, chi_squared_tail};
 use super::scatter::{Repeatability, averaged};
 use super::search::{
-    Budget, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search, search_beside,
-    search_design,
+    Budget, Leads, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search,
+    search_beside, search_design,
 };
 use super::serial_correlation::{SerialCorrelation, serial_correlation};
 use super::{Evaluate, Evaluated};
+use crate::sampling::design::sobol;
 
 /// Share of repeated experiments below which a χ² is a sign that the model or the stated uncertainties are wrong, and above
 /// which it is too good to be true.
@@ -18,6 +19,15 @@ pub const UNLIKELY: f64 = 0.01;
 
 /// Searches that are begun anew from a lower point.
 const MOST_RESTARTS: usize = 3;
+
+/// Rise of χ², in thresholds of the region, up to which the emulator's promise of another minimum is followed.
+const WORST: f64 = 4.0;
+
+/// Change of the residuals, as a share of all of them, that counts as none.
+const FLAT: f64 = 1e-4;
+
+/// Points for each parameter at which a search that begins on a plateau looks for its edge.
+const PLATEAU_STARTS: usize = 16;
 
 /// Plan of a search and its exploration, with their budgets.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,6 +75,13 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         let budget = Budget { evaluations: plan.design.len() + 1, ..usual };
         search_design(model, &plan.design, budget)?
     };
+    if is_on_plateau(&found, usual.difference) {
+        found = leave_plateau(model, found, &usual)?;
+    } else if found.stopped == Termination::Converged && !found.minima.iter().any(|known| known.is_at(&found.best)) {
+        // a start that is lower than where the descents ended
+        let branches = vec![found.best.clone()];
+        found = search_beside(model, found, Leads { branches, ..Leads::default() }, &usual)?;
+    }
     let searched = found.history.len();
     let (mut restarts, mut continued, mut beside, mut correlation) = (0, false, 0, None);
     loop {
@@ -91,10 +108,14 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         if left > 0 && beside < MOST_RESTARTS {
             beside += 1;
             let known = found.minima.len();
-            let worst = lowest.chi_squared + explored.region.threshold;
-            let places = explored.emulator.below(lowest.chi_squared + FAR * explored.region.threshold);
+            let leads = Leads {
+                branches: explored.branches_without(&found.minima),
+                scouts: explored.scouts(),
+                places: explored.emulator.below(lowest.chi_squared + FAR * explored.region.threshold),
+                worst: lowest.chi_squared + WORST * explored.region.threshold,
+            };
             let before = SearchResult { history: explored.history.clone(), ..found };
-            found = search_beside(model, before, &places, worst, &Budget { evaluations: left, ..usual })?;
+            found = search_beside(model, before, leads, &Budget { evaluations: left, ..usual })?;
             if found.minima.len() > known || found.chi_squared < lowest.chi_squared {
                 // another minimum has a region of its own
                 continue;
@@ -121,10 +142,48 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
                 averaged(model, search, explored, uncertainties, &budget).map_err(SearchError::Model)?
             }
         };
-        let stopped = judged(search.stopped, &explored);
+        let stopped = if is_on_plateau(&search, usual.difference) {
+            Termination::Plateau
+        } else {
+            judged(search.stopped, &explored)
+        };
         let search = SearchResult { stopped, ..search };
         return Ok(Answer { search, searched, explored: Some(explored), restarts, correlation });
     }
+}
+
+/// Whether the best point explains the data badly while no parameter changes the residuals: points equal it, all near ones too.
+fn is_on_plateau(found: &SearchResult, difference: f64) -> bool {
+    let Some(best) = found.history.iter().find(|evaluated| evaluated.point == found.best) else { return false };
+    let Some(residuals) = &best.residuals else { return false };
+    let freedom = residuals.len().saturating_sub(best.point.len()).max(1);
+    let is_near =
+        |other: &Evaluated| other.point.iter().zip(&best.point).all(|(a, b)| (a - b).abs() <= 1.01 * difference);
+    let is_equal = |other: &Evaluated| {
+        let change = |of: &Vec<f64>| of.iter().zip(residuals).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+        other.residuals.as_ref().is_some_and(|of| change(of) <= FLAT * FLAT * found.chi_squared)
+    };
+    chi_squared_tail(found.chi_squared, freedom) < UNLIKELY
+        && found.history.iter().filter(|other| is_equal(other)).count() > best.point.len()
+        && found.history.iter().all(|other| !is_near(other) || is_equal(other))
+}
+
+/// Descends from the lowest points of a wide design at which χ² differs from that of the plateau.
+fn leave_plateau<M: Evaluate>(
+    model: &mut M,
+    found: SearchResult,
+    budget: &Budget,
+) -> Result<SearchResult, SearchError<M::Error>> {
+    let (level, dimensions) = (found.chi_squared, found.best.len());
+    let scouts = sobol(PLATEAU_STARTS * dimensions, dimensions, budget.seed);
+    let mut found = search_beside(model, found, Leads { scouts, ..Leads::default() }, budget)?;
+    found.minima.clear();
+    let other = |at: &Evaluated| Some((at.chi_squared?, at.point.clone()));
+    let mut others: Vec<(f64, Vec<f64>)> = found.history.iter().filter_map(other).collect();
+    others.retain(|(chi_squared, _)| (chi_squared / level - 1.0).abs() > FLAT);
+    others.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let branches = others.into_iter().take(MOST_RESTARTS).map(|(_, point)| point).collect();
+    search_beside(model, found, Leads { branches, ..Leads::default() }, budget)
 }
 
 /// A search that stalled on the roughness of runs has come to rest all the same, where the region is settled and nothing in it
@@ -191,18 +250,47 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_search_is_begun_anew_from_a_lower_point() {
-        let plan = SolvePlan {
+    /// A peak of a height that the data show, and residuals that do not change away from it.
+    struct Peak(f64);
+
+    impl Evaluate for Peak {
+        type Error = Infallible;
+        fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Infallible> {
+            let peak = |u: f64, centre: f64| self.0 * libm::exp(-((u - centre) / 0.06) * ((u - centre) / 0.06));
+            let one = |u: &Vec<f64>| vec![peak(u[0], 0.8) - 100.0, peak(u[0], 0.83) - 80.0, 0.5];
+            Ok(points.iter().map(|u| Some(one(u))).collect())
+        }
+    }
+
+    fn plan(starts: usize) -> SolvePlan {
+        SolvePlan {
             start: vec![0.1],
             method: Method::TrustRegion,
             design: Vec::new(),
-            budget: Budget::default(),
+            budget: Budget { starts, ..Budget::default() },
             region_evaluations: 20,
             runs: Repeatability::Smooth,
             series: Vec::new(),
-        };
-        let answer = solve(&mut DoubleWell, &plan).expect("it works");
+        }
+    }
+
+    #[test]
+    fn a_search_leaves_a_plateau() {
+        for starts in [0, 4, 8] {
+            let found = solve(&mut Peak(100.0), &plan(starts)).expect("it works").search;
+            assert!((found.best[0] - 0.8).abs() < 0.02 && found.stopped == Termination::Converged, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_plateau_without_an_edge_is_not_convergence() {
+        let found = solve(&mut Peak(1e-9), &plan(4)).expect("it works").search;
+        assert!(found.stopped == Termination::Plateau && found.stopped.to_string().contains("move the start"));
+    }
+
+    #[test]
+    fn a_search_is_begun_anew_from_a_lower_point() {
+        let answer = solve(&mut DoubleWell, &plan(0)).expect("it works");
         assert!(answer.restarts == 1 && (answer.search.best[0] - 0.9).abs() < 0.02, "{:?}", answer.search.best);
         assert_eq!(answer.search.minima.len(), 2);
         let explored = answer.explored.expect("enough points");

@@ -25,7 +25,7 @@ pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison
 fn of_search(plan: &CalibrationPlan, answer: &Answer) -> Vec<String> {
     let search = &answer.search;
     let mut findings = Vec::new();
-    if matches!(search.stopped, Termination::BudgetSpent | Termination::Stalled) {
+    if matches!(search.stopped, Termination::BudgetSpent | Termination::Stalled | Termination::Plateau) {
         findings.push(format!("the search did not converge: {}", search.stopped));
     }
     if !search.every_start {

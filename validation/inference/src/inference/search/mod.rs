@@ -81,6 +81,8 @@ pub enum Termination {
     Stalled,
     /// Runs are too rough for shorter steps, but nothing in the region promises a χ² lower by what its ends would notice.
     AtRest,
+    /// No parameter changes the residuals at the best point, although they are far larger than the errors.
+    Plateau,
     /// The points of the design are evaluated.
     DesignDone,
 }
@@ -96,6 +98,10 @@ impl fmt::Display for Termination {
             }
             Self::AtRest => {
                 "at rest: runs are too rough for shorter steps, but nothing about promises a notably lower χ²"
+            }
+            Self::Plateau => {
+                "on a plateau: no parameter changes the model at the best point, whose χ² is far above what the errors allow; move the \
+                 start or the ranges to where the model responds"
             }
             Self::DesignDone => "done: all points of the design and the minimum of their polynomial are evaluated",
         })
@@ -122,7 +128,7 @@ impl LocalMinimum {
     }
 
     /// Whether it lies at a point.
-    pub(super) fn is_at(&self, point: &[f64]) -> bool {
+    pub(in crate::inference) fn is_at(&self, point: &[f64]) -> bool {
         self.point.iter().zip(point).all(|(a, b)| (a - b).abs() <= SAME)
     }
 }
@@ -260,25 +266,47 @@ pub fn continue_search<M: Evaluate>(
     recorder.finish(outcome, minima, every_start)
 }
 
-/// Descends to minima beside known ones that the emulator of all evaluations promises downhill of some places, with a χ² up to
-/// `worst`; evaluates at most the budget's number of further points.
+/// Places from which minima beside the known ones are looked for.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Leads {
+    /// Lowest evaluated points of branches without a known minimum: the model descends from each.
+    pub(super) branches: Vec<Vec<f64>>,
+    /// Points where nothing is known, to be evaluated first.
+    pub(super) scouts: Vec<Vec<f64>>,
+    /// Points from which the emulator descends.
+    pub(super) places: Vec<Vec<f64>>,
+    /// Largest χ² that the emulator may promise.
+    pub(super) worst: f64,
+}
+
+/// Descends to minima beside known ones, from branches and where the emulator of all evaluations promises one; evaluates at most
+/// the budget's number of further points.
 ///
 /// # Errors
 /// An error of the model itself.
 pub(super) fn search_beside<M: Evaluate>(
     model: &mut M,
     before: SearchResult,
-    places: &[Vec<f64>],
-    worst: f64,
+    leads: Leads,
     budget: &Budget,
 ) -> Result<SearchResult, SearchError<M::Error>> {
     let most = before.history.len() + budget.evaluations;
     let mut recorder = Recorder::with(model, before.history, most);
     let mut minima = before.minima;
-    match starts::descend_from(&mut recorder, &mut minima, budget, places, &[], worst) {
-        Ok(_) => recorder.finish(Ok(before.stopped), minima, before.every_start),
-        Err(halt) => recorder.finish(Err(halt), minima, before.every_start),
-    }
+    let Leads { branches, scouts, mut places, worst } = leads;
+    let outcome = (|| {
+        for branch in &branches {
+            let descent = trust_region::run(&mut recorder, branch, budget, &[])?;
+            let found = LocalMinimum { point: descent.point, chi_squared: descent.chi_squared };
+            if !minima.iter().any(|known| known.is_near(&found)) {
+                minima.push(found);
+            }
+        }
+        recorder.residuals(&scouts)?;
+        places.extend(scouts);
+        starts::descend_from(&mut recorder, &mut minima, budget, &places, &[], worst)
+    })();
+    recorder.finish(outcome.map(|_| before.stopped), minima, before.every_start)
 }
 
 /// Descends on from the best point, whose minimum takes the place of those near it.
