@@ -154,7 +154,7 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
         panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
     ];
     let mut caption = "Run-out and final height of the columns over their aspect ratio, with the published laws of their geometry and \
-                       Lube's run-out of the other one. Numbers in brackets are the equations of the collapse paper. No scatter of the points \
+                       Lube's laws of the other one. Numbers in brackets are the equations of the collapse paper. No scatter of the points \
                        behind the laws is published. Filled marks lie within their gate or have none."
         .to_owned();
     if fits > 0 {
@@ -293,7 +293,7 @@ fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Fig
     let caption = format!(
         "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a linear fit to the flowing layer, \
          the points faster than 0.35 of the largest velocity, with its share R² of the variance. Right, one exponential for all stations \
-         below that layer, down to 0.05 of the largest velocity; three points at least make a tail.",
+         below that layer, down to 0.05 of the largest velocity, where at least three points make a tail; else none is drawn.",
         label(run)
     );
     let name = format!("velocity-{}", stem(run));

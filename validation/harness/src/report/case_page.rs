@@ -11,7 +11,7 @@ use super::view::{VerdictMark, typed};
 use super::{DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
-use crate::metric::{Metric, MetricKind, Variant, Verdict};
+use crate::metric::{self, Metric, MetricKind, Variant, Verdict};
 use crate::number::{count, four_digits};
 use crate::observation::Outcome;
 use serde_json::{Value, json};
@@ -100,7 +100,7 @@ fn groups(rows: Vec<Value>, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
 }
 
 /// The figure that is named like a value of a metric's variant, else the one that shares most words with its name and, of equals, that of
-/// the metric's own run; nothing where none does. A figure of another run alone is none.
+/// the metric's own run. Nothing where a single word of a caption is all that is shared, and no figure that is named like another run.
 fn figure(metric: &Metric, drawn: &[DrawnFigure], runs: &[&Variant]) -> String {
     // a figure `velocity-sand-0.9-20` is that of the run with the values `sand-0.9-20`
     let run_of = |drawn: &DrawnFigure| {
@@ -129,10 +129,19 @@ fn figure(metric: &Metric, drawn: &[DrawnFigure], runs: &[&Variant]) -> String {
         metric.variant.parts().map(|(_, value)| by_value(&value.to_string())).max().unwrap_or_default()
     };
     let fit = |drawn: &DrawnFigure| (of_run(drawn), shared(drawn), run_of(drawn).is_some());
-    let candidates = drawn.iter().filter(|drawn| drawn.failure.is_none() && run_of(drawn).is_none_or(is_own));
+    // `energy-budget-sand` shows nothing of a run with another material
+    let is_of_another = |drawn: &&DrawnFigure| {
+        let differs = |(key, value): &(&str, &metric::Value)| metric.variant.get(key).is_some_and(|own| own != *value);
+        let others = runs.iter().flat_map(|run| run.parts()).filter(differs);
+        let mut words = others.map(|(_, value)| value.to_string()).filter(|word| word.len() > 1);
+        run_of(drawn).is_none() && words.any(|word| is_word_of(&drawn.name, &word))
+    };
+    let is_sound = |drawn: &&DrawnFigure| drawn.failure.is_none() && run_of(drawn).is_none_or(is_own);
+    let candidates = drawn.iter().filter(is_sound).filter(|drawn| !is_of_another(drawn));
     // the first of equals
     let best = candidates.rev().max_by_key(|drawn| fit(drawn));
-    best.filter(|best| fit(best) >= (0, 1, false)).map(|best| best.name.clone()).unwrap_or_default()
+    let is_enough = |(of_run, words, is_own): (usize, usize, bool)| of_run > 0 || words > 1 || words > 0 && is_own;
+    best.filter(|best| is_enough(fit(best))).map(|best| best.name.clone()).unwrap_or_default()
 }
 
 /// Numbers of a case's metrics by status, in words.

@@ -286,8 +286,8 @@ fn against_layer(stage: Stage, records: &[&BedLoadRecord]) -> Figure {
         let Some(layer) = &record.data.layer else { continue };
         let reached = fluid_mean(run, &record.data.channel.profile.points(), layer);
         caption += &format!(
-            " The run \"{}\" began with that share of the layer's velocity and has reached {reached:.2} of it (mean over the depth): it is not \
-             steady.",
+            " The run \"{}\" began with that share of the layer's velocity and has {reached:.2} of it on average over the window (mean over the depth): it \
+             is not steady.",
             label(run)
         );
     }

@@ -112,9 +112,9 @@ fn thickness(records: &[InclineCollapseRecord]) -> Figure {
             let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front)) * r;
             let law = 100.0 * law.unwrap_or(f64::NAN);
             panel.reference("largest thickness by the paper", [(0.0, stated), (far, stated)]);
-            panel.reference("by its (44)", [(0.0, law), (far, law)]);
+            panel.reference("by (44), reconstructed", [(0.0, law), (far, law)]);
             caption += &format!(
-                " At {angle}° the paper's largest thickness is about {stated} cm, and its (44) gives {law:.2} cm."
+                " At {angle}° the paper's largest thickness is about {stated} cm, and (44), reconstructed from (40), (41) and (43), gives {law:.2} cm."
             );
         }
         panels.push(panel);
@@ -185,7 +185,7 @@ fn velocities((run, record): &InclineCollapseRecord) -> Figure {
 /// The viscosity in time: the paper's figure 5.
 fn viscosities((run, record): &InclineCollapseRecord) -> Figure {
     let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s, and on a logarithmic one. Yellow is 1.5 Pa·s \
-                   or more on the left and 10⁴ Pa·s or more on the right. The viscosity of grains that hardly move has no upper bound.";
+                   or more where η is drawn, and 10⁴ Pa·s or more where its logarithm is. The viscosity of grains that hardly move has no upper bound.";
     fields("fields", caption, run, record, |frame| {
         let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();

@@ -142,8 +142,11 @@ fn arrest_and_runaway(records: &[&BagnoldRecord]) -> Figure {
     if has(BagnoldPurpose::Runaway) {
         caption += "Above the limiting friction angle a layer from rest accelerates without end; its run stops when its mean passes half the \
                     sound speed. ";
+    } else {
+        caption += "Layers that run away belong to the paper tier. ";
     }
-    Figure::new("arrest-and-runaway", caption.trim_end(), panels.collect())
+    caption += "Dashed is the 1-D transient solver.";
+    Figure::new("arrest-and-runaway", &caption, panels.collect())
 }
 
 fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Option<Figure> {
