@@ -122,6 +122,8 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
             let own = || records.iter().filter(|(run, _)| (run.material, run.resolution) == (material, resolution));
             let holds = |run: &ColumnRun, value: f64| gate(run).is_none_or(|(limit, _)| limit.holds(value));
             let title = own().next().map_or(String::new(), |(run, _)| run.material.title_with(&run.law));
+            // short, so that two stand on a line of the legend
+            let title = title.replace(" of Table 2", "").replace("grains of ", "").replace(" et al.", "");
             for (mark, inside) in [(Mark::Points, true), (Mark::OpenPoints, false)] {
                 let points: Vec<(f64, f64)> = own()
                     .map(|(run, record)| (run, measure(&record.data)))
@@ -129,9 +131,8 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
                     .map(|(run, value)| (run.initial_height(), value))
                     .collect();
                 let entry = match (inside, legend) {
-                    (true, true) => format!("{title}, {resolution} particles over r0"),
-                    (true, false) => String::new(),
-                    (false, _) => format!("outside of its gate, {title}"),
+                    (true, true) => format!("{title}, r0/{resolution}"),
+                    _ => String::new(),
                 };
                 if inside || !points.is_empty() {
                     panel.draw(&entry, mark, slot, points);
@@ -155,7 +156,8 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
     ];
     let mut caption = "Run-out and final height of the columns over their aspect ratio, with the published laws of their geometry and \
                        Lube's laws of the other one. Numbers in brackets are the equations of the collapse paper. No scatter of the points \
-                       behind the laws is published. Filled marks lie within their gate or have none."
+                       behind the laws is published. Filled marks lie within their gate or have none, open ones outside it. Marks name \
+                       the grains (sand of Table 2) and the spacing of particles."
         .to_owned();
     if fits > 0 {
         caption += " Fits are power laws through the tall columns, with the 95 % interval of the exponent.";
