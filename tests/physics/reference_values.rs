@@ -1,8 +1,10 @@
 //! Reference values that files hold as numbers, by the route that they came from: what material points extrapolate to, and the travelling front
 //! that `fed-slope` is compared with.
 
-use bagnold_reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
+use bagnold_reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, RoughIncline, SLOPE_CODES};
 use bagnold_reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
+use bagnold_reference::one_dimension::{BagnoldProfile, NonlocalLayer};
+use bagnold_solver::material::rheology::field::FieldBoundary;
 use std::path::Path;
 
 fn text(path: &str) -> String {
@@ -147,7 +149,8 @@ fn references_of_the_fed_slope_are_those_of_its_front() {
     }
 }
 
-/// Curves of the figure over the slope: the uniform layer of the local law, and h_stop of experiments.
+/// Curves of the figure over the slope: the uniform layers of the local and of the nonlocal law at one discharge, h_stop of
+/// experiments, and (44) of the collapse paper.
 #[test]
 fn curves_of_the_fed_slope_are_those_of_their_formulas() {
     let study: toml::Value = toml::from_str(&text("validation/studies/fed-slope.toml")).expect("TOML");
@@ -168,5 +171,26 @@ fn curves_of_the_fed_slope_are_those_of_their_formulas() {
         let slope = point[0].to_radians().tan();
         let stop = length * (law.limiting_friction - slope) / (slope - law.static_friction);
         assert!((point[1] / stop - 1.0).abs() < 0.002, "{point:?}: {stop}");
+    }
+    for point in curve("(44), reconstructed, of a reservoir of 14 cm") {
+        let formula = RoughIncline::of_glass_beads().flow_thickness(0.14, point[0].to_radians()).expect("a flow");
+        assert!((point[1] / formula - 1.0).abs() < 0.002, "{point:?}: {formula}");
+    }
+    // the discharge of the layer that is drawn is the fed one, in finite volumes
+    for point in curve("uniform layer of the nonlocal law") {
+        let layer = BagnoldProfile {
+            inclination: point[0].to_radians(),
+            layer_height: point[1],
+            gravity: 9.81,
+            solid_fraction: GLASS_BEADS.solid_fraction,
+            grain_diameter: law.grain_diameter,
+            grain_density: law.grain_density,
+            static_friction: law.static_friction,
+            limiting_friction: law.limiting_friction,
+            reference_inertia: law.reference_inertia,
+        };
+        let layer = NonlocalLayer { layer, cooperativity: 0.48, surface: FieldBoundary::Vanishing };
+        let discharge = density * point[1] * layer.steady(400).expect("a steady flow").depth_mean();
+        assert!((discharge / 2.475 - 1.0).abs() < 0.005, "{point:?}: {discharge} kg/(m s)");
     }
 }

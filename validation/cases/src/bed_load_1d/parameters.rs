@@ -106,17 +106,17 @@ impl BedLoad1dParameters {
 
     /// A height of cells that divides all depths.
     pub(super) fn cells(&self, field: &str, height: f64) -> Result<(), ParameterError> {
-        let depths = [self.water.depth, self.grains.bed_depth, self.grains.held_depth];
-        let fits = |depth: &f64| (depth / height - (depth / height).round()).abs() < 1e-6;
-        if depths.iter().all(fits) && depths[0] / height >= 10.0 && (depths[0] + depths[1]) / height <= 1e5 {
-            return Ok(());
-        }
-        let rule = "such that the depths of water, bed and held grains are whole multiples of it, at most 1e5 in all";
-        Err(ParameterError::field(
-            field,
-            height,
-            rule,
-            "2.5e-4 divides all depths that are given in quarters of a millimetre",
-        ))
+        check_cells(field, height, &[self.water.depth, self.grains.bed_depth, self.grains.held_depth])
     }
+}
+
+/// A height of cells that divides depths `[m]`, that of the water first and that of the bed second.
+pub(super) fn check_cells(field: &str, height: f64, depths: &[f64]) -> Result<(), ParameterError> {
+    let fits = |depth: &f64| (depth / height - (depth / height).round()).abs() < 1e-6;
+    if depths.iter().all(fits) && depths[0] / height >= 10.0 && (depths[0] + depths[1]) / height <= 1e5 {
+        return Ok(());
+    }
+    let rule = "such that the depths of water, bed and held grains are whole multiples of it, at most 1e5 in all";
+    let remedy = "2.5e-4 divides all depths that are given in quarters of a millimetre";
+    Err(ParameterError::field(field, height, rule, remedy))
 }

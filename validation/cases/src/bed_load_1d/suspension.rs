@@ -1,10 +1,11 @@
 //! Grains that eddies also carry: two measured sheet flows and the slopes of the case, with the uncertain inputs varied.
 
 use super::BedLoad1dRecord;
+use super::parameters::check_cells;
 use super::records::of;
 use super::run::{BedLoad1dRun, LayerPurpose};
 use super::suspension_inputs::{SuspendedFlow, SuspensionInput, SuspensionInputs};
-use crate::case::Run;
+use crate::case::{ParameterError, Run};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, quantities};
 use crate::reference::bed_load::{MeasuredBedLoad, SHEET_FLOW_LOWEST_VELOCITY};
@@ -50,6 +51,25 @@ impl LayerPurpose {
     fn suspended(self) -> Option<(SuspendedFlow, SuspensionInput)> {
         if let Self::Suspended(flow, input) = self { Some((flow, input)) } else { None }
     }
+}
+
+/// Refuses heights of a cell that do not divide the depths of the flows.
+pub(super) fn check(inputs: &SuspensionInputs) -> Result<(), ParameterError> {
+    let others = inputs.cell_heights.iter().enumerate();
+    let others = others.map(|(place, height)| (format!("suspension.cell_heights[{place}]"), *height));
+    let heights = [("suspension.cell_height".to_owned(), inputs.cell_height)].into_iter().chain(others);
+    for (field, height) in heights {
+        for flow in &inputs.flows {
+            let stream = match flow {
+                SuspendedFlow::SheetFlow => MeasuredBedLoad::SheetFlow.stream(),
+                SuspendedFlow::Duct => duct(),
+                // in the case's own cells
+                SuspendedFlow::Slope => continue,
+            };
+            check_cells(&field, height, &[stream.flow_depth, stream.bed_depth])?;
+        }
+    }
+    Ok(())
 }
 
 /// The sheet flows, each input varied alone, and the slopes of the case.
@@ -313,6 +333,14 @@ mod tests {
         assert!((stream.shields_number() / DUCT.0 - 1.0).abs() < 1e-12);
         assert!((stream.flow_depth / stream.grain_diameter - DUCT.1).abs() < 1e-12);
         assert!(stream.slope < stream.sliding_slope(&Closures::default()));
+    }
+
+    #[test]
+    fn cells_that_do_not_divide_a_depth_are_refused() {
+        assert!(check(&SuspensionInputs::literature()).is_ok() && check(&SuspensionInputs::quick()).is_ok());
+        let odd = SuspensionInputs { cell_heights: vec![3.7e-3], ..SuspensionInputs::quick() };
+        let message = check(&odd).expect_err("refused").to_string();
+        assert!(message.starts_with("`suspension.cell_heights[0]` is 0.0037, but must be such that"), "{message}");
     }
 
     #[test]

@@ -74,6 +74,7 @@ impl Parameters for BedLoad1dParameters {
             check_sliding(&format!("slopes[{place}]"), run.stream.slope, run)?;
         }
         similar::check(self)?;
+        suspension::check(&self.suspension)?;
         check_replacements(self)
     }
 

@@ -83,7 +83,7 @@ impl Checkpoints {
         decoded
     }
 
-    /// What `decode` makes of the newest checkpoint that it can use.
+    /// Result of `decode` for the newest checkpoint that it can use.
     pub fn usable<T>(&self, decode: impl FnMut(&[u8]) -> Option<T>) -> Option<T> {
         self.whole().iter().map(|found| &found.contents[..]).find_map(decode)
     }
