@@ -51,7 +51,7 @@ fn film_with(errors: &[f64]) -> Problem<impl Fn(&[f64]) -> Option<Vec<f64>> + us
 }
 
 /// Errors of an autoregressive process of first order and unit variance.
-fn correlated_errors(seed: u64, count: usize, coefficient: f64) -> Vec<f64> {
+pub(crate) fn correlated_errors(seed: u64, count: usize, coefficient: f64) -> Vec<f64> {
     let mut errors = normal(seed, count);
     for k in 1..count {
         errors[k] = coefficient * errors[k - 1] + (1.0 - coefficient * coefficient).sqrt() * errors[k];
@@ -61,7 +61,7 @@ fn correlated_errors(seed: u64, count: usize, coefficient: f64) -> Vec<f64> {
 
 #[test]
 #[ignore = "the full study: some minutes"]
-fn correlated_errors_are_named_and_their_regions_hold_the_truth() {
+pub(crate) fn correlated_errors_are_named_and_their_regions_hold_the_truth() {
     for (count, coefficient) in [(40, 0.5), (40, 0.8), (20, 0.8), (80, 0.5)] {
         let tally = Tally::of(200..240, &START, |seed| film_with(&correlated_errors(seed, count, coefficient)));
         tally.print(&format!("film of {count} velocities, correlation {coefficient}"));

@@ -44,18 +44,24 @@ with = { fluids = ["newtonian"], resolution = 10, jitter = 0.0, convergence_reso
 const PROFILE: &str =
     r#"table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]""#;
 
-struct Unseen;
+pub(crate) struct Unseen;
 
 impl CalibrationMonitor for Unseen {
     fn expected(&self, _: usize) {}
     fn evaluated(&self, _: &str, _: Option<&str>) {}
 }
 
+/// The plan in a folder.
+fn plan(folder: &Path) -> CalibrationPlan {
+    let file = folder.join("plan.toml");
+    CalibrationPlan::read(&file, *REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"))
+}
+
 /// Result of a plan in a folder.
 pub(crate) fn outcome(folder: &Path, text: &str) -> CalibrationResult {
     let file = folder.join("plan.toml");
     std::fs::write(&file, text).expect("a folder to write in");
-    let plan = CalibrationPlan::read(&file, *REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
+    let plan = plan(folder);
     let kept = CalibrationFolder::begin(&folder.join("out"), &file, REGISTRY.origin(), false)
         .unwrap_or_else(|error| panic!("{error}"));
     calibrate(&plan, &kept, *REGISTRY, &Store::open(StorePolicy::Use), &Unseen)
@@ -168,7 +174,7 @@ fn intervals_on_the_page_are_those_of_the_sampled_region() {
         }
     }
     assert!(told >= 2, "{:?}", outcome.findings);
-    write(&outcome, folder.path()).expect("a folder to write in");
+    write(&outcome, &plan(folder.path()), folder.path()).expect("a folder to write in");
     let page = std::fs::read_to_string(folder.path().join("index.html")).expect("written");
     // what is constrained least comes first, with the interval of the result
     let mut rows: Vec<_> = outcome.parameters.iter().collect();

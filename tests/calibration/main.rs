@@ -6,8 +6,10 @@
 mod coverage;
 mod film;
 mod findings;
+mod held_out;
 mod layer;
 mod minima;
+mod particles;
 mod scattering;
 mod simulated;
 mod strangers;

@@ -51,7 +51,7 @@ pub(super) fn run(
     let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
     bar.0.clear();
     let outcome = outcome?;
-    write(&outcome, &folder)?;
+    write(&outcome, &plan, &folder)?;
     say(output, &text(&outcome));
     let beyond = outcome.evaluations.len().saturating_sub(outcome.searched);
     let simulations = std::fs::read_dir(kept.evaluations()).map_or(0, Iterator::count);

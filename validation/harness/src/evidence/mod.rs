@@ -5,6 +5,7 @@
 //! paper is written in the code that uses it.
 
 mod error;
+mod held_out;
 mod input_range;
 mod measured;
 mod measured_table;
@@ -16,6 +17,7 @@ mod stated_uncertainty;
 mod validation_set;
 
 pub use error::ReferenceError;
+pub use held_out::{HeldOutDatum, HeldOutJudgement};
 pub use input_range::{Basis, InputRange, Spread};
 pub use measured::{MeasuredData, Metadata, ReferenceKind};
 pub use measured_table::ReferenceColumn;

@@ -3,7 +3,7 @@
 use super::accepted::tier_name;
 use super::template::fill;
 use super::{CaseReport, DrawnFigure, Report};
-use crate::evidence::{ValidatedComparison, ValidationSet, WAY_OF_FRONT};
+use crate::evidence::{HeldOutDatum, HeldOutJudgement, ValidatedComparison, ValidationSet, WAY_OF_FRONT};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Metric, PredictionInterval, REGIME_NUMBERS};
 use crate::number::{four_digits, two_digits};
@@ -142,6 +142,34 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, m
         "numbers": REGIME_NUMBERS,
         "quantities": groups(set).iter().map(view).collect::<Vec<_>>(),
         "predictions": predictions(report).iter().map(row).collect::<Vec<_>>(),
+        "held_out": HeldOutJudgement::shipped().iter().map(held_out).collect::<Vec<_>>(),
     });
     fill("validated.html", &page)
+}
+
+/// A stored judgement of a calibration as the page shows it.
+fn held_out((name, judgement): &(&str, HeldOutJudgement)) -> Value {
+    let row = |datum: &HeldOutDatum| {
+        let interval = |(low, high): (f64, f64)| format!("{} … {}", four_digits(low), four_digits(high));
+        let [below, middle, above] = datum.datum;
+        vec![
+            datum.quantity.clone(),
+            datum.unit.clone(),
+            format!("{} ({})", four_digits(middle), interval((below, above))),
+            four_digits(datum.model),
+            datum.predicted.map(interval).unwrap_or_default(),
+            two_digits(datum.deviation).to_string(),
+            if datum.agrees() { "✓ agrees" } else { "✗ differs" }.to_owned(),
+        ]
+    };
+    json!({
+        "name": name,
+        "title": judgement.title,
+        "sentence": judgement.in_words(),
+        "parameters": judgement.parameters,
+        "findings": judgement.findings.iter().map(|finding| finding.replace('`', "")).collect::<Vec<_>>(),
+        "rows": judgement.data.iter().map(row).collect::<Vec<_>>(),
+        "digest": judgement.digest,
+        "made_by": judgement.made_by,
+    })
 }

@@ -38,6 +38,7 @@ pub(super) fn compared<'r>(
         residual: datum.residual(model) * if held_out { 1.0 } else { objective.weight(place) },
         scatter: if held_out { 0.0 } else { objective.scatter(place) },
         predicted: None,
+        spread: 0.0,
         source: datum.source,
     };
     Ok(data.into_iter().zip(predicted).enumerate().map(one).collect())

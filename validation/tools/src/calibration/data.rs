@@ -63,6 +63,11 @@ pub(super) enum Group {
 }
 
 impl DatumText {
+    /// CSV file of the data, beside the plan.
+    pub(super) fn file(&self) -> Option<&Path> {
+        self.file.as_deref()
+    }
+
     /// Checks what is given and what is missing; `field` names the table.
     pub(super) fn check(&self, field: &str) -> Result<(), FieldError> {
         let wrong = |name: &str, value: &str, rule: &str, remedy: &str| {

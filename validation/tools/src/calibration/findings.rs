@@ -145,6 +145,7 @@ mod tests {
             residual: *residual,
             scatter: 0.0,
             predicted: None,
+            spread: 0.0,
             source: "a test".to_owned(),
         };
         residuals.iter().enumerate().map(datum).collect()

@@ -5,6 +5,7 @@
 //! FOLDER/evaluations/KEY.postcard one file an evaluation
 //! FOLDER/index.html, figures/     the page
 //! FOLDER/result.json              everything on the page; evaluations.csv, data.csv
+//! FOLDER/held-out.json            what was held out beside its prediction, with the digest of the plan
 //! FOLDER/calibrated.toml          the first fitted case with the best parameters, for `bagnold run`
 //! ```
 //!
@@ -18,6 +19,7 @@ mod error;
 mod figures;
 mod findings;
 mod folder;
+mod held_out;
 mod objective;
 mod page;
 mod plan;
@@ -50,7 +52,6 @@ use crate::store::Store;
 use assembly::compared;
 use objective::Objective;
 use repeated::Repeated;
-use std::sync::Mutex;
 
 /// Searches, or tries every choice, and judges on what was held out. What `folder` holds is not done again.
 ///
@@ -63,17 +64,7 @@ pub fn calibrate(
     store: &Store,
     watch: &dyn CalibrationMonitor,
 ) -> Result<CalibrationResult, CalibrationError> {
-    let mut objective = Objective {
-        plan,
-        registry,
-        store,
-        folder: folder.evaluations(),
-        watch,
-        data: Vec::new(),
-        failure: Mutex::default(),
-        variances: Vec::new(),
-    };
-    objective.read_data()?;
+    let mut objective = Objective::begin(plan, folder, (registry, store), watch)?;
     if !plan.choices.is_empty() {
         return trials::try_all(&objective);
     }
@@ -102,6 +93,23 @@ pub fn calibrate(
     let asked = posterior.as_ref().filter(|_| plan.method == Method::Posterior);
     let calibrated = assembly::calibrated(&objective, &values)?;
     Ok(assembly::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked))
+}
+
+/// Data that were held out beside the model at these values of the parameters, without a search.
+///
+/// # Errors
+/// Those of [`calibrate`], and runs that fail.
+pub fn predict(
+    plan: &CalibrationPlan,
+    folder: &CalibrationFolder,
+    registry: Registry,
+    store: &Store,
+    watch: &dyn CalibrationMonitor,
+    values: &[f64],
+) -> Result<Vec<DatumComparison>, CalibrationError> {
+    let objective = Objective::begin(plan, folder, (registry, store), watch)?;
+    let failed = |reason: String| CalibrationError::Search { file: plan.file.clone(), reason };
+    compare_at(&objective, values, true)?.map_err(failed)
 }
 
 /// The search and its region; where evaluations are repeated, once more with the scatter that was seen about the minimum.

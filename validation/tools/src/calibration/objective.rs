@@ -2,6 +2,7 @@
 
 use super::data::{Group, Synthetic};
 use super::error::CalibrationError;
+use super::folder::CalibrationFolder;
 use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
 use super::target::{Datum, DatumUncertainty, ProfileLocation, Target};
@@ -47,6 +48,21 @@ pub(super) struct Objective<'a> {
     pub(super) failure: Mutex<Option<String>>,
     /// Variance of every fitted prediction over that of its datum `[-]`; empty where runs do not scatter.
     pub(super) variances: Vec<f64>,
+}
+
+impl<'a> Objective<'a> {
+    /// The objective of a plan, with its data read.
+    pub(super) fn begin(
+        plan: &'a CalibrationPlan,
+        folder: &CalibrationFolder,
+        (registry, store): (Registry, &'a Store),
+        watch: &'a dyn CalibrationMonitor,
+    ) -> Result<Self, CalibrationError> {
+        let (folder, failure) = (folder.evaluations(), Mutex::default());
+        let mut begun = Self { plan, registry, store, folder, watch, data: Vec::new(), failure, variances: Vec::new() };
+        begun.read_data()?;
+        Ok(begun)
+    }
 }
 
 impl Objective<'_> {

@@ -1,9 +1,12 @@
 //! Files of a calibration: the page, its figures, tables and the calibrated cases.
 
 use super::figures;
+use super::held_out;
+use super::plan::CalibrationPlan;
 use super::result::{
     CalibrationResult, DatumComparison, FoundMinimum, ParameterEstimate, relative_error, weighted_error,
 };
+use crate::evidence::HeldOutJudgement;
 use crate::figure::FigureError;
 use crate::inference::UNLIKELY;
 use crate::number::{four_digits, short_digits};
@@ -17,7 +20,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn write(outcome: &CalibrationResult, folder: &Path) -> Result<(), FileError> {
+pub fn write(outcome: &CalibrationResult, plan: &CalibrationPlan, folder: &Path) -> Result<(), FileError> {
     let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
     let undrawn = |error: FigureError| unwritable(io::Error::other(error.to_string()));
     let pictures = page::draw(&figures::all(outcome), &folder.join("figures")).map_err(undrawn)?;
@@ -27,7 +30,12 @@ pub fn write(outcome: &CalibrationResult, folder: &Path) -> Result<(), FileError
     }
     write_whole(&folder.join("evaluations.csv"), &evaluations(outcome).map_err(unwritable)?).map_err(unwritable)?;
     write_whole(&folder.join("data.csv"), &data(outcome).map_err(unwritable)?).map_err(unwritable)?;
-    let html = render(outcome, pictures).map_err(|error| unwritable(io::Error::other(error.to_string())))?;
+    let judged = held_out::judged(outcome, plan.digest()?);
+    if let Some(judged) = &judged {
+        let json = serde_json::to_string_pretty(judged).map_err(|error| unwritable(error.into()))?;
+        write_whole(&folder.join("held-out.json"), format!("{json}\n").as_bytes()).map_err(unwritable)?;
+    }
+    let html = render(outcome, judged.as_ref(), pictures).map_err(|error| unwritable(io::Error::other(error.to_string())))?;
     write_whole(&folder.join("index.html"), html.as_bytes()).map_err(unwritable)?;
     let json = serde_json::to_string_pretty(outcome).map_err(|error| unwritable(error.into()))?;
     write_whole(&folder.join("result.json"), format!("{json}\n").as_bytes()).map_err(unwritable)
@@ -180,7 +188,11 @@ fn with_code(sentence: &str) -> String {
     escaped.split('`').enumerate().map(marked).collect()
 }
 
-fn render(outcome: &CalibrationResult, pictures: Vec<PageFigure>) -> Result<String, minijinja::Error> {
+fn render(
+    outcome: &CalibrationResult,
+    judged: Option<&HeldOutJudgement>,
+    pictures: Vec<PageFigure>,
+) -> Result<String, minijinja::Error> {
     let parameter = |found: &ParameterEstimate| {
         let interval = found.interval.map_or_else(|| "–".to_owned(), |_| found.intervals_in_words(four_digits));
         let bounds = format!("{} … {}", four_digits(found.bounds.0), four_digits(found.bounds.1));
@@ -227,6 +239,7 @@ fn render(outcome: &CalibrationResult, pictures: Vec<PageFigure>) -> Result<Stri
             format!("{} … {}", four_digits(datum.band.0), four_digits(datum.band.1)),
             four_digits(datum.model),
             format!("{:+.2}", datum.residual),
+            datum.predicted.map_or_else(|| "–".to_owned(), |(low, high)| format!("{} … {}", four_digits(low), four_digits(high))),
             datum.source.clone(),
         ]
     };
@@ -241,7 +254,7 @@ fn render(outcome: &CalibrationResult, pictures: Vec<PageFigure>) -> Result<Stri
         "findings": outcome.findings.iter().map(|finding| with_code(finding)).collect::<Vec<_>>(),
         "trials": outcome.trials.iter().map(trial).collect::<Vec<_>>(),
         "data": all_data(outcome).into_iter().map(datum).collect::<Vec<_>>(),
-        "summary": summary(outcome).iter().map(|line| with_code(line)).collect::<Vec<_>>(),
+        "summary": summary(outcome).into_iter().chain(judged.map(HeldOutJudgement::in_words)).collect::<Vec<_>>().iter().map(|line| with_code(line)).collect::<Vec<_>>(),
         "pictures": pictures,
         "outcome": outcome,
     });

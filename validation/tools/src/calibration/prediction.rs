@@ -12,6 +12,9 @@ use crate::inference::posterior::sample;
 use crate::inference::posterior::{Posterior, predictive};
 use crate::inference::{Answer, Emulator, Evaluated, Explored};
 
+/// Width of an interval of 95 % of a normal distribution, in standard deviations.
+const WIDTH: f64 = 2.0 * 1.96;
+
 /// Samples of the posterior, if there is a region.
 pub(super) fn posterior(objective: &Objective<'_>, answer: &Answer) -> Option<Posterior> {
     answer.explored.as_ref().map(|explored| sample(&explored.region, objective.plan.budget.seed))
@@ -65,6 +68,7 @@ pub(super) fn of_hold_out(
     {
         let [low, high] = band.map(|residual| known.of_residual(residual));
         datum.predicted = Some((low, high));
+        datum.spread = (band[1] - band[0]) / WIDTH;
     }
     Ok(())
 }

@@ -26,6 +26,8 @@ pub struct DatumComparison {
     pub scatter: f64,
     /// Interval of 95 % of the posterior; none of a bake-off.
     pub predicted: Option<(f64, f64)>,
+    /// Standard uncertainty of the prediction by that of the parameters, over that of the datum `[-]`; 0 of fitted data.
+    pub spread: f64,
     /// Source of the datum.
     pub source: String,
 }

@@ -1,0 +1,90 @@
+//! Judgements of calibrations on data that were held out. `tests/snapshots/calibrations/NAME.json` holds those of the examples, so
+//! that a report shows them without a search.
+
+use serde::{Deserialize, Serialize};
+
+include!(concat!(env!("OUT_DIR"), "/held_out_judgements.rs"));
+
+/// Deviations up to this many standard uncertainties agree `[-]`.
+const AGREES: f64 = 2.0;
+
+/// A calibration and its prediction of what was held out.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HeldOutJudgement {
+    /// Subject of the calibration.
+    pub title: String,
+    /// First digits of the SHA-256 of the plan and its data files.
+    pub digest: String,
+    /// Version and commit of the program that searched.
+    pub made_by: String,
+    /// Best values of the parameters, each in its unit.
+    pub values: Vec<f64>,
+    /// Parameters with their 95 % intervals, a sentence each.
+    pub parameters: Vec<String>,
+    /// What the fitted data leave open, a sentence each.
+    pub findings: Vec<String>,
+    /// The data that were held out.
+    pub data: Vec<HeldOutDatum>,
+}
+
+/// A datum that was held out beside its prediction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HeldOutDatum {
+    /// Quantity with the run that it belongs to.
+    pub quantity: String,
+    /// Unit of all values.
+    pub unit: String,
+    /// The datum less its standard uncertainty, the datum, the datum plus it.
+    pub datum: [f64; 3],
+    /// Prediction at the best parameters.
+    pub model: f64,
+    /// Interval of 95 % that the uncertainty of the parameters gives; none where it could not be found.
+    pub predicted: Option<(f64, f64)>,
+    /// Deviation over `u_val`, the uncertainties of the datum and of the parameters together `[-]`.
+    pub deviation: f64,
+    /// Source of the datum.
+    pub source: String,
+}
+
+impl HeldOutDatum {
+    /// Whether datum and prediction agree within two `u_val`.
+    #[must_use]
+    pub fn agrees(&self) -> bool {
+        self.deviation.abs() <= AGREES
+    }
+}
+
+impl HeldOutJudgement {
+    /// The sentence that sums up the judgement.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let agree = self.data.iter().filter(|datum| datum.agrees()).count();
+        format!("Held out: {agree} of {} data agree with their prediction within 2 u_val.", self.data.len())
+    }
+
+    /// Names and judgements of the examples.
+    ///
+    /// # Panics
+    /// If one is malformed. No user can bring that about: they are part of the program, and a test reads each.
+    #[must_use]
+    pub fn shipped() -> Vec<(&'static str, Self)> {
+        let name = |path: &'static str| path.strip_prefix("calibrations/")?.strip_suffix(".json");
+        let read = |text| serde_json::from_str(text).expect("the program carries judgements that it wrote");
+        FILES.iter().filter_map(|(path, text)| Some((name(path)?, read(text)))).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_example_that_is_carried_has_data_with_intervals() {
+        let shipped = HeldOutJudgement::shipped();
+        assert!(shipped.len() >= 2, "{} judgements", shipped.len());
+        for (name, judgement) in shipped {
+            assert!(!judgement.data.is_empty() && !judgement.parameters.is_empty(), "{name}");
+            assert!(judgement.data.iter().all(|datum| datum.predicted.is_some() && datum.deviation.is_finite()), "{name}");
+        }
+    }
+}
