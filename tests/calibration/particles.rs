@@ -103,7 +103,12 @@ fn both_valleys_of_films_of_particles_are_listed() {
     let listed = (300..305).map(|seed| {
         let mut problem = two_valleys(&normal(seed, 3));
         let answer = solve(&mut problem, &usual(vec![0.2, 0.8])).expect("the model works");
-        println!("{seed}: {} {:?}, {} evaluations", answer.search.stopped, answer.search.minima, answer.search.history.len());
+        println!(
+            "{seed}: {} {:?}, {} evaluations",
+            answer.search.stopped,
+            answer.search.minima,
+            answer.search.history.len()
+        );
         let indices = answer.search.minima.iter().map(|minimum| minimum.point[1]);
         let (least, most) = indices.fold((1.0_f64, 0.0_f64), |(least, most), u| (least.min(u), most.max(u)));
         usize::from(most - least > 0.15)

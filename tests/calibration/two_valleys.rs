@@ -276,3 +276,33 @@ fn both_valleys_of_consistency_and_flow_index_are_listed() {
     let tally = Tally::of(&[1], &[0, 1, 2, 4, 5]);
     assert!(tally.both == 5 && tally.global == 5, "{tally:?}");
 }
+
+/// A film whose model fails beyond a flow index of 2, where the start lies, as particles do.
+fn film_that_fails(seed: u64) -> Problem<impl Fn(&[f64]) -> Option<Vec<f64>>> {
+    const FILM: Incline = Incline { layer_height: 0.01, inclination: 0.174_532_925, gravity: 9.81, density: 1000.0 };
+    let model = |u: &[f64]| {
+        let (consistency, flow_index) = (logarithmic(u[0], 4.0, 14.0), logarithmic(u[1], 0.25, 4.0));
+        let film = HerschelBulkleyFilm { incline: FILM, yield_stress: 5.1, consistency, flow_index };
+        (flow_index <= 2.0).then(|| vec![film.plug_velocity(), consistency, film.velocity(0.003)])
+    };
+    let truth = vec![0.45, 0.3];
+    let exact = model(&truth).expect("a film");
+    let errors = normal(seed, 3);
+    let residuals = move |u: &[f64]| {
+        let found = model(u)?;
+        Some((0..3).map(|k| (found[k] / exact[k] - 1.0) / [0.01, 0.02, 0.3][k] - errors[k]).collect())
+    };
+    Problem { residuals, truth, series: Vec::new() }
+}
+
+#[test]
+fn a_start_where_the_model_fails_does_not_hide_the_minimum() {
+    let misses = (300..340).filter(|seed| {
+        let mut problem = film_that_fails(*seed);
+        let answer = solve(&mut problem, &usual(vec![0.2, 0.8])).expect("the film works");
+        let at_truth = chi_squared(&(problem.residuals)(&problem.truth).expect("a film"));
+        answer.search.chi_squared > at_truth + 2.0 * FOUND
+    });
+    let missed: Vec<u64> = misses.collect();
+    assert!(missed.len() <= 1, "{missed:?}");
+}

@@ -84,7 +84,10 @@ mod tests {
         assert!(shipped.len() >= 2, "{} judgements", shipped.len());
         for (name, judgement) in shipped {
             assert!(!judgement.data.is_empty() && !judgement.parameters.is_empty(), "{name}");
-            assert!(judgement.data.iter().all(|datum| datum.predicted.is_some() && datum.deviation.is_finite()), "{name}");
+            assert!(
+                judgement.data.iter().all(|datum| datum.predicted.is_some() && datum.deviation.is_finite()),
+                "{name}"
+            );
         }
     }
 }

@@ -12,6 +12,7 @@ use super::search::{
 use super::serial_correlation::{SerialCorrelation, serial_correlation};
 use super::{Evaluate, Evaluated};
 use crate::sampling::design::sobol;
+use std::cmp::Ordering;
 
 /// Share of repeated experiments below which a χ² is a sign that the model or the stated uncertainties are wrong, and above
 /// which it is too good to be true.
@@ -28,6 +29,10 @@ const FLAT: f64 = 1e-4;
 
 /// Points for each parameter at which a search that begins on a plateau looks for its edge.
 const PLATEAU_STARTS: usize = 16;
+
+/// Share of repeated experiments below which a search looks elsewhere, and its points for each parameter.
+const DOUBTFUL: f64 = 0.02;
+const SCOUTS: usize = 8;
 
 /// Plan of a search and its exploration, with their budgets.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,6 +82,9 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
     };
     if is_on_plateau(&found, usual.difference) {
         found = leave_plateau(model, found, &usual)?;
+    } else if found.stopped == Termination::Converged && is_unexplained(&found, DOUBTFUL) {
+        // before the model is called wrong, the rest of the box is looked at
+        found = look_elsewhere(model, found, &usual)?;
     } else if found.stopped == Termination::Converged && !found.minima.iter().any(|known| known.is_at(&found.best)) {
         // a start that is lower than where the descents ended
         let branches = vec![found.best.clone()];
@@ -152,18 +160,54 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
     }
 }
 
+/// Whether a share of repeated experiments below `share` would leave so large a χ² at the best point.
+fn is_unexplained(found: &SearchResult, share: f64) -> bool {
+    let best = found.history.iter().find_map(|evaluated| evaluated.residuals.as_ref());
+    let freedom = best.map_or(0, Vec::len).saturating_sub(found.best.len()).max(1);
+    chi_squared_tail(found.chi_squared, freedom) < share
+}
+
+/// Descends from points of a wide design, one after the other the farthest from all known minima and from those before; the worse half
+/// of the design is left out.
+fn look_elsewhere<M: Evaluate>(
+    model: &mut M,
+    found: SearchResult,
+    budget: &Budget,
+) -> Result<SearchResult, SearchError<M::Error>> {
+    let dimensions = found.best.len();
+    let scouts = sobol(SCOUTS * dimensions, dimensions, budget.seed);
+    let mut found = search_beside(model, found, Leads { scouts: scouts.clone(), ..Leads::default() }, budget)?;
+    let is_scout = |other: &&Evaluated| other.chi_squared.is_some() && scouts.contains(&other.point);
+    let mut others: Vec<Evaluated> = found.history.iter().filter(is_scout).cloned().collect();
+    others.sort_by(|a, b| a.chi_squared.partial_cmp(&b.chi_squared).unwrap_or(Ordering::Equal));
+    others.truncate(others.len().div_ceil(2));
+    let mut tried: Vec<Vec<f64>> = found.minima.iter().map(|minimum| minimum.point.clone()).collect();
+    for _ in 0..MOST_RESTARTS {
+        let distance =
+            |point: &[f64], from: &[f64]| point.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let alone = |other: &Evaluated| tried.iter().map(|known| distance(&other.point, known)).fold(1.0, f64::min);
+        let Some(next) = others.iter().max_by(|a, b| alone(a).total_cmp(&alone(b))) else { break };
+        if !is_unexplained(&found, DOUBTFUL) {
+            break;
+        }
+        let branches = vec![next.point.clone()];
+        tried.extend(branches.clone());
+        found = search_beside(model, found, Leads { branches, ..Leads::default() }, budget)?;
+    }
+    Ok(found)
+}
+
 /// Whether the best point explains the data badly while no parameter changes the residuals: points equal it, all near ones too.
 fn is_on_plateau(found: &SearchResult, difference: f64) -> bool {
     let Some(best) = found.history.iter().find(|evaluated| evaluated.point == found.best) else { return false };
     let Some(residuals) = &best.residuals else { return false };
-    let freedom = residuals.len().saturating_sub(best.point.len()).max(1);
     let is_near =
         |other: &Evaluated| other.point.iter().zip(&best.point).all(|(a, b)| (a - b).abs() <= 1.01 * difference);
     let is_equal = |other: &Evaluated| {
         let change = |of: &Vec<f64>| of.iter().zip(residuals).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
         other.residuals.as_ref().is_some_and(|of| change(of) <= FLAT * FLAT * found.chi_squared)
     };
-    chi_squared_tail(found.chi_squared, freedom) < UNLIKELY
+    is_unexplained(found, UNLIKELY)
         && found.history.iter().filter(|other| is_equal(other)).count() > best.point.len()
         && found.history.iter().all(|other| !is_near(other) || is_equal(other))
 }

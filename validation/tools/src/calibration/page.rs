@@ -35,7 +35,8 @@ pub fn write(outcome: &CalibrationResult, plan: &CalibrationPlan, folder: &Path)
         let json = serde_json::to_string_pretty(judged).map_err(|error| unwritable(error.into()))?;
         write_whole(&folder.join("held-out.json"), format!("{json}\n").as_bytes()).map_err(unwritable)?;
     }
-    let html = render(outcome, judged.as_ref(), pictures).map_err(|error| unwritable(io::Error::other(error.to_string())))?;
+    let html =
+        render(outcome, judged.as_ref(), pictures).map_err(|error| unwritable(io::Error::other(error.to_string())))?;
     write_whole(&folder.join("index.html"), html.as_bytes()).map_err(unwritable)?;
     let json = serde_json::to_string_pretty(outcome).map_err(|error| unwritable(error.into()))?;
     write_whole(&folder.join("result.json"), format!("{json}\n").as_bytes()).map_err(unwritable)
@@ -239,7 +240,9 @@ fn render(
             format!("{} … {}", four_digits(datum.band.0), four_digits(datum.band.1)),
             four_digits(datum.model),
             format!("{:+.2}", datum.residual),
-            datum.predicted.map_or_else(|| "–".to_owned(), |(low, high)| format!("{} … {}", four_digits(low), four_digits(high))),
+            datum
+                .predicted
+                .map_or_else(|| "–".to_owned(), |(low, high)| format!("{} … {}", four_digits(low), four_digits(high))),
             datum.source.clone(),
         ]
     };

@@ -72,10 +72,11 @@ pub(super) fn run<M: Evaluate>(
     let mut jacobian = differences(recorder, &here, budget.difference)?;
     // where the differences were taken last, and where both ways
     let (mut origin, mut confirmed) = (here.point.clone(), None);
+    let mut walls = Walls::about(recorder, &origin, budget.difference);
     let mut radius = FIRST_RADIUS;
     let (mut failures, mut polishes) = (0, 0);
     loop {
-        let step = box_step(&here, &jacobian, radius);
+        let step = box_step(&here, &jacobian, radius, &walls);
         let predicted = here.chi_squared - (&here.residuals + &jacobian * &step).norm_squared();
         let least = budget.negligible(here.chi_squared, here.residuals.len());
         let (negligible, short) = (predicted <= least, radius < LEAST_RADIUS * budget.difference);
@@ -88,6 +89,7 @@ pub(super) fn run<M: Evaluate>(
                 origin.clone_from(&here.point);
                 confirmed = Some(here.point.clone());
                 (jacobian, here) = central_differences(recorder, here, &jacobian, budget)?;
+                walls = Walls::about(recorder, &origin, budget.difference);
                 radius = radius.max(budget.difference);
                 continue;
             }
@@ -97,6 +99,7 @@ pub(super) fn run<M: Evaluate>(
                     here = better;
                     jacobian = differences(recorder, &here, budget.difference)?;
                     origin.clone_from(&here.point);
+                    walls = Walls::about(recorder, &origin, budget.difference);
                     radius = radius.max(budget.difference);
                     continue;
                 }
@@ -116,7 +119,10 @@ pub(super) fn run<M: Evaluate>(
             return Ok(here.descent(None));
         }
         let Some(residuals) = recorder.residuals_at(&trial)? else {
-            radius = 0.25 * length;
+            // along a wall the step is as long as before
+            if !walls.close(&here.point, &trial) {
+                radius = 0.25 * length;
+            }
             continue;
         };
         let there = Iterate::new(trial, residuals);
@@ -137,7 +143,45 @@ pub(super) fn run<M: Evaluate>(
             failures = 0;
             jacobian = differences(recorder, &here, budget.difference)?;
             origin.clone_from(&here.point);
+            walls = Walls::about(recorder, &origin, budget.difference);
         }
+    }
+}
+
+/// Least and largest coordinates of a descent: those of the cube, or less where differences have met failures of the model.
+struct Walls {
+    bounds: Vec<[f64; 2]>,
+}
+
+impl Walls {
+    /// Bounds half a difference away from where the differences were taken, towards each that failed.
+    fn about<M: Evaluate>(recorder: &Recorder<'_, M>, origin: &[f64], difference: f64) -> Self {
+        let fails = |k: usize, step: f64| {
+            let is_probe = |point: &[f64]| {
+                let on_axis = point.iter().zip(origin).enumerate().all(|(j, (a, b))| j == k || a == b);
+                on_axis && (point[k] - origin[k] - step).abs() < 1e-9
+            };
+            recorder.history().iter().any(|other| other.residuals.is_none() && is_probe(&other.point))
+        };
+        let bounds = |k: usize| {
+            let reach = |sign: f64| origin[k] + 0.5 * sign * difference;
+            [if fails(k, -difference) { reach(-1.0) } else { 0.0 }, if fails(k, difference) { reach(1.0) } else { 1.0 }]
+        };
+        Self { bounds: (0..origin.len()).map(bounds).collect() }
+    }
+
+    /// Puts every wall that a failing trial stood at to where the descent is; whether it stood at one.
+    fn close(&mut self, here: &[f64], trial: &[f64]) -> bool {
+        let mut any = false;
+        for ((bounds, here), trial) in self.bounds.iter_mut().zip(here).zip(trial) {
+            for (bound, end) in bounds.iter_mut().zip([0.0, 1.0]) {
+                if *bound != end && (*trial - *bound).abs() < 1e-9 && trial != here {
+                    *bound = *here;
+                    any = true;
+                }
+            }
+        }
+        any
     }
 }
 
@@ -172,10 +216,11 @@ fn polish<M: Evaluate>(
     Ok(there.filter(|there| here.chi_squared - there.chi_squared > negligible))
 }
 
-/// The step of least predicted χ² within the radius and the cube.
-fn box_step(here: &Iterate, jacobian: &DMatrix<f64>, radius: f64) -> DVector<f64> {
-    let lower: Vec<f64> = here.point.iter().map(|u| (-u).max(-radius)).collect();
-    let upper: Vec<f64> = here.point.iter().map(|u| (1.0 - u).min(radius)).collect();
+/// The step of least predicted χ² within the radius and the walls.
+fn box_step(here: &Iterate, jacobian: &DMatrix<f64>, radius: f64, walls: &Walls) -> DVector<f64> {
+    let room = || here.point.iter().zip(&walls.bounds);
+    let lower: Vec<f64> = room().map(|(u, bounds)| (bounds[0] - u).max(-radius).min(0.0)).collect();
+    let upper: Vec<f64> = room().map(|(u, bounds)| (bounds[1] - u).min(radius).max(0.0)).collect();
     box_least_squares(jacobian, &-&here.residuals, &lower, &upper)
 }
 
