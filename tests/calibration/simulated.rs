@@ -45,7 +45,7 @@ impl Simulated {
 
     fn simulated(&self, u: f64) -> Option<Vec<f64>> {
         let with = toml::from_str(self.with).expect("parameters of the case");
-        let request = CaseRequest { case: self.case.to_owned(), name: None, tier: Tier::Quick, with };
+        let request = CaseRequest { case: self.case.to_owned(), name: None, tier: Tier::Quick, with, only: Vec::new() };
         let prepared =
             request.prepare(*REGISTRY, Path::new("simulated.rs"), &[(self.setting)(u)], Limits::default()).ok()?;
         let record = evaluate(prepared, &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");

@@ -56,6 +56,20 @@ fn a_sweep_that_was_killed_gives_the_same_table_and_repeats_nothing() {
 }
 
 #[test]
+fn a_sweep_may_mean_some_runs_only() {
+    let place = Place::new();
+    let chosen = PLAN.replace("fluids = [\"newtonian\"], ", "").replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]");
+    let chosen = chosen.replace("[20.0, 25.0, 95.0]", "[20.0]");
+    let plan =
+        place.file("plan.toml", &chosen.replace("case = \"film\"", "case = \"film\"\nonly = [\"fluid=newtonian\"]"));
+    place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().success();
+    let results = std::fs::read_to_string(place.path("out/results.csv")).expect("written");
+    assert!(results.contains("fluid=newtonian") && !results.contains("fluid=bingham"), "{results}");
+    let other = refusal(&chosen.replace("case = \"film\"", "case = \"film\"\nonly = [\"fluid=oil\"]"), &[]);
+    assert!(other.starts_with("error: plan.toml: `only` is \"fluid=oil\", but must be keys of a run"), "{other}");
+}
+
+#[test]
 fn failures_keep_their_reason() {
     let place = Place::new();
     let plan = place.file("plan.toml", &PLAN.replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]"));

@@ -44,6 +44,7 @@ pub use foreign::{
 };
 pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
 pub use registry::Registry;
+pub(crate) use request::only;
 pub use request::{Request, Requested};
 pub use result::{CaseResult, RunSummary};
 pub use schedule::{Monitor, Silent, execute, share_out, share_out_for};

@@ -58,14 +58,18 @@ impl Request<'_> {
         };
         let has_own_parameters = file.is_some() || !self.settings.is_empty();
         let changed = has_own_parameters || !self.only.is_empty();
-        let prepared = only(case.prepare(tier, &changes)?, self.only)?;
+        let prepared = only(case.prepare(tier, &changes)?, self.only, "--only")?;
         let (overlay, output) = file.map(|file| (file.overlay, file.output)).unwrap_or_default();
         Ok(Requested { prepared, tier, overlay, output, changed, has_own_parameters })
     }
 }
 
-/// The runs that have all keys of any of the variants asked for; all where none is asked for.
-fn only(prepared: Box<dyn PreparedCase>, asked: &[Variant]) -> Result<Box<dyn PreparedCase>, ParameterError> {
+/// The runs that have all keys of any of the variants that a field asks for; all where none is asked for.
+pub(crate) fn only(
+    prepared: Box<dyn PreparedCase>,
+    asked: &[Variant],
+    field: &str,
+) -> Result<Box<dyn PreparedCase>, ParameterError> {
     if asked.is_empty() {
         return Ok(prepared);
     }
@@ -75,7 +79,7 @@ fn only(prepared: Box<dyn PreparedCase>, asked: &[Variant]) -> Result<Box<dyn Pr
         let listed: Vec<String> = variants.iter().take(5).map(|variant| format!("\"{variant}\"")).collect();
         let rule = format!("keys of a run of this case and tier, such as {}", listed.join(", "));
         return Err(ParameterError::field(
-            "--only",
+            field,
             format!("\"{missing}\""),
             &rule,
             "leave out keys to mean several runs",

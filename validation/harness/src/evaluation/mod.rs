@@ -1,7 +1,7 @@
 //! One case with some of its parameters changed, simulated and judged: what sweeps and calibrations are made of.
 //!
 //! An evaluation is a file, written whole or not at all, and known by its [`key`]: what the program computes with, the
-//! case, its tier and all its parameters. Whoever finds the file need not simulate.
+//! case, its tier, all its parameters and the runs that are meant. Whoever finds the file need not simulate.
 
 mod error;
 mod paths;
@@ -14,6 +14,7 @@ pub use record::{EvaluationRecord, MetricValue};
 pub use sensitivity::SensitivityPlan;
 
 use crate::case::{Changes, Limits, Monitor, ParameterError, PreparedCase, Registry, Tier, execute};
+use crate::metric::Variant;
 use crate::store::{Store, hexadecimal, identity_or_unique};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -34,6 +35,9 @@ pub struct CaseRequest {
     /// Parameters, as in a case's file.
     #[serde(default)]
     pub with: toml::Table,
+    /// Keys of the runs that are meant; all runs where there are none.
+    #[serde(default)]
+    pub only: Vec<Variant>,
 }
 
 /// A number as TOML writes it, with all its digits: the value of a setting.
@@ -65,15 +69,30 @@ impl CaseRequest {
         limits: Limits,
     ) -> Result<Box<dyn PreparedCase>, ParameterError> {
         let case = registry.find(&self.case).map_err(|error| error.in_file(file))?;
-        case.prepare(self.tier, &Changes { file: Some((file, self.with.clone())), settings, limits, only: &[] })
+        let changes = Changes { file: Some((file, self.with.clone())), settings, limits, only: &self.only };
+        chosen(case.prepare(self.tier, &changes)?, &self.only, file)
     }
+}
+
+/// Those of the runs that a plan means by `only`.
+///
+/// # Errors
+/// Runs that the case does not have.
+pub fn chosen(
+    prepared: Box<dyn PreparedCase>,
+    only: &[Variant],
+    file: &Path,
+) -> Result<Box<dyn PreparedCase>, ParameterError> {
+    crate::case::only(prepared, only, "only").map_err(|error| error.in_file(file))
 }
 
 /// The hash that an evaluation is known by: 32 hexadecimal digits.
 #[must_use]
 pub fn key(prepared: &dyn PreparedCase) -> String {
     let mut hash = Sha256::new();
-    for part in [identity_or_unique(prepared.origin()), prepared.name(), prepared.parameters_toml()] {
+    let variants: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run).to_string()).collect();
+    let runs = variants.join("\n");
+    for part in [identity_or_unique(prepared.origin()), prepared.name(), prepared.parameters_toml(), &runs] {
         hash.update((part.len() as u64).to_le_bytes());
         hash.update(part);
     }

@@ -6,6 +6,7 @@ use crate::case::{Limits, Tier};
 use crate::evaluation::{CaseRequest, Paths};
 use crate::inference::{Budget, Loss, Method};
 use crate::input::{FieldError, check_name, check_text};
+use crate::metric::Variant;
 use crate::sampling::{Bounds, Spacing};
 use serde::Deserialize;
 use std::path::Path;
@@ -44,6 +45,9 @@ struct BlockText {
     tier: Option<Tier>,
     #[serde(default)]
     with: toml::Table,
+    /// Keys of the runs that are meant; all runs where there are none.
+    #[serde(default)]
+    only: Vec<Variant>,
     /// Of what is held out: the parameters that make its conditions.
     conditions: Option<Vec<String>>,
     same_within: Option<f64>,
@@ -228,7 +232,7 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<DataBloc
             }
             let conditions = block.conditions(&field, held_out)?;
             let tier = block.tier.unwrap_or(Tier::Quick);
-            let request = CaseRequest { case: block.case, name: None, tier, with: block.with };
+            let request = CaseRequest { case: block.case, name: None, tier, with: block.with, only: block.only };
             blocks.push(DataBlock { request, held_out, conditions, field });
             data.push(block.data);
         }

@@ -36,8 +36,10 @@ pub fn run_entry(
     write_whole(&listed, entry.parameters_toml.as_bytes()).map_err(unwritable)?;
     let file = CaseFile::read(&listed)?;
     // how much it may ask for was decided when it was planned
-    let changes = Changes { file: Some((&listed, file.fields)), settings: &[], limits: Limits::NONE, only: &[] };
+    let changes =
+        Changes { file: Some((&listed, file.fields)), settings: &[], limits: Limits::NONE, only: &entry.only };
     let prepared = registry.find(&entry.case)?.prepare(entry.tier, &changes)?;
+    let prepared = evaluation::chosen(prepared, &entry.only, &listed)?;
     let record = evaluation::evaluate(prepared, store, &Silent)?;
     // a folder that somebody has removed meanwhile is not made again for a part of the sweep
     let marker = sweep.path().join(Manifest::MARKER);

@@ -3,6 +3,7 @@
 use super::error::SweepError;
 use crate::case::Tier;
 use crate::input::FieldError;
+use crate::metric::Variant;
 use crate::output::Owner;
 use serde::{Deserialize, Serialize};
 
@@ -27,6 +28,9 @@ pub struct SweepRun {
     pub particle_steps: f64,
     /// Its complete parameters.
     pub parameters_toml: String,
+    /// Keys of the runs that are meant; all runs where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub only: Vec<Variant>,
     /// Reason for the rejection of these parameters by the case.
     pub refusal: Option<String>,
 }
@@ -84,6 +88,7 @@ mod tests {
             key: String::new(),
             particle_steps: 1e7 * random.uniform() + random.uniform(),
             parameters_toml: String::new(),
+            only: vec![Variant::of("fluid", "newtonian")],
             refusal: None,
         };
         let manifest = Manifest {

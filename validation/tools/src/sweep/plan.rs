@@ -225,6 +225,7 @@ impl SweepPlan {
                     key: String::new(),
                     particle_steps: 0.0,
                     parameters_toml: String::new(),
+                    only: request.only.clone(),
                     refusal: None,
                 };
                 match request.prepare(registry, &self.file, &settings, limits) {
