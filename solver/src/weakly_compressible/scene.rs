@@ -2,6 +2,7 @@
 
 use crate::domain::{AxisBoundary, Domain};
 use crate::material::equation_of_state::EquationOfState;
+use crate::material::pore_liquid::PoreLiquid;
 use crate::material::rheology::Rheology;
 use crate::material::rheology::field::Memory;
 use crate::parameter::ParameterProblem;
@@ -169,6 +170,13 @@ impl<const D: usize> Scene<D> {
             .or_else(|| self.numerics.step_problem(&self.rheology))
             .or_else(|| self.numerics.field_problem(&self.rheology))
             .or_else(|| self.enclosure.numerics_problem(&self.numerics))
+            .or_else(|| {
+                let (ratio, modulus) = (self.numerics.smoothing_ratio, self.equation_of_state.bulk_modulus);
+                let has_inlets = !self.enclosure.inlets.is_empty();
+                self.rheology
+                    .pore_liquid()
+                    .and_then(|pore| pore_problem(&pore, ratio, self.spacing, modulus, has_inlets))
+            })
             .or_else(|| self.side_walls.and_then(|walls| walls.problem(D)));
         problem.map_or(Ok(()), |problem| Err(problem.into()))
     }
@@ -222,6 +230,34 @@ impl<const D: usize> Scene<D> {
         }
         Ok(())
     }
+}
+
+/// Largest number of steps that pore diffusion may make of one acoustic step `[-]`.
+const MOST_SUBSTEPS: f64 = 10.0;
+
+/// A mixture of grains and liquid that is not served, if it is one: whose pores drain too fast for explicit steps at a smoothing ratio
+/// `[-]`, a spacing `[m]` and a bulk modulus `[Pa]`, or which is fed.
+#[must_use]
+pub fn pore_problem(
+    pore: &PoreLiquid,
+    smoothing_ratio: f64,
+    spacing: f64,
+    bulk_modulus: f64,
+    has_inlets: bool,
+) -> Option<ParameterProblem> {
+    if has_inlets {
+        let remedy = "give bodies of submerged grains only: what is fed has no pore pressure of its own";
+        return Some(ParameterProblem::new("inlets", "given", "absent with a pore liquid", remedy));
+    }
+    // 0.4 h/c against 0.125 h²/(K_f k/η)
+    let sound_speed = (bulk_modulus / pore.mixture_density()).sqrt();
+    let diffusivity = pore.diffusivity(pore.solid_fraction, bulk_modulus);
+    let least = 3.2 * diffusivity / (sound_speed * MOST_SUBSTEPS * smoothing_ratio);
+    (spacing < least).then(|| {
+        let rule = format!("at least {least:.3e} m for explicit steps of so fast a pore diffusion");
+        let remedy = "raise the spacing, lower the stiffness, or leave the liquid out of grains that drain at once";
+        ParameterProblem::new("spacing", spacing, &rule, remedy)
+    })
 }
 
 fn is_positive(value: f64) -> bool {
