@@ -45,6 +45,8 @@ mod stress_update;
 #[cfg(test)]
 mod tests;
 mod viscous_number;
+#[cfg(test)]
+mod viscous_number_tests;
 
 pub use bingham::Bingham;
 pub use coulomb_bingham::CoulombBingham;
