@@ -16,9 +16,9 @@
 //! Limits: all of the material lies under the liquid, whose own flow above the grains is left out; no suspension that settles grain by grain. K3 is no
 //! constant of glass beads: published values reach from 4 to 40.
 
+use super::TrialStress;
 use super::field::{FieldBoundary, FieldDiffusion, FieldLaw, FieldReturn, FieldStep, LawField, Memory};
 use super::mu_i::REST_SHEAR_RATE;
-use super::TrialStress;
 use crate::lanes::Real;
 use crate::material::pore_liquid::{PoreLiquid, SKELETON_SHARE};
 use crate::parameter::{ParameterProblem, above, between, inside};
@@ -146,8 +146,11 @@ impl ViscousNumber {
         let linear = swelling * free * (R::splat(2.0) * thinning * per_pressure - excess) - start;
         let constant = swelling * thinning * free * free;
         let root = (linear * linear + R::splat(4.0) * factor * constant).sqrt();
-        let pressure = ((root - linear) / (R::splat(2.0) * factor))
-            .if_less(linear, zero, (constant + constant) / (root + linear).max(tiny));
+        let pressure = ((root - linear) / (R::splat(2.0) * factor)).if_less(
+            linear,
+            zero,
+            (constant + constant) / (root + linear).max(tiny),
+        );
         let rate = (free - per_pressure * pressure).max(zero);
         let yields = friction * start;
         let shear_stress = (trial.shear_stress - unloading * rate).max(zero);

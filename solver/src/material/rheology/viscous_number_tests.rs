@@ -55,7 +55,10 @@ fn stress_pressure_and_fraction_solve_their_equations_together() {
         let expected = friction * pressure;
         assert!((end.shear_stress - expected).abs() < 1e-6 * (stress + expected.abs()), "{trial:?} {field:?} {end:?}");
         let dilated = start + (modulus + start) * rate * tangent * step;
-        assert!((pressure - dilated).abs() < 1e-6 * (pressure + start), "{pressure} for {dilated}: {trial:?} {field:?}");
+        assert!(
+            (pressure - dilated).abs() < 1e-6 * (pressure + start),
+            "{pressure} for {dilated}: {trial:?} {field:?}"
+        );
         flowing += 1;
     }
     assert!(flowing > 2000 && opened > 500, "{flowing} flow, {opened} have opened");

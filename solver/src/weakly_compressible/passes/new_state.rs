@@ -142,8 +142,11 @@ impl<const D: usize> Advance<'_, D> {
         let time_step = V::splat(self.time_step);
         let field_before =
             if self.model.field.is_some() { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
-        let memory =
-            if self.model.keeps_memory { memory::load(&out.memory[places.clone()]) } else { [V::splat(0.0); MOST_MEMORIES] };
+        let memory = if self.model.keeps_memory {
+            memory::load(&out.memory[places.clone()])
+        } else {
+            [V::splat(0.0); MOST_MEMORIES]
+        };
         let pressure = self.model.pressure(density, field_before, memory[0]);
         let mut compression = CompressionStep {
             mass,

@@ -48,7 +48,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     fn check_pore_liquid(&self) -> Result<(), ParameterError> {
         let has_inlets = !self.inlets.is_empty();
         let modulus = self.equation_of_state().bulk_modulus;
-        let problem = |pore: PoreLiquid| pore_problem(&pore, self.numerics.smoothing_ratio, self.spacing, modulus, has_inlets);
+        let problem =
+            |pore: PoreLiquid| pore_problem(&pore, self.numerics.smoothing_ratio, self.spacing, modulus, has_inlets);
         if let Some(problem) = self.material.pore_liquid().and_then(problem) {
             return Err(problem.into());
         }

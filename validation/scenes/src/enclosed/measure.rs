@@ -97,12 +97,7 @@ pub struct Probe<const D: usize> {
 
 impl<const D: usize> Probe<D> {
     /// Velocity `[m/s]`, pressure and pore pressure `[Pa]` at the place, where the law's field is one: linear least squares with the weight 1 − r²/R²; zero without particles.
-    pub(super) fn values(
-        &self,
-        simulation: &Simulation<D>,
-        periods: &Periods<D>,
-        snapshot: &Snapshot<D>,
-    ) -> Vec<f64> {
+    pub(super) fn values(&self, simulation: &Simulation<D>, periods: &Periods<D>, snapshot: &Snapshot<D>) -> Vec<f64> {
         let radius = self.reach * simulation.spacing();
         let is_wet = simulation.rheology().pore_liquid().is_some();
         let images = periods.images([1; D]);
