@@ -13,6 +13,8 @@
 pub const SKELETON_SHARE: f64 = 0.5;
 /// Pore diffusion over h²/Δt up to which it is stepped explicitly `[-]`: sums of weights over a neighbourhood are near 5/h².
 pub const LARGEST_DIFFUSION: f64 = 0.125;
+/// Most steps that pore diffusion may make of one acoustic step `[-]`.
+pub const MOST_SUBSTEPS: f64 = 10.0;
 /// Solid fraction below which the permeability stays as it is `[-]`: Kozeny and Carman's grains touch.
 const LOOSEST: f64 = 0.3;
 
@@ -54,6 +56,14 @@ impl PoreLiquid {
         let pores = 1.0 - fraction;
         let area = self.permeability_coefficient * self.grain_diameter * self.grain_diameter;
         area * pores * pores * pores / (fraction * fraction * self.liquid_viscosity)
+    }
+
+    /// Smoothing length h `[m]` below which pore diffusion makes more than [`MOST_SUBSTEPS`] steps of one acoustic step, which lasts h times
+    /// `step_per_length` `[s/m]`.
+    #[must_use]
+    pub fn least_length(&self, bulk_modulus: f64, step_per_length: f64) -> f64 {
+        let diffusivity = self.diffusivity(self.solid_fraction, bulk_modulus);
+        diffusivity * step_per_length / (LARGEST_DIFFUSION * MOST_SUBSTEPS)
     }
 
     /// Largest diffusivity K_f k/η of an undrained pore pressure `[m²/s]` at a solid fraction `[-]` and a bulk modulus `[Pa]`.

@@ -171,11 +171,9 @@ impl<const D: usize> Scene<D> {
             .or_else(|| self.numerics.field_problem(&self.rheology))
             .or_else(|| self.enclosure.numerics_problem(&self.numerics))
             .or_else(|| {
-                let (ratio, modulus) = (self.numerics.smoothing_ratio, self.equation_of_state.bulk_modulus);
-                let has_inlets = !self.enclosure.inlets.is_empty();
-                self.rheology
-                    .pore_liquid()
-                    .and_then(|pore| pore_problem(&pore, ratio, self.spacing, modulus, has_inlets))
+                let scale = (self.spacing, self.equation_of_state.bulk_modulus);
+                let problem = |pore| pore_problem(&pore, &self.numerics, scale, !self.enclosure.inlets.is_empty());
+                self.rheology.pore_liquid().and_then(problem)
             })
             .or_else(|| self.side_walls.and_then(|walls| walls.problem(D)));
         problem.map_or(Ok(()), |problem| Err(problem.into()))
@@ -232,27 +230,21 @@ impl<const D: usize> Scene<D> {
     }
 }
 
-/// Largest number of steps that pore diffusion may make of one acoustic step `[-]`.
-const MOST_SUBSTEPS: f64 = 10.0;
-
-/// A mixture of grains and liquid that is not served, if it is one: whose pores drain too fast for explicit steps at a smoothing ratio
-/// `[-]`, a spacing `[m]` and a bulk modulus `[Pa]`, or which is fed.
+/// A mixture of grains and liquid that is not served, if it is one: whose pores drain too fast for explicit steps at a spacing `[m]` and a
+/// bulk modulus `[Pa]`, or which is fed.
 #[must_use]
 pub fn pore_problem(
     pore: &PoreLiquid,
-    smoothing_ratio: f64,
-    spacing: f64,
-    bulk_modulus: f64,
+    numerics: &Numerics,
+    (spacing, bulk_modulus): (f64, f64),
     has_inlets: bool,
 ) -> Option<ParameterProblem> {
     if has_inlets {
         let remedy = "give bodies of submerged grains only: what is fed has no pore pressure of its own";
         return Some(ParameterProblem::new("inlets", "given", "absent with a pore liquid", remedy));
     }
-    // 0.4 h/c against 0.125 h²/(K_f k/η)
     let sound_speed = (bulk_modulus / pore.mixture_density()).sqrt();
-    let diffusivity = pore.diffusivity(pore.solid_fraction, bulk_modulus);
-    let least = 3.2 * diffusivity / (sound_speed * MOST_SUBSTEPS * smoothing_ratio);
+    let least = pore.least_length(bulk_modulus, numerics.acoustic_courant / sound_speed) / numerics.smoothing_ratio;
     (spacing < least).then(|| {
         let rule = format!("at least {least:.3e} m for explicit steps of so fast a pore diffusion");
         let remedy = "raise the spacing, lower the stiffness, or leave the liquid out of grains that drain at once";

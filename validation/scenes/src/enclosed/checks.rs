@@ -7,7 +7,6 @@ use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector
 use super::{Measurand, SceneParameters, names, shapes, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::setup::rules;
-use bagnold_solver::material::pore_liquid::PoreLiquid;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 use bagnold_solver::weakly_compressible::numerics::Contact;
@@ -46,10 +45,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
 
     /// Pore liquid that the solver serves, and a start that only a material with one has.
     fn check_pore_liquid(&self) -> Result<(), ParameterError> {
-        let has_inlets = !self.inlets.is_empty();
-        let modulus = self.equation_of_state().bulk_modulus;
-        let problem =
-            |pore: PoreLiquid| pore_problem(&pore, self.numerics.smoothing_ratio, self.spacing, modulus, has_inlets);
+        let scale = (self.spacing, self.equation_of_state().bulk_modulus);
+        let problem = |pore| pore_problem(&pore, &self.numerics, scale, !self.inlets.is_empty());
         if let Some(problem) = self.material.pore_liquid().and_then(problem) {
             return Err(problem.into());
         }
