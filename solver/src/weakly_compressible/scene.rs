@@ -240,14 +240,14 @@ pub fn pore_problem(
     has_inlets: bool,
 ) -> Option<ParameterProblem> {
     if has_inlets {
-        let remedy = "give bodies of submerged grains only: what is fed has no pore pressure of its own";
+        let remedy = "give bodies only: what is fed has no pore pressure of its own";
         return Some(ParameterProblem::new("inlets", "given", "absent with a pore liquid", remedy));
     }
     let sound_speed = (bulk_modulus / pore.mixture_density()).sqrt();
     let least = pore.least_length(bulk_modulus, numerics.acoustic_courant / sound_speed) / numerics.smoothing_ratio;
     (spacing < least).then(|| {
-        let rule = format!("at least {least:.3e} m for explicit steps of so fast a pore diffusion");
-        let remedy = "raise the spacing, lower the stiffness, or leave the liquid out of grains that drain at once";
+        let rule = format!("at least {least:.3e} m, because pores drain within a step");
+        let remedy = "raise the spacing, lower the stiffness, or leave the liquid out";
         ParameterProblem::new("spacing", spacing, &rule, remedy)
     })
 }

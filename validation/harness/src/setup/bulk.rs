@@ -38,10 +38,10 @@ impl Bulk {
             Err(ParameterError::field("bulk_density", self.bulk_density, &rule, remedy))
         };
         if let Some(pore) = law.pore_liquid() {
-            if self.solid_fraction != pore.solid_fraction {
-                let rule = format!("the law's own, {}", pore.solid_fraction);
-                let remedy = "give the solid fraction of the start here and in the law";
-                return Err(ParameterError::field("solid_fraction", self.solid_fraction, &rule, remedy));
+            if self.solid_fraction != 1.0 {
+                let rule = format!("1 with the law \"{}\"", law.name());
+                let remedy = format!("the law has a `solid_fraction` of its own, {}", pore.solid_fraction);
+                return Err(ParameterError::field("solid_fraction", self.solid_fraction, &rule, &remedy));
             }
             return match self.bulk_density {
                 0.0 => Ok(()),

@@ -180,6 +180,26 @@ mod tests {
         assert_eq!(end[4..], [0.0; 2], "nothing crosses beside the line");
     }
 
+    /// Velocities that are linear in space, on which the fit is exact also at a corner.
+    #[test]
+    fn a_probe_reads_the_lines_of_a_moving_block() {
+        let mut scene = block_scene();
+        for (velocity, place) in scene.flow.velocity.iter_mut().zip(&scene.flow.position) {
+            *velocity = Vector::<2>::new(1.0 + 3.0 * place[1], -2.0 * place[0]);
+        }
+        let simulation = Simulation::new(scene).expect("a scene");
+        let unbounded = Periods::of(&[AxisBoundary::Open; 2]);
+        for (at, expected) in [("[0.1, 0.04]", [1.12, -0.2]), ("[0.0, 0.08]", [1.24, 0.0]), ("[3.0, 3.0]", [0.0, 0.0])]
+        {
+            let text = format!("kind = \"probe\"\nname = \"probe\"\nat = {at}");
+            let gauge = toml::from_str::<PlaneGauge>(&text).expect("a gauge");
+            let measures = [gauge.measure(&Vector::<2>::new(0.0, -1.0))];
+            let found = Memory::default().read_all(&measures, &simulation, &simulation.snapshot(), (160, &unbounded));
+            assert!((found[0] - expected[0]).abs() < 1e-12 && (found[1] - expected[1]).abs() < 1e-12, "{found:?}");
+            assert_eq!(found[2..], [0.0; 2], "no pressure, and no liquid in the pores");
+        }
+    }
+
     /// A layer of 8 rows of 1 cm that is 20 columns long and comes in again at the other side, and slides there with 1 m/s.
     fn sliding_layer() -> Simulation<2> {
         let mut scene = block_scene();
