@@ -66,7 +66,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             flow.field = free.iter().map(|(site, _)| self.pore_pressure_ratio * overburden(&site.place)).collect();
         }
         if self.lateral_pressure_ratio != 1.0 {
-            flow.stress = free.iter().map(|(site, _)| start.deviator(overburden(&site.place))).collect();
+            flow.stress = free.iter().map(|(site, _)| start.deviator(grains * overburden(&site.place))).collect();
         }
         flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();
         flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();
