@@ -13,7 +13,7 @@
 //! and its value at γ̇ = 0 is positive, so that the positive root lies between. Where the skeleton would bear tension it opens:
 //! φ falls until p′ = 0.
 //!
-//! Limits: all of the material lies under the liquid, whose own flow above the grains is left out; no suspension that settles grain by grain. K3 is no
+//! Limits: all of the material lies under the liquid, whose own flow above the grains is left out; walls are sealed; grains do not settle one by one. K3 is no
 //! constant of glass beads: published values reach from 4 to 40.
 
 use super::TrialStress;

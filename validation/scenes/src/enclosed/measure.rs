@@ -96,7 +96,7 @@ pub struct Probe<const D: usize> {
 }
 
 impl<const D: usize> Probe<D> {
-    /// Velocity `[m/s]`, pressure and pore pressure `[Pa]` at the place, where the law's field is one: linear least squares with the weight 1 − r²/R²; zero without particles.
+    /// Pressure and pore pressure `[Pa]` and velocity `[m/s]` at the place, where the law's field is one: linear least squares with the weight 1 − r²/R²; zero without particles.
     pub(super) fn values(&self, simulation: &Simulation<D>, periods: &Periods<D>, snapshot: &Snapshot<D>) -> Vec<f64> {
         let radius = self.reach * simulation.spacing();
         let is_wet = simulation.rheology().pore_liquid().is_some();
@@ -125,8 +125,8 @@ impl<const D: usize> Probe<D> {
             mean - (inverse * slope).dot(&centre)
         };
         let pore = |index: usize| if is_wet { snapshot.field[index] } else { 0.0 };
-        let velocity = (0..D).map(|axis| fitted(&|index| snapshot.velocity[index][axis]));
-        velocity.chain([fitted(&|index| snapshot.pressure[index]), fitted(&pore)]).collect()
+        let pressures = [fitted(&|index| snapshot.pressure[index]), fitted(&pore)];
+        pressures.into_iter().chain((0..D).map(|axis| fitted(&|index| snapshot.velocity[index][axis]))).collect()
     }
 }
 

@@ -68,7 +68,7 @@ fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<G
         Measurand::Probe(_) => {
             let along = |axis: &&str| column(&format!("velocity along {axis}"), "velocity", "m/s");
             let pressures = [column("pressure", "pressure", "Pa"), column("pore pressure", "pressure", "Pa")];
-            ["x", "y", "z"].iter().take(D).map(along).chain(pressures).collect()
+            pressures.into_iter().chain(["x", "y", "z"].iter().take(D).map(along)).collect()
         }
         Measurand::Force { .. } => {
             let along = |axis: &&str| column(&format!("force along {axis}"), "force", force);

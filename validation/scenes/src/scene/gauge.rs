@@ -195,8 +195,8 @@ mod tests {
             let gauge = toml::from_str::<PlaneGauge>(&text).expect("a gauge");
             let measures = [gauge.measure(&Vector::<2>::new(0.0, -1.0))];
             let found = Memory::default().read_all(&measures, &simulation, &simulation.snapshot(), (160, &unbounded));
-            assert!((found[0] - expected[0]).abs() < 1e-12 && (found[1] - expected[1]).abs() < 1e-12, "{found:?}");
-            assert_eq!(found[2..], [0.0; 2], "no pressure, and no liquid in the pores");
+            assert!((found[2] - expected[0]).abs() < 1e-12 && (found[3] - expected[1]).abs() < 1e-12, "{found:?}");
+            assert_eq!(found[..2], [0.0; 2], "no pressure, and no liquid in the pores");
         }
     }
 
