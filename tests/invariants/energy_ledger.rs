@@ -5,6 +5,7 @@ use crate::fields;
 use crate::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, bed, block, periodic_scene, simulation,
 };
+use crate::pore_liquid;
 use bagnold_harness::observation::EnergyBook;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
@@ -35,7 +36,9 @@ where
 
 #[test]
 fn a_disordered_block_loses_what_its_terms_dissipate() {
-    for rheology in [GRAINS, fields::nonlocal(), Rheology::Newtonian(Newtonian { viscosity: 5.0 })] {
+    for rheology in
+        [GRAINS, fields::nonlocal(), pore_liquid::submerged(), Rheology::Newtonian(Newtonian { viscosity: 5.0 })]
+    {
         let plane = |courant| open_share(Scene { rheology, ..periodic_scene([17, 14], Disorder::FULL, 11) }, courant);
         let space = open_share(Scene { rheology, ..periodic_scene([8, 7, 9], Disorder::FULL, 11) }, 0.1);
         let (long, short) = (plane(0.4), plane(0.1));

@@ -20,6 +20,7 @@ mod nonlocal_shear;
 mod open_law;
 mod pair_precision;
 mod patches;
+mod pore_liquid;
 mod restart;
 mod scene_errors;
 mod shells;

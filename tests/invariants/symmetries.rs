@@ -16,12 +16,13 @@ const BINGHAM: Rheology =
     Rheology::Bingham(Bingham { plastic_viscosity: 5.0, yield_stress: 400.0, regularisation_rate: 5.0 });
 
 /// Every operator with the law that it is meant for, all its options on.
-fn variants() -> [(Numerics, Rheology); 6] {
+fn variants() -> [(Numerics, Rheology); 7] {
     let recipe = Numerics { smagorinsky_constant: 0.2, ..exact_pairs() };
     let with = |momentum_operator| Numerics { momentum_operator, ..recipe };
     [
         (recipe, GRAINS),
         (recipe, crate::fields::nonlocal()),
+        (recipe, crate::pore_liquid::submerged()),
         (with(MomentumOperator::UncorrectedDivergence), GRAINS),
         (with(MomentumOperator::Pairwise), SYRUP),
         (with(MomentumOperator::PairwiseCorrected), BINGHAM),

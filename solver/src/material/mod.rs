@@ -3,6 +3,7 @@
 pub mod dilatancy;
 pub mod drag;
 pub mod equation_of_state;
+pub mod pore_liquid;
 pub mod rheology;
 pub mod suspension_viscosity;
 pub mod turbulence;

@@ -169,6 +169,10 @@ fn shear_energy<const D: usize>(volume: f64, stress: &Tensor<D>, shear_modulus: 
 fn specific_compression_energy<const D: usize>(model: &Model<D>, particles: &Particles<D>, index: usize) -> f64 {
     let density = particles.density[index];
     match &particles.field {
+        Some(field) if model.pore_liquid.is_some() => {
+            let growth = particles.memory.as_ref().map_or(0.0, |memory| memory[index][0]);
+            model.pore_energy(model.pressure(density, field[index], growth), field[index]) / density
+        }
         Some(field) if model.dilates => {
             let loosening: f64 = model.rheology.loosening(field[index]);
             loosening * compression_energy(&model.equation_of_state, density * loosening)
@@ -444,6 +448,18 @@ impl<V: Lanes> DilationStep<V> {
         // where nothing dilates also of a particle whose state is lost
         let zero = V::splat(0.0);
         sum.plastic = sum.plastic - work.if_less(zero, self.strain, zero) - work.if_less(self.strain, zero, zero);
+    }
+}
+
+impl<V: Lanes> StressWork<V> {
+    /// Books as plastic what the mean of the pressures has worked on a growing volume and neither pressure of a mixture has stored: by
+    /// dilation and by the way of the liquid through the pores.
+    #[inline(always)]
+    pub(crate) fn add_pore_flow(&mut self, mass: V, densities: (V, V), pressures: (V, V), stored: (V, V)) {
+        let least = V::splat(f64::MIN_POSITIVE);
+        let volume = (mass / densities.0.max(least), mass / densities.1.max(least));
+        let worked = V::splat(0.5) * (pressures.0 + pressures.1) * (volume.0 - volume.1);
+        self.plastic = self.plastic + worked - (volume.1 * stored.1 - volume.0 * stored.0);
     }
 }
 

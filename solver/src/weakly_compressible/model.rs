@@ -4,6 +4,7 @@ use crate::kernel::Kernel;
 use crate::lanes::algebra::{deviatoric_rate, invariant};
 use crate::lanes::{InstructionSet, Lanes, Real};
 use crate::material::equation_of_state::{EquationOfState, Tension};
+use crate::material::pore_liquid::{PoreLiquid, SKELETON_SHARE};
 use crate::material::rheology::field::{FieldBoundary, FieldDiffusion, FieldStep, LawField};
 use crate::material::rheology::{ElasticModuli, Rheology};
 use crate::material::turbulence::{Smagorinsky, dynamic_eddy_viscosity};
@@ -35,6 +36,8 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) lone_density_per_mass: f64,
     /// Whether plastic flow changes the volume, so that the pressure depends on the field also.
     pub(crate) dilates: bool,
+    /// Liquid that bears a part of the pressure, which is the law's field.
+    pub(crate) pore_liquid: Option<PoreLiquid>,
     /// Artificial stress of a cohesive law.
     pub(crate) artificial_stress: Option<ArtificialStress>,
 }
@@ -48,6 +51,8 @@ pub(crate) enum PairDiffusion {
     StressRatio,
     /// That and the law's field.
     Field,
+    /// The pressure of a pore liquid alone, by the conductivities of both particles.
+    PorePressure,
 }
 
 /// Whether the velocity gradient is made.
@@ -106,11 +111,15 @@ impl<const D: usize> Model<D> {
         ElasticModuli { shear: self.shear_modulus(), bulk: self.equation_of_state.bulk_modulus }
     }
 
-    /// Pressure `[Pa]` at a density `[kg/m³]` and a value of the law's field: that of the equation of state at ρ exp(e), with the plastic volume
-    /// strain e.
+    /// Pressure `[Pa]` at a density `[kg/m³]`, a value of the law's field and its first memory: that of the equation of state at ρ exp(e), with the
+    /// plastic volume strain e. With a pore liquid its pressure, the field, and that of the skeleton, K_s (ρ φ_0/(ρ_0 φ) − 1).
     #[inline(always)]
-    pub(crate) fn pressure<R: Real>(&self, density: R, field: R) -> R {
-        if self.dilates {
+    pub(crate) fn pressure<R: Real>(&self, density: R, field: R, growth: R) -> R {
+        if self.pore_liquid.is_some() {
+            let reference = R::splat(self.equation_of_state.reference_density);
+            let strain = (density - reference + density * growth) / reference;
+            R::splat(SKELETON_SHARE * self.equation_of_state.bulk_modulus) * strain + field
+        } else if self.dilates {
             self.equation_of_state.pressure(density * self.rheology.loosening(field))
         } else {
             self.equation_of_state.pressure(density)
@@ -122,6 +131,7 @@ impl<const D: usize> Model<D> {
     pub(crate) fn free_density<R: Real>(&self, field: R) -> R {
         let reference = R::splat(self.equation_of_state.reference_density);
         match self.equation_of_state.tension {
+            _ if self.pore_liquid.is_some() => R::splat(0.0),
             Tension::Kept => R::splat(0.0),
             Tension::Cut if self.dilates => reference / self.rheology.loosening(field),
             Tension::Cut => reference,
@@ -187,7 +197,9 @@ impl<const D: usize> Model<D> {
     /// law.
     #[inline(always)]
     pub(crate) fn pair_diffusion(&self) -> PairDiffusion {
-        if self.field_diffusion().is_some() {
+        if self.pore_liquid.is_some() {
+            PairDiffusion::PorePressure
+        } else if self.field_diffusion().is_some() {
             PairDiffusion::Field
         } else if self.stress_diffuses() {
             PairDiffusion::StressRatio
@@ -201,8 +213,25 @@ impl<const D: usize> Model<D> {
     #[inline(always)]
     pub(crate) fn stress_diffuses(&self) -> bool {
         self.rheology.strength_is_friction()
+            && self.pore_liquid.is_none()
             && self.numerics.stress_diffusion > 0.0
             && self.gradient_use() == GradientUse::Stress
+    }
+
+    /// Energy of both pressures of a mixture `[J/m³]`, p′²/2K_s + p_f²/2K_f, from the total pressure and that of the liquid `[Pa]`.
+    #[inline(always)]
+    pub(crate) fn pore_energy<R: Real>(&self, pressure: R, liquid: R) -> R {
+        let modulus = self.equation_of_state.bulk_modulus;
+        let effective = pressure - liquid;
+        R::splat(0.5 / (SKELETON_SHARE * modulus)) * (effective * effective)
+            + R::splat(0.5 / ((1.0 - SKELETON_SHARE) * modulus)) * (liquid * liquid)
+    }
+
+    /// Conductivity of a pore liquid over that at the start `[-]`, from the plastic growth of the volume `[-]`.
+    pub(crate) fn relative_conductivity(&self, growth: f64) -> f64 {
+        self.pore_liquid.map_or(1.0, |pore| {
+            pore.conductivity(pore.solid_fraction / (1.0 + growth)) / pore.conductivity(pore.solid_fraction)
+        })
     }
 
     /// Diffusion of the law's field, if it diffuses.

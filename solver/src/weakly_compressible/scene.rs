@@ -2,6 +2,7 @@
 
 use crate::domain::{AxisBoundary, Domain};
 use crate::material::equation_of_state::EquationOfState;
+use crate::material::pore_liquid::PoreLiquid;
 use crate::material::rheology::Rheology;
 use crate::material::rheology::field::Memory;
 use crate::parameter::ParameterProblem;
@@ -169,6 +170,11 @@ impl<const D: usize> Scene<D> {
             .or_else(|| self.numerics.step_problem(&self.rheology))
             .or_else(|| self.numerics.field_problem(&self.rheology))
             .or_else(|| self.enclosure.numerics_problem(&self.numerics))
+            .or_else(|| {
+                let scale = (self.spacing, self.equation_of_state.bulk_modulus);
+                let problem = |pore| pore_problem(&pore, &self.numerics, scale, !self.enclosure.inlets.is_empty());
+                self.rheology.pore_liquid().and_then(problem)
+            })
             .or_else(|| self.side_walls.and_then(|walls| walls.problem(D)));
         problem.map_or(Ok(()), |problem| Err(problem.into()))
     }
@@ -222,6 +228,28 @@ impl<const D: usize> Scene<D> {
         }
         Ok(())
     }
+}
+
+/// A mixture of grains and liquid that is not served, if it is one: whose pores drain too fast for explicit steps at a spacing `[m]` and a
+/// bulk modulus `[Pa]`, or which is fed.
+#[must_use]
+pub fn pore_problem(
+    pore: &PoreLiquid,
+    numerics: &Numerics,
+    (spacing, bulk_modulus): (f64, f64),
+    has_inlets: bool,
+) -> Option<ParameterProblem> {
+    if has_inlets {
+        let remedy = "give bodies only: what is fed has no pore pressure of its own";
+        return Some(ParameterProblem::new("inlets", "given", "absent with a pore liquid", remedy));
+    }
+    let sound_speed = (bulk_modulus / pore.mixture_density()).sqrt();
+    let least = pore.least_length(bulk_modulus, numerics.acoustic_courant / sound_speed) / numerics.smoothing_ratio;
+    (spacing < least).then(|| {
+        let rule = format!("at least {least:.3e} m, because pores drain within a step");
+        let remedy = "raise the spacing, lower the stiffness, or leave the liquid out";
+        ParameterProblem::new("spacing", spacing, &rule, remedy)
+    })
 }
 
 fn is_positive(value: f64) -> bool {

@@ -321,6 +321,12 @@ impl<const D: usize> Simulation<D> {
         self.state.model.elastic_viscosity()
     }
 
+    /// Bulk modulus `[Pa]`.
+    #[must_use]
+    pub fn bulk_modulus(&self) -> f64 {
+        self.state.model.equation_of_state.bulk_modulus
+    }
+
     /// Constitutive law.
     #[must_use]
     pub fn rheology(&self) -> &Rheology {

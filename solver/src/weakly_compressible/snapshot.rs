@@ -45,6 +45,7 @@ impl<const D: usize> Snapshot<D> {
         }
         let density = pick(&particles.density, &order);
         let field = particles.field.as_ref().map_or_else(Vec::new, |field| pick(field, &order));
+        let memory = particles.memory.as_ref().map_or_else(Vec::new, |memory| pick(memory, &order));
         Self {
             time,
             position: pick(&particles.position, &order),
@@ -54,12 +55,15 @@ impl<const D: usize> Snapshot<D> {
             pressure: density
                 .iter()
                 .enumerate()
-                .map(|(place, &rho)| model.pressure(rho, field.get(place).copied().unwrap_or_default()))
+                .map(|(place, &rho)| {
+                    let growth = memory.get(place).map_or(0.0, |memory| memory[0]);
+                    model.pressure(rho, field.get(place).copied().unwrap_or_default(), growth)
+                })
                 .collect(),
             density,
             mass: pick(&particles.mass, &order),
             field,
-            memory: particles.memory.as_ref().map_or_else(Vec::new, |memory| pick(memory, &order)),
+            memory,
             support_impulse: pick(&particles.support_impulse, &order),
             energy,
         }

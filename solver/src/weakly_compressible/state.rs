@@ -76,6 +76,7 @@ impl<const D: usize> State<D> {
                 Tension::Kept => 0.0,
             },
             dilates: scene.rheology.dilates(),
+            pore_liquid: scene.rheology.pore_liquid(),
             artificial_stress: (scene.rheology.is_cohesive()).then(|| ArtificialStress::new(&kernel, scene.spacing)),
         };
         particles.artificial_viscosity.fill(model.initial_artificial_viscosity());

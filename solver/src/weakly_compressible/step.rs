@@ -38,13 +38,15 @@ impl<const D: usize> State<D> {
     fn update_pressure(&mut self) {
         let (model, particles) = (&self.model, &mut self.particles);
         let flow = particles.flow_count();
-        let field = particles.field.as_deref().filter(|_| model.dilates);
+        let field = particles.field.as_deref().filter(|_| model.dilates || model.pore_liquid.is_some());
+        let memory = particles.memory.as_deref().filter(|_| model.pore_liquid.is_some());
         (&mut particles.pressure[..flow], &mut particles.volume[..flow], &particles.density[..flow], &particles.mass)
             .into_par_iter()
             .with_min_len(4096)
             .enumerate()
             .for_each(|(index, (pressure, volume, density, mass))| {
-                *pressure = model.pressure(*density, field.map_or(0.0, |field| field[index]));
+                let growth = memory.map_or(0.0, |memory| memory[index][0]);
+                *pressure = model.pressure(*density, field.map_or(0.0, |field| field[index]), growth);
                 *volume = mass / density;
             });
     }

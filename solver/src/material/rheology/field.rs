@@ -12,6 +12,7 @@
 
 use super::TrialStress;
 use crate::lanes::Real;
+use crate::material::pore_liquid::PoreLiquid;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -78,6 +79,8 @@ pub struct FieldStep<R> {
     pub gain: R,
     /// Σ D w, with what walls and the surface take; 0 without diffusion.
     pub loss: R,
+    /// Share by which the volume grows in the step `[-]`; 0 where the pressure is given.
+    pub growth: R,
     /// Memory of the law beside the field, at the start of the step.
     pub memory: Memory<R>,
 }
@@ -92,7 +95,7 @@ impl<R: Real> FieldStep<R> {
     /// A field with the two sums of its diffusion.
     #[inline(always)]
     pub fn new(value: R, gain: R, loss: R) -> Self {
-        Self { value, gain, loss, memory: [R::splat(0.0); MOST_MEMORIES] }
+        Self { value, gain, loss, growth: R::splat(0.0), memory: [R::splat(0.0); MOST_MEMORIES] }
     }
 
     /// The same with a memory.
@@ -164,6 +167,12 @@ pub trait FieldLaw {
     /// [`TrialStress::dilated_pressure`].
     fn plastic_volume_strain<R: Real>(&self, _field: R) -> R {
         R::splat(0.0)
+    }
+
+    /// Liquid in the pores, if the law's field is its pressure. Then every pressure that the law is given is the total one, the grains' and the
+    /// liquid's; the first memory is the plastic growth of the volume, and the field diffuses by the conductivity over that at the start.
+    fn pore_liquid(&self) -> Option<PoreLiquid> {
+        None
     }
 
     /// Elastic part of a particle at an equivalent shear stress and a pressure `[Pa]`, from 1 to 0 `[-]`; 0 without

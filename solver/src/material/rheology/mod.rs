@@ -44,6 +44,9 @@ mod softening_drucker_prager_tests;
 mod stress_update;
 #[cfg(test)]
 mod tests;
+mod viscous_number;
+#[cfg(test)]
+mod viscous_number_tests;
 
 pub use bingham::Bingham;
 pub use coulomb_bingham::CoulombBingham;
@@ -54,12 +57,14 @@ pub use nonlocal_mu_i::NonlocalMuI;
 pub use regularised_mu_i::RegularisedMuI;
 pub use root_mu_i::RootMuI;
 pub use softening_drucker_prager::SofteningDruckerPrager;
+pub use viscous_number::ViscousNumber;
 
 use field::{FieldLaw, FieldStep, LawField, StateReturn};
 use open::{OpenField, OpenPlastic, OpenViscous};
 
 use crate::lanes::algebra::{deviatoric_rate, invariant, load_tensor, store_tensor};
 use crate::lanes::{LANES, Lanes, Real};
+use crate::material::pore_liquid::PoreLiquid;
 use crate::parameter::{ParameterProblem, range_problem};
 use crate::vector::Tensor;
 use schemars::JsonSchema;
@@ -484,6 +489,16 @@ macro_rules! rheology {
                 }
             }
 
+            /// Liquid in the pores of the material, if its law has one.
+            #[must_use]
+            pub fn pore_liquid(&self) -> Option<PoreLiquid> {
+                match self {
+                    $(Self::$viscous(_) => None,)*
+                    $(Self::$plastic(_) => None,)*
+                    $(Self::$keeper(law) => law.pore_liquid(),)*
+                }
+            }
+
             /// Whether plastic flow changes the volume.
             #[inline]
             #[must_use]
@@ -541,6 +556,7 @@ impl Rheology {
             Self::RootMuI(law) => law.friction_problem(),
             Self::NonlocalMuI(law) => law.friction_problem(),
             Self::SofteningDruckerPrager(law) => law.strength_problem(),
+            Self::ViscousNumber(law) => law.density_problem(),
             Self::Newtonian(_) | Self::Bingham(_) | Self::CoulombBingham(_) | Self::HerschelBulkley(_) => None,
             // the maker of an open law has judged its parameters
             Self::OpenViscous(_) | Self::OpenPlastic(_) | Self::OpenField(_) => None,
@@ -579,6 +595,7 @@ impl Rheology {
             Self::RegularisedMuI(law) => Some(law.grain_diameter),
             Self::RootMuI(law) => Some(law.grain_diameter),
             Self::NonlocalMuI(law) => Some(law.grain_diameter),
+            Self::ViscousNumber(law) => Some(law.grain_diameter),
             _ => self.open_parameter("grain_diameter"),
         }
     }
@@ -627,5 +644,5 @@ laws! {
         RootMuI = "root-mu-i",
     ],
     plastic: [MuI = "mu-i"],
-    with_field: [NonlocalMuI = "nonlocal-mu-i", SofteningDruckerPrager = "softening-drucker-prager"],
+    with_field: [NonlocalMuI = "nonlocal-mu-i", SofteningDruckerPrager = "softening-drucker-prager", ViscousNumber = "viscous-number"],
 }

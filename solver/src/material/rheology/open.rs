@@ -249,7 +249,7 @@ impl FieldLaw for OpenField {
         let values = [trial.shear_stress, trial.pressure, field.value, field.gain, field.loss, first, second, third];
         let end = |[shear_stress, pressure, value, gain, loss, first, second, third]: [f64; 8]| {
             let trial = trial.at(shear_stress, pressure);
-            self.0.law.end_of_step(&trial, &FieldStep { value, gain, loss, memory: [first, second, third] })
+            self.0.law.end_of_step(&trial, &FieldStep::new(value, gain, loss).with_memory([first, second, third]))
         };
         FieldReturn {
             shear_stress: R::lane_by_lane(values, &|values| end(values).shear_stress),
@@ -290,7 +290,7 @@ impl FieldLaw for OpenField {
         let after = |values: [f64; 10]| {
             let [shear_stress, pressure, value, gain, loss, first, second, third, at_end, field] = values;
             let trial = trial.at(shear_stress, pressure);
-            let before = FieldStep { value, gain, loss, memory: [first, second, third] };
+            let before = FieldStep::new(value, gain, loss).with_memory([first, second, third]);
             self.0.law.memory_after(&trial, &before, &FieldReturn { shear_stress: at_end, field })
         };
         [

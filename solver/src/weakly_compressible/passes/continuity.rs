@@ -22,6 +22,7 @@ use std::marker::PhantomData;
 const NONE: u8 = PairDiffusion::None as u8;
 const STRESS_RATIO: u8 = PairDiffusion::StressRatio as u8;
 const FIELD: u8 = PairDiffusion::Field as u8;
+const PORE_PRESSURE: u8 = PairDiffusion::PorePressure as u8;
 
 /// Places in a record, which begins with a position and, where weights are computed anew, a volume.
 struct Place<P, const D: usize>(PhantomData<P>);
@@ -41,6 +42,7 @@ impl<P: Precision, const D: usize> Place<P, D> {
         match diffusion {
             STRESS_RATIO => Self::FIELD,
             FIELD => Self::FIELD + 1,
+            PORE_PRESSURE => Self::YIELDING + 2,
             _ => Self::YIELDING,
         }
     }
@@ -175,7 +177,11 @@ fn fill<P: Precision, const D: usize>(
         } else {
             &particles.pressure_gradient[index]
         });
-        if diffusion != PairDiffusion::None {
+        if diffusion == PairDiffusion::PorePressure {
+            let kept = particles.kept(index);
+            record.scalar(kept.value);
+            record.scalar(model.relative_conductivity(kept.memory[0]));
+        } else if diffusion != PairDiffusion::None {
             let stress = &particles.stress[index];
             let kept = particles.kept(index);
             let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, &kept);
@@ -246,6 +252,7 @@ fn sums_of<V: Lanes, P: Precision, const D: usize>(
         PairDiffusion::None => pair_sums::<V, P, D, NONE>(inputs, records, weights),
         PairDiffusion::StressRatio => pair_sums::<V, P, D, STRESS_RATIO>(inputs, records, weights),
         PairDiffusion::Field => pair_sums::<V, P, D, FIELD>(inputs, records, weights),
+        PairDiffusion::PorePressure => pair_sums::<V, P, D, PORE_PRESSURE>(inputs, records, weights),
     }
 }
 
@@ -259,6 +266,8 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize, const DIFFUSION: u8>(
     let record = records.load::<V>(quads, &group.own);
     let own = Partner::of::<P>(&record);
     let own_yields = records::scalar(&record, Place::<P, D>::YIELDING);
+    // of a pore liquid these two places have its pressure and conductivity
+    let own_conductivity = records::scalar(&record, Place::<P, D>::YIELDING + 1);
     let own_stress: [[_; D]; D] = records::deviator(&record, Place::<P, D>::YIELDING + 1);
     let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: own.position };
     let (flow_weights, wall_weights) = weights.split_at(group.flow.len().min(weights.len()));
@@ -276,7 +285,14 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize, const DIFFUSION: u8>(
                 part.field.taken = part.field.taken + weight * records::scalar(&record, Place::<P, D>::FIELD);
                 part.field.weights = part.field.weights + weight;
             }
-            if DIFFUSION != NONE {
+            if DIFFUSION == PORE_PRESSURE {
+                let conductivity = records::scalar(&record, Place::<P, D>::YIELDING + 1);
+                let mean = field_diffusion::mean_conductivity(own_conductivity, conductivity);
+                let difference = records::scalar(&record, Place::<P, D>::YIELDING) - own_yields;
+                part.field.taken = part.field.taken + weight * mean * difference;
+                part.field.weights = part.field.weights + weight;
+            }
+            if DIFFUSION == STRESS_RATIO || DIFFUSION == FIELD {
                 let yields = records::scalar(&record, Place::<P, D>::YIELDING);
                 let stress = records::deviator(&record, Place::<P, D>::YIELDING + 1);
                 let pressure_sum = own.pressure + other.pressure;
@@ -297,16 +313,18 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize, const DIFFUSION: u8>(
         }
         flush::<V, P>(&mut sums.coupling, &mut part.coupling);
         flush_tensor::<V, P, D>(&mut sums.gradient, &mut part.gradient);
-        if DIFFUSION == FIELD {
+        if DIFFUSION == FIELD || DIFFUSION == PORE_PRESSURE {
             flush::<V, P>(&mut sums.field.taken, &mut part.field.taken);
             flush::<V, P>(&mut sums.field.weights, &mut part.field.weights);
         }
-        if DIFFUSION != NONE {
+        if DIFFUSION == STRESS_RATIO || DIFFUSION == FIELD {
             flush::<V, P>(&mut pressures, &mut part_pressures);
             flush_tensor::<V, P, D>(&mut sums.stress_diffusion, &mut part.stress_diffusion);
         }
     }
-    sums.field.given = sums.field.weights;
+    if DIFFUSION == FIELD {
+        sums.field.given = sums.field.weights;
+    }
     let mut walls = weighing.pairs(group.wall, wall_weights);
     while let Some(walls) = walls.next() {
         for (w, weight) in walls {
@@ -317,6 +335,9 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize, const DIFFUSION: u8>(
             accumulate_outer(&mut part.wall_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
             let sliding = difference(&own.velocity, &wall.pressure_gradient);
             part.wall_compression = part.wall_compression + weight * dot(&sliding, &r);
+            if DIFFUSION == PORE_PRESSURE {
+                sums.field.weights = sums.field.weights + P::widen::<V>(weight);
+            }
             if DIFFUSION == FIELD {
                 let places = w.places_from(particles.flow_count());
                 let places = places.indices();
@@ -335,7 +356,7 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize, const DIFFUSION: u8>(
     sums.compression = continuity::compression(&sums.gradient) + sums.wall_compression;
     for i in 0..D {
         accumulate(&mut sums.gradient[i], V::splat(1.0), &sums.wall_gradient[i]);
-        if P::SINGLE && DIFFUSION != NONE {
+        if P::SINGLE && (DIFFUSION == STRESS_RATIO || DIFFUSION == FIELD) {
             for j in 0..D {
                 let (stress_a, pressure_a) = (P::widen::<V>(own_stress[i][j]), P::widen::<V>(own.pressure));
                 sums.stress_diffusion[i][j] = pressures * stress_a - pressure_a * sums.stress_diffusion[i][j];

@@ -5,7 +5,8 @@ use crate::lanes::algebra::{
     accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
 };
 use crate::lanes::{LANES, Lanes, Real};
-use crate::material::rheology::field::{FieldBoundary, FieldStep, Memory};
+use crate::material::pore_liquid::LARGEST_DIFFUSION;
+use crate::material::rheology::field::{FieldBoundary, FieldStep, MOST_MEMORIES, Memory};
 use crate::vector::{Tensor, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
 use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, DilationStep, EnergyLedger, StressWork};
@@ -104,6 +105,7 @@ struct LawStep<V> {
     /// `[Pa]`
     pressure: V,
     field: V,
+    memory: Memory<V>,
     /// Share by which the volume grows `[-]`.
     growth: V,
 }
@@ -140,7 +142,12 @@ impl<const D: usize> Advance<'_, D> {
         let time_step = V::splat(self.time_step);
         let field_before =
             if self.model.field.is_some() { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
-        let pressure = self.model.pressure(density, field_before);
+        let memory = if self.model.keeps_memory {
+            memory::load(&out.memory[places.clone()])
+        } else {
+            [V::splat(0.0); MOST_MEMORIES]
+        };
+        let pressure = self.model.pressure(density, field_before, memory[0]);
         let mut compression = CompressionStep {
             mass,
             density: (previous, density),
@@ -149,7 +156,8 @@ impl<const D: usize> Advance<'_, D> {
             by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
             free: self.model.free_density(field_before),
         };
-        if !self.model.dilates {
+        let follows = self.model.dilates || self.model.pore_liquid.is_some();
+        if !follows {
             compression.add_to(work);
         }
         let inverse_reference = 1.0 / equation_of_state.reference_density;
@@ -171,11 +179,12 @@ impl<const D: usize> Advance<'_, D> {
                 density,
                 pressure,
                 field: field_before,
+                memory,
                 growth: (previous - density) / density.max(V::splat(f64::MIN_POSITIVE)),
             };
             compression.pressure.1 = self.stress_of(places, start, sums, out, work, extremes);
         }
-        if self.model.dilates {
+        if follows {
             compression.add_to(work);
         }
     }
@@ -210,10 +219,9 @@ impl<const D: usize> Advance<'_, D> {
             let moduli = self.model.moduli();
             let volume = load::<V>(&self.particles.volume[particles_here.clone()]);
             let keeps_memory = self.model.keeps_memory;
-            let mut kept = self.field_step(field_before, &sums.field);
-            if keeps_memory {
-                kept = kept.with_memory(memory::load(&out.memory[places.clone()]));
-            }
+            let mut kept = self.field_step(field_before, start.memory[0], &sums.field);
+            kept.growth = start.growth;
+            kept.memory = start.memory;
             let end = law.updated_states(&diffused, &gradient, pressure, &kept, moduli, self.time_step);
             let (stress, field) = (end.stress, end.field);
             if self.model.field.is_some() {
@@ -223,13 +231,27 @@ impl<const D: usize> Advance<'_, D> {
                 memory::store(&end.memory, &mut out.memory[places.clone()]);
             }
             if self.model.dilates {
-                let dilated = self.model.pressure(density, field);
+                let dilated = self.model.pressure(density, field, end.memory[0]);
                 let strain = law.plastic_volume_strain(field) - law.plastic_volume_strain(field_before);
                 DilationStep { volume, bulk_modulus: moduli.bulk, pressure: (pressure, dilated), strain }.add_to(work);
                 pressure = dilated;
             }
             store_tensor(&stress, &mut out.stress[places.clone()]);
             let pressure_before = load::<V>(&self.particles.pressure[particles_here.clone()]);
+            if let Some(pore) = &self.model.pore_liquid {
+                pressure = self.model.pressure(density, field, end.memory[0]);
+                let mass = load::<V>(&self.particles.mass[particles_here.clone()]);
+                let densities = (mass / volume.max(V::splat(f64::MIN_POSITIVE)), density);
+                let before = self.model.pore_energy(pressure_before, field_before);
+                let stored = (before, self.model.pore_energy(pressure, field));
+                work.add_pore_flow(mass, densities, (pressure_before, pressure), stored);
+                let stable = self.model.numerics.viscous_courant / LARGEST_DIFFUSION;
+                for memory in &out.memory[places.clone()] {
+                    let fraction = pore.solid_fraction / (1.0 + memory[0]);
+                    let diffusivity = stable * pore.diffusivity(fraction, moduli.bulk);
+                    extremes.kinematic_viscosity = extremes.kinematic_viscosity.max(diffusivity);
+                }
+            }
             let mut added = zero_tensor::<V, D>();
             let added_viscosity =
                 self.model.added_viscosity(&gradient_before, &before, pressure_before, density, &kept);
@@ -283,7 +305,7 @@ impl<const D: usize> Advance<'_, D> {
 
     /// A field with what its diffusion brings and takes.
     #[inline(always)]
-    fn field_step<V: Lanes>(&self, value: V, sums: &FieldSums<V>) -> FieldStep<V> {
+    fn field_step<V: Lanes>(&self, value: V, growth: V, sums: &FieldSums<V>) -> FieldStep<V> {
         let Some(diffusion) = self.model.field_diffusion() else { return FieldStep::alone(value) };
         // V F is negative
         let strength = V::splat(-2.0 * diffusion.strength);
@@ -291,6 +313,10 @@ impl<const D: usize> Advance<'_, D> {
         if diffusion.surface == FieldBoundary::Vanishing {
             let weights = V::splat(-2.0) * sums.weights;
             let sink = field_diffusion::surface_sink(weights, self.model.full_weight, sums.eigenvalue);
+            let sink = match &self.model.pore_liquid {
+                Some(_) => V::lane_by_lane([growth], &|[growth]| self.model.relative_conductivity(growth)) * sink,
+                None => sink,
+            };
             loss = loss + V::splat(diffusion.strength) * sink;
         }
         FieldStep::new(value, strength * sums.taken, loss)

@@ -46,6 +46,13 @@ pub fn surface_sink<V: Real>(weights: V, full_weight: f64, eigenvalue: V) -> V {
     V::splat(SURFACE_STRENGTH) * missing * open
 }
 
+/// Harmonic mean of two conductivities, as two layers in a row have it.
+#[inline(always)]
+pub fn mean_conductivity<V: Real>(a: V, b: V) -> V {
+    let product = a * b;
+    (product + product) / (a + b)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,6 +2,7 @@
 
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{Bed, IncompressibleScene, ParticleSet};
+use bagnold_solver::material::pore_liquid::SKELETON_SHARE;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -114,7 +115,10 @@ fn slip(roughness: Surface) -> &'static str {
 
 impl<const D: usize> From<&Scene<D>> for Conditions {
     fn from(scene: &Scene<D>) -> Self {
-        let (mut all, flow, material) = (Self::default(), &scene.flow, scene.equation_of_state);
+        let (mut all, flow, mut material) = (Self::default(), &scene.flow, scene.equation_of_state);
+        if scene.rheology.pore_liquid().is_some() {
+            material.bulk_modulus *= SKELETON_SHARE;
+        }
         for wall in &scene.walls {
             let name = if wall.region.is_some() { "gate" } else { ENDS[wall.axis][usize::from(wall.side < 0.0)] };
             // the other faces of a gate are its thickness, which is a choice of ours

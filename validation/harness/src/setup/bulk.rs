@@ -27,7 +27,8 @@ impl Bulk {
     /// Bulk density `[kg/m³]` of a law's material.
     #[must_use]
     pub fn density(&self, law: &Rheology) -> f64 {
-        law.grain_density().map_or(self.bulk_density, |grains| self.solid_fraction * grains)
+        let of_grains = || law.grain_density().map_or(self.bulk_density, |grains| self.solid_fraction * grains);
+        law.pore_liquid().map_or_else(of_grains, |pore| pore.mixture_density())
     }
 
     /// Refuses a bulk density beside that of the grains, and a law that leaves it open.
@@ -36,6 +37,17 @@ impl Bulk {
             let rule = format!("{rule} \"{}\"", law.name());
             Err(ParameterError::field("bulk_density", self.bulk_density, &rule, remedy))
         };
+        if let Some(pore) = law.pore_liquid() {
+            if self.solid_fraction != 1.0 {
+                let rule = format!("1 with the law \"{}\"", law.name());
+                let remedy = format!("the law has a `solid_fraction` of its own, {}", pore.solid_fraction);
+                return Err(ParameterError::field("solid_fraction", self.solid_fraction, &rule, &remedy));
+            }
+            return match self.bulk_density {
+                0.0 => Ok(()),
+                _ => refused("0 with the law", "it follows from the densities of grains and liquid"),
+            };
+        }
         match law.grain_density() {
             Some(_) if self.bulk_density != 0.0 => {
                 refused("0 with the law", "it follows from `solid_fraction` and the law's grain density")

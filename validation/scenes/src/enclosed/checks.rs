@@ -10,6 +10,7 @@ use crate::setup::rules;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 use bagnold_solver::weakly_compressible::numerics::Contact;
+use bagnold_solver::weakly_compressible::scene::pore_problem;
 use bagnold_solver::weakly_compressible::walls::Surface;
 
 impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
@@ -23,6 +24,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         }
         rules::material("material", &self.material)?;
         self.bulk.check(&self.material).map_err(|error| error.within("bulk"))?;
+        self.check_pore_liquid()?;
         self.sides.check()?;
         for (k, body) in self.bodies.iter().enumerate() {
             body.check().map_err(|error| error.within(&format!("bodies[{k}]")))?;
@@ -39,6 +41,21 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         self.check_inlets()?;
         self.check_gauges()?;
         self.check_numerics()
+    }
+
+    /// Pore liquid that the solver serves, and a start that only a material with one has.
+    fn check_pore_liquid(&self) -> Result<(), ParameterError> {
+        let scale = (self.spacing, self.equation_of_state().bulk_modulus);
+        let problem = |pore| pore_problem(&pore, &self.numerics, scale, !self.inlets.is_empty());
+        if let Some(problem) = self.material.pore_liquid().and_then(problem) {
+            return Err(problem.into());
+        }
+        if self.pore_pressure_ratio != 0.0 && self.material.pore_liquid().is_none() {
+            let rule = format!("0 for the law \"{}\"", self.material.name());
+            let remedy = "leave it out, or give the law \"viscous-number\"";
+            return Err(ParameterError::field("pore_pressure_ratio", self.pore_pressure_ratio, &rule, remedy));
+        }
+        Ok(())
     }
 
     /// Numerics that the material and the walls need.
@@ -82,6 +99,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
                 _ if lower.is_periodic() => continue,
                 Measurand::Flux(_) => 0.0,
                 Measurand::Depth(depth) if depth.direction[axis].abs() < 1e-9 => 0.5 * depth.width,
+                Measurand::Probe(probe) => probe.reach * self.spacing,
                 Measurand::Depth(_) | Measurand::Force { .. } => continue,
             };
             let places = gauge.places();
@@ -143,7 +161,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             let remedy = "leave it out, or give a law with a stress at rest, such as \"mu-i\"";
             return Err(ParameterError::field(field, ratio, &rule, remedy));
         };
-        let weight = self.bulk.density(&self.material) * vector::<D>(&self.gravity).norm() * self.height();
+        let weight = self.bulk.density(&self.material) * self.pull().norm() * self.height();
         if weight == 0.0 {
             return Err(ParameterError::field(field, ratio, "1 without gravity", "leave it out: no weight presses"));
         }

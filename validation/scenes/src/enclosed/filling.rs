@@ -4,7 +4,7 @@ use super::behind_walls::{Permissions, Site};
 use super::geostatic::GeostaticStress;
 use super::lattice::{LatticeGroup, SiteLattice, groups};
 use super::parameters::Dimension;
-use super::setting::{SceneBody, SceneInlet, SceneWall, vector};
+use super::setting::{SceneBody, SceneInlet, SceneWall};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
 use super::{SceneParameters, shapes};
@@ -12,6 +12,7 @@ use crate::case::ParameterError;
 use crate::output::caution_about;
 use crate::setup::displaced_flow;
 use bagnold_solver::material::equation_of_state::EquationOfState;
+use bagnold_solver::material::pore_liquid::SKELETON_SHARE;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::scene::Flow;
 
@@ -36,8 +37,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             let subject = format!("bodies of scene `{}`", self.name);
             caution_about(&subject, &format!("scene `{}`: {}", self.name, remarks.join("; ")));
         }
-        let gravity = vector(&self.gravity);
-        let (up, weight) = (-self.down(), equation_of_state.reference_density * gravity.norm());
+        let (up, pull) = self.uphill();
+        let weight = equation_of_state.reference_density * pull;
         let (mut all, mut free) = (0, Vec::new());
         for LatticeGroup { lattice, bodies: members } in &groups {
             let sites = self.held(lattice, members, walls);
@@ -49,15 +50,23 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         }
         let share = if all == 0 { 0.0 } else { (all - free.len()) as f64 / all as f64 };
         let start = GeostaticStress { lateral_ratio: self.lateral_pressure_ratio, up };
+        // grains in a liquid have a share of the mixture's stiffness
+        let (mut skeleton, grains) = (*equation_of_state, 1.0 - self.pore_pressure_ratio);
+        if self.material.pore_liquid().is_some() {
+            skeleton.bulk_modulus *= SKELETON_SHARE;
+        }
         let overburden = |site: &Vector<D>| weight * depth(bodies, site, &up, spacing);
         let mut flow = displaced_flow(
             free.iter().map(|(site, _)| site.place),
             (jitter * spacing, self.seed),
-            |site| equation_of_state.density(self.pressure + start.pressure(overburden(site))),
+            |site| skeleton.density(self.pressure + grains * start.pressure(overburden(site))),
             |_| 0.0,
         );
+        if self.pore_pressure_ratio > 0.0 {
+            flow.field = free.iter().map(|(site, _)| self.pore_pressure_ratio * overburden(&site.place)).collect();
+        }
         if self.lateral_pressure_ratio != 1.0 {
-            flow.stress = free.iter().map(|(site, _)| start.deviator(overburden(&site.place))).collect();
+            flow.stress = free.iter().map(|(site, _)| start.deviator(grains * overburden(&site.place))).collect();
         }
         flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();
         flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();

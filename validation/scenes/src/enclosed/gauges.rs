@@ -57,6 +57,7 @@ impl<const D: usize> Memory<D> {
         match measure {
             Measurand::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
             Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
+            Measurand::Probe(probe) => probe.values(simulation, periods, snapshot),
             Measurand::Force { wall } => {
                 let Some(k) = simulation.facet_walls().iter().position(|own| own.name == *wall) else {
                     return vec![0.0; D];

@@ -3,12 +3,14 @@
 use super::periods::Periods;
 use super::shapes;
 use crate::setup::front::FrontLine;
-use bagnold_solver::vector::Vector;
+use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// Places by which a particle's cell is divided at the rim of what is measured.
 const PLACES: usize = 256;
+/// Condition number of the spread of a probe's particles from which on no line is fitted `[-]`: around a surface it is near 10.
+const IN_A_LINE: f64 = 1e3;
 /// Component of an opening's normal along an axis that counts as none `[-]`.
 const IN_PLANE: f64 = 1e-9;
 
@@ -19,6 +21,8 @@ pub enum Measurand<'a, const D: usize> {
     Front(FrontLine<D>),
     /// Thickness of the material along a direction.
     Depth(DepthGauge<D>),
+    /// Velocity and pressures at a place.
+    Probe(Probe<D>),
     /// Force of the flow on a wall.
     Force {
         /// Name of the wall.
@@ -79,6 +83,50 @@ impl<const D: usize> DepthGauge<D> {
     /// The part of a way across the direction `[m]`.
     fn across(&self, way: &Vector<D>) -> Vector<D> {
         way - self.direction * way.dot(&self.direction)
+    }
+}
+
+/// A place at which velocity and pressures are measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Probe<const D: usize> {
+    /// The place `[m]`.
+    pub at: Vector<D>,
+    /// Distance within which particles count, in spacings `[-]`.
+    pub reach: f64,
+}
+
+impl<const D: usize> Probe<D> {
+    /// Pressure and pore pressure `[Pa]` and velocity `[m/s]` at the place, where the law's field is one: linear least squares with the weight 1 − r²/R²; zero without particles.
+    pub(super) fn values(&self, simulation: &Simulation<D>, periods: &Periods<D>, snapshot: &Snapshot<D>) -> Vec<f64> {
+        let radius = self.reach * simulation.spacing();
+        let is_wet = simulation.rheology().pore_liquid().is_some();
+        let images = periods.images([1; D]);
+        let near = |index: usize| {
+            let ways = images.iter().map(move |way| snapshot.position[index] + way - self.at);
+            ways.map(move |way| (index, way, 1.0 - way.norm_squared() / (radius * radius)))
+        };
+        let near: Vec<_> = (0..snapshot.position.len()).flat_map(near).filter(|(.., weight)| *weight > 0.0).collect();
+        let total: f64 = near.iter().map(|(.., weight)| weight).sum();
+        if near.is_empty() {
+            return vec![0.0; D + 2];
+        }
+        let centre = near.iter().map(|(_, way, weight)| way * *weight).sum::<Vector<D>>() / total;
+        let spread: Tensor<D> = near
+            .iter()
+            .map(|(_, way, weight)| (way - centre) * (way - centre).transpose() * *weight)
+            .fold(Tensor::zeros(), |sum, part| sum + part);
+        // of particles in a line the mean
+        let inverse = spread.try_inverse().filter(|inverse| inverse.norm() * spread.norm() < IN_A_LINE);
+        let inverse = inverse.unwrap_or_else(Tensor::zeros);
+        let fitted = |value: &dyn Fn(usize) -> f64| {
+            let mean = near.iter().map(|(index, _, weight)| weight * value(*index)).sum::<f64>() / total;
+            let slope: Vector<D> =
+                near.iter().map(|(index, way, weight)| (way - centre) * (weight * value(*index))).sum();
+            mean - (inverse * slope).dot(&centre)
+        };
+        let pore = |index: usize| if is_wet { snapshot.field[index] } else { 0.0 };
+        let pressures = [fitted(&|index| snapshot.pressure[index]), fitted(&pore)];
+        pressures.into_iter().chain((0..D).map(|axis| fitted(&|index| snapshot.velocity[index][axis]))).collect()
     }
 }
 

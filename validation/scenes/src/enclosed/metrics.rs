@@ -28,6 +28,8 @@ quantities! { shared pub(super)
     VISCOUS_ITERATIONS: accounted("viscous_iterations", "-", "iterations of an implicit viscous step, mean over all steps"),
     THROUGH_WALLS: accounted("through_walls", "-", "number of particles behind a wall at the end"),
     MASS_LEFT: accounted("mass_left", "%", "outflow through open sides over the initial mass and inflow"),
+    WATER_RESIDUAL:
+        accounted("water_residual", "%", "volume lost minus water expelled and pore liquid compressed, over the largest volume lost or gained"),
     CUT_OFF: accounted("cut_off", "%", "share of the bodies removed at the start because it lies behind or at walls"),
     FEED_ERROR:
         accounted("feed_error", "-", "largest difference between inflow and the integral of its rate, over the mass of one row"),
@@ -44,7 +46,7 @@ quantities! { shared pub(super)
 
 /// All quantities of a case of scenes, of which three have units of its own: [`Dimension::MEAN_FORCE`],
 /// [`Dimension::MASS_CROSSED`] and [`Dimension::MASS_FED`].
-pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 22] {
+pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 23] {
     [
         ENERGY_RESIDUAL,
         ENERGY_RISE,
@@ -57,6 +59,7 @@ pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantit
         VISCOUS_ITERATIONS,
         THROUGH_WALLS,
         MASS_LEFT,
+        WATER_RESIDUAL,
         CUT_OFF,
         FEED_ERROR,
         FINAL_RMS_SPEED,
@@ -99,6 +102,15 @@ fn of_run<S: Dimension<D>, const D: usize>(
         );
         metrics.push(VISCOUS_ITERATIONS.of(&variant, data.viscous_iterations).with_snapshot_tolerance(0.05, 0.0));
     }
+    if data.water.largest > 0.0 {
+        let share = 100.0 * data.water.missing / data.water.largest;
+        metrics.push(
+            WATER_RESIDUAL
+                .of(&variant, share)
+                .exactly(0.0, "the grains' volume is lost as water")
+                .with_snapshot_tolerance(0.5, 0.05),
+        );
+    }
     metrics.extend(feeds(&variant, data, parameters));
     metrics.extend(energy(&variant, data, parameters));
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
@@ -128,6 +140,8 @@ fn of_run<S: Dimension<D>, const D: usize>(
                 let means: Vec<f64> = series.values.iter().map(|component| mean(component)).collect();
                 S::MEAN_FORCE.of(&own, size(&means))
             }
+            // what it reads has no one quantity: studies take its columns
+            Measurand::Probe(_) => continue,
             Measurand::Flux(_) => S::MASS_CROSSED.of(&own, last),
         };
         metrics.push(metric.with_snapshot_tolerance(0.1, 0.1 * largest(first)));

@@ -33,7 +33,7 @@ mod tiers;
 
 pub use given::PlainData;
 pub use given_rate::GivenRate;
-pub use measure::{DepthGauge, Measurand, Opening};
+pub use measure::{DepthGauge, Measurand, Opening, Probe};
 pub use measured::MeasuredSeries;
 pub use observation::{FedMass, OutflowRecord, SceneObservation};
 pub use parameters::{Dimension, SceneParameters};

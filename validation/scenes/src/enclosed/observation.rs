@@ -1,6 +1,7 @@
 //! Observation of a scene: the gauges' series, and its balances.
 
 use crate::observation::EnergyBook;
+use bagnold_solver::material::pore_liquid::SKELETON_SHARE;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -30,6 +31,42 @@ pub struct FedMass {
     /// Size of their momentum as they came `[kg m/s]`.
     #[serde(default)]
     pub impulse: f64,
+}
+
+/// Volume that a mixture of grains and liquid has lost, and where its water went, up to the last sample; in the plane per metre of depth.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct WaterBook {
+    /// Volume and what compression of the pore liquid has taken from it at the start `[m³]`.
+    start: (f64, f64),
+    /// Water that has left by the free surface `[m³]`.
+    pub expelled: f64,
+    /// Largest volume lost or gained at a sample `[m³]`.
+    pub largest: f64,
+    /// Largest difference at a sample of the volume lost from what has left and what is compressed `[m³]`.
+    pub missing: f64,
+}
+
+impl WaterBook {
+    fn enter<const D: usize>(&mut self, simulation: &Simulation<D>, snapshot: &Snapshot<D>, is_first: bool) {
+        if simulation.rheology().pore_liquid().is_none() {
+            return;
+        }
+        let modulus = (1.0 - SKELETON_SHARE) * simulation.bulk_modulus();
+        let volumes = snapshot.mass.iter().zip(&snapshot.density).map(|(mass, density)| mass / density);
+        let (mut volume, mut compressed) = (0.0, 0.0);
+        self.expelled = 0.0;
+        for ((own, pressure), memory) in volumes.zip(&snapshot.field).zip(&snapshot.memory) {
+            volume += own;
+            compressed += own * pressure / modulus;
+            self.expelled += own * memory[1];
+        }
+        if is_first {
+            self.start = (volume, compressed);
+        }
+        let lost = self.start.0 - volume;
+        self.largest = self.largest.max(lost.abs());
+        self.missing = self.missing.max((lost - self.expelled - (compressed - self.start.1)).abs());
+    }
 }
 
 /// Series and balances; every series has the shape `[samples]`.
@@ -71,6 +108,9 @@ pub struct SceneObservation<const D: usize> {
     pub largest_speed: f64,
     /// Particles that are behind a wall at the end.
     pub behind: u64,
+    /// Water of a mixture.
+    #[serde(default)]
+    pub water: WaterBook,
     /// Share of the sites of bodies that are behind walls or nearer to them than particles start `[-]`.
     pub cut_off: f64,
 }
@@ -95,6 +135,7 @@ impl<const D: usize> Default for SceneObservation<D> {
             motion_at_start: 0.0,
             largest_speed: 0.0,
             behind: 0,
+            water: WaterBook::default(),
             cut_off: 0.0,
         }
     }
@@ -124,6 +165,7 @@ impl<const D: usize> SceneObservation<D> {
         let worked = sides.iter().map(|side| side.mass_times_time).sum::<f64>() - absent;
         let over_time = inside * snapshot.time + worked;
         let given = gravity * over_time;
+        self.water.enter(simulation, snapshot, self.time.is_empty());
         if self.time.is_empty() {
             self.momentum_at_start = held;
             self.motion_at_start = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm() * m).sum();

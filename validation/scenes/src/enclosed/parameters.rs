@@ -11,6 +11,7 @@ use crate::figure::{Figure, Panel};
 use crate::metric::Quantity;
 use crate::observation::Frame;
 use crate::setup::Bulk;
+use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{at_least, between, positive};
@@ -116,6 +117,11 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     #[serde(default = "hydrostatic", skip_serializing_if = "is_hydrostatic")]
     #[schemars(transform = positive("give 1 for a hydrostatic start, 1 − sin φ for deposited grains"))]
     pub lateral_pressure_ratio: f64,
+    /// Share of the weight of the material above that its pore liquid bears at the start `[-]`: 0 is drained, 1 a mixture whose grains have just
+    /// lost their contacts.
+    #[serde(default, skip_serializing_if = "is_none")]
+    #[schemars(transform = between(0.0, 1.0, "0 for grains that have come to rest, 1 for liquefied ones"))]
+    pub pore_pressure_ratio: f64,
     /// Walls; what is not held by one falls.
     pub walls: Vec<S::Wall>,
     /// Openings by which material comes in.
@@ -175,6 +181,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             walls: Vec::new(),
             inlets: Vec::new(),
             pressure: 0.0,
+            pore_pressure_ratio: 0.0,
             lateral_pressure_ratio: hydrostatic(),
             side_walls: None,
             gauges: Vec::new(),
@@ -182,6 +189,24 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             // a liquid comes to rest, grains keep the operator that they are verified with
             numerics: Numerics { momentum_operator: MomentumOperator::ByLaw, ..Numerics::default() },
         }
+    }
+
+    /// Gravity that moves the material `[m/s²]`: of grains in a liquid the share that is not carried by hydrostatic pressure.
+    pub(super) fn pull(&self) -> Vector<D> {
+        vector::<D>(&self.gravity) * self.material.pore_liquid().map_or(1.0, |pore| pore.buoyant_share())
+    }
+
+    /// Unit vector against what presses the material together at the start `[-]`, and its size `[m/s²]`: gravity, and of a layer of grains in a liquid
+    /// between periodic sides its part across them, so that the layer starts in balance on a slope.
+    pub(super) fn uphill(&self) -> (Vector<D>, f64) {
+        let (axes, mut pull) = (self.sides.axes(), self.pull());
+        if self.material.pore_liquid().is_none() || pull.norm() == 0.0 {
+            return (-self.down(), pull.norm());
+        }
+        for (component, axis) in pull.iter_mut().zip(&axes) {
+            *component *= if matches!(axis, AxisBoundary::Periodic { .. }) { 0.0 } else { 1.0 };
+        }
+        (-pull / pull.norm().max(f64::MIN_POSITIVE), pull.norm())
     }
 
     /// The unit vector along gravity `[-]`; without gravity against the last axis.
@@ -197,7 +222,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     /// Weight of the scene's height and pressure at the start, over the density `[m²/s²]`: the square of the speed that
     /// either gives.
     pub(super) fn fall(&self) -> f64 {
-        vector::<D>(&self.gravity).norm() * self.height() + self.pressure / self.bulk.density(&self.material)
+        self.pull().norm() * self.height() + self.pressure / self.bulk.density(&self.material)
     }
 
     /// Measurands of the gauges, gauge by gauge.

@@ -39,7 +39,7 @@ fn column<S: Dimension<D>, const D: usize>(
 ) -> Option<Column> {
     let diameter = parameters.material.grain_diameter()?;
     let [body] = &parameters.bodies[..] else { return None };
-    if !parameters.inlets.is_empty() {
+    if !parameters.inlets.is_empty() || parameters.material.pore_liquid().is_some() {
         return None;
     }
     let gravity = vector::<D>(&parameters.gravity).norm();

@@ -3,7 +3,7 @@
 use super::gauges::Memory;
 use super::parameters::Dimension;
 use super::periods::Periods;
-use super::setting::{SceneBody, SceneInlet, SceneWall, vector};
+use super::setting::{SceneBody, SceneInlet, SceneWall};
 use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
@@ -116,7 +116,7 @@ where
             let remedy = "widen a body, reduce the spacing, or reverse a wall";
             return Err(ParameterError::field("bodies", defect, "", remedy));
         }
-        let (gravity, measures) = (vector(&scene.gravity), scene.measures());
+        let (gravity, measures) = (scene.pull(), scene.measures());
         let pull = scene.fall() / scene.height();
         let periods = Periods::of(&scene.sides.axes());
         let stage = SimulationStage { progress, end: scene.duration, interval: scene.interval, context: &() };
@@ -274,7 +274,7 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
         (scene.enclosure, scene.numerics, scene.side_walls) = (enclosure, numerics, self.scene.side_walls);
         scene.domain = Domain { axes: self.scene.sides.axes() };
-        scene.gravity = vector(&self.scene.gravity);
+        scene.gravity = self.scene.pull();
         Ok((scene, cut_off))
     }
 }

@@ -65,6 +65,11 @@ fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<G
     match measure {
         Measurand::Front(_) => vec![column("front", "front", "m")],
         Measurand::Depth(_) => vec![column("depth", "depth", "m")],
+        Measurand::Probe(_) => {
+            let along = |axis: &&str| column(&format!("velocity along {axis}"), "velocity", "m/s");
+            let pressures = [column("pressure", "pressure", "Pa"), column("pore pressure", "pressure", "Pa")];
+            pressures.into_iter().chain(["x", "y", "z"].iter().take(D).map(along)).collect()
+        }
         Measurand::Force { .. } => {
             let along = |axis: &&str| column(&format!("force along {axis}"), "force", force);
             ["x", "y", "z"].iter().take(D).map(along).collect()

@@ -119,6 +119,11 @@ pub trait SceneGauge<const D: usize>: PlainData {
     fn check(&self, spacing: f64, down: &Vector<D>) -> Result<(), ParameterError>;
 }
 
+/// Default diameter of a probe in spacings `[-]`.
+pub(crate) fn probe_width() -> f64 {
+    5.0
+}
+
 /// Default surface of walls.
 pub(crate) fn rough() -> Surface {
     Surface::Rough

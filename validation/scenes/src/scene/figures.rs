@@ -75,6 +75,7 @@ pub(super) fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) ->
                 let way = depth.direction * (0.5 * margin);
                 vec![point(&(depth.at - way)), point(&(depth.at + way))]
             }
+            Measurand::Probe(probe) => vec![point(&probe.at)],
             Measurand::Force { .. } => continue,
         };
         panel.series.push(Series::new(gauge.name(), Mark::Reference, 0, points));

@@ -4,9 +4,9 @@ use super::PlaneVector;
 use crate::case::ParameterError;
 use crate::enclosed::names::check_line;
 use crate::enclosed::setting::{self, vector};
-use crate::enclosed::{DepthGauge, Measurand, Opening};
+use crate::enclosed::{DepthGauge, Measurand, Opening, Probe};
 use crate::setup::front::FrontLine;
-use bagnold_solver::parameter::positive;
+use bagnold_solver::parameter::{at_least, positive};
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -45,6 +45,17 @@ pub enum PlaneGauge {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         normal_to: Option<String>,
     },
+    /// Velocity, pressure and pore pressure at a place, by a line fitted to the particles around it.
+    Probe {
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
+        name: String,
+        /// The place x, y `[m]`; on a wall or the free surface the lines are continued to it.
+        at: PlaneVector,
+        /// Diameter of the circle whose particles count, in spacings `[-]`.
+        #[serde(default = "setting::probe_width")]
+        #[schemars(transform = at_least(2.0, "5 has twenty particles in the plane"))]
+        spacings: f64,
+    },
     /// Force of the flow on a wall, along x and y.
     Force {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
@@ -65,8 +76,11 @@ pub enum PlaneGauge {
 
 impl setting::SceneGauge<2> for PlaneGauge {
     fn name(&self) -> &str {
-        let (Self::Front { name, .. } | Self::Depth { name, .. } | Self::Force { name, .. } | Self::Flux { name, .. }) =
-            self;
+        let (Self::Front { name, .. }
+        | Self::Depth { name, .. }
+        | Self::Probe { name, .. }
+        | Self::Force { name, .. }
+        | Self::Flux { name, .. }) = self;
         name
     }
 
@@ -83,6 +97,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
             Self::Depth { at, width, .. } => {
                 Measurand::Depth(DepthGauge { at: vector(at), direction: *down, width: *width, section: *width })
             }
+            Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
             Self::Force { wall, .. } => Measurand::Force { wall },
             Self::Flux { from, to, .. } => {
                 let (corner, to): (Vector<2>, Vector<2>) = (vector(from), vector(to));
@@ -96,7 +111,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
     fn places(&self) -> Vec<Vector<2>> {
         match self {
             Self::Front { from, to, .. } | Self::Flux { from, to, .. } => vec![vector(from), vector(to)],
-            Self::Depth { at, .. } => vec![vector(at)],
+            Self::Depth { at, .. } | Self::Probe { at, .. } => vec![vector(at)],
             Self::Force { .. } => Vec::new(),
         }
     }
@@ -107,7 +122,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
                 let to = vector::<2>(to);
                 check_line(&to, (to - vector::<2>(from)).norm(), spacing, "")
             }
-            Self::Depth { .. } | Self::Force { .. } => Ok(()),
+            Self::Depth { .. } | Self::Probe { .. } | Self::Force { .. } => Ok(()),
         }
     }
 }
@@ -163,6 +178,26 @@ mod tests {
         // three columns of eight particles of 0.1 kg/m
         assert!((end[2] - 2.4).abs() < 1e-9 && (end[3] - 2.4 / way).abs() < 1e-6, "{end:?}");
         assert_eq!(end[4..], [0.0; 2], "nothing crosses beside the line");
+    }
+
+    /// Velocities that are linear in space, on which the fit is exact also at a corner.
+    #[test]
+    fn a_probe_reads_the_lines_of_a_moving_block() {
+        let mut scene = block_scene();
+        for (velocity, place) in scene.flow.velocity.iter_mut().zip(&scene.flow.position) {
+            *velocity = Vector::<2>::new(1.0 + 3.0 * place[1], -2.0 * place[0]);
+        }
+        let simulation = Simulation::new(scene).expect("a scene");
+        let unbounded = Periods::of(&[AxisBoundary::Open; 2]);
+        for (at, expected) in [("[0.1, 0.04]", [1.12, -0.2]), ("[0.0, 0.08]", [1.24, 0.0]), ("[3.0, 3.0]", [0.0, 0.0])]
+        {
+            let text = format!("kind = \"probe\"\nname = \"probe\"\nat = {at}");
+            let gauge = toml::from_str::<PlaneGauge>(&text).expect("a gauge");
+            let measures = [gauge.measure(&Vector::<2>::new(0.0, -1.0))];
+            let found = Memory::default().read_all(&measures, &simulation, &simulation.snapshot(), (160, &unbounded));
+            assert!((found[2] - expected[0]).abs() < 1e-12 && (found[3] - expected[1]).abs() < 1e-12, "{found:?}");
+            assert_eq!(found[..2], [0.0; 2], "no pressure, and no liquid in the pores");
+        }
     }
 
     /// A layer of 8 rows of 1 cm that is 20 columns long and comes in again at the other side, and slides there with 1 m/s.

@@ -4,9 +4,9 @@ use super::SpaceVector;
 use crate::case::ParameterError;
 use crate::enclosed::names::check_line;
 use crate::enclosed::setting::{self, shown, vector};
-use crate::enclosed::{DepthGauge, Measurand, Opening};
+use crate::enclosed::{DepthGauge, Measurand, Opening, Probe};
 use crate::setup::front::FrontLine;
-use bagnold_solver::parameter::positive;
+use bagnold_solver::parameter::{at_least, positive};
 use bagnold_solver::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,6 +48,17 @@ pub enum SpaceGauge {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         normal_to: Option<String>,
     },
+    /// Velocity, pressure and pore pressure at a place, by a line fitted to the particles around it.
+    Probe {
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
+        name: String,
+        /// The place x, y, z `[m]`; on a wall or the free surface the lines are continued to it.
+        at: SpaceVector,
+        /// Diameter of the circle whose particles count, in spacings `[-]`.
+        #[serde(default = "setting::probe_width")]
+        #[schemars(transform = at_least(2.0, "5 has twenty particles in the plane"))]
+        spacings: f64,
+    },
     /// Force of the flow on a wall, along x, y and z.
     Force {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
@@ -67,8 +78,11 @@ pub enum SpaceGauge {
 
 impl setting::SceneGauge<3> for SpaceGauge {
     fn name(&self) -> &str {
-        let (Self::Front { name, .. } | Self::Depth { name, .. } | Self::Force { name, .. } | Self::Flux { name, .. }) =
-            self;
+        let (Self::Front { name, .. }
+        | Self::Depth { name, .. }
+        | Self::Probe { name, .. }
+        | Self::Force { name, .. }
+        | Self::Flux { name, .. }) = self;
         name
     }
 
@@ -88,6 +102,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 let section = std::f64::consts::FRAC_PI_4 * width * width;
                 Measurand::Depth(DepthGauge { at: vector(at), direction: *down, width: *width, section })
             }
+            Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
             Self::Force { wall, .. } => Measurand::Force { wall },
             Self::Flux { corners: (a, b, c), .. } => {
                 let [corner, one, other] = edges([a, b, c]);
@@ -106,7 +121,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 let [corner, one, other] = edges([a, b, c]);
                 vec![corner, corner + one, corner + other, corner + one + other]
             }
-            Self::Depth { at, .. } => vec![vector(at)],
+            Self::Depth { at, .. } | Self::Probe { at, .. } => vec![vector(at)],
             Self::Force { .. } => Vec::new(),
         }
     }
@@ -128,7 +143,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 let (value, rule) = (format!("{}, …", shown(&corner)), "three corners that are not in line");
                 Err(ParameterError::field("corners", value, rule, "give a corner and the two next to it"))
             }
-            Self::Depth { .. } | Self::Force { .. } => Ok(()),
+            Self::Depth { .. } | Self::Probe { .. } | Self::Force { .. } => Ok(()),
         }
     }
 }
