@@ -131,6 +131,10 @@ pub struct ProjectionNumerics {
     /// Largest velocity of a mirrored wall particle over its partner's `[-]`.
     #[schemars(transform = between(1.0, 1e3, DEFAULTS))]
     pub largest_mirror: f64,
+    /// Time T of the mean velocity gradient that a mixing length takes `[s]`: a quarter of h/u_*, in which large eddies turn over,
+    /// outlasts the random motion of particles that pass each other; 0 takes every particle's own gradient.
+    #[schemars(transform = between(0.0, 1e3, DEFAULTS))]
+    pub mean_flow_time: f64,
     /// Rate 1/T_q at which the fluid's velocity across the bed relaxes to its mean between grains `[1/s]`; 0 switches it
     /// off.
     #[schemars(transform = between(0.0, 1e6, DEFAULTS))]
@@ -224,6 +228,7 @@ impl Default for ProjectionNumerics {
             largest_correction: 30.0,
             least_wall_height: 0.1,
             largest_mirror: 6.0,
+            mean_flow_time: 0.1,
             fluctuation_rate: 0.0,
             fluctuation_fraction: 0.1,
             least_fluid: 0.3,
