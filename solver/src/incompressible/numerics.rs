@@ -92,6 +92,10 @@ pub struct ProjectionNumerics {
     /// Share s of D G that is added to the compact Laplacian A of (12) `[-]`; 0 is the paper's operator.
     #[schemars(transform = between(0.0, 10.0, DEFAULTS))]
     pub stabilisation: f64,
+    /// Share of the mean anisotropy of neighbours that gradients of pairs are rid of `[-]`: 1 for deep streams, where the pressure of
+    /// the paper's operator, 0, carries shear among particles that the flow has lined up; 0 brings water at rest.
+    #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
+    pub even_pairs: f64,
     /// Right-hand side of the pressure Poisson equation.
     pub pressure_source: PressureSource,
     /// Share γ of the density error that a step corrects beside the divergence `[-]`.
@@ -213,6 +217,7 @@ impl Default for ProjectionNumerics {
             time_step: 2.5e-4,
             courant: 0.3,
             stabilisation: 0.5,
+            even_pairs: 0.0,
             pressure_source: PressureSource::Divergence,
             density_correction: 0.01,
             reference_concentration: 0.997,

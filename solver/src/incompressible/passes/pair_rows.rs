@@ -5,7 +5,7 @@
 //! taken of the rounded numbers, so that they agree with it. The operators are those of `projection/pressure_poisson`.
 
 use super::super::boundary::AT_SURFACE;
-use super::super::neighbours::{LEAST_GROUPS, Periods};
+use super::super::neighbours::{LEAST_GROUPS, LEAST_TASK, Periods};
 use super::super::numerics::{ProjectionNumerics, SurfaceTreatment};
 use super::super::phase::{Phase, records};
 use super::super::scene::height_axis;
@@ -17,6 +17,7 @@ use crate::lanes::algebra::dot;
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, SingleLanes, gather};
 use crate::linear::Single;
 use crate::material::turbulence::eddy_viscosity;
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
 
 /// Quads of a record: the position, the moment M `[-]`, with a negative sign where neighbours are lacking, the viscosity
@@ -68,6 +69,7 @@ pub(crate) fn fill_rows<const D: usize>(
     pressure: PressureRows<'_, D>,
     friction: Option<(Friction<'_>, FrictionRows<'_>)>,
 ) {
+    find_mean_anisotropy(phase, periods, numerics.even_pairs);
     let mut nearness = std::mem::take(&mut phase.nearness);
     let mut records = std::mem::take(&mut phase.records);
     let (of_friction, friction) = friction.unzip();
@@ -75,7 +77,7 @@ pub(crate) fn fill_rows<const D: usize>(
     let moment = |a: usize| if phase.deficit[a] > 0.0 { -phase.moment[a] } else { phase.moment[a] };
     records::pack(&mut records, quads(D), &phase.position, |a, behind| {
         (behind[0], behind[1]) = (moment(a), viscosity(a));
-        behind[2..2 + D * D].copy_from_slice(phase.anisotropy[a].as_slice());
+        behind[2..2 + D * D].copy_from_slice(phase.mean_anisotropy[a].as_slice());
     });
     let pairs = Pairs {
         phase,
@@ -89,6 +91,23 @@ pub(crate) fn fill_rows<const D: usize>(
     let stride = phase.free.stride();
     fill(&pairs, Out { first: 0, stride, nearness: &mut nearness, pressure, friction });
     (phase.nearness, phase.records) = (nearness, records);
+}
+
+/// Mean of δ over the neighbours by −F, times a share `[-]`. What a flow does to the places of all neighbours is left of it; of
+/// the disorder of single particles little, which the pressure may go on to smooth.
+fn find_mean_anisotropy<const D: usize>(phase: &mut Phase<D>, periods: &Periods<D>, share: f64) {
+    let mut means = std::mem::take(&mut phase.mean_anisotropy);
+    if share > 0.0 {
+        let own = phase.kernel.gradient_weight(0.0, 1.0);
+        means.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, mean)| {
+            let start = (phase.anisotropy[a] * own, own);
+            let (sum, weight) = phase
+                .free_pairs(a, periods)
+                .fold(start, |(sum, weight), (b, _, of_pair)| (sum + phase.anisotropy[b] * of_pair, weight + of_pair));
+            *mean = sum * (share / weight);
+        });
+    }
+    phase.mean_anisotropy = means;
 }
 
 /// Halves the groups until a task is small enough.

@@ -195,9 +195,10 @@ impl<const D: usize> LanePass for Task<'_, '_, D> {
     }
 }
 
-/// Σ W, Σ F r rᵀ and the sums that are the walls' alone, of eight particles.
+/// Σ W, Σ F r², Σ F r rᵀ and the sums that are the walls' alone, of eight particles.
 struct LaneSums<V, const D: usize> {
     value: V,
+    squares: V,
     arms: [[V; D]; D],
     weight: V,
     arm: V,
@@ -214,6 +215,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let across = around.periods.across(&own[..D], around.kernel.support());
         let mut sums = LaneSums {
             value: around.kernel.value(zero),
+            squares: zero,
             arms: [[zero; D]; D],
             weight: zero,
             arm: zero,
@@ -235,6 +237,7 @@ impl<const D: usize> Task<'_, '_, D> {
             let (value, single, weight) = around.measure(k, candidates, square);
             sums.value = sums.value + value;
             weights[k] = single.to_array();
+            sums.squares = sums.squares + weight * square;
             for j in 0..D {
                 let weighted = weight * separation[j];
                 add_arms(&mut sums.arms, j, weighted, &separation);
@@ -271,6 +274,7 @@ impl<const D: usize> Task<'_, '_, D> {
             let square = dot(&separation, &separation);
             let (value, _, weight) = around.measure(k, candidates, square);
             sums.value = sums.value + value;
+            sums.squares = sums.squares + weight * square;
             for j in 0..D {
                 add_arms(&mut sums.arms, j, weight * separation[j], &separation);
             }
@@ -285,11 +289,10 @@ impl<const D: usize> Task<'_, '_, D> {
         let around = self.around;
         let (concentration, deficit) = around.surface.find(sums.value);
         let at_surface = V::splat(AT_SURFACE);
-        let trace = (1..D).fold(sums.arms[0][0], |trace, axis| trace + sums.arms[axis][axis]);
-        let moment = V::splat(-around.volume / D as f64) * trace;
+        let moment = V::splat(-around.volume / D as f64) * sums.squares;
         let moment = V::splat(around.lattice_gradient).if_less(at_surface, deficit, moment);
         let (concentration, deficit, moment) = (concentration.to_array(), deficit.to_array(), moment.to_array());
-        let (arms, trace) = (read(&sums.arms), trace.to_array());
+        let (arms, squares) = (read(&sums.arms), sums.squares.to_array());
         let (weight, arm, mirrored) = (sums.weight.to_array(), sums.arm.to_array(), sums.mirrored.to_array());
         let first = group * LANES;
         for lane in 0..LANES.min(self.out.moment.len() - first) {
@@ -301,7 +304,7 @@ impl<const D: usize> Task<'_, '_, D> {
             // where neighbours are missing the moments are those of the surface
             let present = 1.0 - deficit[lane];
             self.out.anisotropy[a] = if present > 0.0 {
-                let even = D as f64 / trace[lane];
+                let even = D as f64 / squares[lane];
                 (Tensor::from_fn(|i, j| arms[i][j][lane] * even) - Tensor::identity()) * present
             } else {
                 Tensor::zeros()

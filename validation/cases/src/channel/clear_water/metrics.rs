@@ -40,7 +40,7 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     let (variant, data, law) = (run.variant(), &record.data, run.reference());
     let mut metrics = vec![channel::particles_lost(&variant, record), channel::momentum_residual(&variant, record)];
     let stationary = matches!(run.flow.period, Period::Stationary { .. });
-    metrics.extend(channel::iterations(&variant, data, if stationary { [None; 2] } else { [Some(1.0), Some(3.37)] }));
+    metrics.extend(channel::iterations(&variant, data, if stationary { [None; 2] } else { [Some(1.0), Some(2.93)] }));
     if let Period::Stationary { at_most, .. } = run.flow.period {
         let source = "depth mean changes by less than the tolerance over U/(2 g i), times in a row";
         let limit = Limit::AtMost(at_most * law.adjustment_time());
