@@ -70,7 +70,8 @@ fn random_motion_of_particles_makes_no_eddies() {
     assert!(own > 0.3 && rate < 0.05 * own, "{rate} of {own} 1/s");
     let shear = 0.5;
     let (rate, own) = random_motion(shear);
-    assert!(own > 1.15 * shear && (rate / shear - 1.0).abs() < 0.01, "{rate} and {own} of {shear} 1/s");
+    // a mean over 800 steps, of 180 particles: its standard error is 0.6 %
+    assert!(own > 1.15 * shear && (rate / shear - 1.0).abs() < 0.02, "{rate} and {own} of {shear} 1/s");
 }
 
 #[test]
