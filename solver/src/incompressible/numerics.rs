@@ -92,6 +92,10 @@ pub struct ProjectionNumerics {
     /// Share s of D G that is added to the compact Laplacian A of (12) `[-]`; 0 is the paper's operator.
     #[schemars(transform = between(0.0, 10.0, DEFAULTS))]
     pub stabilisation: f64,
+    /// Share of the mean anisotropy of neighbours that gradients of pairs are rid of `[-]`: 1 for deep streams, where the pressure of
+    /// the paper's operator, 0, carries shear among particles that the flow has lined up; 0 brings water at rest.
+    #[schemars(transform = between(0.0, 1.0, DEFAULTS))]
+    pub even_pairs: f64,
     /// Right-hand side of the pressure Poisson equation.
     pub pressure_source: PressureSource,
     /// Share γ of the density error that a step corrects beside the divergence `[-]`.
@@ -131,6 +135,10 @@ pub struct ProjectionNumerics {
     /// Largest velocity of a mirrored wall particle over its partner's `[-]`.
     #[schemars(transform = between(1.0, 1e3, DEFAULTS))]
     pub largest_mirror: f64,
+    /// Time T of the mean velocity gradient that a mixing length takes `[s]`: a quarter of h/u_*, in which large eddies turn over,
+    /// outlasts the random motion of particles that pass each other; 0 takes every particle's own gradient.
+    #[schemars(transform = between(0.0, 1e3, DEFAULTS))]
+    pub mean_flow_time: f64,
     /// Rate 1/T_q at which the fluid's velocity across the bed relaxes to its mean between grains `[1/s]`; 0 switches it
     /// off.
     #[schemars(transform = between(0.0, 1e6, DEFAULTS))]
@@ -209,6 +217,7 @@ impl Default for ProjectionNumerics {
             time_step: 2.5e-4,
             courant: 0.3,
             stabilisation: 0.5,
+            even_pairs: 0.0,
             pressure_source: PressureSource::Divergence,
             density_correction: 0.01,
             reference_concentration: 0.997,
@@ -224,6 +233,7 @@ impl Default for ProjectionNumerics {
             largest_correction: 30.0,
             least_wall_height: 0.1,
             largest_mirror: 6.0,
+            mean_flow_time: 0.1,
             fluctuation_rate: 0.0,
             fluctuation_fraction: 0.1,
             least_fluid: 0.3,

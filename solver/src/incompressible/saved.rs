@@ -1,16 +1,17 @@
 //! A simulation as it is kept between two programs: all that its next step follows from, and that the scene does not say.
 //!
 //! The candidates of the pairs are kept, because sums run in their order, and what has moved since they were searched; so
-//! are the pressures, the last change of the velocities and the last push of a mixture's pressure, from which the solves
-//! of the next step start. Everything else a step makes anew before it reads it.
+//! are the means of the velocity gradients, the pressures, the last change of the velocities and the last push of a mixture's
+//! pressure, from which the solves of the next step start. Everything else a step makes anew before it reads it.
 
+use super::columns::{Columns, Saved};
 use super::neighbours::{SavedLayers, SavedList, SavedPairs};
 use super::phase::Phase;
 use super::scene::IncompressibleScene;
 use super::simulation::{IncompressibleSimulation, SolverCost};
 use super::state::State;
 use crate::run::{ContinueError, ForeignState};
-use crate::vector::Vector;
+use crate::vector::{Tensor, Vector};
 use serde::{Deserialize, Serialize};
 
 /// A simulation between two steps, for a file; made by [`IncompressibleSimulation::save`].
@@ -19,8 +20,9 @@ pub struct SavedIncompressible<const D: usize> {
     fluid: SavedPhase<D>,
     sediment: Option<SavedPhase<D>>,
     exchange: Option<(SavedPairs, SavedPairs)>,
-    grains: Option<(Vec<Vector<D>>, Vec<Vector<D>>)>,
+    grains: Option<Saved<D>>,
     layers: SavedLayers,
+    mean_gradient: Vec<Tensor<D>>,
     change: Vec<Vector<D>>,
     push: Vec<Vector<D>>,
     cost: SolverCost,
@@ -72,13 +74,14 @@ impl<const D: usize> IncompressibleSimulation<D> {
     /// The simulation as it stands, to be written and continued.
     #[must_use]
     pub fn save(&self) -> SavedIncompressible<D> {
-        let State { phases, exchange, columns, search, system, projection, .. } = &self.state;
+        let State { phases, exchange, columns, search, viscosities, system, projection, .. } = &self.state;
         SavedIncompressible {
             fluid: SavedPhase::of(&phases.fluid),
             sediment: phases.sediment.as_ref().map(SavedPhase::of),
             exchange: phases.sediment.as_ref().map(|_| exchange.save()),
-            grains: columns.as_ref().map(|columns| (columns.grains.position.clone(), columns.grains.velocity.clone())),
+            grains: columns.as_ref().map(Columns::save),
             layers: search.save(),
+            mean_gradient: viscosities.mean_gradient().to_vec(),
             change: system.change().to_vec(),
             push: projection.mixture.push().to_vec(),
             cost: self.cost(),
@@ -93,7 +96,7 @@ impl<const D: usize> IncompressibleSimulation<D> {
 impl<const D: usize> State<D> {
     /// Takes a saved state of the same scene.
     pub(super) fn restore(&mut self, saved: SavedIncompressible<D>) -> Result<(), ForeignState> {
-        let State { phases, exchange, columns, search, system, projection, .. } = self;
+        let State { phases, exchange, columns, search, viscosities, system, projection, .. } = self;
         let particles: usize = phases.all().map(Phase::len).sum();
         ForeignState::check("sediments", saved.sediment.iter().count(), phases.sediment.iter().count())?;
         ForeignState::check("exchanges", saved.exchange.iter().count(), phases.sediment.iter().count())?;
@@ -108,6 +111,7 @@ impl<const D: usize> State<D> {
             columns.restore(grains)?;
         }
         search.restore(saved.layers, particles, saved.cost.searches)?;
+        viscosities.restore(saved.mean_gradient)?;
         // empty before the first step, and without a mixture
         for rows in [saved.change.len(), saved.push.len()].into_iter().filter(|rows| *rows > 0) {
             ForeignState::check("rows of velocities", rows, particles)?;

@@ -20,7 +20,7 @@ pub(super) struct State<const D: usize> {
     pub(super) phases: Phases<D>,
     pub(super) exchange: DragExchange<D>,
     pub(super) search: Search<D>,
-    pub(super) viscosities: Viscosities,
+    pub(super) viscosities: Viscosities<D>,
     /// Grains that dilate, if there are any; they are no phase of pairs.
     pub(super) columns: Option<Columns<D>>,
     pub(super) system: VelocitySystem<D>,

@@ -27,7 +27,7 @@ fn advance<const D: usize>(state: &mut State<D>) -> Result<(), Failure> {
     if let Some(columns) = &mut state.columns {
         columns.gather(&mut state.scene, &state.phases.fluid)?;
     }
-    state.viscosities.find(&state.scene, &state.phases);
+    state.viscosities.find(&state.scene, &state.phases, time_step);
     fill_fluid_rows(state, time_step);
     find_drag(state)?;
     predict_velocities(state, time_step)?;
@@ -102,10 +102,16 @@ fn advance_columns<const D: usize>(state: &mut State<D>, time_step: f64) -> Resu
 
 /// Velocities without divergence, of each phase or of their mixture, and the motion with them.
 fn project<const D: usize>(state: &mut State<D>, time_step: f64) -> Result<(), Failure> {
-    let State { scene, phases, exchange, viscosities, search, system, projection, .. } = state;
+    let State { scene, phases, exchange, viscosities, search, columns, system, projection, .. } = state;
     let periods = &search.periods;
     match scene.numerics.continuity {
-        Continuity::Fluid => projection.project_phases(scene, phases, &system.velocity, periods, time_step),
+        Continuity::Fluid => {
+            projection.project_phases(scene, phases, &system.velocity, periods, time_step)?;
+            if let Some(columns) = columns {
+                columns.press(&phases.fluid, &viscosities.voidage, &system.velocity);
+            }
+            Ok(())
+        }
         Continuity::Mixture => {
             let flux = Flux { scene, exchange, voidage: &viscosities.voidage, periods, time_step };
             projection.mixture.project(&flux, &mut projection.fluid, phases, &mut system.velocity)

@@ -43,8 +43,8 @@ use friction::{Chain, FrictionSolve};
 use grid::ColumnGrid;
 use nodes::{NodeLaws, Nodes};
 
-/// Places `[m]` and velocities `[m/s]`.
-pub(super) type Saved<const D: usize> = (Vec<Vector<D>>, Vec<Vector<D>>);
+/// Places `[m]`, velocities `[m/s]` and impulses of the pressure on nodes `[kg/(m s)]`.
+pub(super) type Saved<const D: usize> = (Vec<Vector<D>>, Vec<Vector<D>>, Vec<f64>);
 
 /// The grains of a scene that dilate, and their columns.
 #[derive(Debug)]
@@ -56,6 +56,8 @@ pub(super) struct Columns<const D: usize> {
     dilatancy: Dilatancy,
     numerics: ColumnNumerics,
     friction: FrictionSolve,
+    /// Impulse of the fluid's pressure on the grains of every node, which the next step brings `[kg/(m s)]`.
+    pressed: Vec<f64>,
     /// Momenta of a column's free nodes `[kg/(m s)]`.
     momentum: Vec<f64>,
     /// Velocities of the nodes after the step `[m/s]`.
@@ -92,6 +94,7 @@ impl<const D: usize> Columns<D> {
             dilatancy,
             numerics,
             friction: FrictionSolve::default(),
+            pressed: vec![0.0; grid.len()],
             momentum: Vec::with_capacity(grid.nodes),
             velocity: vec![0.0; grid.len()],
             lift: vec![0.0; grid.len()],
@@ -106,11 +109,17 @@ impl<const D: usize> Columns<D> {
         Some(new)
     }
 
-    /// Takes saved places `[m]` and velocities `[m/s]` of the grains.
-    pub(super) fn restore(&mut self, (position, velocity): Saved<D>) -> Result<(), ForeignState> {
+    /// Grains and the impulses that their next step brings.
+    pub(super) fn save(&self) -> Saved<D> {
+        (self.grains.position.clone(), self.grains.velocity.clone(), self.pressed.clone())
+    }
+
+    /// Goes on from saved grains.
+    pub(super) fn restore(&mut self, (position, velocity, pressed): Saved<D>) -> Result<(), ForeignState> {
         ForeignState::check("grains", position.len(), self.grains.len())?;
         ForeignState::check("velocities of grains", velocity.len(), self.grains.len())?;
-        (self.grains.position, self.grains.velocity) = (position, velocity);
+        ForeignState::check("nodes of columns", pressed.len(), self.pressed.len())?;
+        (self.grains.position, self.grains.velocity, self.pressed) = (position, velocity, pressed);
         Ok(())
     }
 
@@ -158,14 +167,32 @@ impl<const D: usize> Columns<D> {
         self.scatter(material, time_step)
     }
 
-    /// Gravity, drag and friction along the bed in a column.
+    /// Hands the grains their share −φ ∂p/∂x of what the pressure has done along the bed: the fluid, whose inertia is that of
+    /// its share of the space, has felt the rest. `predicted` is the fluid's velocity before the pressure `[m/s]`.
+    pub(super) fn press(&mut self, fluid: &Phase<D>, voidage: &[f64], predicted: &[Vector<D>]) {
+        let Self { grid, nodes, pressed, .. } = self;
+        pressed.fill(0.0);
+        for (a, voidage) in voidage.iter().enumerate().filter(|(_, voidage)| **voidage < 1.0) {
+            let impulse = (1.0 - voidage) * fluid.mass[a] * (fluid.velocity[a][0] - predicted[a][0]);
+            let weights = grid.weights(fluid.position[a][0], fluid.position[a][height_axis(D)]);
+            let fraction = weights.iter().fold(0.0, |sum, (node, weight)| sum + weight * nodes.fraction[*node]);
+            if fraction > 0.0 {
+                for (node, weight) in weights {
+                    pressed[node] += impulse / grid.row.width * weight * nodes.fraction[node] / fraction;
+                }
+            }
+        }
+    }
+
+    /// Gravity, the fluid and friction along the bed in a column.
     fn rub(&mut self, column: usize, material: &Sediment<D>, time_step: f64) -> Result<(), Failure> {
-        let Self { grid, nodes, numerics, .. } = self;
+        let Self { grid, nodes, numerics, pressed, drag, .. } = self;
         let range = grid.of_column(column);
         let lowest = range.start + grid.held;
         let width = grid.row.width;
+        let of_fluid = |node: usize| drag.impulse[node] + pressed[node];
         // the fluid pushes what is held as well
-        self.held_impulse -= width * self.drag.impulse[range.start..lowest].iter().sum::<f64>();
+        self.held_impulse -= width * (range.start..lowest).map(of_fluid).sum::<f64>();
         let Some(top) = nodes.top(grid, column).filter(|top| *top >= grid.held) else { return Ok(()) };
         let free = lowest..range.start + top + 1;
         let mass = &nodes.mass[free.clone()];
@@ -173,7 +200,7 @@ impl<const D: usize> Columns<D> {
         self.momentum.extend(free.clone().map(|node| {
             let driven = self.velocity[node] + material.gravity[0] * time_step;
             let pushed = nodes.push_of_columns(grid, node) * time_step;
-            nodes.mass[node] * driven + self.drag.impulse[node] + pushed
+            nodes.mass[node] * driven + of_fluid(node) + pushed
         }));
         let chain = Chain {
             law: &material.law,

@@ -239,6 +239,12 @@ fn the_balance_of_both_phases_closes() {
         let on_grains: f64 = columns.drag.impulse.iter().sum::<f64>() * columns.grid.row.width;
         assert!((exchanged - on_grains).abs() < 1e-12 * on_grains.abs(), "{exchanged} and {on_grains}");
         assert!(held > exchanged, "the floor holds as well");
+        // the pressure moves nothing along the floor but fluid against grains
+        let change = |row: usize| state.phases.fluid.velocity[row][0] - system.velocity[row][0];
+        let of_fluid: f64 = (0..system.velocity.len()).map(|row| system.inertia[row] * change(row)).sum();
+        let of_grains: f64 = columns.pressed.iter().sum::<f64>() * columns.grid.row.width;
+        let size: f64 = columns.pressed.iter().map(|impulse| impulse.abs()).sum::<f64>() * columns.grid.row.width;
+        assert!(size > 0.0 && (of_fluid + of_grains).abs() < 1e-4 * size, "{of_fluid} and {of_grains} of {size}");
     }
     let Grains { position, velocity, .. } = &state.columns.as_ref().expect("columns").grains;
     assert!(position.iter().all(|x| x[1] > -4.5e-3 && x[1] < 6e-3));

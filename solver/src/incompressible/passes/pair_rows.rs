@@ -5,7 +5,7 @@
 //! taken of the rounded numbers, so that they agree with it. The operators are those of `projection/pressure_poisson`.
 
 use super::super::boundary::AT_SURFACE;
-use super::super::neighbours::{LEAST_GROUPS, Periods};
+use super::super::neighbours::{LEAST_GROUPS, LEAST_TASK, Periods};
 use super::super::numerics::{ProjectionNumerics, SurfaceTreatment};
 use super::super::phase::{Phase, records};
 use super::super::scene::height_axis;
@@ -17,11 +17,19 @@ use crate::lanes::algebra::dot;
 use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, SingleLanes, gather};
 use crate::linear::Single;
 use crate::material::turbulence::eddy_viscosity;
+use crate::parallel::prelude::*;
 use crate::vector::Vector;
 
-/// Fields of a record behind the position: the moment M `[-]`, with a negative sign where neighbours are lacking, and the
-/// viscosity `[Pa·s]`.
-const BEHIND: usize = 2;
+/// Quads of a record: the position, the moment M `[-]`, with a negative sign where neighbours are lacking, the viscosity
+/// `[Pa·s]`, and the anisotropy δ `[-]` from the field [`anisotropy`] on.
+const fn quads(dimensions: usize) -> usize {
+    (anisotropy(dimensions) + dimensions * dimensions).div_ceil(4)
+}
+
+/// First field of the anisotropy.
+const fn anisotropy(dimensions: usize) -> usize {
+    dimensions + 2
+}
 
 /// Inputs of the viscous rows of a phase.
 #[derive(Debug, Clone, Copy)]
@@ -61,12 +69,16 @@ pub(crate) fn fill_rows<const D: usize>(
     pressure: PressureRows<'_, D>,
     friction: Option<(Friction<'_>, FrictionRows<'_>)>,
 ) {
+    find_mean_anisotropy(phase, periods, numerics.even_pairs);
     let mut nearness = std::mem::take(&mut phase.nearness);
     let mut records = std::mem::take(&mut phase.records);
     let (of_friction, friction) = friction.unzip();
     let viscosity = |a: usize| of_friction.map_or(0.0, |friction| friction.viscosity[a]);
     let moment = |a: usize| if phase.deficit[a] > 0.0 { -phase.moment[a] } else { phase.moment[a] };
-    records::pack(&mut records, &phase.position, |a| -> [f64; BEHIND] { [moment(a), viscosity(a)] });
+    records::pack(&mut records, quads(D), &phase.position, |a, behind| {
+        (behind[0], behind[1]) = (moment(a), viscosity(a));
+        behind[2..2 + D * D].copy_from_slice(phase.mean_anisotropy[a].as_slice());
+    });
     let pairs = Pairs {
         phase,
         records: &records,
@@ -79,6 +91,23 @@ pub(crate) fn fill_rows<const D: usize>(
     let stride = phase.free.stride();
     fill(&pairs, Out { first: 0, stride, nearness: &mut nearness, pressure, friction });
     (phase.nearness, phase.records) = (nearness, records);
+}
+
+/// Mean of δ over the neighbours by −F, times a share `[-]`. What a flow does to the places of all neighbours is left of it; of
+/// the disorder of single particles little, which the pressure may go on to smooth.
+fn find_mean_anisotropy<const D: usize>(phase: &mut Phase<D>, periods: &Periods<D>, share: f64) {
+    let mut means = std::mem::take(&mut phase.mean_anisotropy);
+    if share > 0.0 {
+        let own = phase.kernel.gradient_weight(0.0, 1.0);
+        means.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, mean)| {
+            let start = (phase.anisotropy[a] * own, own);
+            let (sum, weight) = phase
+                .free_pairs(a, periods)
+                .fold(start, |(sum, weight), (b, _, of_pair)| (sum + phase.anisotropy[b] * of_pair, weight + of_pair));
+            *mean = sum * (share / weight);
+        });
+    }
+    phase.mean_anisotropy = means;
 }
 
 /// Halves the groups until a task is small enough.
@@ -179,7 +208,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let volume = phase.lattice_volume;
         let global = self.out.first + group;
         let zero = V::splat(0.0);
-        let own = records::of_group::<V, D>(pairs.records, global, phase.len());
+        let own = records::of_group::<V>(pairs.records, quads(D), global, phase.len());
         let across = pairs.periods.across(&own[..D], pairs.kernel.support());
         let own_moment = own[D].max(-own[D]);
         let (gradient_scale, laplacian_scale) = (V::splat(2.0 * volume), V::Single::splat(-4.0 * volume));
@@ -191,7 +220,7 @@ impl<const D: usize> Task<'_, '_, D> {
         let near = pairs.kernel.value(zero) * own_deficit;
         let mut sums = RowSums { gradient: [zero; D], laplacian: zero, coupled: zero, near, largest: zero };
         for (k, chunk) in phase.free.first_of(global, active).enumerate() {
-            let other = records::load::<V, D>(pairs.records, &chunk);
+            let other = records::load::<V>(pairs.records, quads(D), &chunk);
             let mut separation = [zero; D];
             for axis in 0..D {
                 separation[axis] = own[axis] - other[axis];
@@ -199,8 +228,9 @@ impl<const D: usize> Task<'_, '_, D> {
             let separation = pairs.periods.shortest_if(across, separation);
             let measured = V::Single::load(&weights[k]);
             let weight = measured / (own_moment + other[D].max(-other[D])).narrow();
+            let even = evened(&own, &other, &separation);
             for axis in 0..D {
-                let gradient = (separation[axis] * gradient_scale).narrow() * weight;
+                let gradient = (even[axis] * gradient_scale).narrow() * weight;
                 links[k].gradient[axis] = gradient.to_array();
                 sums.gradient[axis] = sums.gradient[axis] + V::widen(gradient);
             }
@@ -270,6 +300,24 @@ impl<const D: usize> Task<'_, '_, D> {
             }
         }
     }
+}
+
+/// (1 − ½ (δ_a + δ_b)) r `[m]` of eight pairs.
+#[inline(always)]
+fn evened<V: Lanes, const D: usize>(
+    own: &[V; records::FIELDS],
+    other: &[V; records::FIELDS],
+    separation: &[V; D],
+) -> [V; D] {
+    let mut even = *separation;
+    for j in 0..D {
+        let half = V::splat(0.5) * separation[j];
+        for i in 0..D {
+            let field = anisotropy(D) + j * D + i;
+            even[i] = even[i] - (own[field] + other[field]) * half;
+        }
+    }
+    even
 }
 
 impl MiddleViscosity<'_> {

@@ -13,6 +13,11 @@ use crate::lanes::algebra::dot;
 use crate::lanes::{LANES, LanePass, Lanes, Real, SingleLanes};
 use crate::vector::Tensor;
 
+/// Quads of a record: position and velocity.
+const fn quads(dimensions: usize) -> usize {
+    (2 * dimensions).div_ceil(4)
+}
+
 /// Whether velocity gradients are asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Gradients {
@@ -33,9 +38,9 @@ pub(crate) fn find_surroundings<const D: usize>(
     let surface = Surface::of(phase, numerics);
     let mirror = WallMirror::of(bed, phase.spacing, numerics);
     let Phase { position, velocity, wall, records, wall_records, free, weight, active, .. } = phase;
-    records::pack(records, position, |a| <[f64; D]>::from(velocity[a]));
+    records::pack(records, quads(D), position, |a, behind| behind[..D].copy_from_slice(velocity[a].as_slice()));
     // walls stand still, but a saved phase comes without their records
-    records::pack(wall_records, wall, |_| [0.0; D]);
+    records::pack(wall_records, quads(D), wall, |_, _| {});
     let groups = position.len().div_ceil(LANES);
     weight.resize(groups * free.stride(), [0.0; LANES]);
     active.resize(groups, 0);
@@ -62,6 +67,7 @@ pub(crate) fn find_surroundings<const D: usize>(
         at_surface: &mut phase.at_surface,
         deficit: &mut phase.deficit,
         moment: &mut phase.moment,
+        anisotropy: &mut phase.anisotropy,
         walls: &mut phase.wall_sums,
         velocity_gradient: &mut phase.velocity_gradient,
     };
@@ -124,6 +130,7 @@ struct Sums<'a, const D: usize> {
     at_surface: &'a mut [bool],
     deficit: &'a mut [f64],
     moment: &'a mut [f64],
+    anisotropy: &'a mut [Tensor<D>],
     walls: &'a mut [WallSums],
     velocity_gradient: &'a mut [Tensor<D>],
 }
@@ -138,6 +145,7 @@ impl<const D: usize> Sums<'_, D> {
         let (at_surface, other_at_surface) = self.at_surface.split_at_mut(rows);
         let (deficit, other_deficit) = self.deficit.split_at_mut(rows);
         let (moment, other_moment) = self.moment.split_at_mut(rows);
+        let (anisotropy, other_anisotropy) = self.anisotropy.split_at_mut(rows);
         let (walls, other_walls) = self.walls.split_at_mut(rows);
         let (velocity_gradient, other_gradient) = self.velocity_gradient.split_at_mut(rows);
         let one = Self {
@@ -149,6 +157,7 @@ impl<const D: usize> Sums<'_, D> {
             at_surface,
             deficit,
             moment,
+            anisotropy,
             walls,
             velocity_gradient,
         };
@@ -161,6 +170,7 @@ impl<const D: usize> Sums<'_, D> {
             at_surface: other_at_surface,
             deficit: other_deficit,
             moment: other_moment,
+            anisotropy: other_anisotropy,
             walls: other_walls,
             velocity_gradient: other_gradient,
         };
@@ -185,10 +195,11 @@ impl<const D: usize> LanePass for Task<'_, '_, D> {
     }
 }
 
-/// Σ W, Σ F r² and the sums that are the walls' alone, of eight particles.
-struct LaneSums<V> {
+/// Σ W, Σ F r², Σ F r rᵀ and the sums that are the walls' alone, of eight particles.
+struct LaneSums<V, const D: usize> {
     value: V,
-    arms: V,
+    squares: V,
+    arms: [[V; D]; D],
     weight: V,
     arm: V,
     mirrored: V,
@@ -200,17 +211,22 @@ impl<const D: usize> Task<'_, '_, D> {
         let around = self.around;
         let global = self.out.first + group;
         let zero = V::splat(0.0);
-        let own = records::of_group::<V, D>(around.records, global, around.free.targets());
+        let own = records::of_group::<V>(around.records, quads(D), global, around.free.targets());
         let across = around.periods.across(&own[..D], around.kernel.support());
-        let mut sums =
-            LaneSums { value: around.kernel.value(zero), arms: zero, weight: zero, arm: zero, mirrored: zero };
-        let mut moments = [[zero; D]; D];
+        let mut sums = LaneSums {
+            value: around.kernel.value(zero),
+            squares: zero,
+            arms: [[zero; D]; D],
+            weight: zero,
+            arm: zero,
+            mirrored: zero,
+        };
         let mut differences = [[zero; D]; D];
         let (candidates, reach_squared) = (around.free.counts::<V>(global), around.reach_squared());
         let weights = &mut self.out.weight[group * self.out.stride..(group + 1) * self.out.stride];
         let mut active = 0;
         for (k, chunk) in around.free.group(global).enumerate() {
-            let other = records::load::<V, D>(around.records, &chunk);
+            let other = records::load::<V>(around.records, quads(D), &chunk);
             let separation = separation(&own, &other, around.periods, across);
             let square = dot(&separation, &separation);
             if square.less_mask(reach_squared) == 0 {
@@ -221,38 +237,47 @@ impl<const D: usize> Task<'_, '_, D> {
             let (value, single, weight) = around.measure(k, candidates, square);
             sums.value = sums.value + value;
             weights[k] = single.to_array();
-            sums.arms = sums.arms + weight * square;
-            if GRADIENTS {
-                for j in 0..D {
-                    let weighted = weight * separation[j];
+            sums.squares = sums.squares + weight * square;
+            for j in 0..D {
+                let weighted = weight * separation[j];
+                add_arms(&mut sums.arms, j, weighted, &separation);
+                if GRADIENTS {
                     for i in 0..D {
-                        moments[i][j] = moments[i][j] + weighted * separation[i];
                         differences[i][j] = differences[i][j] + weighted * (own[D + i] - other[D + i]);
                     }
                 }
             }
         }
         self.out.active[group] = active as u32;
+        if GRADIENTS {
+            self.store_gradients(group, &sums.arms, &differences);
+        }
         self.add_walls(global, &own, across, &mut sums);
         self.store(group, &sums);
-        if GRADIENTS {
-            self.store_gradients(group, &moments, &differences);
-        }
     }
 
     #[inline(always)]
-    fn add_walls<V: Lanes>(&self, global: usize, own: &[V; records::FIELDS], across: Across, sums: &mut LaneSums<V>) {
+    fn add_walls<V: Lanes>(
+        &self,
+        global: usize,
+        own: &[V; records::FIELDS],
+        across: Across,
+        sums: &mut LaneSums<V, D>,
+    ) {
         let around = self.around;
         let normal = height_axis(D);
         let candidates = around.walls.counts::<V>(global);
         let height = around.mirror.height(own[normal]);
         for (k, chunk) in around.walls.group(global).enumerate() {
-            let other = records::load::<V, D>(around.wall_records, &chunk);
+            let other = records::load::<V>(around.wall_records, quads(D), &chunk);
             let separation = separation(own, &other, around.periods, across);
             let square = dot(&separation, &separation);
             let (value, _, weight) = around.measure(k, candidates, square);
             sums.value = sums.value + value;
-            sums.arms = sums.arms + weight * square;
+            sums.squares = sums.squares + weight * square;
+            for j in 0..D {
+                add_arms(&mut sums.arms, j, weight * separation[j], &separation);
+            }
             sums.weight = sums.weight + weight;
             sums.arm = sums.arm + weight * separation[normal];
             sums.mirrored = sums.mirrored + weight * around.mirror.factor(separation[normal], height);
@@ -260,13 +285,14 @@ impl<const D: usize> Task<'_, '_, D> {
     }
 
     #[inline(always)]
-    fn store<V: Lanes>(&mut self, group: usize, sums: &LaneSums<V>) {
+    fn store<V: Lanes>(&mut self, group: usize, sums: &LaneSums<V, D>) {
         let around = self.around;
         let (concentration, deficit) = around.surface.find(sums.value);
         let at_surface = V::splat(AT_SURFACE);
-        let moment = V::splat(-around.volume / D as f64) * sums.arms;
+        let moment = V::splat(-around.volume / D as f64) * sums.squares;
         let moment = V::splat(around.lattice_gradient).if_less(at_surface, deficit, moment);
         let (concentration, deficit, moment) = (concentration.to_array(), deficit.to_array(), moment.to_array());
+        let (arms, squares) = (read(&sums.arms), sums.squares.to_array());
         let (weight, arm, mirrored) = (sums.weight.to_array(), sums.arm.to_array(), sums.mirrored.to_array());
         let first = group * LANES;
         for lane in 0..LANES.min(self.out.moment.len() - first) {
@@ -275,6 +301,14 @@ impl<const D: usize> Task<'_, '_, D> {
             self.out.deficit[a] = deficit[lane];
             self.out.at_surface[a] = deficit[lane] > AT_SURFACE;
             self.out.moment[a] = moment[lane];
+            // where neighbours are missing the moments are those of the surface
+            let present = 1.0 - deficit[lane];
+            self.out.anisotropy[a] = if present > 0.0 {
+                let even = D as f64 / squares[lane];
+                (Tensor::from_fn(|i, j| arms[i][j][lane] * even) - Tensor::identity()) * present
+            } else {
+                Tensor::zeros()
+            };
             self.out.walls[a] = WallSums { weight: weight[lane], arm: arm[lane], mirrored: mirrored[lane] };
         }
     }
@@ -283,14 +317,7 @@ impl<const D: usize> Task<'_, '_, D> {
     /// bound: a loose particle has too few neighbours to tell a gradient.
     #[inline(always)]
     fn store_gradients<V: Lanes>(&mut self, group: usize, moments: &[[V; D]; D], differences: &[[V; D]; D]) {
-        let mut of_moments = [[[0.0; LANES]; D]; D];
-        let mut of_differences = of_moments;
-        for i in 0..D {
-            for j in 0..D {
-                of_moments[i][j] = moments[i][j].to_array();
-                of_differences[i][j] = differences[i][j].to_array();
-            }
-        }
+        let (of_moments, of_differences) = (read(moments), read(differences));
         let first = group * LANES;
         for lane in 0..LANES.min(self.out.moment.len() - first) {
             let read =
@@ -301,6 +328,26 @@ impl<const D: usize> Task<'_, '_, D> {
             };
         }
     }
+}
+
+/// Adds F r_j r of eight pairs to column j, from their F r_j; the column is that of the row, too.
+#[inline(always)]
+fn add_arms<V: Lanes, const D: usize>(arms: &mut [[V; D]; D], j: usize, weighted: V, separation: &[V; D]) {
+    for i in 0..D {
+        arms[i][j] = arms[i][j] + weighted * separation[i];
+    }
+}
+
+/// Eight tensors, component by component.
+#[inline(always)]
+fn read<V: Lanes, const D: usize>(sums: &[[V; D]; D]) -> [[[f64; LANES]; D]; D] {
+    let mut read = [[[0.0; LANES]; D]; D];
+    for i in 0..D {
+        for j in 0..D {
+            read[i][j] = sums[i][j].to_array();
+        }
+    }
+    read
 }
 
 /// x_a − x_b `[m]` of the nearest images of eight pairs of records.

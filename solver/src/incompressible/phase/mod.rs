@@ -67,6 +67,10 @@ pub(crate) struct Phase<const D: usize> {
     pub(crate) nearness: Vec<f64>,
     /// Σ V (−F) r²/D `[-]`: the sum of gradients that would be 1 in a continuum; the lattice's at the surface.
     pub(crate) moment: Vec<f64>,
+    /// δ = Σ V (−F) r rᵀ/M − 1 `[-]`: how far the neighbours lie otherwise than evenly all around; 0 at the surface.
+    pub(crate) anisotropy: Vec<Tensor<D>>,
+    /// Its mean over the neighbours, times the share that gradients of pairs are rid of `[-]`.
+    pub(crate) mean_anisotropy: Vec<Tensor<D>>,
     /// ∇u, corrected, over free particles `[1/s]`.
     pub(crate) velocity_gradient: Vec<Tensor<D>>,
     /// Displacement since the last search `[m]`.
@@ -107,6 +111,8 @@ impl<const D: usize> Phase<D> {
             concentration: vec![1.0; count],
             at_surface: vec![false; count],
             moment: vec![1.0; count],
+            anisotropy: vec![Tensor::zeros(); count],
+            mean_anisotropy: vec![Tensor::zeros(); count],
             deficit: vec![0.0; count],
             nearness: vec![0.0; count],
             velocity_gradient: vec![Tensor::zeros(); count],

@@ -4,9 +4,9 @@ use super::super::Turbulence;
 use super::super::simulation::IncompressibleSimulation;
 use super::super::state::State;
 use super::super::step;
-use super::water;
+use super::{random, symmetric, water};
 use crate::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
-use crate::vector::{Tensor, Vector};
+use crate::vector::{Tensor, Vector, shear_rate};
 
 const SHEAR_RATE: f64 = 40.0;
 
@@ -19,7 +19,7 @@ fn eddy_viscosities(turbulence: Turbulence) -> Vec<(f64, f64)> {
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
     step::measure(&mut simulation.state);
     let State { scene, phases, viscosities, .. } = &mut simulation.state;
-    viscosities.find(scene, phases);
+    viscosities.find(scene, phases, scene.numerics.time_step);
     let (density, molecular) = (1000.0, 1e-6);
     let eddy = |viscosity: &f64| viscosity / density - molecular;
     phases.fluid.position.iter().map(|x| x[1]).zip(viscosities.fluid.iter().map(eddy)).collect()
@@ -40,6 +40,38 @@ fn a_mixing_length_grows_with_the_height() {
         let expected = (0.41 * height).powi(2) * SHEAR_RATE;
         assert!((eddy - expected).abs() < 1e-9 * expected, "z = {height} m: {eddy} or {expected} m²/s");
     }
+}
+
+/// Mean shear rate of the eddies `[1/s]`, and of the particles' own gradients, where particles move at random in a shear: for
+/// four times the time of the mean.
+fn random_motion(shear: f64) -> (f64, f64) {
+    let mut scene = water([12, 15], 0.2, false, 7);
+    scene.fluid.turbulence = Turbulence::Stratified;
+    let steps = (4.0 * scene.numerics.mean_flow_time / scene.numerics.time_step) as usize;
+    let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
+    let (mut random, mut own) = (random(11), 0.0);
+    for _ in 0..steps {
+        let fluid = &mut simulation.state.phases.fluid;
+        for (u, x) in fluid.velocity.iter_mut().zip(&fluid.position) {
+            *u = Vector::<2>::new(0.8 + shear * x[1], 0.0) + Vector::<2>::from_fn(|_, _| 2e-2 * symmetric(&mut random));
+        }
+        step::measure(&mut simulation.state);
+        let State { scene, phases, viscosities, .. } = &mut simulation.state;
+        viscosities.find(scene, phases, scene.numerics.time_step);
+        own = phases.fluid.velocity_gradient.iter().map(shear_rate).sum::<f64>() / phases.fluid.len() as f64;
+    }
+    let rate = &simulation.state.viscosities.fluid_rate;
+    (rate.iter().sum::<f64>() / rate.len() as f64, own)
+}
+
+#[test]
+fn random_motion_of_particles_makes_no_eddies() {
+    let (rate, own) = random_motion(0.0);
+    assert!(own > 0.3 && rate < 0.05 * own, "{rate} of {own} 1/s");
+    let shear = 0.5;
+    let (rate, own) = random_motion(shear);
+    // a mean over 800 steps, of 180 particles: its standard error is 0.6 %
+    assert!(own > 1.15 * shear && (rate / shear - 1.0).abs() < 0.02, "{rate} and {own} of {shear} 1/s");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use super::{SPACING, grains, random, symmetric, water};
 use crate::domain::{AxisBoundary, Domain};
 use crate::kernel::{Kernel, KernelShape};
 use crate::lanes::{InstructionSet, LanePass, Lanes};
-use crate::vector::Vector;
+use crate::vector::{Tensor, Vector};
 use rand::RngExt;
 
 /// Sources within `reach` of every target with their separations, by trying every image.
@@ -186,7 +186,7 @@ fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
     let of = |sources: &[Vector<2>], which| by_force(&phase.position, sources, which, domain, reach);
     let (free, walls) = (of(&phase.position, Sources::Same), of(&phase.wall, Sources::Other));
     for a in 0..phase.len() {
-        let mut sums = (0.0, 0.0);
+        let (mut sums, mut arms) = ((0.0, 0.0), Tensor::<2>::zeros());
         // F of free pairs is found in single precision: a few roundings of 6e-8
         let found = [
             (phase.free_pairs(a, &periods).collect::<Vec<_>>(), &free[a], 5e-7),
@@ -202,6 +202,7 @@ fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
                 assert!((weight - factor).abs() < tolerance * largest, "{what}: {weight} for {factor}");
                 sums.0 += phase.kernel.value_at(expected.norm());
                 sums.1 -= factor * expected.norm_squared();
+                arms -= expected * expected.transpose() * (factor * phase.lattice_volume);
             }
         }
         let lattice = (phase.lattice_volume, phase.lattice.concentration * 0.997);
@@ -214,6 +215,10 @@ fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
             "{what}: moment of {a}: {} for {moment}, concentration {concentration}",
             phase.moment[a]
         );
+        if concentration > 0.98 {
+            let uneven = phase.anisotropy[a] - (arms / moment - Tensor::identity());
+            assert!(uneven.norm() < 2e-6, "{what}: anisotropy of {a}");
+        }
     }
 }
 

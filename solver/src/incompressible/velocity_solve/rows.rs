@@ -47,7 +47,7 @@ pub(crate) struct VelocityRows<'a, const D: usize> {
     pub(crate) phases: &'a Phases<D>,
     pub(crate) exchange: &'a DragExchange<D>,
     pub(crate) periods: &'a Periods<D>,
-    pub(crate) viscosities: &'a Viscosities,
+    pub(crate) viscosities: &'a Viscosities<D>,
     /// Drag exchange of the fluid with columns of grains, if there are any.
     pub(crate) columns: Option<&'a ColumnDrag>,
     /// Δt `[s]`.

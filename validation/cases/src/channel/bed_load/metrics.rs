@@ -193,6 +193,10 @@ pub(super) fn continuum(
                  change the share of their mass that counts",
                 Confidence::Exact,
             )
+            .gated(
+                Limit::Within(-0.01, 0.01),
+                "drag and pressure move momentum between water and grains only; a hundredth for particles that cross a gradient of φ",
+            )
             .with_snapshot_tolerance(0.1, 1e-3),
     );
     let source = "the 1-D layer of the same closures; the water starts at `start` times its velocity";

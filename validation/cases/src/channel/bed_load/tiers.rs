@@ -128,6 +128,7 @@ fn quick() -> BedLoadParameters {
             columns: ColumnNumerics::default(),
             numerics: ProjectionNumerics {
                 time_step: 1.5e-4,
+                even_pairs: 1.0,
                 fluctuation_rate: 500.0,
                 ..ProjectionNumerics::default()
             },
