@@ -257,6 +257,7 @@ impl ProjectionNumerics {
             pair_law: PairLaw::ArithmeticMean,
             drag_slip: DragSlip::Pair,
             courant: 0.1,
+            mean_flow_time: 0.0,
             ..Self::default()
         }
     }
