@@ -32,7 +32,7 @@ const PLATEAU_STARTS: usize = 16;
 
 /// Share of repeated experiments below which a search looks elsewhere, and its points for each parameter.
 const DOUBTFUL: f64 = 0.02;
-const SCOUTS: usize = 8;
+const SCOUTS: usize = 6;
 
 /// Plan of a search and its exploration, with their budgets.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,16 +82,13 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
     };
     if is_on_plateau(&found, usual.difference) {
         found = leave_plateau(model, found, &usual)?;
-    } else if found.stopped == Termination::Converged && is_unexplained(&found, DOUBTFUL) {
-        // before the model is called wrong, the rest of the box is looked at
-        found = look_elsewhere(model, found, &usual)?;
     } else if found.stopped == Termination::Converged && !found.minima.iter().any(|known| known.is_at(&found.best)) {
         // a start that is lower than where the descents ended
         let branches = vec![found.best.clone()];
         found = search_beside(model, found, Leads { branches, ..Leads::default() }, &usual)?;
     }
     let searched = found.history.len();
-    let (mut restarts, mut continued, mut beside, mut correlation) = (0, false, 0, None);
+    let (mut restarts, mut continued, mut beside, mut looked, mut correlation) = (0, false, 0, false, None);
     loop {
         let budget = Budget { evaluations: plan.region_evaluations, ..usual };
         let uncertainties = uncertainties(&found, correlation);
@@ -121,11 +118,22 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
                 scouts: explored.scouts(),
                 places: explored.emulator.below(lowest.chi_squared + FAR * explored.region.threshold),
                 worst: lowest.chi_squared + WORST * explored.region.threshold,
+                ..Leads::default()
             };
             let before = SearchResult { history: explored.history.clone(), ..found };
             found = search_beside(model, before, leads, &Budget { evaluations: left, ..usual })?;
             if found.minima.len() > known || found.chi_squared < lowest.chi_squared {
                 // another minimum has a region of its own
+                continue;
+            }
+            explored.history.clone_from(&found.history);
+        }
+        // before the model is called wrong, the rest of the box is looked at
+        if !looked && found.stopped == Termination::Converged && is_unexplained(&found, DOUBTFUL) {
+            looked = true;
+            let before = SearchResult { history: explored.history.clone(), ..found };
+            found = look_elsewhere(model, before, &usual)?;
+            if found.chi_squared < lowest.chi_squared {
                 continue;
             }
             explored.history.clone_from(&found.history);
@@ -192,7 +200,7 @@ fn look_elsewhere<M: Evaluate>(
         }
         let branches = vec![next.point.clone()];
         tried.extend(branches.clone());
-        found = search_beside(model, found, Leads { branches, ..Leads::default() }, budget)?;
+        found = search_beside(model, found, Leads { branches, ends_at_known: true, ..Leads::default() }, budget)?;
     }
     Ok(found)
 }

@@ -271,6 +271,8 @@ pub fn continue_search<M: Evaluate>(
 pub(super) struct Leads {
     /// Lowest evaluated points of branches without a known minimum: the model descends from each.
     pub(super) branches: Vec<Vec<f64>>,
+    /// Whether such a descent ends where nothing parts it from a known minimum.
+    pub(super) ends_at_known: bool,
     /// Points where nothing is known, to be evaluated first.
     pub(super) scouts: Vec<Vec<f64>>,
     /// Points from which the emulator descends.
@@ -293,10 +295,14 @@ pub(super) fn search_beside<M: Evaluate>(
     let most = before.history.len() + budget.evaluations;
     let mut recorder = Recorder::with(model, before.history, most);
     let mut minima = before.minima;
-    let Leads { branches, scouts, mut places, worst } = leads;
+    let Leads { branches, ends_at_known, scouts, mut places, worst } = leads;
     let outcome = (|| {
         for branch in &branches {
-            let descent = trust_region::run(&mut recorder, branch, budget, &[])?;
+            let known: &[LocalMinimum] = if ends_at_known { &minima } else { &[] };
+            let descent = trust_region::run(&mut recorder, branch, budget, known)?;
+            if descent.stopped.is_none() {
+                continue;
+            }
             let found = LocalMinimum { point: descent.point, chi_squared: descent.chi_squared };
             if !minima.iter().any(|known| known.is_near(&found)) {
                 minima.push(found);
