@@ -7,6 +7,8 @@ include!(concat!(env!("OUT_DIR"), "/held_out_judgements.rs"));
 
 /// Deviations up to this many standard uncertainties agree `[-]`.
 const AGREES: f64 = 2.0;
+/// Uncertainty by the parameters over that of the datum from which on an agreement tells nothing `[-]`.
+const TOO_UNCERTAIN: f64 = 2.0;
 
 /// A calibration and its prediction of what was held out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -40,6 +42,8 @@ pub struct HeldOutDatum {
     pub model: f64,
     /// Interval of 95 % that the uncertainty of the parameters gives; none where it could not be found.
     pub predicted: Option<(f64, f64)>,
+    /// Standard uncertainty of the prediction by that of the parameters, over that of the datum `[-]`.
+    pub spread: f64,
     /// Deviation over `u_val`, the uncertainties of the datum and of the parameters together `[-]`.
     pub deviation: f64,
     /// Source of the datum.
@@ -47,10 +51,11 @@ pub struct HeldOutDatum {
 }
 
 impl HeldOutDatum {
-    /// Whether datum and prediction agree within two `u_val`.
+    /// Whether datum and prediction agree within two `u_val`; none where the parameters are too uncertain to tell.
     #[must_use]
-    pub fn agrees(&self) -> bool {
-        self.deviation.abs() <= AGREES
+    pub fn agrees(&self) -> Option<bool> {
+        let agrees = self.deviation.abs() <= AGREES;
+        (!agrees || self.spread <= TOO_UNCERTAIN).then_some(agrees)
     }
 }
 
@@ -58,8 +63,14 @@ impl HeldOutJudgement {
     /// The sentence that sums up the judgement.
     #[must_use]
     pub fn in_words(&self) -> String {
-        let agree = self.data.iter().filter(|datum| datum.agrees()).count();
-        format!("Held out: {agree} of {} data agree with their prediction within 2 u_val.", self.data.len())
+        let count = |wanted: Option<bool>| self.data.iter().filter(|datum| datum.agrees() == wanted).count();
+        let (agree, differ, open) = (count(Some(true)), count(Some(false)), count(None));
+        let open =
+            if open > 0 { format!("; the parameters are too uncertain to tell of {open}") } else { String::new() };
+        format!(
+            "Held out: {agree} of {} data agree with their prediction within 2 u_val, {differ} differ{open}.",
+            self.data.len()
+        )
     }
 
     /// Names and judgements of the examples.

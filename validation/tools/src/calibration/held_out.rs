@@ -45,6 +45,7 @@ pub(super) fn judged(outcome: &CalibrationResult, digest: String) -> Option<Held
         datum: [datum.band.0, datum.datum, datum.band.1],
         model: datum.model,
         predicted: datum.predicted,
+        spread: datum.spread,
         deviation: datum.deviation(),
         source: datum.source.clone(),
     };

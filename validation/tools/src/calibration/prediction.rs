@@ -64,8 +64,12 @@ pub(super) fn of_hold_out(
     let history: Vec<Evaluated> = points.iter().zip(answers.chunks(blocks.len())).map(evaluated).collect();
     // without points enough there is no band
     let Some(emulator) = Emulator::fit(&history, plan.budget.difference) else { return Ok(()) };
-    for ((datum, band), known) in hold_out.iter_mut().zip(predictive(&emulator, posterior)).zip(objective.data_of(true))
-    {
+    let bands = predictive(&emulator, posterior);
+    for (place, ((datum, band), known)) in hold_out.iter_mut().zip(bands).zip(objective.data_of(true)).enumerate() {
+        // few points make an emulator that errs beyond them
+        let met = history.iter().filter_map(|evaluated| Some(evaluated.residuals.as_ref()?[place]));
+        let (least, most) = met.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), r| (l.min(r), m.max(r)));
+        let band = band.map(|residual| residual.clamp(least, most));
         let [low, high] = band.map(|residual| known.of_residual(residual));
         datum.predicted = Some((low, high));
         datum.spread = (band[1] - band[0]) / WIDTH;
