@@ -7,7 +7,7 @@ const INVARIANTS: &str = "s is the deviatoric stress, ε′ the deviatoric strai
     τ = |s_xy|. A law given as τ acts along the strain rate, s = (2 τ/|γ̇|) ε′; one given as η is s = 2 η ε′. Where p ≤ 0 friction carries nothing.";
 
 /// Laws by their names in files, with their formulas.
-const FORMULAS: [(&str, &str); 9] = [
+const FORMULAS: [(&str, &str); 10] = [
     ("newtonian", "η constant: `viscosity`"),
     (
         "bingham",
@@ -40,6 +40,12 @@ const FORMULAS: [(&str, &str); 9] = [
     (
         "softening-drucker-prager",
         "rigid (here elastic) up to τ = μ(κ) p + k(κ), both along a line from peak to residual over the plastic shear strain κ, at any rate alike",
+    ),
+    (
+        "viscous-number",
+        "τ = (μ_c + K1 I + tanψ) p′, p′ = p − p_f, I = η |γ̇|/p′, tanψ = K3 (φ − φ_c + K2 I), dφ/dt = −φ |γ̇| tanψ, ∇·v = ∇·(k/η ∇p_f), \
+         k = D² (1 − φ)³/(180 φ²) (Pailha & Pouliquen 2009): `critical_friction` μ_c, `friction_slope` K1, `fraction_slope` K2, `dilatancy` K3, \
+         `critical_fraction` φ_c, `solid_fraction` φ at the start, `grain_diameter` D, viscosity η of the liquid",
     ),
 ];
 
