@@ -69,6 +69,24 @@ fn a_sweep_may_mean_some_runs_only() {
     assert!(other.starts_with("error: plan.toml: `only` is \"fluid=oil\", but must be keys of a run"), "{other}");
 }
 
+/// Points of a study, whose parameters a file of its own holds, are simulated one by one.
+#[test]
+fn a_study_is_swept_by_its_parameters() {
+    let place = Place::new();
+    let plan = "design = \"grid\"\nmetrics = [\"pore_pressure_middle\"]\n[[cases]]\ncase = \"consolidation\"\n[[parameters]]\n\
+                path = \"material.liquid_viscosity\"\nvalues = [5e-4, 1e-3, 2e-3]\n";
+    let plan = place.file("plan.toml", plan);
+    place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().success();
+    let results = std::fs::read_to_string(place.path("out/results.csv")).expect("written");
+    let mut lines = results.lines();
+    let column = lines.next().and_then(|heads| heads.split(',').position(|head| head == "value")).expect("a column");
+    let rows = lines
+        .filter(|line| line.contains("pore_pressure_middle"))
+        .map(|line| line.split(',').nth(column).expect("a value").parse().expect("a number"));
+    let pressures: Vec<f64> = rows.collect();
+    assert!(pressures.len() == 3 && pressures.is_sorted_by(|a, b| 1.05 * a < *b), "{pressures:?}");
+}
+
 #[test]
 fn failures_keep_their_reason() {
     let place = Place::new();

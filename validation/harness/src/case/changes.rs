@@ -306,6 +306,17 @@ fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &st
     Ok(())
 }
 
+/// The tables that some `path=value` settings make; those that are no settings are left out.
+#[must_use]
+pub fn table_of_settings(settings: &[String]) -> Table {
+    let mut table = Table::new();
+    for setting in settings {
+        // a setting that is refused is refused where it is applied
+        let _ = add_setting("", &Table::new(), &mut table, setting);
+    }
+    table
+}
+
 /// A TOML value; what is not TOML is a word that the shell took the quotes from.
 fn value_of(text: &str) -> Value {
     toml::from_str::<Table>(&format!("value = {text}"))

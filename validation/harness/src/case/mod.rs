@@ -31,7 +31,7 @@ mod schema;
 mod tables;
 
 pub use changes::Changes;
-pub use changes::twice_given;
+pub use changes::{table_of_settings, twice_given};
 pub use conditions::{Condition, Conditions};
 pub use erased::{AnyCase, PreparedCase};
 pub use error::{ParameterError, SettingError};

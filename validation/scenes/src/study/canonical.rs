@@ -7,7 +7,7 @@ use super::file::StudyText;
 use super::{Study, schema};
 use crate::case::{
     AnyCase, CaseResult, Changes, Estimate, ExternalData, ExternalResult, ExternalSchema, ParameterError, PreparedCase,
-    Progress, Registry, Tier, tables_to_add,
+    Progress, Registry, Tier, table_of_settings, tables_to_add,
 };
 use crate::control::{Control, ControlKind, TriedControls};
 use crate::figure::Figure;
@@ -122,10 +122,15 @@ impl AnyCase for CanonicalStudy {
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
         let mut study = self.study().of_tier(tier);
         if let Some((_, fields)) = &changes.file {
-            study.base.lay_over(fields);
+            // a sweep hands the study back as it was written
+            let whole = fields.get("parameters").and_then(toml::Value::as_table);
+            study.base.lay_over(whole.filter(|_| fields.contains_key("checks")).unwrap_or(fields));
         }
         let base_tier = study.tier();
-        let parameters_toml = study.complete(tier);
+        // what is set is part of the parameters, by which evaluations are known and repeated
+        let mut told = study.clone();
+        told.base.lay_over(&table_of_settings(changes.settings));
+        let parameters_toml = told.complete(tier);
         // a report runs them beside the study
         let study = study.without_controls().with_variants_of(tier);
         let parts = study.prepare(self.cases, Some(base_tier), changes.settings, changes.limits)?;
