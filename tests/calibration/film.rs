@@ -61,7 +61,7 @@ pub(crate) fn correlated_errors(seed: u64, count: usize, coefficient: f64) -> Ve
 
 #[test]
 #[ignore = "the full study: some minutes"]
-pub(crate) fn correlated_errors_are_named_and_their_regions_hold_the_truth() {
+fn correlated_errors_are_named_and_their_regions_hold_the_truth() {
     for (count, coefficient) in [(40, 0.5), (40, 0.8), (20, 0.8), (80, 0.5)] {
         let tally = Tally::of(200..240, &START, |seed| film_with(&correlated_errors(seed, count, coefficient)));
         tally.print(&format!("film of {count} velocities, correlation {coefficient}"));

@@ -21,6 +21,7 @@ fn plans_and_data_are_those_of_the_stored_judgements() {
     for (name, stored) in HeldOutJudgement::shipped() {
         let now = plan(name).digest().unwrap_or_else(|error| panic!("{error}"));
         let remedy = format!("run `bagnold calibrate validation/calibrations/{name}.toml` and store its held-out.json");
+        assert!(!stored.made_by.ends_with("+changes"), "{name} was made by sources that no commit holds");
         assert_eq!(now, stored.digest, "{name} was calibrated from another plan or other data: {remedy}");
     }
 }
@@ -47,6 +48,8 @@ mod long {
             for (now, stored) in now.iter().zip(&stored.data) {
                 let difference = (now.model / stored.model - 1.0).abs();
                 assert!(difference < SAME, "{name}: {} = {} was {}", stored.quantity, now.model, stored.model);
+                let deviation = now.residual / (1.0 + stored.spread * stored.spread).sqrt();
+                assert!((deviation - stored.deviation).abs() < 0.01, "{name}: {} {deviation}", stored.quantity);
             }
         }
     }

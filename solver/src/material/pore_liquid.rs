@@ -15,8 +15,9 @@ pub const SKELETON_SHARE: f64 = 0.5;
 pub const LARGEST_DIFFUSION: f64 = 0.125;
 /// Most steps that pore diffusion may make of one acoustic step `[-]`.
 pub const MOST_SUBSTEPS: f64 = 10.0;
-/// Solid fraction below which the permeability stays as it is `[-]`: Kozeny and Carman's grains touch.
+/// Solid fractions beyond which the permeability stays as it is `[-]`: Kozeny and Carman's grains touch, and leave pores.
 const LOOSEST: f64 = 0.3;
+const DENSEST: f64 = 0.75;
 
 /// Grains with their pores full of a liquid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +53,7 @@ impl PoreLiquid {
     /// k/η `[m²/(Pa s)]` at a solid fraction `[-]`.
     #[must_use]
     pub fn conductivity(&self, solid_fraction: f64) -> f64 {
-        let fraction = solid_fraction.max(LOOSEST);
+        let fraction = solid_fraction.clamp(LOOSEST, DENSEST);
         let pores = 1.0 - fraction;
         let area = self.permeability_coefficient * self.grain_diameter * self.grain_diameter;
         area * pores * pores * pores / (fraction * fraction * self.liquid_viscosity)

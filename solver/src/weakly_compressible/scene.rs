@@ -172,7 +172,8 @@ impl<const D: usize> Scene<D> {
             .or_else(|| self.enclosure.numerics_problem(&self.numerics))
             .or_else(|| {
                 let scale = (self.spacing, self.equation_of_state.bulk_modulus);
-                let problem = |pore| pore_problem(&pore, &self.numerics, scale, !self.enclosure.inlets.is_empty());
+                let parts = (!self.enclosure.inlets.is_empty(), self.side_walls.is_some());
+                let problem = |pore| pore_problem(&pore, &self.numerics, scale, parts);
                 self.rheology.pore_liquid().and_then(problem)
             })
             .or_else(|| self.side_walls.and_then(|walls| walls.problem(D)));
@@ -231,23 +232,27 @@ impl<const D: usize> Scene<D> {
 }
 
 /// A mixture of grains and liquid that is not served, if it is one: whose pores drain too fast for explicit steps at a spacing `[m]` and a
-/// bulk modulus `[Pa]`, or which is fed.
+/// bulk modulus `[Pa]`, which is fed, or which side walls rub.
 #[must_use]
 pub fn pore_problem(
     pore: &PoreLiquid,
     numerics: &Numerics,
     (spacing, bulk_modulus): (f64, f64),
-    has_inlets: bool,
+    (has_inlets, has_side_walls): (bool, bool),
 ) -> Option<ParameterProblem> {
     if has_inlets {
         let remedy = "give bodies only: what is fed has no pore pressure of its own";
         return Some(ParameterProblem::new("inlets", "given", "absent with a pore liquid", remedy));
     }
+    if has_side_walls {
+        let remedy = "leave them out: their friction would take the pressure of the liquid for that of grains";
+        return Some(ParameterProblem::new("side_walls", "given", "absent with a pore liquid", remedy));
+    }
     let sound_speed = (bulk_modulus / pore.mixture_density()).sqrt();
     let least = pore.least_length(bulk_modulus, numerics.acoustic_courant / sound_speed) / numerics.smoothing_ratio;
     (spacing < least).then(|| {
         let rule = format!("at least {least:.3e} m, because pores drain within a step");
-        let remedy = "raise the spacing, lower the stiffness, or leave the liquid out";
+        let remedy = "raise the spacing, lower the stiffness, or check `grain_diameter` and `liquid_viscosity`";
         ParameterProblem::new("spacing", spacing, &rule, remedy)
     })
 }

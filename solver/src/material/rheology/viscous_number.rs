@@ -7,7 +7,7 @@
 //! The field is the excess pore pressure p_f, which drains at the free surface. Memories are the plastic solid fraction φ, as φ_0/φ − 1, and
 //! the share of its volume that a particle has passed to the surface as water. Total pressures come in, p′ = p − p_f counts.
 //!
-//! γ̇ = (τ − m p′)₊/(η (K1 + K2 K3)) with m = μ_c + K3 (φ − φ_c) is linear in both stresses. At the end of a step
+//! γ̇ = (τ − m p′)₊/(η (K1 + K2 K3)) with m = (μ_c + K3 (φ − φ_c))₊ is linear in both stresses. At the end of a step
 //! τ = τ* − G γ̇ Δt, so that γ̇ = (τ* − m p′)₊/B, B = η (K1 + K2 K3) + G Δt. Dilation is compressed elastically,
 //! p′ = p* + (K_s + p*) D Δt: with K3 (φ − φ_c) γ̇ p′ + K2 K3 η γ̇² = D p′ this is a quadratic equation of p′. Its constant is not positive
 //! and its value at γ̇ = 0 is positive, so that the positive root lies between. Where the skeleton would bear tension it opens:
@@ -71,8 +71,6 @@ fn kozeny_carman() -> f64 {
 
 /// Below its yield stress by more than this part of it a material is wholly elastic `[-]`.
 const YIELDING: f64 = 0.01;
-/// Least factor of p′² in the quadratic equation `[-]`, far below that of any material.
-const LEAST_FACTOR: f64 = 1e-3;
 /// Largest volume over that at the start to which the skeleton opens `[-]`.
 const MOST_OPEN: f64 = 10.0;
 
@@ -111,11 +109,11 @@ impl ViscousNumber {
         })
     }
 
-    /// m `[-]`: the stress ratio from which on grains of a solid fraction flow.
+    /// m `[-]`: the stress ratio from which on grains of a solid fraction flow; none where they are so loose that nothing holds them.
     #[inline(always)]
     fn yield_friction<R: Real>(&self, solid_fraction: R) -> R {
         let excess = solid_fraction - R::splat(self.critical_fraction);
-        R::splat(self.critical_friction) + R::splat(self.dilatancy) * excess
+        (R::splat(self.critical_friction) + R::splat(self.dilatancy) * excess).max(R::splat(0.0))
     }
 
     /// η (K1 + K2 K3) `[Pa·s]`: growth of the shear stress with the shear rate.
@@ -142,10 +140,10 @@ impl ViscousNumber {
         let swelling = (modulus + start) * R::splat(trial.time_step * self.dilatancy);
         let swelling = swelling.if_less(zero, modulus, zero);
         let thinning = R::splat(self.fraction_slope * self.liquid_viscosity); // K2 η
-        let factor = (one + swelling * per_pressure * (excess - thinning * per_pressure)).max(R::splat(LEAST_FACTOR));
+        let factor = one + swelling * per_pressure * (excess - thinning * per_pressure);
         let linear = swelling * free * (R::splat(2.0) * thinning * per_pressure - excess) - start;
         let constant = swelling * thinning * free * free;
-        let root = (linear * linear + R::splat(4.0) * factor * constant).sqrt();
+        let root = (linear * linear + R::splat(4.0) * factor * constant).max(zero).sqrt();
         let pressure = ((root - linear) / (R::splat(2.0) * factor)).if_less(
             linear,
             zero,

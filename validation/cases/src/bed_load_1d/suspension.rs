@@ -301,8 +301,8 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let faster = 100.0 * above.iter().sum::<f64>() / above.len() as f64;
     let mut caption = format!(
         "A sheet flow of plastic grains whose eddies carry grains: (a) solid fraction, (b) velocity. With suspension the layer carries {:.2} of the \
-         measured transport; the inputs leave a standard uncertainty of {known:.2}. Above 10 mm its grains have {faster:+.0} % of the measured \
-         velocity on average. The source states no uncertainty.",
+         measured transport; the inputs leave a standard uncertainty of {known:.2}. Above 10 mm its grains differ from the measured velocity by \
+         {faster:+.0} % on average. The source states no uncertainty.",
         ratio(suspended)
     );
     if let Some(contacts) = of(records, |purpose| *purpose == LayerPurpose::Measured(MeasuredBedLoad::SheetFlow))

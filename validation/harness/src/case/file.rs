@@ -2,7 +2,7 @@
 
 use super::error::ParameterError;
 use super::{OutputPlan, Tier, meshes, rates};
-use crate::input::{WRITTEN_BY_HAND, nearest, position, read_text};
+use crate::input::{DOCUMENT, nearest, position, read_text};
 use crate::output::FileError;
 use bagnold_solver::parameter::shortened;
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ impl CaseFile {
     /// # Errors
     /// A file that cannot be read, is not TOML, or does not name its case.
     pub fn read(path: &Path) -> Result<Self, ParameterError> {
-        let text = read_text(path, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(path, &error))?;
+        let text = read_text(path, DOCUMENT).map_err(|error| FileError::unreadable(path, &error))?;
         Self::parse(path, &text)
     }
 

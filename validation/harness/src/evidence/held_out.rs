@@ -66,7 +66,7 @@ impl HeldOutJudgement {
         let count = |wanted: Option<bool>| self.data.iter().filter(|datum| datum.agrees() == wanted).count();
         let (agree, differ, open) = (count(Some(true)), count(Some(false)), count(None));
         let open =
-            if open > 0 { format!("; the parameters are too uncertain to tell of {open}") } else { String::new() };
+            if open > 0 { format!("; for {open} the parameters are too uncertain to tell") } else { String::new() };
         format!(
             "Held out: {agree} of {} data agree with their prediction within 2 u_val, {differ} differ{open}.",
             self.data.len()
@@ -88,6 +88,29 @@ impl HeldOutJudgement {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_agreement_counts_only_where_the_parameters_are_known_well_enough() {
+        let datum = |deviation: f64, spread: f64| HeldOutDatum {
+            quantity: "run_out".to_owned(),
+            unit: "-".to_owned(),
+            datum: [0.9, 1.0, 1.1],
+            model: 1.0,
+            predicted: None,
+            spread,
+            deviation,
+            source: "a test".to_owned(),
+        };
+        let data = vec![datum(1.9, 0.5), datum(-2.1, 0.5), datum(0.1, 3.0), datum(2.1, 3.0)];
+        let verdicts: Vec<Option<bool>> = data.iter().map(HeldOutDatum::agrees).collect();
+        assert_eq!(verdicts, [Some(true), Some(false), None, Some(false)]);
+        let (title, digest, made_by) = (String::new(), String::new(), String::new());
+        let (values, parameters, findings) = (Vec::new(), Vec::new(), Vec::new());
+        let judgement = HeldOutJudgement { title, digest, made_by, values, parameters, findings, data };
+        let words = "Held out: 1 of 4 data agree with their prediction within 2 u_val, 2 differ; for 1 the parameters are too \
+                     uncertain to tell.";
+        assert_eq!(judgement.in_words(), words);
+    }
 
     #[test]
     fn every_example_that_is_carried_has_data_with_intervals() {

@@ -44,8 +44,9 @@ const FORMULAS: [(&str, &str); 10] = [
     (
         "viscous-number",
         "τ = (μ_c + K1 I + tanψ) p′, p′ = p − p_f, I = η |γ̇|/p′, tanψ = K3 (φ − φ_c + K2 I), dφ/dt = −φ |γ̇| tanψ, ∇·v = ∇·(k/η ∇p_f), \
-         k = D² (1 − φ)³/(180 φ²) (Pailha & Pouliquen 2009): `critical_friction` μ_c, `friction_slope` K1, `fraction_slope` K2, `dilatancy` K3, \
-         `critical_fraction` φ_c, `solid_fraction` φ at the start, `grain_diameter` D, viscosity η of the liquid",
+         k = α D² (1 − φ)³/φ² (Pailha & Pouliquen 2009): `critical_friction` μ_c, `friction_slope` K1, `fraction_slope` K2, `dilatancy` K3, \
+         `critical_fraction` φ_c, `solid_fraction` φ at the start, `grain_diameter` D, `permeability_coefficient` α, `liquid_viscosity` η, \
+         `grain_density` and `liquid_density` for the buoyant weight",
     ),
 ];
 

@@ -29,7 +29,7 @@ impl Case for InclineCollapse {
         Setup. A reservoir of glass beads (14 cm high, 20 cm long, smooth back) stands behind a smooth gate on a \
         rough slope. The gate is lifted normal to the slope. Front: place where the thickness falls to 0.02 r_0, \
         defined as in `column-planar`.\n\n\
-        Judged. Front and kinetic energy over time against another code; no measured front is at hand. Below the friction angle, \
+        Judged. Front and kinetic energy over time against another code; no measured front is available. Below the friction angle, \
         the final run-out against x_f = h_0 2k/(tan δ − tan θ) with k = 0.4 to 0.5 and tan δ = μ_s, the fit of \
         Mangeney et al. (2010) as quoted by later works.\n\n\
         Observed only. Profiles of viscosity and shear over the depth. Run-outs above the friction angle, where the \

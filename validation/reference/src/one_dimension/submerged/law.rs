@@ -78,7 +78,9 @@ impl ViscousNumberLaw {
     /// the yield stress.
     #[must_use]
     pub fn flow(&self, stress: f64, effective_pressure: f64, solid_fraction: f64, viscosity: f64) -> GrainFlow {
-        let yield_friction = self.critical_friction + self.dilatancy * (solid_fraction - self.critical_fraction);
+        // grains that are too loose to hold have none
+        let yield_friction =
+            (self.critical_friction + self.dilatancy * (solid_fraction - self.critical_fraction)).max(0.0);
         let excess = stress - yield_friction * effective_pressure;
         if excess <= 0.0 {
             return GrainFlow::default();
