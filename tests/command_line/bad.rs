@@ -61,23 +61,26 @@ fn every_file_of_bad_inputs_belongs_to_one() {
 #[test]
 fn pipes_devices_and_files_of_megabytes_are_refused_at_once() {
     let place = Place::new();
-    place.file("big.toml", &format!("case = \"{}\"\n", "x".repeat(2 << 20)));
+    place.file("plan.toml", &format!("case = \"{}\"\n", "x".repeat(2 << 20)));
     place.file("fields.toml", &(0..200_000).map(|index| format!("field{index} = 1\n")).collect::<String>());
+    std::fs::File::create(place.path("case.toml")).and_then(|file| file.set_len(65 << 20)).expect("a long file");
     let pipe = place.path("pipe.toml");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo").success());
     std::os::unix::fs::symlink("/dev/zero", place.path("zero.toml")).expect("a link");
     let begun = std::time::Instant::now();
-    for (file, reason) in [
-        ("big.toml", "is larger than 1 MiB"),
-        ("fields.toml", "is larger than 1 MiB"),
-        ("pipe.toml", "is a named pipe, not a regular file"),
-        ("zero.toml", "is a device, not a regular file"),
+    let (case, plans) = (&["run"][..], &["sweep", "calibrate"][..]);
+    for (commands, file, reason) in [
+        (case, "case.toml", "is larger than 64 MiB"),
+        (plans, "plan.toml", "is larger than 1 MiB"),
+        (plans, "fields.toml", "is larger than 1 MiB"),
+        (&["run", "sweep", "calibrate"], "pipe.toml", "is a named pipe, not a regular file"),
+        (&["run", "sweep", "calibrate"], "zero.toml", "is a device, not a regular file"),
     ] {
         let is_long = reason.contains("MiB");
         let remedy = if is_long { "shorten it, or move it elsewhere" } else { "check the path and its permissions" };
-        for command in [&["run", file][..], &["sweep", file], &["calibrate", file]] {
+        for command in commands {
             place
-                .bagnold(command)
+                .bagnold(&[command, file])
                 .assert()
                 .code(2)
                 .stdout("")
