@@ -4,6 +4,7 @@ use crate::book;
 use bagnold_harness::case::{AnyCase, Tier};
 use bagnold_harness::metric::MetricKind;
 use bagnold_scenes::study;
+use bagnold_tools::{calibration, sweep};
 use bagnold_validation::REGISTRY;
 use bagnold_validation::cli::Arguments;
 use clap::{Arg, Command, CommandFactory};
@@ -118,7 +119,7 @@ fn kind(schema: &Value) -> String {
         Some("number") => "number".to_owned(),
         Some("integer") => "integer".to_owned(),
         Some("boolean") => "true or false".to_owned(),
-        Some("string") => "text".to_owned(),
+        Some("string") if schema["enum"].is_null() => "text".to_owned(),
         Some("array") if schema["prefixItems"].is_array() => {
             let count = schema["prefixItems"].as_array().map_or(0, Vec::len);
             format!("{count} values")
@@ -184,7 +185,7 @@ fn write_file(page: &mut String, title: &str, schema: &Value) {
 
 #[test]
 fn fields_are_those_of_the_schemas() {
-    let mut page = "# Fields of scene and study files\n\n`a.b` is field `b` of table `a`, and `a[].b` is field `b` of each entry of \
+    let mut page = "# Fields of scenes, studies and plans\n\n`a.b` is field `b` of table `a`, and `a[].b` is field `b` of each entry of \
         list `a`.\n`a kind=x.b` exists where field `kind` of `a` is `x`. `bagnold show CASE` prints the fields of\nother cases.\n\n"
         .to_owned();
     for name in ["scene", "scene-space"] {
@@ -196,6 +197,10 @@ fn fields_are_those_of_the_schemas() {
         );
     }
     write_file(&mut page, "study", &study::schema());
+    let mut plan = calibration::schema().clone();
+    plan["properties"]["hold_out"]["items"].take(); // those of `fit`
+    write_file(&mut page, "calibration", &plan);
+    write_file(&mut page, "sweep", sweep::schema());
     assert_page("fields.md", &page);
 }
 

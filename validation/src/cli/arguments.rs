@@ -136,7 +136,7 @@ pub enum Command {
     List,
     /// Print the parameters of a case as a TOML file for `run`.
     Show(ShowArguments),
-    /// Print the JSON Schema of a case or study file, for completion and checks in editors.
+    /// Print the JSON Schema of a case, study or plan, for completion and checks in editors.
     Schema(SchemaArguments),
     /// Simulate one case and judge it.
     Run(RunArguments),
@@ -170,8 +170,8 @@ pub enum Command {
 /// `bagnold schema`
 #[derive(Debug, Args)]
 pub struct SchemaArguments {
-    /// Name of a case, see `bagnold list`, or `study` for the file of a study.
-    #[arg(value_name = "CASE|study")]
+    /// Name of a case, see `bagnold list`, or `study`, `calibration` or `sweep` for such a file.
+    #[arg(value_name = "CASE|KIND")]
     pub case: String,
     /// Tier that supplies the defaults.
     #[arg(long, value_enum, default_value_t = Tier::Quick)]

@@ -165,10 +165,12 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
             Ok(Exit::Held)
         }
         Command::Schema(show) => {
-            let schema = match registry.find(&show.case) {
-                // a case goes before the file of the same name
-                Err(_) if show.case == "study" => crate::study::schema(),
-                case => case?.schema(show.tier),
+            // a case goes before the file of the same name
+            let schema = match (registry.find(&show.case), show.case.as_str()) {
+                (Err(_), "study") => crate::study::schema(),
+                (Err(_), "calibration") => crate::calibration::schema().clone(),
+                (Err(_), "sweep") => crate::sweep::schema().clone(),
+                (case, _) => case?.schema(show.tier),
             };
             print(output, &format!("{schema:#}\n"));
             Ok(Exit::Held)

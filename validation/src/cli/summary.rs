@@ -2,7 +2,7 @@
 
 use crate::case::CaseResult;
 use crate::metric::{Metric, PredictionInterval, Variant, Verdict};
-use crate::number::aligned_digits;
+use crate::number::{aligned_digits, in_unit};
 use crate::observation::Outcome;
 use crate::report::MetricKey;
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,13 +18,18 @@ pub(super) fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -
 /// Intervals of the true values of user-defined materials, a line each.
 fn predictions(metrics: &[Metric]) -> String {
     let line = |metric: &Metric| {
-        let PredictionInterval { lower, upper, comparisons, .. } = metric.prediction.as_ref()?;
-        let (lower, upper) = (aligned_digits(*lower), aligned_digits(*upper));
-        let (name, unit) = (&metric.name, &metric.unit);
+        let PredictionInterval { lower, upper, comparisons, unit_length, .. } = metric.prediction.as_ref()?;
+        let numbers = [metric.value, *lower, *upper];
+        let [value, lower, upper] = numbers.map(aligned_digits);
+        let (name, value) = (&metric.name, in_unit(&value, &metric.unit));
+        let in_metres = unit_length.map_or_else(String::new, |length| {
+            let [value, lower, upper] = numbers.map(|number| aligned_digits(number * length));
+            format!(", {value} m ({lower} … {upper} m)")
+        });
         let beyond = metric.prediction.iter().flat_map(|prediction| &prediction.warnings);
         let beyond: Vec<String> = beyond.map(|warning| format!("  less certain: {warning}\n")).collect();
         Some(format!(
-            "95 % interval of `{name}` [{unit}] from the errors of {comparisons} comparisons: {lower} … {upper}\n{}",
+            "`{name}` to quote: {value} (95 %: {lower} … {upper}){in_metres}, by the errors of {comparisons} comparisons\n{}",
             beyond.concat()
         ))
     };

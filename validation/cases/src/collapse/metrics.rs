@@ -16,7 +16,7 @@ use super::quantities::{
 };
 use crate::case::Run;
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
-use crate::metric::{Confidence, Limit, Metric, MetricKind, Quantity, Variant};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Quantity, Variant};
 use crate::reference::collapse::{COLLAPSE_DURATION, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 use crate::setup::energy_ledger::{self, EnergyScale};
 use bagnold_solver::material::rheology::Rheology;
@@ -186,7 +186,8 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty, has
             beside.join("; ")
         );
         let quantities: &[&str] = if metric.name == RUN_OUT.name { &WAY_OF_FRONT } else { &[FINAL_HEIGHT.name] };
-        let interval = predicted(quantities, metric.value);
+        let interval = predicted(quantities, metric.value)
+            .map(|interval| PredictionInterval { unit_length: Some(run.half_width), ..interval });
         Metric { gate: None, ..metric.against(None, &source, Confidence::Medium) }.predicted(interval).leading()
     };
     let (duration, source, confidence) = &*COLLAPSE_DURATION;

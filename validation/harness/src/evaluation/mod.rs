@@ -16,27 +16,30 @@ pub use sensitivity::SensitivityPlan;
 use crate::case::{Changes, Limits, Monitor, ParameterError, PreparedCase, Registry, Tier, execute};
 use crate::metric::Variant;
 use crate::store::{Store, hexadecimal, identity_or_unique};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
 
 /// A case and what differs from its tier's parameters.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CaseRequest {
-    /// Name of the case.
+    /// Case that is run
     pub case: String,
-    /// Name that distinguishes it from other requests of the same case.
+    /// Name that distinguishes it from other requests of the same case
     pub name: Option<String>,
-    /// Tier whose parameters fill what is left out.
+    /// Tier whose parameters fill what `with` leaves out
     #[serde(default = "quick")]
     pub tier: Tier,
-    /// Parameters, as in a case's file.
+    /// Parameters, as in a case file
     #[serde(default)]
+    #[schemars(with = "std::collections::BTreeMap<String, serde_json::Value>")]
     pub with: toml::Table,
-    /// Keys of the runs that are meant; all runs where there are none.
+    /// Runs that are needed, as `key=value`; all of the case, if it is left out
     #[serde(default)]
+    #[schemars(with = "Vec<String>")]
     pub only: Vec<Variant>,
 }
 

@@ -231,6 +231,7 @@ impl ValidationSet {
             upper: value / least,
             comparisons: bias.comparisons,
             input_uncertainty: self.input_uncertainty(quantities),
+            unit_length: None,
             quantity: quantities.join(", "),
             regime,
             warnings: (0..REGIME_NUMBERS.len()).filter_map(outside).collect(),

@@ -62,6 +62,9 @@ pub struct PredictionInterval {
     /// Relative standard uncertainty by inputs that it holds, root mean square of those comparisons `[-]`; none where it is not known.
     #[serde(default)]
     pub input_uncertainty: Option<f64>,
+    /// Length `[m]` that a dimensionless value counts; none of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit_length: Option<f64>,
     /// Quantity of the comparisons.
     pub quantity: String,
     /// The flow's own regime.

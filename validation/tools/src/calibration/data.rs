@@ -4,6 +4,7 @@ use super::error::CalibrationError;
 use super::target::{Datum, DatumUncertainty, ProfileLocation, Target, parted};
 use crate::evidence::{MeasuredData, ReferenceColumn};
 use crate::input::FieldError;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
 
@@ -11,32 +12,34 @@ use std::path::{Path, PathBuf};
 const LARGEST: f64 = 1e30;
 
 /// A group of data as a plan gives it.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DatumText {
-    /// Metric of the case, by name.
+    /// Metric of the case
     metric: Option<String>,
-    /// Its variant; may be left out if there is one only.
+    /// Variant of the metric; may be left out if there is one only
     variant: Option<String>,
-    /// Table of the case, by name.
+    /// Table of the case, in place of `metric`
     table: Option<String>,
-    /// Column of the table that the data are given over.
+    /// Column of the table that the data are given over, with its unit
     x: Option<String>,
-    /// Column of the table that is compared.
+    /// Column of the table that is compared, with its unit
     y: Option<String>,
-    /// CSV file with the data, beside the plan.
+    /// CSV file with the data, beside the plan
     file: Option<PathBuf>,
-    /// A single datum.
+    /// A single measured value, in place of `file`
     value: Option<f64>,
+    /// Unit of `value`
     unit: Option<String>,
-    /// Its standard uncertainty.
+    /// Standard uncertainty of `value`
     uncertainty: Option<f64>,
-    /// Its standard uncertainty as a factor: the comparison is one of logarithms.
+    /// Standard uncertainty of `value` as a factor, which compares logarithms `[-]`
     factor: Option<f64>,
+    /// Source of `value`
     source: Option<String>,
-    /// Synthetic data: relative standard deviation of their noise.
+    /// Relative standard deviation of the noise of synthetic data, in place of `file` or `value` `[-]`
     noise: Option<f64>,
-    /// Points of a synthetic profile.
+    /// Points of a synthetic profile
     bins: Option<usize>,
 }
 

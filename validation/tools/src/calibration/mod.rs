@@ -181,3 +181,9 @@ fn compare_at(
     let answer = |block: usize| blocks.iter().position(|&k| k == block).map(|place| &answers[place]);
     compared(objective, held_out, answer, Clone::clone).map(Ok)
 }
+
+/// JSON Schema of a plan.
+#[must_use]
+pub fn schema() -> &'static serde_json::Value {
+    bagnold_solver::parameter::schema_of::<text::CalibrationText>()
+}

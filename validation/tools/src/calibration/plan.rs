@@ -6,6 +6,7 @@ use crate::evaluation::{CaseRequest, Paths, toml_number};
 use crate::inference::{Budget, Loss, Method};
 use crate::input::{FieldError, check_name, nearest};
 use crate::sampling::Bounds;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -31,12 +32,12 @@ pub struct CalibratedParameter {
 }
 
 /// One of a few settings that are tried.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Choice {
-    /// Name; in the data's variants, `{choice}` stands for it.
+    /// Name; in the variants of data, `{choice}` stands for it
     pub name: String,
-    /// `path=value` settings by case.
+    /// Lists of `path=value`, by case
     pub set: BTreeMap<String, Vec<String>>,
 }
 

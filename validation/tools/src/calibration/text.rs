@@ -8,7 +8,10 @@ use crate::inference::{Budget, Loss, Method};
 use crate::input::{FieldError, check_name, check_text};
 use crate::metric::Variant;
 use crate::sampling::{Bounds, Spacing};
+use schemars::JsonSchema;
 use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// More evaluations than this are a slip of the pen.
@@ -21,64 +24,100 @@ const MOST_TRAJECTORIES: usize = 1000;
 const SAME_WITHIN: f64 = 0.01;
 
 /// One parameter that is sought.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ParameterText {
+    /// Dotted path of the parameter, or a table of paths by case
     path: Paths,
+    /// Name on the page; the last key of the path, if it is left out
     name: Option<String>,
+    /// Unit of the parameter
     #[serde(default = "none")]
     unit: String,
+    /// Lowest value that the search tries
     lower: f64,
+    /// Highest value that the search tries
     upper: f64,
+    /// Division of the range
     #[serde(default)]
+    #[schemars(extend("enum" = ["linear", "log"]), with = "String")]
     scale: Spacing,
+    /// First value that is tried; the middle of the range, if it is left out
     start: Option<f64>,
+    /// Value that synthetic data are made with
     truth: Option<f64>,
+    /// Points along this parameter of a grid in place of a search; for all parameters or none
     levels: Option<usize>,
 }
 
 /// A case and what is compared with it.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BlockText {
+    /// Case that is run
     case: String,
+    /// Tier whose parameters fill what `with` leaves out
     tier: Option<Tier>,
+    /// Parameters, as in a case file
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, Value>")]
     with: toml::Table,
-    /// Keys of the runs that are meant; all runs where there are none.
+    /// Runs that are needed, as `key=value`; all of the case, if it is left out
     #[serde(default)]
+    #[schemars(with = "Vec<String>")]
     only: Vec<Variant>,
-    /// Of what is held out: the parameters that make its conditions.
+    /// Parameters that a `hold_out` block has otherwise than the fitted ones
     conditions: Option<Vec<String>>,
+    /// Relative difference up to which two conditions are the same, 0.01 if it is left out `[-]`
     same_within: Option<f64>,
+    /// Data that are compared
     data: Vec<DatumText>,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CalibrationText {
+    /// Subject, one line
     title: String,
+    /// Remark for the reader of the page
     #[serde(default)]
     note: String,
+    /// Search method; `trust-region`, if it is left out
+    #[schemars(extend("enum" = ["trust-region", "posterior", "design"]), with = "Option<String>")]
     method: Option<Method>,
+    /// Most evaluations of the search for the best point, 40 if it is left out
     evaluations: Option<usize>,
+    /// Seed of the starting points
     seed: Option<u64>,
+    /// Step of numerical derivatives over the range, 0.02 if it is left out `[-]`
     difference: Option<f64>,
+    /// Fall of χ² below which the search ends, 0.01 if it is left out `[-]`
     tolerance: Option<f64>,
+    /// Trajectories of Morris' screening
     #[serde(default)]
     trajectories: usize,
+    /// Most evaluations for intervals and joint region, 16 per parameter if it is left out
     region_evaluations: Option<usize>,
+    /// Starting points; 2 + 2 per parameter, if it is left out
     starts: Option<usize>,
+    /// Loss of a residual; `huber` bounds the weight of outliers
     #[serde(default)]
+    #[schemars(extend("enum" = ["squares", "huber"]), with = "String")]
     loss: Loss,
+    /// Seeds that every evaluation is the mean of
     repeats: Option<usize>,
+    /// Path of the seed; `seed`, if it is left out
     seed_path: Option<Paths>,
+    /// Parameters that are sought
     #[serde(default)]
     parameters: Vec<ParameterText>,
+    /// Settings that are ranked in place of a search
     #[serde(default)]
     choices: Vec<Choice>,
+    /// Cases and data that are fitted
     #[serde(default)]
     fit: Vec<BlockText>,
+    /// Cases and data that judge the fit, with the fields of `fit`
     #[serde(default)]
     hold_out: Vec<BlockText>,
 }

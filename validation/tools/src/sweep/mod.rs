@@ -27,3 +27,9 @@ pub use gather::gather;
 pub use local::{SweepMonitor, run_entry, run_locally};
 pub use manifest::{Manifest, SweepRun};
 pub use plan::SweepPlan;
+
+/// JSON Schema of a plan.
+#[must_use]
+pub fn schema() -> &'static serde_json::Value {
+    bagnold_solver::parameter::schema_of::<plan::SweepText>()
+}

@@ -8,6 +8,7 @@ use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan, toml_num
 use crate::input::{FieldError, check_name};
 use crate::sampling::{Bounds, Spacing, design};
 use crate::store::identity_or_unique;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -23,7 +24,7 @@ const MOST_SOBOL_POINTS: usize = 65_536;
 const TAKEN: [&str; 9] = ["run", "case", "tier", "metric", "variant", "value", "unit", "verdict", "reason"];
 
 /// Arrangement of the points.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(
     untagged,
     expecting = "expected design = \"grid\", or a table [design.latin_hypercube] or [design.sobol] with `points` and `seed`"
@@ -35,44 +36,67 @@ enum Design {
     Spread(SpaceFillingDesign),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 enum Word {
     Grid,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 enum SpaceFillingDesign {
     /// One point in each of `points` slices along every axis.
-    LatinHypercube { points: usize, seed: u64 },
+    LatinHypercube {
+        /// Number of points
+        points: usize,
+        /// Seed of the points
+        seed: u64,
+    },
     /// The first points of a scrambled Sobol sequence.
-    Sobol { points: usize, seed: u64 },
+    Sobol {
+        /// Number of points
+        points: usize,
+        /// Seed of the scrambling
+        seed: u64,
+    },
 }
 
 impl Design {
     const GRID: Self = Self::Word(Word::Grid);
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "struct Varied")]
 struct SweptParameter {
+    /// Dotted path of the parameter, or a table of paths by case
     path: Paths,
+    /// Name of the column in the results; the last key of the path, if it is left out
     name: Option<String>,
+    /// Values, numbers or words
+    #[schemars(with = "Option<Vec<serde_json::Value>>")]
     values: Option<Vec<Value>>,
+    /// Lowest value, in place of `values`
     lower: Option<f64>,
+    /// Highest value
     upper: Option<f64>,
+    /// Division of the range
     #[serde(default)]
+    #[schemars(extend("enum" = ["linear", "log"]), with = "String")]
     scale: Spacing,
+    /// Values between `lower` and `upper` of a grid
     levels: Option<usize>,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-struct SweepText {
+pub(super) struct SweepText {
+    /// Arrangement of the points: `grid` for all combinations, or one of the tables
     design: Design,
+    /// Cases that are run at every point
     cases: Vec<CaseRequest>,
+    /// Parameters that vary
     parameters: Vec<SweptParameter>,
+    /// Metrics that are drawn; those that change, if it is left out
     #[serde(default)]
     metrics: Vec<String>,
 }
