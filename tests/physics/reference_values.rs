@@ -3,6 +3,7 @@
 
 use bagnold_reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, RoughIncline, SLOPE_CODES};
 use bagnold_reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
+use bagnold_reference::one_dimension::submerged::{SubmergedColumn, SubmergedLayer};
 use bagnold_reference::one_dimension::{BagnoldProfile, NonlocalLayer};
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use std::path::Path;
@@ -147,6 +148,55 @@ fn references_of_the_fed_slope_are_those_of_its_front() {
             assert!((reference / expected - 1.0).abs() < 0.01, "{name} {wanted}: {reference} instead of {expected}");
         }
     }
+}
+
+/// References of the tilted layers are those of the layer without particles, of the same storage and liquid.
+#[test]
+fn references_of_the_submerged_slope_are_those_of_its_layer() {
+    let study: toml::Value = toml::from_str(&text("validation/studies/submerged-slope.toml")).expect("TOML");
+    let checks = study["checks"].as_array().expect("checks");
+    let mut compared = 0;
+    for (name, solid_fraction) in [("loose", 0.578), ("dense", 0.584)] {
+        let layer = SubmergedLayer {
+            viscosity: 0.0032,
+            compressibility: 2.5e-4,
+            fraction_diffusion: 0.0,
+            longest_step: 0.5 / 30.0,
+            ..SubmergedLayer::EXPERIMENT
+        };
+        let mut column = SubmergedColumn::new(&layer, solid_fraction, 0.0).expect("a layer");
+        let own = checks.iter().filter(|check| check["only"].as_str().is_some_and(|only| only.contains(name)));
+        let (mut of_time, of_weight): (Vec<_>, Vec<_>) =
+            own.partition(|check| !check["name"].as_str().is_some_and(|name| name.contains("pressure_on_the_floor")));
+        for check in of_weight {
+            let (reference, exact) = (number(&check["reference"]), layer.floor_overburden(solid_fraction));
+            assert!((reference / exact - 1.0).abs() < 1e-4, "{reference} Pa instead of {exact} Pa");
+        }
+        let at = |check: &toml::Value| check["value"].get("at").map(number);
+        let order = |check: &&toml::Value| at(check).map_or(f64::MAX, |time| time);
+        of_time.sort_by(|one, other| order(one).total_cmp(&order(other)));
+        let mut reached = None;
+        for check in of_time {
+            let time = at(check).unwrap_or(f64::MAX);
+            while column.time() < time && (time < f64::MAX || reached.is_none()) {
+                let (before, from) = (column.surface_velocity(), column.time());
+                column.advance_to((from + 0.02).min(time)).expect("it flows");
+                let (after, goal) = (column.surface_velocity(), 0.009);
+                if reached.is_none() && from >= 0.3 && after >= goal {
+                    reached = Some(from + (column.time() - from) * (goal - before) / (after - before));
+                }
+            }
+            let expected = match check["name"].as_str() {
+                Some("suction_after_20_s") => column.floor_pressure(),
+                Some("time_to_0_3_mm_s") => reached.expect("it accelerates"),
+                _ => column.surface_velocity(),
+            };
+            let reference = number(&check["reference"]);
+            assert!((reference / expected - 1.0).abs() < 0.005, "{check}: {reference} instead of {expected}");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 10);
 }
 
 /// Curves of the figure over the slope: the uniform layers of the local and of the nonlocal law at one discharge, h_stop of
