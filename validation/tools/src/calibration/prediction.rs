@@ -12,8 +12,15 @@ use crate::inference::posterior::sample;
 use crate::inference::posterior::{Posterior, predictive};
 use crate::inference::{Answer, Emulator, Evaluated, Explored};
 
-/// Width of an interval of 95 % of a normal distribution, in standard deviations.
-const WIDTH: f64 = 2.0 * 1.96;
+/// Half width of an interval of 95 % of a normal distribution, in standard deviations.
+const HALF_WIDTH: f64 = 1.96;
+
+/// Standard uncertainty by the parameters of a residual whose datum is at 0: bands end where runs do and are then one-sided, so that the
+/// side towards the datum counts.
+fn spread(residual: f64, [low, high]: [f64; 2]) -> f64 {
+    let side = if residual > 0.0 { residual - low } else { high - residual };
+    side.max(0.0) / HALF_WIDTH
+}
 
 /// Samples of the posterior, if there is a region.
 pub(super) fn posterior(objective: &Objective<'_>, answer: &Answer) -> Option<Posterior> {
@@ -72,7 +79,19 @@ pub(super) fn of_hold_out(
         let band = band.map(|residual| residual.clamp(least, most));
         let [low, high] = band.map(|residual| known.of_residual(residual));
         datum.predicted = Some((low, high));
-        datum.spread = (band[1] - band[0]) / WIDTH;
+        datum.spread = spread(datum.residual, band);
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uncertainty_of_a_prediction_is_that_towards_its_datum() {
+        assert!((spread(3.0, [1.04, 3.2]) - 1.0).abs() < 1e-12, "the side below");
+        assert!((spread(-1.0, [-1.5, 0.96]) - 1.0).abs() < 1e-12, "the side above");
+        assert!(spread(3.0, [4.0, 5.0]).abs() < 1e-12, "none where all predictions lie farther off");
+    }
 }
