@@ -75,7 +75,7 @@ fn foreign(folder: &str) -> Vec<(String, Vec<u8>)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let mut paths: Vec<_> =
         std::fs::read_dir(root).expect("in the repository").flatten().map(|entry| entry.path()).collect();
-    paths.retain(|path| path.extension().is_some_and(|own| own == "vtu" || own == "vtk" || own == "stl"));
+    paths.retain(|path| path.extension().is_some_and(|own| ["vtu", "vtp", "vtk"].iter().any(|known| own == *known)));
     paths.sort();
     let name = |path: &Path| path.file_name().expect("a name").to_string_lossy().into_owned();
     paths.into_iter().map(|path| (name(&path), std::fs::read(path).expect("bytes"))).collect()
@@ -148,7 +148,7 @@ fn a_table_of_measurements_is_read_or_refused() {
     });
 }
 
-/// Pictures of a code in every form: VTK's files, a collection, a dump and a table, with bytes that are wrong, gone or doubled.
+/// Pictures of a code in every form: VTK's files, collections, a dump and tables, with bytes that are wrong, gone or doubled.
 #[test]
 fn a_picture_of_another_code_is_read_or_refused() {
     let mut files = foreign("foreign/vtk");
@@ -156,7 +156,17 @@ fn a_picture_of_another_code_is_read_or_refused() {
                 ITEM: ATOMS id x y radius\n1 0.1 0.1 0.01\n2 0.2 0.1 0.01\n";
     let pvd = "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0.5\" file=\"vtk-ascii.vtu\"/></Collection></VTKFile>";
     let table = "x,y,vx,vy,area\n0.1,0.1,0,0,1e-4\n0.2,0.1,0,0,1e-4\n";
-    for (name, text) in [("a.dump", dump), ("a.pvd", pvd), ("a.csv", table), ("a.series", "{\"files\":[]}")] {
+    let blocks = "<VTKFile type=\"vtkMultiBlockDataSet\"><vtkMultiBlockDataSet><DataSet index=\"0\" file=\"vtk-ascii.vtu\"/>\
+                  </vtkMultiBlockDataSet></VTKFile>";
+    let set = "# x y U\n0.1 0.1 (1 0 0)\n0.2 0.1 (1 0 0)\n";
+    for (name, text) in [
+        ("a.dump", dump),
+        ("a.pvd", pvd),
+        ("a.csv", table),
+        ("a.series", "{\"files\":[]}"),
+        ("a.vtm", blocks),
+        ("a.xy", set),
+    ] {
         files.push((name.to_owned(), text.as_bytes().to_vec()));
     }
     let folder = tempfile::tempdir().expect("temporary folder");
