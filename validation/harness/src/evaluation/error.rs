@@ -122,10 +122,11 @@ pub fn parse_plan<T: DeserializeOwned>(file: &Path, text: &str, command: &'stati
 
 /// A message about a value in the words of who writes it, with the field that stands on its line.
 fn in_plain_words(text: &str, line: usize, message: &str) -> String {
-    const TYPES: [(&str, &str); 4] = [
+    const TYPES: [(&str, &str); 5] = [
         ("expected f64", "expected a number, without quotes"),
         ("expected usize", "expected a whole number, without quotes"),
         ("expected u64", "expected a whole number, without quotes"),
+        ("expected a sequence", "expected a list, in [ ]"),
         ("expected a boolean", "expected true or false, without quotes"),
     ];
     let Some((programmers, words)) = TYPES.iter().find(|(programmers, _)| message.ends_with(programmers)) else {
