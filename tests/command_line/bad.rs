@@ -1,5 +1,5 @@
 //! Inputs that are refused: each a file `tests/bad/NAME.args` with an argument a line, beside it the exact message,
-//! `NAME.message`. What the arguments name (`NAME.toml`, `NAME.csv`) lies there too.
+//! `NAME.message`. What the arguments name (`NAME.toml`, `NAME.csv`, `NAME.pvd`) lies there too.
 
 use crate::program::Place;
 use std::collections::BTreeMap;
@@ -23,7 +23,9 @@ fn files() -> BTreeMap<String, String> {
 fn every_bad_input_is_refused_with_its_message_and_nothing_is_written() {
     let files = files();
     let place = Place::new();
-    for (name, text) in files.iter().filter(|(name, _)| name.ends_with(".toml") || name.ends_with(".csv")) {
+    for (name, text) in
+        files.iter().filter(|(name, _)| [".toml", ".csv", ".pvd"].iter().any(|ending| name.ends_with(ending)))
+    {
         place.file(name, text);
     }
     let inputs: Vec<&str> = files.keys().filter_map(|name| name.strip_suffix(".args")).collect();

@@ -99,6 +99,16 @@ fn columns(
     Ok(of_table(&read_text_table(&file)?, &plan, &file)?)
 }
 
+/// Files that another one names, unless one of them is missing.
+fn there(named: Vec<(f64, PathBuf)>, by: &Path) -> Result<Vec<(f64, PathBuf)>, FieldError> {
+    named.iter().find(|(_, file)| !file.exists()).map_or(Ok(()), |(_, file)| {
+        let beside = by.parent().and_then(|folder| file.strip_prefix(folder).ok()).unwrap_or(file);
+        let remedy = "copy it there: names stand relative to the file that has them";
+        Err(FieldError::new("file", format!("{beside:?}"), "a file that is there", remedy).in_file(by))
+    })?;
+    Ok(named)
+}
+
 fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> Result<Vec<ParticleFrame>, PlanError> {
     let named: Vec<(f64, PathBuf)> = if files.is_collection() {
         let file = folder.join(&files.files[0]);
@@ -115,7 +125,7 @@ fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> R
             };
             return frames.iter().map(picture).collect();
         }
-        vtk::collection(&text, &file)?
+        there(vtk::collection(&text, &file)?, &file)?
     } else {
         files.times.iter().copied().zip(files.files.iter().map(|file| folder.join(file))).collect()
     };
@@ -150,7 +160,8 @@ fn in_pieces(named: Vec<(f64, PathBuf)>) -> Result<Vec<(f64, PathBuf)>, PlanErro
     for (time, file) in named {
         if vtk::PARALLEL.contains(&ending(&file).as_str()) {
             let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
-            files.extend(vtk::pieces(&text, &file)?.into_iter().map(|piece| (time, piece)));
+            let pieces = vtk::pieces(&text, &file)?.into_iter().map(|piece| (time, piece)).collect();
+            files.extend(there(pieces, &file)?);
         } else {
             files.push((time, file));
         }
