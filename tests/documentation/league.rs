@@ -4,6 +4,7 @@ use crate::reference::{assert_page, cell};
 use bagnold_harness::case::{Silent, execute};
 use bagnold_harness::metric::{Metric, Verdict};
 use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_reference::collapse::{AT_REST, CodeQuantity, PLANAR_CODES};
 use bagnold_tools::judge::{LawOrigin, judge};
 use bagnold_tools::league::{
     League, LeagueRow, ORDER_HEADINGS, WIDTH_HEADINGS, blind, league, orders, read, split, submissions, widths,
@@ -109,9 +110,29 @@ fn row(row: &LeagueRow, codes: &[usize]) -> String {
     format!("| {} | {limit} | {} | {} | {scatter} |", cell(&name), value(&row.own), theirs.join(" | "))
 }
 
+/// Runs are gated by what other codes tell of the deposit: these numbers are those of the stored results.
+fn deposits_of_other_codes_are_those_of(league: &League) {
+    for (quantity, of_codes) in
+        [("centroid", CodeQuantity::CentroidAtRest), ("front_at_0.05_r0", CodeQuantity::FrontAtRest)]
+    {
+        for aspect_ratio in ["1", "3"] {
+            let variant = format!("quantity={quantity},material=lagree,aspect_ratio={aspect_ratio}");
+            let row = league.rows.iter().find(|row| row.own.name == "run_out" && row.variant().to_string() == variant);
+            let of_law = row.expect("a row").values.iter().filter(|(_, law, _)| *law == LawOrigin::Same);
+            let values: Vec<f64> = of_law.map(|(_, _, metric)| metric.value).collect();
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            let flow = aspect_ratio.parse().expect("a number");
+            let (reference, _) = PLANAR_CODES.at(flow, of_codes, AT_REST).expect("two codes");
+            assert_eq!(values.len(), 2, "{variant}");
+            assert!((reference - mean).abs() < 1e-3, "{variant}: {reference} instead of {mean}");
+        }
+    }
+}
+
 #[test]
 fn the_page_on_other_codes_is_that_of_the_stored_results() {
     let league = stored();
+    deposits_of_other_codes_are_those_of(&league);
     let mut text = HEAD.to_owned();
     let _ = writeln!(text, "| code | {} |\n|---|{}", league.cases.join(" | "), "---|".repeat(league.cases.len()));
     for (code, name) in league.codes.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Reference values that files hold as numbers, by the route that they came from: what material points extrapolate to, and the travelling front
 //! that `fed-slope` is compared with.
 
-use bagnold_reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, RoughIncline, SLOPE_CODES};
+use bagnold_reference::collapse::{CodeQuantity, OtherCodes, PLANAR_CODES, ROUND_CODES, RoughIncline, SLOPE_CODES};
 use bagnold_reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
 use bagnold_reference::one_dimension::submerged::{SubmergedColumn, SubmergedLayer};
 use bagnold_reference::one_dimension::{BagnoldProfile, NonlocalLayer};
@@ -41,7 +41,7 @@ fn energies_of_other_codes_follow_from_stored_runs() {
     for (codes, flow, height, time, coarse, fine) in flows {
         let milliseconds = 1e3 * time * (height / 9.81_f64).sqrt();
         let [coarse, fine] = [coarse, fine].map(|folder| kinetic_energy(folder, milliseconds));
-        let (value, _) = codes.at(flow, true, time).expect("a value");
+        let (value, _) = codes.at(flow, CodeQuantity::KineticEnergy, time).expect("a value");
         let expected = 2.0 * fine - coarse;
         assert!((value / expected - 1.0).abs() < 0.015, "{flow}: {value} instead of {expected}");
     }

@@ -15,7 +15,7 @@ use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{
-    CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE, ROUND_COLUMN_RUN_OUTS,
+    CodeQuantity, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE, ROUND_COLUMN_RUN_OUTS,
 };
 
 pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
@@ -213,8 +213,8 @@ fn histories(records: &[&CollapseRecord]) -> Figure {
         front.line(&label(run), slot, way);
         energy.line("", slot, share);
         if let Some(beside) = Beside::of_column(run, data) {
-            beside.draw(&mut front, false, slot, |(time, front)| (time, (front - 1.0) / a));
-            beside.draw(&mut energy, true, slot, |point| point);
+            beside.draw(&mut front, CodeQuantity::Front, slot, |(time, front)| (time, (front - 1.0) / a));
+            beside.draw(&mut energy, CodeQuantity::KineticEnergy, slot, |point| point);
         }
     }
     let has_points =

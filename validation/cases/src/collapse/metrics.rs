@@ -17,7 +17,9 @@ use super::quantities::{
 use crate::case::Run;
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Quantity, Variant};
-use crate::reference::collapse::{COLLAPSE_DURATION, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
+use crate::reference::collapse::{
+    COLLAPSE_DURATION, CodeQuantity, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE,
+};
 use crate::setup::energy_ledger::{self, EnergyScale};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
@@ -256,13 +258,18 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty, has
     ]);
     let (x96, x99) = collapse.quantiles;
     let others = [
-        ("centroid", collapse.centroid),
-        ("mass_quantiles", 2.0 * x99 - x96 - 1.0),
-        ("front_at_0.05_r0", collapse.run_out_of_rows()),
+        ("centroid", collapse.centroid, Some(CodeQuantity::CentroidAtRest)),
+        ("mass_quantiles", 2.0 * x99 - x96 - 1.0, None),
+        ("front_at_0.05_r0", collapse.run_out_of_rows(), Some(CodeQuantity::FrontAtRest)),
     ];
-    metrics.extend(others.map(|(quantity, value)| {
+    let codes = Beside::of_column(run, collapse);
+    metrics.extend(others.map(|(quantity, value, of_codes)| {
         let variant = Variant::of("quantity", quantity).followed_by(&variant);
-        RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3)
+        let metric = RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
+        match (&codes, of_codes) {
+            (Some(codes), Some(of_codes)) => codes.deposit(metric, of_codes),
+            _ => metric,
+        }
     }));
     metrics
 }

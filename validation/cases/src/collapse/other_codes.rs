@@ -1,7 +1,7 @@
 //! Collapses beside other codes under the same law, over time. The kinetic energy tells how much friction rises with the rate; fronts at rest do
 //! not.
 
-use super::bands::SAME_LAW;
+use super::bands::{SAME_LAW, band};
 use super::column::{ColumnRun, Geometry};
 use super::deposit::Collapse;
 use super::material::Material;
@@ -10,13 +10,17 @@ use super::reservoir::Reservoir;
 use super::slope::SlopeRun;
 use crate::figure::Panel;
 use crate::metric::{Limit, Metric, MetricKind, Origin, Quantity, Variant};
-use crate::reference::collapse::{OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
+use crate::reference::collapse::{AT_REST, CodeQuantity, OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
 use crate::reference::grains::GLASS_BEADS;
 use crate::statistics::{Extrapolation, interpolated};
 use bagnold_solver::material::rheology::Rheology;
 
 const REASON: &str =
     "15 %, twice the standard deviation of the run-outs that four methods give of one column of these grains (7.5 %)";
+
+/// How far the centroid of a deposit may lie from the mean of two other methods under the same law `[-]`.
+const SAME_CENTROID: f64 = 0.08;
+const CENTROID_REASON: &str = "8 %, twice √1.5 times the standard deviation of two methods for two columns (3.2 %): a third one beside their mean";
 
 /// Time at which columns are compared, over √(h_0/g) `[-]`: later the other codes are known less well, earlier laws differ by less.
 pub(super) const MID_COLLAPSE: f64 = 2.0;
@@ -79,8 +83,8 @@ impl<'a> Beside<'a> {
     /// Kinetic energy and front at a time over √(h_0/g), beside those of the codes that tell them.
     pub(super) fn metrics(&self, variant: &Variant, time: f64) -> Vec<Metric> {
         let variant = Variant::of("free_fall_times", time).followed_by(variant);
-        let beside = |quantity: Quantity, values: &[f64], scale: f64, is_energy: bool, start: f64| {
-            let (mean, uncertainty) = self.codes.at(self.flow, is_energy, time)?;
+        let beside = |quantity: Quantity, values: &[f64], scale: f64, of_codes: CodeQuantity, start: f64| {
+            let (mean, uncertainty) = self.codes.at(self.flow, of_codes, time)?;
             let width = SAME_LAW * (mean - start);
             let metric = quantity.of(&variant, self.own(values, time)? / scale).of_kind(MetricKind::Verification);
             let source = "the other codes: their spacing and step, and how far they are apart";
@@ -92,20 +96,35 @@ impl<'a> Beside<'a> {
                     .gated(Limit::Within(mean - width, mean + width), REASON),
             )
         };
-        let energy = beside(KINETIC_ENERGY, &self.collapse.kinetic_energy, self.energy_scale, true, 0.0);
-        let front = beside(FRONT, &self.collapse.rows_front, 1.0, false, 1.0);
+        let energy =
+            beside(KINETIC_ENERGY, &self.collapse.kinetic_energy, self.energy_scale, CodeQuantity::KineticEnergy, 0.0);
+        let front = beside(FRONT, &self.collapse.rows_front, 1.0, CodeQuantity::Front, 1.0);
         energy.into_iter().chain(front).collect()
+    }
+
+    /// A run-out of the deposit beside that of the codes; as it is where none tells it.
+    pub(super) fn deposit(&self, metric: Metric, of_codes: CodeQuantity) -> Metric {
+        let Some((mean, uncertainty)) = self.codes.at(self.flow, of_codes, AT_REST) else { return metric };
+        let (share, reason) = match of_codes {
+            CodeQuantity::CentroidAtRest => (SAME_CENTROID, CENTROID_REASON),
+            _ => (SAME_LAW, REASON),
+        };
+        metric
+            .of_kind(MetricKind::Verification)
+            .against(Some(mean), &self.codes.source, self.codes.confidence)
+            .known_to(Origin::Numerical, Some(uncertainty), "half of how far the other codes are apart")
+            .gated(band(mean, share), reason)
     }
 
     /// The codes' points in a panel over t/√(h_0/g), each changed by a linear function; an error bar is twice the code's uncertainty.
     pub(super) fn draw(
         &self,
         panel: &mut Panel,
-        is_energy: bool,
+        quantity: CodeQuantity,
         slot: usize,
         change: impl Fn((f64, f64)) -> (f64, f64),
     ) {
-        for (place, series) in self.codes.of(self.flow, is_energy).enumerate() {
+        for (place, series) in self.codes.of(self.flow, quantity).enumerate() {
             let points: Vec<(f64, f64)> = series.points.iter().map(|&(time, value, _)| change((time, value))).collect();
             let bar = |&(time, value, standard): &(f64, f64, f64)| {
                 change((time, value + 2.0 * standard)).1 - change((time, value)).1

@@ -162,9 +162,11 @@ fn held_out((name, judgement): &(&str, HeldOutJudgement)) -> Value {
             datum.agrees().map_or("○ cannot tell", |agrees| if agrees { "✓ agrees" } else { "✗ differs" }).to_owned(),
         ]
     };
+    let sources: BTreeSet<&str> = judgement.data.iter().map(|datum| datum.source.as_str()).collect();
     json!({
         "name": name,
         "title": judgement.title,
+        "sources": sources.into_iter().collect::<Vec<_>>().join("; "),
         "sentence": judgement.in_words(),
         "parameters": judgement.parameters,
         "findings": judgement.findings.iter().map(|finding| finding.replace('`', "")).collect::<Vec<_>>(),

@@ -5,13 +5,29 @@ use crate::evidence::{MeasuredData, ReferenceError, read_shipped};
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
+/// What a code tells of a collapse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CodeQuantity {
+    /// Kinetic energy over ½ M g h_0 `[-]`.
+    KineticEnergy,
+    /// Front at a thickness of 0.05 r_0, over r_0 `[-]`.
+    Front,
+    /// Front of the deposit at that thickness, from the initial edge over r_0 `[-]`.
+    FrontAtRest,
+    /// Run-out by the centroid of the deposit `[-]`.
+    CentroidAtRest,
+}
+
+/// Time over √(h_0/g) `[-]` at which tables have what rests.
+pub const AT_REST: f64 = 10.0;
+
 /// A quantity over time by one code.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CodeSeries {
     /// Name of the code.
     pub code: String,
-    /// Whether it is the kinetic energy over ½ M g h_0, else the front at a thickness of 0.05 r_0, over r_0.
-    pub is_energy: bool,
+    /// What it tells.
+    pub quantity: CodeQuantity,
     /// Aspect ratio `[-]` or slope `[°]`.
     pub flow: f64,
     /// (t/√(h_0/g), value, standard uncertainty) `[-]`.
@@ -46,29 +62,35 @@ impl OtherCodes {
         let (values, uncertainties) = (table.numbers("value")?, table.numbers("uncertainty")?);
         let mut series: Vec<CodeSeries> = Vec::new();
         for row in 0..codes.len() {
-            let (is_energy, flow) = (quantities[row] == "kinetic energy", flows[row]);
+            let quantity = match quantities[row].as_str() {
+                "kinetic energy" => CodeQuantity::KineticEnergy,
+                "front at rest" => CodeQuantity::FrontAtRest,
+                "centroid at rest" => CodeQuantity::CentroidAtRest,
+                _ => CodeQuantity::Front,
+            };
+            let flow = flows[row];
             let point = (times[row], values[row], uncertainties[row]);
             match series.last_mut() {
-                Some(last) if last.code == codes[row] && (last.is_energy, last.flow) == (is_energy, flow) => {
+                Some(last) if last.code == codes[row] && (last.quantity, last.flow) == (quantity, flow) => {
                     last.points.push(point);
                 }
-                _ => series.push(CodeSeries { code: codes[row].clone(), is_energy, flow, points: vec![point] }),
+                _ => series.push(CodeSeries { code: codes[row].clone(), quantity, flow, points: vec![point] }),
             }
         }
         Ok(Self { series, source: table.metadata.source.clone(), confidence: table.metadata.confidence })
     }
 
     /// The series of a flow.
-    pub fn of(&self, flow: f64, is_energy: bool) -> impl Iterator<Item = &CodeSeries> {
-        self.series.iter().filter(move |series| (series.flow, series.is_energy) == (flow, is_energy))
+    pub fn of(&self, flow: f64, quantity: CodeQuantity) -> impl Iterator<Item = &CodeSeries> {
+        self.series.iter().filter(move |series| (series.flow, series.quantity) == (flow, quantity))
     }
 
     /// Mean over the codes at a time over √(h_0/g), and its standard uncertainty: the codes' own, or how far they are from it where
     /// that is more `[-]`. None where no code tells.
     #[must_use]
-    pub fn at(&self, flow: f64, is_energy: bool, time: f64) -> Option<(f64, f64)> {
+    pub fn at(&self, flow: f64, quantity: CodeQuantity, time: f64) -> Option<(f64, f64)> {
         let at_time = |series: &CodeSeries| series.points.iter().find(|point| point.0 == time).copied();
-        let points: Vec<(f64, f64, f64)> = self.of(flow, is_energy).filter_map(at_time).collect();
+        let points: Vec<(f64, f64, f64)> = self.of(flow, quantity).filter_map(at_time).collect();
         let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len() as f64;
         let off = points.iter().map(|point| point.2.max((point.1 - mean).abs()));
         (!points.is_empty()).then(|| (mean, off.fold(0.0, f64::max)))
@@ -87,12 +109,12 @@ mod tests {
                 assert!(series.points.iter().all(|point| point.1 > 0.0 && point.2 > 0.0), "{series:?}");
             }
         }
-        let fronts: Vec<&CodeSeries> = PLANAR_CODES.of(1.0, false).collect();
+        let fronts: Vec<&CodeSeries> = PLANAR_CODES.of(1.0, CodeQuantity::Front).collect();
         let at = |series: &CodeSeries| series.points.iter().find(|point| point.0 == 2.0).expect("a point").1;
         let (points, gerris) = (at(fronts[0]), at(fronts[1]));
-        let (mean, uncertainty) = PLANAR_CODES.at(1.0, false, 2.0).expect("two codes");
+        let (mean, uncertainty) = PLANAR_CODES.at(1.0, CodeQuantity::Front, 2.0).expect("two codes");
         assert!((mean - 0.5 * (gerris + points)).abs() < 1e-12);
         assert!(uncertainty >= 0.5 * (gerris - points).abs() - 1e-12);
-        assert_eq!(PLANAR_CODES.at(2.0, true, 2.0), None);
+        assert_eq!(PLANAR_CODES.at(2.0, CodeQuantity::KineticEnergy, 2.0), None);
     }
 }

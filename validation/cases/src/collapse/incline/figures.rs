@@ -8,7 +8,7 @@ use crate::evidence::shipped_table;
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::observation::pictures::{View, animation};
 use crate::observation::{Frame, Recorded};
-use crate::reference::collapse::{RoughIncline, SLOPE_EXPERIMENT, slope_run_out};
+use crate::reference::collapse::{CodeQuantity, RoughIncline, SLOPE_EXPERIMENT, slope_run_out};
 
 /// Times at which thickness profiles are drawn `[s]`.
 const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
@@ -69,7 +69,9 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
         energy.line("", slot, points);
         if let Some(beside) = Beside::of_slope(run, data) {
             let (time_scale, scale) = (beside.time_scale, beside.energy_scale);
-            beside.draw(&mut energy, true, slot, |(time, energy)| (time * time_scale, energy * scale));
+            beside.draw(&mut energy, CodeQuantity::KineticEnergy, slot, |(time, energy)| {
+                (time * time_scale, energy * scale)
+            });
         }
     }
     let points = if energy.series.iter().any(|series| series.mark == Mark::Points) {
