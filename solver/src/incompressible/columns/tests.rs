@@ -66,6 +66,7 @@ pub(in crate::incompressible) fn scene(
             smoothing_ratio: 1.2,
             density: DENSITY,
             grain_diameter: DIAMETER,
+            drag_diameter: DIAMETER,
             law: LAW,
             load: SedimentLoad::Stratified,
             pressure: SedimentPressure::Dilatant {
@@ -77,6 +78,7 @@ pub(in crate::incompressible) fn scene(
                 },
                 fixed_filling: PACKING,
                 columns: ColumnNumerics::default(),
+                turbulent_schmidt: 0.0,
             },
             drag: DragLaw::DiFelice,
             drag_form: DragForm::Exchange,
@@ -125,7 +127,7 @@ fn nodes_have_the_mass_and_the_momentum_of_the_particles() {
         for velocity in &mut columns.grains.velocity {
             velocity[0] = random.random::<f64>();
         }
-        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
         let Columns { grid, nodes, grains, .. } = &columns;
         assert_eq!(grid.row.count, (length / 0.01).round() as usize);
         let mass: f64 = nodes.mass.iter().sum::<f64>() * grid.row.width;
@@ -154,7 +156,7 @@ fn drag_is_equal_and_opposite_and_the_balance_of_the_grains_closes() {
     let time_step = 1.5e-4;
     for _ in 0..200 {
         let before = momentum(&columns);
-        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
         columns.advance(&material, &fluid.velocity, time_step).expect("solved");
         let width = columns.grid.row.width;
         let on_grains: f64 = columns.drag.impulse.iter().sum::<f64>() * width;
@@ -179,7 +181,7 @@ fn the_drag_on_the_grains_is_what_their_nodes_get() {
     for position in &mut columns.grains.position {
         position[1] += 1e-3;
     }
-    columns.gather(&mut scene, &fluid).expect("within the law");
+    columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
     columns.drag.react(&columns.grid, &columns.nodes, &fluid.velocity, 1.5e-4);
     let held = |node: &usize| node % columns.grid.nodes < columns.grid.held;
     let nodes = (0..columns.grid.len()).filter(|node| !held(node));
@@ -195,7 +197,7 @@ fn a_resting_bed_leaves_no_room() {
     let mut material = scene.sediment.clone().expect("a sediment");
     material.gravity[0] = 0.0;
     for _ in 0..4000 {
-        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
         columns.advance(&material, &fluid.velocity, 1.5e-4).expect("solved");
     }
     let layer = scene.solid_fraction.stratification().expect("strata");
@@ -304,12 +306,12 @@ fn a_mound_keeps_its_grains() {
         let most = heights.iter().copied().fold(0.0, f64::max);
         most - heights.iter().sum::<f64>() / heights.len() as f64
     };
-    columns.gather(&mut scene, &fluid).expect("within the law");
+    columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
     let first = crest(&columns);
     for _ in 0..2000 {
         columns.advance(&material, &fluid.velocity, 1.5e-4).expect("solved");
         columns.grains.wrap(&scene.domain);
-        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
         assert!(columns.nodes.fraction.iter().all(|fraction| *fraction >= 0.0));
     }
     assert_eq!(columns.grains.mass, mass);

@@ -201,6 +201,7 @@ impl ContinuumRun {
             smoothing_ratio: numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,
+            drag_diameter: self.continuum.drag_diameter * grain_diameter,
             law: self.law(&run.materials),
             load: solver::SedimentLoad::Stratified,
             pressure: if dilates {
@@ -209,6 +210,7 @@ impl ContinuumRun {
                     dilatancy,
                     fixed_filling: packing,
                     columns: self.continuum.columns,
+                    turbulent_schmidt: closures.turbulent_schmidt,
                 }
             } else {
                 solver::SedimentPressure::AlongBed
