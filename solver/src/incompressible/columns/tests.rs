@@ -106,7 +106,7 @@ pub(in crate::incompressible) fn shear_flow(height: f64) -> f64 {
     (60.0 * (height + 2e-3)).max(0.0)
 }
 
-fn columns_of(mut scene: IncompressibleScene<2>) -> (Columns<2>, IncompressibleScene<2>, Phase<2>) {
+pub(super) fn columns_of(mut scene: IncompressibleScene<2>) -> (Columns<2>, IncompressibleScene<2>, Phase<2>) {
     let water = &scene.fluid;
     let fluid = Phase::new(&water.particles, &water.wall, water.spacing, water.density, 1.2);
     let columns = Columns::of(&mut scene).expect("dilating grains");
@@ -222,7 +222,16 @@ fn a_resting_bed_leaves_no_room() {
 /// Momentum of fluid and grains together changes by gravity and by the held grains alone: moving grains are not a wall.
 #[test]
 fn the_balance_of_both_phases_closes() {
+    for eddies in [0.0, 0.7] {
+        assert_closed_balance(eddies);
+    }
+}
+
+fn assert_closed_balance(eddies: f64) {
     let mut scene = scene(0.02, shear_flow, 5);
+    if let SedimentPressure::Dilatant { turbulent_schmidt, .. } = &mut scene.sediment.as_mut().expect("grains").pressure {
+        *turbulent_schmidt = eddies;
+    }
     // without pressure gradients of φ: the fluid's momentum counts by its share of the space
     scene.numerics.shifting = 0.0;
     let mut state = super::super::state::State::of(scene).expect("a valid scene");

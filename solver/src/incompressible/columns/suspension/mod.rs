@@ -15,6 +15,9 @@
 //! dilation, but no faster than a grain settles. They keep their order, so that a suspension of few particles stays smooth;
 //! its way to the balance is not resolved.
 
+#[cfg(test)]
+mod tests;
+
 use super::super::phase::Phase;
 use super::super::scene::{IncompressibleScene, Sediment, height_axis};
 use super::super::stratification::Stratification;
