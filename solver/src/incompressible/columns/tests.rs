@@ -102,6 +102,15 @@ pub(in crate::incompressible) fn scene(
     }
 }
 
+/// The same with grains that eddies carry by a Schmidt number `[-]`, if it is not 0.
+pub(in crate::incompressible) fn with_eddies(mut scene: IncompressibleScene<2>, schmidt: f64) -> IncompressibleScene<2> {
+    let Some(Sediment { pressure: SedimentPressure::Dilatant { turbulent_schmidt, .. }, .. }) = &mut scene.sediment else {
+        panic!("grains that dilate")
+    };
+    *turbulent_schmidt = schmidt;
+    scene
+}
+
 pub(in crate::incompressible) fn shear_flow(height: f64) -> f64 {
     (60.0 * (height + 2e-3)).max(0.0)
 }
@@ -228,10 +237,7 @@ fn the_balance_of_both_phases_closes() {
 }
 
 fn assert_closed_balance(eddies: f64) {
-    let mut scene = scene(0.02, shear_flow, 5);
-    if let SedimentPressure::Dilatant { turbulent_schmidt, .. } = &mut scene.sediment.as_mut().expect("grains").pressure {
-        *turbulent_schmidt = eddies;
-    }
+    let mut scene = with_eddies(scene(0.02, shear_flow, 5), eddies);
     // without pressure gradients of φ: the fluid's momentum counts by its share of the space
     scene.numerics.shifting = 0.0;
     let mut state = super::super::state::State::of(scene).expect("a valid scene");
@@ -264,17 +270,19 @@ fn assert_closed_balance(eddies: f64) {
 
 #[test]
 fn threads_change_no_bit() {
-    let bytes = |threads: usize| {
+    let bytes = |threads: usize, eddies: f64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let mut simulation = IncompressibleSimulation::new(scene(0.06, shear_flow, 9)).expect("a valid scene");
+            let mut simulation = IncompressibleSimulation::new(with_eddies(scene(0.06, shear_flow, 9), eddies)).expect("a valid scene");
             for _ in 0..20 {
                 simulation.step().expect("a step");
             }
             simulation.snapshot().to_bytes()
         })
     };
-    assert!(bytes(1) == bytes(2));
+    for eddies in [0.0, 0.7] {
+        assert!(bytes(1, eddies) == bytes(2, eddies));
+    }
 }
 
 #[test]
@@ -286,6 +294,8 @@ fn columns_ask_for_what_holds_them() {
     };
     let loose = problem(&|scene| scene.sediment.as_mut().expect("a sediment").wall.clear());
     assert!(loose.contains("grains that hold the columns"), "{loose}");
+    let unstirred = problem(&|s| *s = with_eddies(s.clone(), f64::NAN));
+    assert!(unstirred.contains("`turbulent_schmidt` is NaN, but must be 0 or positive"), "{unstirred}");
     let overlapping = problem(&|scene| scene.solid_fraction = SolidFraction::Overlapping);
     assert!(overlapping.contains("that of the columns where grains dilate"), "{overlapping}");
 }

@@ -2,7 +2,7 @@
 
 use super::super::super::scene::SedimentPressure;
 use super::super::Columns;
-use super::super::tests::{columns_of, scene, shear_flow};
+use super::super::tests::{columns_of, scene, shear_flow, with_eddies};
 use crate::vector::{Tensor, Vector};
 
 /// Settling velocity `[m/s]` and Schmidt number `[-]` of the grains, and the height of their space `[m]`, 12 mm of water over
@@ -25,11 +25,11 @@ const NO_SETTLING: Physics = Physics { settling: 1e-9, ..RIGHT };
 /// Columns whose few grains are suspended, in balance with an eddy viscosity `[m²/s]` over the height above held grains
 /// `[m]`; nodes lie a ratio of a spacing apart.
 fn suspended(physics: Physics, node_ratio: f64, eddies: &dyn Fn(f64) -> f64) -> Columns<2> {
-    let mut scene = scene(0.02, |_| 0.0, 3);
+    let mut scene = with_eddies(scene(0.02, |_| 0.0, 3), physics.schmidt);
     let sediment = scene.sediment.as_mut().expect("a sediment");
     sediment.filling.fill(0.02);
-    let SedimentPressure::Dilatant { columns, turbulent_schmidt, .. } = &mut sediment.pressure else { panic!("columns") };
-    (columns.node_ratio, *turbulent_schmidt) = (node_ratio, physics.schmidt);
+    let SedimentPressure::Dilatant { columns, .. } = &mut sediment.pressure else { panic!("columns") };
+    columns.node_ratio = node_ratio;
     let (mut columns, mut scene, fluid) = columns_of(scene);
     let gradients = vec![Tensor::<2>::zeros(); fluid.len()];
     for _ in 0..600 {
@@ -142,11 +142,7 @@ fn no_eddies_no_settling_and_a_tenth_of_the_schmidt_number_are_seen() {
 /// What eddies lift the water's pressure carries, and contacts the rest of the weight, in a flow over a bed that moves.
 #[test]
 fn forces_on_grains_and_water_are_opposite_and_the_weight_is_carried() {
-    let mut scene = scene(0.02, shear_flow, 5);
-    let sediment = scene.sediment.as_mut().expect("a sediment");
-    let SedimentPressure::Dilatant { turbulent_schmidt, .. } = &mut sediment.pressure else { panic!("columns") };
-    *turbulent_schmidt = 0.05;
-    let (mut columns, mut scene, fluid) = columns_of(scene);
+    let (mut columns, mut scene, fluid) = columns_of(with_eddies(scene(0.02, shear_flow, 5), 0.05));
     // 200/s above what is held
     let gradients: Vec<_> =
         fluid.position.iter().map(|x| Tensor::<2>::new(0.0, if x[1] > -4e-3 { 200.0 } else { 0.0 }, 0.0, 0.0)).collect();
