@@ -149,7 +149,8 @@ where
 /// Grains in columns that eddies carry.
 fn suspended() -> IncompressibleScene<2> {
     let mut scene = water::scene(water::Kind::Columns, 1, 3);
-    let Some(Sediment { pressure: SedimentPressure::Dilatant { turbulent_schmidt, .. }, .. }) = &mut scene.sediment else {
+    let Some(Sediment { pressure: SedimentPressure::Dilatant { turbulent_schmidt, .. }, .. }) = &mut scene.sediment
+    else {
         panic!("grains that dilate")
     };
     *turbulent_schmidt = 0.7;
@@ -157,11 +158,7 @@ fn suspended() -> IncompressibleScene<2> {
 }
 
 /// The same of an incompressible run.
-fn projection_allocations(
-    scene: IncompressibleScene<2>,
-    threads: usize,
-    (warm_up, steps): (usize, usize),
-) -> u64 {
+fn projection_allocations(scene: IncompressibleScene<2>, threads: usize, (warm_up, steps): (usize, usize)) -> u64 {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
     pool.install(|| {
         let mut simulation = two_phases::simulation(scene);

@@ -41,7 +41,7 @@ impl Chain {
         self.fields().into_iter().for_each(|field| field.reserve(nodes));
     }
 
-    fn fields(&mut self) -> [&mut Vec<f64>; 6] {
+    fn fields(&mut self) -> impl IntoIterator<Item = &mut Vec<f64>> {
         let Self { node: _, mass, momentum, velocity, distance, load_below, added_below } = self;
         [mass, momentum, velocity, distance, load_below, added_below]
     }
@@ -113,7 +113,13 @@ impl FrictionSolve {
 
     /// The rows (M + Δt dτ/du) δ = m (uⁿ − u) + Δt (forces + friction); returns the stress on what is held `[Pa]`, and its
     /// Δt dτ/du `[kg/m²]`.
-    fn assemble(&mut self, law: &Rheology, time_step: f64, chain: &Chain, (share, tolerance): (f64, f64)) -> (f64, f64) {
+    fn assemble(
+        &mut self,
+        law: &Rheology,
+        time_step: f64,
+        chain: &Chain,
+        (share, tolerance): (f64, f64),
+    ) -> (f64, f64) {
         let Chain { mass, momentum, velocity, distance, load_below, added_below, .. } = chain;
         let Self { lower, diagonal, right } = self;
         diagonal.clear();

@@ -103,8 +103,12 @@ pub(in crate::incompressible) fn scene(
 }
 
 /// The same with grains that eddies carry by a Schmidt number `[-]`, if it is not 0.
-pub(in crate::incompressible) fn with_eddies(mut scene: IncompressibleScene<2>, schmidt: f64) -> IncompressibleScene<2> {
-    let Some(Sediment { pressure: SedimentPressure::Dilatant { turbulent_schmidt, .. }, .. }) = &mut scene.sediment else {
+pub(in crate::incompressible) fn with_eddies(
+    mut scene: IncompressibleScene<2>,
+    schmidt: f64,
+) -> IncompressibleScene<2> {
+    let Some(Sediment { pressure: SedimentPressure::Dilatant { turbulent_schmidt, .. }, .. }) = &mut scene.sediment
+    else {
         panic!("grains that dilate")
     };
     *turbulent_schmidt = schmidt;
@@ -273,7 +277,8 @@ fn threads_change_no_bit() {
     let bytes = |threads: usize, eddies: f64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let mut simulation = IncompressibleSimulation::new(with_eddies(scene(0.06, shear_flow, 9), eddies)).expect("a valid scene");
+            let mut simulation =
+                IncompressibleSimulation::new(with_eddies(scene(0.06, shear_flow, 9), eddies)).expect("a valid scene");
             for _ in 0..20 {
                 simulation.step().expect("a step");
             }

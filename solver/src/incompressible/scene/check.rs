@@ -95,7 +95,8 @@ impl<const D: usize> Sediment<D> {
         if let SedimentPressure::Dilatant { columns, turbulent_schmidt, .. } = self.pressure {
             refuse(columns.parameter_problem())?;
             if !(turbulent_schmidt >= 0.0 && turbulent_schmidt.is_finite()) {
-                let (rule, remedy) = ("0 or positive, and finite", "give 0.4 to 1 for suspensions, 0 for no dispersion");
+                let (rule, remedy) =
+                    ("0 or positive, and finite", "give 0.4 to 1 for suspensions, 0 for no dispersion");
                 refuse(Some(ParameterProblem::new("turbulent_schmidt", turbulent_schmidt, rule, remedy)))?;
             }
         }

@@ -94,7 +94,11 @@ impl SuspensionLaws {
         for _ in 0..ITERATIONS {
             let sum = root + looseness;
             let excess = root * root + carried * root / sum - below;
-            if excess > 0.0 { high = root } else { low = root }
+            if excess > 0.0 {
+                high = root
+            } else {
+                low = root
+            }
             let newton = root - excess / (2.0 * root + carried * looseness / (sum * sum));
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
             let change = (next - root).abs();
@@ -221,8 +225,7 @@ impl Suspension {
             let height = Self::height(grid, first, node);
             let half = 0.5 * height * weight;
             // w at the face from the two nodes below
-            let dispersion =
-                if node == lowest { 0.0 } else { self.dispersion(node, lower + 0.5 * slope) };
+            let dispersion = if node == lowest { 0.0 } else { self.dispersion(node, lower + 0.5 * slope) };
             let below = pressure + dispersion * lower;
             let carried = half + dispersion;
             let (root, own) = self.laws.cell(nodes.rate[node.max(lowest + 1)], below, carried * nodes.packing);

@@ -128,8 +128,11 @@ fn parabolic_eddies_make_rouses_profile() {
 
 #[test]
 fn no_eddies_no_settling_and_a_tenth_of_the_schmidt_number_are_seen() {
-    for (eddies, exact) in [(&uniform as &dyn Fn(f64) -> f64, &exponential as &dyn Fn(f64) -> f64), (&parabolic, &rouse)] {
-        for (wrong, least) in [(NO_EDDIES, 0.5), (NO_SETTLING, 0.5), (Physics { schmidt: 1.1 * SCHMIDT, ..RIGHT }, 0.1)] {
+    for (eddies, exact) in
+        [(&uniform as &dyn Fn(f64) -> f64, &exponential as &dyn Fn(f64) -> f64), (&parabolic, &rouse)]
+    {
+        for (wrong, least) in [(NO_EDDIES, 0.5), (NO_SETTLING, 0.5), (Physics { schmidt: 1.1 * SCHMIDT, ..RIGHT }, 0.1)]
+        {
             let columns = suspended(wrong, 0.125, eddies);
             let error = error(&columns, exact, 0.85);
             assert!(error > least, "{error} with Sc {} and {} m/s", wrong.schmidt, wrong.settling);
@@ -144,8 +147,11 @@ fn no_eddies_no_settling_and_a_tenth_of_the_schmidt_number_are_seen() {
 fn forces_on_grains_and_water_are_opposite_and_the_weight_is_carried() {
     let (mut columns, mut scene, fluid) = columns_of(with_eddies(scene(0.02, shear_flow, 5), 0.05));
     // 200/s above what is held
-    let gradients: Vec<_> =
-        fluid.position.iter().map(|x| Tensor::<2>::new(0.0, if x[1] > -4e-3 { 200.0 } else { 0.0 }, 0.0, 0.0)).collect();
+    let gradients: Vec<_> = fluid
+        .position
+        .iter()
+        .map(|x| Tensor::<2>::new(0.0, if x[1] > -4e-3 { 200.0 } else { 0.0 }, 0.0, 0.0))
+        .collect();
     let Columns { grains, .. } = &mut columns;
     for (velocity, position) in grains.velocity.iter_mut().zip(&grains.position) {
         *velocity = Vector::<2>::new(60.0 * (position[1] + 4e-3), 0.0);
