@@ -3,6 +3,7 @@
 //! A target of its own with a single test, because the counter sees every thread of the process.
 
 use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::incompressible::{IncompressibleScene, Sediment, SedimentPressure};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
@@ -21,6 +22,10 @@ const GRAVITY: f64 = 9.81;
 #[path = "../invariants/two_phases.rs"]
 #[expect(dead_code, reason = "the scenes of the invariants, of which this target needs one")]
 mod two_phases;
+
+#[path = "../../solver/benches/water/mod.rs"]
+#[expect(dead_code, reason = "the scenes of the benchmarks, of which this target needs one")]
+mod water;
 
 /// The system's allocator with a counter.
 mod counting {
@@ -141,11 +146,22 @@ where
     })
 }
 
-/// The same of an incompressible run: a bed of grains below water.
-fn projection_allocations(threads: usize, (warm_up, steps): (usize, usize)) -> u64 {
+/// Grains in columns that eddies carry.
+fn suspended() -> IncompressibleScene<2> {
+    let mut scene = water::scene(water::Kind::Columns, 1, 3);
+    let Some(Sediment { pressure: SedimentPressure::Dilatant { turbulent_schmidt, .. }, .. }) = &mut scene.sediment
+    else {
+        panic!("grains that dilate")
+    };
+    *turbulent_schmidt = 0.7;
+    scene
+}
+
+/// The same of an incompressible run.
+fn projection_allocations(scene: IncompressibleScene<2>, threads: usize, (warm_up, steps): (usize, usize)) -> u64 {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
     pool.install(|| {
-        let mut simulation = two_phases::simulation(two_phases::bed([40, 40], 6, 3));
+        let mut simulation = two_phases::simulation(scene);
         two_phases::advance(&mut simulation, warm_up);
         let (before, searches) = (ALLOCATIONS.load(Ordering::SeqCst), simulation.cost().searches);
         two_phases::advance(&mut simulation, steps);
@@ -183,7 +199,9 @@ fn a_step_after_warm_up_does_not_allocate() {
         assert_eq!(solved, 0, "allocations of the implicit viscous step on {threads} threads");
         let space = allocations([12, 8, 24], Numerics::default(), grains, threads, (150, 50));
         assert_eq!(space, 0, "allocations in 3-D on {threads} threads");
-        let projection = projection_allocations(threads, (300, 300));
-        assert_eq!(projection, 0, "allocations of an incompressible step on {threads} threads");
+        for scene in [two_phases::bed([40, 40], 6, 3), suspended()] {
+            let projection = projection_allocations(scene, threads, (300, 300));
+            assert_eq!(projection, 0, "allocations of an incompressible step on {threads} threads");
+        }
     }
 }

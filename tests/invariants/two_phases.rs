@@ -88,6 +88,7 @@ fn grains(position: Vec<Vector<2>>) -> Sediment<2> {
         smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
         density: 2600.0,
         grain_diameter: GRAIN,
+        drag_diameter: GRAIN,
         law: Rheology::CoulombBingham(CoulombBingham {
             yield_stress: 5.0,
             friction: 0.6,

@@ -151,6 +151,7 @@ fn over_grains(refinement: u32, random: &mut Pcg64Mcg) -> IncompressibleScene<2>
             smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
             density: 2600.0,
             grain_diameter: GRAIN,
+            drag_diameter: GRAIN,
             law: Rheology::CoulombBingham(CoulombBingham {
                 yield_stress: 7.4,
                 friction: 0.6,
@@ -200,6 +201,7 @@ fn over_columns(refinement: u32, random: &mut Pcg64Mcg) -> IncompressibleScene<2
             smoothing_ratio: 1.2,
             density,
             grain_diameter: GRAIN,
+            drag_diameter: GRAIN,
             law: Rheology::RootMuI(RootMuI {
                 static_friction: 0.35,
                 limiting_friction: 0.97,
@@ -213,6 +215,7 @@ fn over_columns(refinement: u32, random: &mut Pcg64Mcg) -> IncompressibleScene<2
                 dilatancy: Dilatancy { dilation: 0.31, packing, grain_diameter: GRAIN, grain_density: density },
                 fixed_filling: packing,
                 columns: ColumnNumerics::default(),
+                turbulent_schmidt: 0.0,
             },
             drag: DragLaw::DiFelice,
             drag_form: DragForm::Exchange,

@@ -111,6 +111,11 @@ impl Stratification {
         &self.strata
     }
 
+    /// l of every interval `[m]`, column by column.
+    pub(super) fn mixing_lengths(&self) -> &[f64] {
+        &self.mixing_length
+    }
+
     /// Changes φ and renews the integrals.
     pub(super) fn renew(&mut self, change: impl FnOnce(&mut [f64])) {
         change(&mut self.strata.solid_fraction);

@@ -34,6 +34,8 @@ pub(crate) struct ColumnDrag {
     pub(crate) hold: Vec<f64>,
     /// Σ β U of every fluid particle `[N]`.
     pub(crate) push: Vec<f64>,
+    /// Force of suspended grains across the bed on every fluid particle `[N]`.
+    pub(crate) burden: Vec<f64>,
     /// Impulse of the fluid on every node in the last step `[kg/(m s)]`.
     pub(crate) impulse: Vec<f64>,
 }
@@ -46,7 +48,7 @@ impl ColumnDrag {
         for array in [&mut self.weight, &mut self.fluid, &mut self.fluid_lift, &mut self.impulse] {
             array.resize(grid.len(), 0.0);
         }
-        for array in [&mut self.hold, &mut self.push] {
+        for array in [&mut self.hold, &mut self.push, &mut self.burden] {
             array.resize(particles, 0.0);
         }
     }
@@ -68,7 +70,7 @@ impl ColumnDrag {
         self.hold.fill(0.0);
         self.push.fill(0.0);
         let (density, viscosity) = (scene.fluid.density, scene.fluid.kinematic_viscosity);
-        let diameter = material.grain_diameter;
+        let diameter = material.drag_diameter;
         let range = material.drag.reynolds_range();
         let volume = grid.cell * grid.row.width;
         let Self { links, weight, fluid: water, hold, push, .. } = self;
@@ -98,26 +100,14 @@ impl ColumnDrag {
             array.fill(0.0);
         }
         for (particle, (position, velocity)) in fluid.position.iter().zip(&fluid.velocity).enumerate() {
-            let height = position[normal];
-            let first = ((height - reach - grid.base) / grid.cell).ceil().max(0.0) as usize;
-            for (column, of_column) in grid.row.weights(position[0]) {
-                if of_column == 0.0 {
-                    continue;
+            grid.around(position[0], position[normal], reach, |node, exchange| {
+                if nodes.has_grains(node) {
+                    self.weight[node] += exchange;
+                    self.fluid[node] += exchange * velocity[0];
+                    self.fluid_lift[node] += exchange * velocity[normal];
+                    self.links.push(Link { particle: particle as u32, node: node as u32, exchange });
                 }
-                for k in first..grid.nodes {
-                    let of_height = 1.0 - (height - grid.height(k)).abs() / reach;
-                    if of_height <= 0.0 && grid.height(k) > height {
-                        break;
-                    }
-                    let (node, exchange) = (column * grid.nodes + k, of_column * of_height);
-                    if exchange > 0.0 && nodes.has_grains(node) {
-                        self.weight[node] += exchange;
-                        self.fluid[node] += exchange * velocity[0];
-                        self.fluid_lift[node] += exchange * velocity[normal];
-                        self.links.push(Link { particle: particle as u32, node: node as u32, exchange });
-                    }
-                }
-            }
+            });
         }
         for (node, weight) in self.weight.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
             self.fluid[node] /= weight;

@@ -2,6 +2,8 @@
 
 use super::super::phase::Phase;
 use super::super::scene::IncompressibleScene;
+use super::super::state::State;
+use super::super::step::measure;
 use super::Columns;
 use crate::parameter::ParameterProblem;
 use crate::run::SceneError;
@@ -21,22 +23,21 @@ impl DrivenGrains<2> {
     ///
     /// # Errors
     /// A scene that breaks a rule, or whose grains do not dilate.
-    pub fn new(mut scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
-        scene.check()?;
-        let Some(columns) = Columns::of(&mut scene) else {
+    pub fn new(scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
+        let mut state = State::of(scene)?;
+        measure(&mut state);
+        let State { scene, phases, columns: Some(columns), .. } = state else {
             let (rule, remedy) = ("grains that dilate", "give the sediment a dilatancy");
             return Err(ParameterProblem::new("sediment pressure", "another", rule, remedy).into());
         };
-        let water = &scene.fluid;
-        let fluid = Phase::new(&water.particles, &[], water.spacing, water.density, scene.numerics.smoothing_ratio);
-        Ok(Self { scene, fluid, columns, failed: false })
+        Ok(Self { scene, fluid: phases.fluid, columns, failed: false })
     }
 
     /// Takes a step `[s]`; false where a grain has left what the model allows, from then on.
     pub fn step(&mut self, time_step: f64) -> bool {
         let Self { scene, fluid, columns, failed } = self;
         let mut advance = || {
-            columns.gather(scene, fluid)?;
+            columns.gather(scene, fluid, &fluid.velocity_gradient)?;
             match &scene.sediment {
                 Some(material) => columns.advance(material, &fluid.velocity, time_step),
                 None => Ok(()),

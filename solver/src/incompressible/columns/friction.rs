@@ -9,22 +9,42 @@
 use super::super::numerics::{ColumnNumerics, MOST_ITERATIONS};
 use crate::material::rheology::Rheology;
 
-/// Inputs of the friction solve of a column.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Chain<'a> {
-    pub(crate) law: &'a Rheology,
-    /// Distance of two nodes `[m]`.
-    pub(crate) cell: f64,
-    /// Time step `[s]`.
-    pub(crate) time_step: f64,
-    /// Masses of the free nodes, from the lowest one up `[kg/m²]`; the first lies above one that is held.
-    pub(crate) mass: &'a [f64],
-    /// Their momenta without friction `[kg/(m s)]`.
-    pub(crate) momentum: &'a [f64],
-    /// p′ of the face below each of them `[Pa]`.
-    pub(crate) load_below: &'a [f64],
+/// Free nodes of a column that rub on each other, from the lowest one up; the first lies above one that is held.
+#[derive(Debug, Default)]
+pub(crate) struct Chain {
+    /// Indices of the nodes.
+    pub(crate) node: Vec<usize>,
+    /// Masses `[kg/m²]`.
+    pub(crate) mass: Vec<f64>,
+    /// Momenta without friction `[kg/(m s)]`.
+    pub(crate) momentum: Vec<f64>,
+    /// Velocities `[m/s]`: a guess before the solve.
+    pub(crate) velocity: Vec<f64>,
+    /// Distances from the node below `[m]`.
+    pub(crate) distance: Vec<f64>,
+    /// p′ of the face below `[Pa]`.
+    pub(crate) load_below: Vec<f64>,
     /// Viscosity that the water between the grains adds there `[Pa·s]`.
-    pub(crate) added_below: &'a [f64],
+    pub(crate) added_below: Vec<f64>,
+}
+
+impl Chain {
+    /// No nodes.
+    pub(crate) fn clear(&mut self) {
+        self.node.clear();
+        self.fields().into_iter().for_each(Vec::clear);
+    }
+
+    /// Room for a number of nodes.
+    pub(crate) fn reserve(&mut self, nodes: usize) {
+        self.node.reserve(nodes);
+        self.fields().into_iter().for_each(|field| field.reserve(nodes));
+    }
+
+    fn fields(&mut self) -> impl IntoIterator<Item = &mut Vec<f64>> {
+        let Self { node: _, mass, momentum, velocity, distance, load_below, added_below } = self;
+        [mass, momentum, velocity, distance, load_below, added_below]
+    }
 }
 
 /// Storage of the solve, and the stress on the held node in the last one.
@@ -64,24 +84,25 @@ impl FrictionSolve {
         }
     }
 
-    /// Velocities `[m/s]` of the free nodes, from those that are a guess; returns the stress on what is held `[Pa]`.
+    /// Velocities of a chain after a step `[s]`; returns the stress on what is held `[Pa]`.
     ///
     /// # Errors
     /// No convergence: the last change of a velocity `[m/s]`.
     pub(crate) fn solve(
         &mut self,
-        chain: Chain<'_>,
-        velocity: &mut [f64],
+        law: &Rheology,
+        time_step: f64,
+        chain: &mut Chain,
         numerics: &ColumnNumerics,
     ) -> Result<f64, f64> {
         let mut change = 0.0;
         for iteration in 0..MOST_ITERATIONS {
             let share = (numerics.secant_share * (1 + iteration) as f64).min(1.0);
-            let (stress, stiffness) = self.assemble(chain, velocity, share, numerics.friction_tolerance);
-            change = self.correct(velocity);
+            let (stress, stiffness) = self.assemble(law, time_step, chain, (share, numerics.friction_tolerance));
+            change = self.correct(&mut chain.velocity);
             if change < numerics.friction_tolerance {
                 // with the last correction the sum of all rows closes to rounding, whatever the tolerance is
-                return Ok(stress + stiffness * self.right.first().copied().unwrap_or_default() / chain.time_step);
+                return Ok(stress + stiffness * self.right.first().copied().unwrap_or_default() / time_step);
             }
             if change.is_nan() {
                 break;
@@ -92,8 +113,14 @@ impl FrictionSolve {
 
     /// The rows (M + Δt dτ/du) δ = m (uⁿ − u) + Δt (forces + friction); returns the stress on what is held `[Pa]`, and its
     /// Δt dτ/du `[kg/m²]`.
-    fn assemble(&mut self, chain: Chain<'_>, velocity: &[f64], share: f64, tolerance: f64) -> (f64, f64) {
-        let Chain { law, cell, time_step, mass, momentum, load_below, added_below } = chain;
+    fn assemble(
+        &mut self,
+        law: &Rheology,
+        time_step: f64,
+        chain: &Chain,
+        (share, tolerance): (f64, f64),
+    ) -> (f64, f64) {
+        let Chain { mass, momentum, velocity, distance, load_below, added_below, .. } = chain;
         let Self { lower, diagonal, right } = self;
         diagonal.clear();
         diagonal.extend_from_slice(mass);
@@ -104,6 +131,7 @@ impl FrictionSolve {
         let mut held = (0.0, 0.0);
         for node in 0..mass.len() {
             let below = if node == 0 { 0.0 } else { velocity[node - 1] };
+            let cell = distance[node];
             let rate = (velocity[node] - below) / cell;
             let difference = tolerance / cell + f64::EPSILON.sqrt() * rate.abs();
             let stress = stress(law, rate, load_below[node], added_below[node], difference);
@@ -173,17 +201,22 @@ mod tests {
         let stress = |face: usize| load(face) * (0.36 + 0.24 * face as f64 / count as f64);
         let force: Vec<f64> =
             (0..count).map(|node| stress(node) - if node + 1 < count { stress(node + 1) } else { 0.0 }).collect();
-        let mut velocity = vec![0.0; count];
-        let no_water = vec![0.0; count];
+        let mut chain = Chain {
+            node: (0..count).collect(),
+            mass: mass.clone(),
+            momentum: vec![0.0; count],
+            velocity: vec![0.0; count],
+            distance: vec![cell; count],
+            load_below,
+            added_below: vec![0.0; count],
+        };
         let mut solve = FrictionSolve::default();
         let numerics = ColumnNumerics { friction_tolerance: 1e-12, ..ColumnNumerics::default() };
         for _ in 0..20_000 {
-            let momentum: Vec<f64> =
-                (0..count).map(|node| mass[node] * velocity[node] + force[node] * time_step).collect();
-            let (law, momentum) = (&LAW, momentum.as_slice());
-            let (mass, load_below, added_below) = (mass.as_slice(), load_below.as_slice(), no_water.as_slice());
-            let chain = Chain { law, cell, time_step, mass, momentum, load_below, added_below };
-            let held = solve.solve(chain, &mut velocity, &numerics).expect("solved");
+            for node in 0..count {
+                chain.momentum[node] = mass[node] * chain.velocity[node] + force[node] * time_step;
+            }
+            let held = solve.solve(&LAW, time_step, &mut chain, &numerics).expect("solved");
             assert!(held <= stress(0) * (1.0 + 1e-9));
         }
         let mut expected = 0.0;
@@ -194,7 +227,8 @@ mod tests {
                 if LAW.viscosity(middle, load(node)) * middle < stress(node) { low = middle } else { high = middle }
             }
             expected += low * cell;
-            assert!((velocity[node] / expected - 1.0).abs() < 1e-6, "node {node}: {} or {expected}", velocity[node]);
+            let velocity = chain.velocity[node];
+            assert!((velocity / expected - 1.0).abs() < 1e-6, "node {node}: {velocity} or {expected}");
         }
     }
 
@@ -202,10 +236,11 @@ mod tests {
     fn a_node_without_mass_passes_the_stress_on() {
         let (cell, time_step) = (5e-4, 1e-4);
         let solve = |mass: &[f64], momentum: &[f64], load_below: &[f64]| {
-            let mut velocity = vec![0.0; mass.len()];
-            let chain = Chain { law: &LAW, cell, time_step, mass, momentum, load_below, added_below: &[0.0; 3] };
-            FrictionSolve::default().solve(chain, &mut velocity, &ColumnNumerics::default()).expect("solved");
-            velocity
+            let [mass, momentum, load_below] = [mass, momentum, load_below].map(<[f64]>::to_vec);
+            let [velocity, distance, added_below] = [0.0, cell, 0.0].map(|value| vec![value; 3]);
+            let mut chain = Chain { node: vec![0, 1, 2], mass, momentum, velocity, distance, load_below, added_below };
+            FrictionSolve::default().solve(&LAW, time_step, &mut chain, &ColumnNumerics::default()).expect("solved");
+            chain.velocity
         };
         let velocity = solve(&[0.8, 0.0, 0.8], &[1e-3, 0.0, 4e-3], &[9.4, 4.7, 4.7]);
         assert!(velocity.iter().all(|u| u.is_finite()) && velocity.is_sorted(), "{velocity:?}");

@@ -64,6 +64,28 @@ impl ColumnGrid {
         [(a, of_a * (1.0 - part)), (a + 1, of_a * part), (b, of_b * (1.0 - part)), (b + 1, of_b * part)]
     }
 
+    /// Visits the nodes that water at a place along the bed and a height reaches, with its weights > 0 `[-]`: the columns'
+    /// hats, and a triangle of a half width over the height `[m]`.
+    #[inline]
+    pub(crate) fn around(&self, along: f64, height: f64, reach: f64, mut visit: impl FnMut(usize, f64)) {
+        let first = ((height - reach - self.base) / self.cell).ceil().max(0.0) as usize;
+        for (column, of_column) in self.row.weights(along) {
+            if of_column == 0.0 {
+                continue;
+            }
+            for k in first..self.nodes {
+                let of_height = 1.0 - (height - self.height(k)).abs() / reach;
+                if of_height <= 0.0 && self.height(k) > height {
+                    break;
+                }
+                let weight = of_column * of_height;
+                if weight > 0.0 {
+                    visit(column * self.nodes + k, weight);
+                }
+            }
+        }
+    }
+
     /// A field of the nodes at a place along the bed and a height `[m]`.
     #[inline]
     pub(crate) fn at(&self, values: &[f64], along: f64, height: f64) -> f64 {

@@ -4,10 +4,11 @@
 //! particles ([`grid`]), carry the mechanics. Pair sums cannot: dilation parts the rows of grains and leaves their spacing
 //! along the bed, so that at a small φ a row is a rigid raft that no neighbour reaches, at any resolution. A step:
 //!
-//! 1. [`nodes`]: particles to nodes; φ, the overburden p′ and φ* = φ_max/(1 + B I); φ to the [`Stratification`].
+//! 1. [`nodes`]: particles to nodes; φ, the overburden p′ and φ* = φ_max/(1 + B I); φ to the [`Stratification`]. Where eddies
+//!    carry grains, [`suspension`] gives p′ and φ*.
 //! 2. [`drag`]: what nodes and water exchange, implicit in the water's velocities, the opposite on the nodes.
 //! 3. [`friction`]: the law of the grains at p′, implicit on each column; −∂p′/∂x between columns.
-//! 4. [`dilation`]: the motion across the bed, from the constraint that φ tends to φ*.
+//! 4. [`dilation`], or [`suspension`]: the motion across the bed, from the constraint that φ tends to φ*.
 //! 5. Nodes to particles: each takes the change of velocity that its nodes have had, and relaxes towards their velocity.
 //!    Mass is exact because particles have it, momentum because the weights of both ways are the same.
 //!
@@ -21,6 +22,7 @@ mod friction;
 mod grains;
 mod grid;
 mod nodes;
+mod suspension;
 #[cfg(test)]
 pub(super) mod tests;
 
@@ -36,12 +38,13 @@ use super::stratification::{ColumnRow, Stratification};
 use crate::domain::AxisBoundary;
 use crate::material::dilatancy::Dilatancy;
 use crate::run::ForeignState;
-use crate::vector::Vector;
+use crate::vector::{Tensor, Vector};
 use dilation::Swelling;
 use drag::ColumnDrag;
 use friction::{Chain, FrictionSolve};
 use grid::ColumnGrid;
 use nodes::{NodeLaws, Nodes};
+use suspension::{Suspension, SuspensionLaws};
 
 /// Places `[m]`, velocities `[m/s]` and impulses of the pressure on nodes `[kg/(m s)]`.
 pub(super) type Saved<const D: usize> = (Vec<Vector<D>>, Vec<Vector<D>>, Vec<f64>);
@@ -55,11 +58,12 @@ pub(super) struct Columns<const D: usize> {
     nodes: Nodes,
     dilatancy: Dilatancy,
     numerics: ColumnNumerics,
+    /// Grains that eddies carry, if they do.
+    suspension: Option<Suspension>,
     friction: FrictionSolve,
     /// Impulse of the fluid's pressure on the grains of every node, which the next step brings `[kg/(m s)]`.
     pressed: Vec<f64>,
-    /// Momenta of a column's free nodes `[kg/(m s)]`.
-    momentum: Vec<f64>,
+    chain: Chain,
     /// Velocities of the nodes after the step `[m/s]`.
     velocity: Vec<f64>,
     /// Velocities across the bed at the faces above the nodes `[m/s]`.
@@ -72,7 +76,9 @@ impl<const D: usize> Columns<D> {
     /// The columns of a scene whose grains dilate, and its strata on their nodes in place of those that are given.
     pub(super) fn of(scene: &mut IncompressibleScene<D>) -> Option<Self> {
         let material = scene.sediment.as_ref()?;
-        let SedimentPressure::Dilatant { dilatancy, fixed_filling, columns: numerics } = material.pressure else {
+        let SedimentPressure::Dilatant { dilatancy, fixed_filling, columns: numerics, turbulent_schmidt } =
+            material.pressure
+        else {
             return None;
         };
         let strata = scene.solid_fraction.stratification()?.strata();
@@ -87,21 +93,27 @@ impl<const D: usize> Columns<D> {
         let wall = (material.wall.as_slice(), material.spacing, fixed_filling);
         let nodes = Nodes::with_fixed(&grid, &dilatancy, wall);
         let grains = Grains::of(material);
+        let suspension = (turbulent_schmidt > 0.0).then(|| {
+            let laws = SuspensionLaws::of(scene, material, dilatancy, strata.buoyant_weight);
+            Suspension::new(laws, turbulent_schmidt, &grid)
+        });
         let mut new = Self {
             grains,
             drag: ColumnDrag::default(),
             nodes,
             dilatancy,
             numerics,
+            suspension,
             friction: FrictionSolve::default(),
             pressed: vec![0.0; grid.len()],
-            momentum: Vec::with_capacity(grid.nodes),
+            chain: Chain::default(),
             velocity: vec![0.0; grid.len()],
             lift: vec![0.0; grid.len()],
             held_impulse: 0.0,
             grid,
         };
         new.friction.reserve(grid.nodes);
+        new.chain.reserve(grid.nodes);
         let fluid = &scene.fluid;
         new.drag.reserve(&grid, fluid.particles.position.len(), numerics.drag_reach * fluid.spacing);
         let on_nodes = Stratification::on_columns(strata, row, grid.base - 0.5 * grid.cell, grid.cell, grid.nodes);
@@ -123,11 +135,18 @@ impl<const D: usize> Columns<D> {
         Ok(())
     }
 
-    /// Particles to nodes, φ to the stratification, and the drag that follows.
+    /// Particles to nodes, φ to the stratification, and the drag that follows, with the mean velocity gradients of the fluid
+    /// `[1/s]`.
     ///
     /// # Errors
     /// A slip that the drag law does not cover.
-    pub(super) fn gather(&mut self, scene: &mut IncompressibleScene<D>, fluid: &Phase<D>) -> Result<(), Failure> {
+    pub(super) fn gather(
+        &mut self,
+        scene: &mut IncompressibleScene<D>,
+        fluid: &Phase<D>,
+        gradients: &[Tensor<D>],
+    ) -> Result<(), Failure> {
+        let reach = self.numerics.drag_reach * scene.fluid.spacing;
         if let SolidFraction::Averaged(layer) = &mut scene.solid_fraction {
             let strata = layer.strata();
             let laws = NodeLaws {
@@ -138,9 +157,13 @@ impl<const D: usize> Columns<D> {
             };
             self.nodes.gather(&self.grid, &self.grains, laws);
             layer.renew(|fraction| fraction.copy_from_slice(&self.nodes.fraction));
+            if let Some(suspension) = &mut self.suspension {
+                suspension.find_eddies(&self.grid, fluid, gradients, layer, reach);
+                suspension.balance(&self.grid, &mut self.nodes);
+                suspension.burden(&self.grid, fluid, reach, &mut self.drag.burden);
+            }
         }
         let Some(material) = &scene.sediment else { return Ok(()) };
-        let reach = self.numerics.drag_reach * scene.fluid.spacing;
         self.drag.find(&self.grid, &self.nodes, fluid, scene, material, reach)
     }
 
@@ -195,27 +218,33 @@ impl<const D: usize> Columns<D> {
         self.held_impulse -= width * (range.start..lowest).map(of_fluid).sum::<f64>();
         let Some(top) = nodes.top(grid, column).filter(|top| *top >= grid.held) else { return Ok(()) };
         let free = lowest..range.start + top + 1;
-        let mass = &nodes.mass[free.clone()];
-        self.momentum.clear();
-        self.momentum.extend(free.clone().map(|node| {
+        let chain = &mut self.chain;
+        chain.clear();
+        let mut below = lowest - 1;
+        for node in free.clone() {
+            // nothing rubs in the gaps between suspended grains
+            if self.suspension.is_some() && !nodes.has_grains(node) {
+                continue;
+            }
             let driven = self.velocity[node] + material.gravity[0] * time_step;
             let pushed = nodes.push_of_columns(grid, node) * time_step;
-            nodes.mass[node] * driven + of_fluid(node) + pushed
-        }));
-        let chain = Chain {
-            law: &material.law,
-            cell: grid.cell,
-            time_step,
-            mass,
-            momentum: &self.momentum,
-            load_below: &nodes.load[lowest - 1..free.end - 1],
-            added_below: &nodes.added[lowest - 1..free.end - 1],
-        };
-        let held = self.friction.solve(chain, &mut self.velocity[free.clone()], numerics).map_err(|change| {
+            chain.momentum.push(nodes.mass[node] * driven + of_fluid(node) + pushed);
+            chain.mass.push(nodes.mass[node]);
+            chain.distance.push(if node == below + 1 { grid.cell } else { (node - below) as f64 * grid.cell });
+            chain.load_below.push(nodes.load[node - 1]);
+            chain.added_below.push(nodes.added[node - 1]);
+            chain.velocity.push(self.velocity[node]);
+            chain.node.push(node);
+            below = node;
+        }
+        let held = self.friction.solve(&material.law, time_step, chain, numerics).map_err(|change| {
             let limit = numerics.friction_tolerance;
             Failure { row: 0, quantity: Quantity::GrainFriction, value: change, limit }
         })?;
         self.held_impulse -= held * time_step * width;
+        for (node, velocity) in chain.node.iter().zip(&chain.velocity) {
+            self.velocity[*node] = *velocity;
+        }
         // what is above the grains moves as they do
         let highest = self.velocity[free.end - 1];
         self.velocity[free.end..range.end].fill(highest);
@@ -224,7 +253,7 @@ impl<const D: usize> Columns<D> {
 
     /// Nodes to particles, and their motion.
     fn scatter(&mut self, material: &Sediment<D>, time_step: f64) -> Result<(), Failure> {
-        let Self { grid, nodes, numerics, velocity, lift, grains, held_impulse, .. } = self;
+        let Self { grid, nodes, numerics, velocity, lift, grains, held_impulse, suspension, .. } = self;
         let normal = height_axis(D);
         let share = (time_step / numerics.relaxation_time).min(1.0);
         for particle in 0..grains.len() {
@@ -240,7 +269,10 @@ impl<const D: usize> Columns<D> {
             // held nodes take the weight along the bed and the momentum of what is near them
             let taken = material.gravity[0] * time_step + share * before;
             *held_impulse -= grains.mass[particle] * of_held * taken;
-            let up = grid.at_faces(lift, along, height);
+            let up = match suspension {
+                Some(suspension) => suspension.lift(grid, along, height, numerics.dilation_time),
+                None => grid.at_faces(lift, along, height),
+            };
             grains.velocity[particle][0] = own + share * (new - own);
             grains.velocity[particle][normal] = up;
             let mut way = Vector::<D>::zeros();

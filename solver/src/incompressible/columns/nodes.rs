@@ -11,7 +11,7 @@ use crate::vector::Vector;
 #[derive(Debug, Default)]
 pub(crate) struct Nodes {
     /// Mass of fixed grains per area `[kg/m²]`.
-    fixed_mass: Vec<f64>,
+    pub(crate) fixed_mass: Vec<f64>,
     /// Mass per area `[kg/m²]`.
     pub(crate) mass: Vec<f64>,
     /// Velocity along the bed `[m/s]`; of a node without grains that of the next one below.
@@ -24,10 +24,12 @@ pub(crate) struct Nodes {
     pub(crate) load: Vec<f64>,
     /// Viscosity that the water between the grains adds to their friction at the face above every node `[Pa·s]`.
     pub(crate) added: Vec<f64>,
-    /// Load of half a node per φ `[Pa]`.
-    half_load: f64,
+    /// p′ in the middle of every node `[Pa]`.
+    pub(crate) middle: Vec<f64>,
+    /// Shear rate of every node `[1/s]`.
+    pub(crate) rate: Vec<f64>,
     /// φ_max `[-]`.
-    packing: f64,
+    pub(crate) packing: f64,
 }
 
 /// Laws that turn the masses of nodes into their fields.
@@ -52,7 +54,7 @@ impl Nodes {
         let density = dilatancy.grain_density;
         let mut new = Self { fixed_mass: vec![0.0; count], packing: dilatancy.packing, ..Self::default() };
         let fields = [&mut new.mass, &mut new.velocity, &mut new.fraction, &mut new.target];
-        for array in fields.into_iter().chain([&mut new.load, &mut new.added]) {
+        for array in fields.into_iter().chain([&mut new.load, &mut new.added, &mut new.middle, &mut new.rate]) {
             array.resize(count, 0.0);
         }
         // a row's mass per height, spread over its height
@@ -104,7 +106,7 @@ impl Nodes {
             }
         }
         let density = laws.dilatancy.grain_density;
-        self.half_load = 0.5 * grid.cell * laws.buoyant_weight;
+        let half_load = 0.5 * grid.cell * laws.buoyant_weight;
         for column in 0..grid.row.count {
             let first = grid.of_column(column).start;
             let mut load = 0.0;
@@ -112,6 +114,7 @@ impl Nodes {
                 self.load[node] = load;
                 load += self.mass[node] * laws.buoyant_weight / density;
                 self.fraction[node] = self.mass[node] / (density * grid.cell);
+                self.middle[node] = self.load[node] + half_load * self.fraction[node];
             }
             for node in grid.of_column(column) {
                 self.velocity[node] = if node < first + grid.held {
@@ -131,16 +134,33 @@ impl Nodes {
         }
     }
 
-    /// p′ in the middle of a node `[Pa]`.
-    fn middle_load(&self, node: usize) -> f64 {
-        self.load[node] + self.half_load * self.fraction[node]
+    /// Velocities of nodes without grains between those that have some, by straight lines, and the rates that follow: where
+    /// grains are suspended, nothing slides in the gaps between them.
+    pub(crate) fn bridge(&mut self, grid: &ColumnGrid, column: usize) {
+        let range = grid.of_column(column);
+        let Some(top) = self.top(grid, column) else { return };
+        let mut last = range.start + grid.held - 1;
+        for node in last + 1..=range.start + top {
+            if self.has_grains(node) {
+                let slope = (self.velocity[node] - self.velocity[last]) / (node - last) as f64;
+                for gap in last + 1..node {
+                    self.velocity[gap] = self.velocity[last] + slope * (gap - last) as f64;
+                }
+                last = node;
+            }
+        }
+        let highest = self.velocity[last];
+        self.velocity[last..range.end].fill(highest);
+        for node in range.start + 1..range.end - 1 {
+            self.rate[node] = 0.5 * (self.velocity[node + 1] - self.velocity[node - 1]).abs() / grid.cell;
+        }
     }
 
     /// Force per area of a column `[Pa]` on a node along the bed, −Δ ∂p′/∂x: what makes heaps of grains run apart. Two
     /// columns press on each other by the smaller of their loads, since what stands free is not pressed.
     pub(crate) fn push_of_columns(&self, grid: &ColumnGrid, node: usize) -> f64 {
         let (before, after) = grid.beside(node);
-        let between = |other: usize| self.middle_load(node).min(self.middle_load(other));
+        let between = |other: usize| self.middle[node].min(self.middle[other]);
         (between(before) - between(after)) * grid.cell / grid.row.width
     }
 
@@ -157,7 +177,8 @@ impl Nodes {
                 0.0
             };
             let rate = 0.5 * (below + above);
-            self.target[node] = law.sheared_fraction(rate.abs(), self.middle_load(node));
+            self.rate[node] = rate.abs();
+            self.target[node] = law.sheared_fraction(self.rate[node], self.middle[node]);
             below = above;
         }
     }

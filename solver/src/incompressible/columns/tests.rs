@@ -66,6 +66,7 @@ pub(in crate::incompressible) fn scene(
             smoothing_ratio: 1.2,
             density: DENSITY,
             grain_diameter: DIAMETER,
+            drag_diameter: DIAMETER,
             law: LAW,
             load: SedimentLoad::Stratified,
             pressure: SedimentPressure::Dilatant {
@@ -77,6 +78,7 @@ pub(in crate::incompressible) fn scene(
                 },
                 fixed_filling: PACKING,
                 columns: ColumnNumerics::default(),
+                turbulent_schmidt: 0.0,
             },
             drag: DragLaw::DiFelice,
             drag_form: DragForm::Exchange,
@@ -100,11 +102,24 @@ pub(in crate::incompressible) fn scene(
     }
 }
 
+/// The same with grains that eddies carry by a Schmidt number `[-]`, if it is not 0.
+pub(in crate::incompressible) fn with_eddies(
+    mut scene: IncompressibleScene<2>,
+    schmidt: f64,
+) -> IncompressibleScene<2> {
+    let Some(Sediment { pressure: SedimentPressure::Dilatant { turbulent_schmidt, .. }, .. }) = &mut scene.sediment
+    else {
+        panic!("grains that dilate")
+    };
+    *turbulent_schmidt = schmidt;
+    scene
+}
+
 pub(in crate::incompressible) fn shear_flow(height: f64) -> f64 {
     (60.0 * (height + 2e-3)).max(0.0)
 }
 
-fn columns_of(mut scene: IncompressibleScene<2>) -> (Columns<2>, IncompressibleScene<2>, Phase<2>) {
+pub(super) fn columns_of(mut scene: IncompressibleScene<2>) -> (Columns<2>, IncompressibleScene<2>, Phase<2>) {
     let water = &scene.fluid;
     let fluid = Phase::new(&water.particles, &water.wall, water.spacing, water.density, 1.2);
     let columns = Columns::of(&mut scene).expect("dilating grains");
@@ -125,7 +140,7 @@ fn nodes_have_the_mass_and_the_momentum_of_the_particles() {
         for velocity in &mut columns.grains.velocity {
             velocity[0] = random.random::<f64>();
         }
-        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
         let Columns { grid, nodes, grains, .. } = &columns;
         assert_eq!(grid.row.count, (length / 0.01).round() as usize);
         let mass: f64 = nodes.mass.iter().sum::<f64>() * grid.row.width;
@@ -154,7 +169,7 @@ fn drag_is_equal_and_opposite_and_the_balance_of_the_grains_closes() {
     let time_step = 1.5e-4;
     for _ in 0..200 {
         let before = momentum(&columns);
-        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
         columns.advance(&material, &fluid.velocity, time_step).expect("solved");
         let width = columns.grid.row.width;
         let on_grains: f64 = columns.drag.impulse.iter().sum::<f64>() * width;
@@ -179,7 +194,7 @@ fn the_drag_on_the_grains_is_what_their_nodes_get() {
     for position in &mut columns.grains.position {
         position[1] += 1e-3;
     }
-    columns.gather(&mut scene, &fluid).expect("within the law");
+    columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
     columns.drag.react(&columns.grid, &columns.nodes, &fluid.velocity, 1.5e-4);
     let held = |node: &usize| node % columns.grid.nodes < columns.grid.held;
     let nodes = (0..columns.grid.len()).filter(|node| !held(node));
@@ -195,7 +210,7 @@ fn a_resting_bed_leaves_no_room() {
     let mut material = scene.sediment.clone().expect("a sediment");
     material.gravity[0] = 0.0;
     for _ in 0..4000 {
-        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
         columns.advance(&material, &fluid.velocity, 1.5e-4).expect("solved");
     }
     let layer = scene.solid_fraction.stratification().expect("strata");
@@ -220,7 +235,13 @@ fn a_resting_bed_leaves_no_room() {
 /// Momentum of fluid and grains together changes by gravity and by the held grains alone: moving grains are not a wall.
 #[test]
 fn the_balance_of_both_phases_closes() {
-    let mut scene = scene(0.02, shear_flow, 5);
+    for eddies in [0.0, 0.7] {
+        assert_closed_balance(eddies);
+    }
+}
+
+fn assert_closed_balance(eddies: f64) {
+    let mut scene = with_eddies(scene(0.02, shear_flow, 5), eddies);
     // without pressure gradients of φ: the fluid's momentum counts by its share of the space
     scene.numerics.shifting = 0.0;
     let mut state = super::super::state::State::of(scene).expect("a valid scene");
@@ -253,17 +274,20 @@ fn the_balance_of_both_phases_closes() {
 
 #[test]
 fn threads_change_no_bit() {
-    let bytes = |threads: usize| {
+    let bytes = |threads: usize, eddies: f64| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let mut simulation = IncompressibleSimulation::new(scene(0.06, shear_flow, 9)).expect("a valid scene");
+            let mut simulation =
+                IncompressibleSimulation::new(with_eddies(scene(0.06, shear_flow, 9), eddies)).expect("a valid scene");
             for _ in 0..20 {
                 simulation.step().expect("a step");
             }
             simulation.snapshot().to_bytes()
         })
     };
-    assert!(bytes(1) == bytes(2));
+    for eddies in [0.0, 0.7] {
+        assert!(bytes(1, eddies) == bytes(2, eddies));
+    }
 }
 
 #[test]
@@ -275,6 +299,8 @@ fn columns_ask_for_what_holds_them() {
     };
     let loose = problem(&|scene| scene.sediment.as_mut().expect("a sediment").wall.clear());
     assert!(loose.contains("grains that hold the columns"), "{loose}");
+    let unstirred = problem(&|s| *s = with_eddies(s.clone(), f64::NAN));
+    assert!(unstirred.contains("`turbulent_schmidt` is NaN, but must be 0 or positive"), "{unstirred}");
     let overlapping = problem(&|scene| scene.solid_fraction = SolidFraction::Overlapping);
     assert!(overlapping.contains("that of the columns where grains dilate"), "{overlapping}");
 }
@@ -304,12 +330,12 @@ fn a_mound_keeps_its_grains() {
         let most = heights.iter().copied().fold(0.0, f64::max);
         most - heights.iter().sum::<f64>() / heights.len() as f64
     };
-    columns.gather(&mut scene, &fluid).expect("within the law");
+    columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
     let first = crest(&columns);
     for _ in 0..2000 {
         columns.advance(&material, &fluid.velocity, 1.5e-4).expect("solved");
         columns.grains.wrap(&scene.domain);
-        columns.gather(&mut scene, &fluid).expect("within the law");
+        columns.gather(&mut scene, &fluid, &fluid.velocity_gradient).expect("within the law");
         assert!(columns.nodes.fraction.iter().all(|fraction| *fraction >= 0.0));
     }
     assert_eq!(columns.grains.mass, mass);

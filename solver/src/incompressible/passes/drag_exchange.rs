@@ -155,7 +155,7 @@ impl<const D: usize> DragExchange<D> {
     fn check_reynolds(&self, first_row: usize, material: &Sediment<D>, viscosity: f64) -> Result<(), Failure> {
         let mut largest = (0.0, 0);
         for (particle, slip) in self.slip.iter().enumerate() {
-            let reynolds = slip * material.grain_diameter / viscosity;
+            let reynolds = slip * material.drag_diameter / viscosity;
             if reynolds > largest.0 || reynolds.is_nan() {
                 largest = (reynolds, particle);
             }
@@ -182,13 +182,13 @@ fn exchange_factor<const D: usize>(
 ) -> f64 {
     let fraction = scene.solid_fraction.stratification().map_or(0.0, |layer| layer.solid_fraction_at(position));
     let (density, viscosity) = (scene.fluid.density, scene.fluid.kinematic_viscosity);
-    let exchange = material.drag.exchange_coefficient(fraction, slip, material.grain_diameter, density, viscosity);
+    let exchange = material.drag.exchange_coefficient(fraction, slip, material.drag_diameter, density, viscosity);
     drag_pair::exchange_factor(volume, exchange, density, fluid_around)
 }
 
 /// ½ C_d d |u| of (30) `[m²/s]`; Ergun's law, which has no single grain, gives none.
 fn grain_factor<const D: usize>(material: &Sediment<D>, slip: f64, kinematic_viscosity: f64) -> f64 {
-    let reynolds = slip * material.grain_diameter / kinematic_viscosity;
+    let reynolds = slip * material.drag_diameter / kinematic_viscosity;
     let product = material.drag.drag_times_reynolds(reynolds).unwrap_or(0.0);
     0.5 * product * kinematic_viscosity
 }

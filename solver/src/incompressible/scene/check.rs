@@ -92,8 +92,13 @@ impl<const D: usize> Sediment<D> {
             let (rule, remedy) = ("0 or positive, and finite", "give it in SI units");
             refuse(Some(ParameterProblem::new("buoyant_weight", buoyant_weight, rule, remedy)))?;
         }
-        if let SedimentPressure::Dilatant { columns, .. } = self.pressure {
+        if let SedimentPressure::Dilatant { columns, turbulent_schmidt, .. } = self.pressure {
             refuse(columns.parameter_problem())?;
+            if !(turbulent_schmidt >= 0.0 && turbulent_schmidt.is_finite()) {
+                let (rule, remedy) =
+                    ("0 or positive, and finite", "give 0.4 to 1 for suspensions, 0 for no dispersion");
+                refuse(Some(ParameterProblem::new("turbulent_schmidt", turbulent_schmidt, rule, remedy)))?;
+            }
         }
         let (expected, found) = (self.particles.position.len(), self.filling.len());
         if found != expected {
@@ -104,6 +109,7 @@ impl<const D: usize> Sediment<D> {
             ("sediment smoothing_ratio", self.smoothing_ratio),
             ("sediment density", self.density),
             ("grain_diameter", self.grain_diameter),
+            ("drag_diameter", self.drag_diameter),
             ("drag_smoothing_length", self.drag_smoothing_length),
         ])
     }

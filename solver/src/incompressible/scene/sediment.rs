@@ -54,6 +54,9 @@ pub enum SedimentPressure {
         fixed_filling: f64,
         /// The columns that carry the mechanics.
         columns: ColumnNumerics,
+        /// Turbulent Schmidt number Sc `[-]`, eddy viscosity over the diffusivity of grains; 0 for grains that eddies do not
+        /// carry.
+        turbulent_schmidt: f64,
     },
 }
 
@@ -84,6 +87,8 @@ pub struct Sediment<const D: usize> {
     pub density: f64,
     /// Grain diameter `[m]`.
     pub grain_diameter: f64,
+    /// Diameter of the sphere that has the drag of a grain `[m]`.
+    pub drag_diameter: f64,
     /// Shear resistance of the grains: any law, at the rate of a particle or pair and the load on it.
     pub law: Rheology,
     /// The load that stands for the law's pressure.

@@ -76,6 +76,7 @@ fn grains(cells: [usize; 2], jitter: f64, seed: u64) -> Sediment<2> {
         smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
         density: 2600.0,
         grain_diameter: 2.0 * SPACING,
+        drag_diameter: 2.0 * SPACING,
         law: Rheology::CoulombBingham(CoulombBingham {
             yield_stress: 1.0,
             friction: 0.0,

@@ -1,7 +1,7 @@
 //! Saved states of grains in columns and of a mixture: continued, they end bitwise identical to a run without
 //! interruption.
 
-use crate::incompressible::columns::tests::{scene, shear_flow};
+use crate::incompressible::columns::tests::{scene, shear_flow, with_eddies};
 use crate::incompressible::projection::mixture::tests::suspension;
 use crate::incompressible::{IncompressibleScene, IncompressibleSimulation, MeanFlux, SavedIncompressible};
 use crate::vector::Vector;
@@ -34,7 +34,9 @@ fn check(scene: &IncompressibleScene<2>) {
 
 #[test]
 fn grains_in_columns_go_on_in_the_same_bits() {
-    check(&scene(0.03, shear_flow, 3));
+    for eddies in [0.0, 0.7] {
+        check(&with_eddies(scene(0.03, shear_flow, 3), eddies));
+    }
 }
 
 #[test]

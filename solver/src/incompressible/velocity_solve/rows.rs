@@ -7,7 +7,7 @@ use super::super::neighbours::Periods;
 use super::super::passes::drag_exchange::DragExchange;
 use super::super::passes::viscosities::Viscosities;
 use super::super::phase::{Phase, Phases};
-use super::super::scene::{IncompressibleScene, Sediment};
+use super::super::scene::{IncompressibleScene, Sediment, height_axis};
 use super::super::terms::drag_pair;
 use super::super::terms::viscous_pair;
 use super::VelocitySystem;
@@ -59,8 +59,8 @@ struct Begin<const D: usize> {
     inertia: f64,
     velocity: Vector<D>,
     gravity: Vector<D>,
-    /// Push of the moving grains of columns along the bed, Σ β U `[N]`.
-    push: f64,
+    /// Push of the moving grains of columns along the bed, Σ β U, and of those that it carries across it `[N]`.
+    push: (f64, f64),
 }
 
 impl<const D: usize> VelocityRows<'_, D> {
@@ -100,7 +100,8 @@ impl<const D: usize> VelocityRows<'_, D> {
                 sum[lane] = inertia[lane] + held;
                 diagonal[lane] = sum[lane] + coupled + of_fluid.get(first + lane).copied().unwrap_or(0.0);
                 momentum[lane] = (velocity[lane] + begin.gravity * self.time_step) * inertia[lane];
-                momentum[lane][0] += begin.push * self.time_step;
+                momentum[lane][0] += begin.push.0 * self.time_step;
+                momentum[lane][height_axis(D)] += begin.push.1 * self.time_step;
             }
         });
     }
@@ -112,12 +113,12 @@ impl<const D: usize> VelocityRows<'_, D> {
                 let a = index - fluid.len();
                 self.sediment_row(a, sediment, material, row);
                 let (inertia, velocity) = (sediment.mass[a], sediment.velocity[a]);
-                Begin { inertia, velocity, gravity: material.gravity, push: 0.0 }
+                Begin { inertia, velocity, gravity: material.gravity, push: (0.0, 0.0) }
             }
             _ => {
                 self.fluid_row(index, row);
                 let inertia = fluid.mass[index] * self.viscosities.voidage[index];
-                let push = self.columns.map_or(0.0, |drag| drag.push[index]);
+                let push = self.columns.map_or((0.0, 0.0), |drag| (drag.push[index], drag.burden[index]));
                 Begin { inertia, velocity: fluid.velocity[index], gravity: self.scene.fluid.gravity, push }
             }
         }

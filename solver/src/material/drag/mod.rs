@@ -22,6 +22,7 @@ mod ergun;
 mod gidaspow;
 mod morsi_alexander;
 mod schiller_naumann;
+mod settling;
 mod suspension;
 mod wen_yu;
 

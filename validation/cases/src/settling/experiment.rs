@@ -90,6 +90,7 @@ impl Experiment {
             smoothing_ratio: ProjectionNumerics::default().smoothing_ratio,
             density: self.grains.grain_density,
             grain_diameter: diameter,
+            drag_diameter: diameter,
             law: WITHOUT_STRENGTH,
             load: SedimentLoad::Stratified,
             pressure: SedimentPressure::None,

@@ -60,6 +60,7 @@ pub(in crate::incompressible) fn suspension(
             smoothing_ratio: 1.2,
             density: 2600.0,
             grain_diameter: SPACING,
+            drag_diameter: SPACING,
             law: LAWLESS,
             load: SedimentLoad::Stratified,
             pressure: SedimentPressure::None,

@@ -84,8 +84,9 @@ impl BedLoadParameters {
             let given = format!("{mixing_length:?}").to_lowercase();
             return Err(ParameterError::field("continuum.closures.mixing_length", given, "integral", remedy));
         }
-        if turbulent_schmidt != 0.0 {
-            let (rule, remedy) = ("0", "no eddy carries the particles' grains; bed-load-1d compares both");
+        let others = continuum.runs.iter().any(|runs| runs.stage != Stage::Dilating);
+        if turbulent_schmidt != 0.0 && others {
+            let (rule, remedy) = ("0 unless all runs are `dilating`", "eddies carry no grains of a given fraction");
             return Err(ParameterError::field("continuum.closures.turbulent_schmidt", turbulent_schmidt, rule, remedy));
         }
         if karman != VON_KARMAN {

@@ -201,6 +201,7 @@ impl ContinuumRun {
             smoothing_ratio: numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,
+            drag_diameter: self.continuum.drag_diameter * grain_diameter,
             law: self.law(&run.materials),
             load: solver::SedimentLoad::Stratified,
             pressure: if dilates {
@@ -209,6 +210,7 @@ impl ContinuumRun {
                     dilatancy,
                     fixed_filling: packing,
                     columns: self.continuum.columns,
+                    turbulent_schmidt: closures.turbulent_schmidt,
                 }
             } else {
                 solver::SedimentPressure::AlongBed
@@ -228,11 +230,16 @@ mod tests {
     use super::super::runs::runs;
     use super::*;
     use crate::case::{Parameters, Tier};
+    use crate::reference::bed_load::MeasuredBedLoad;
     use bagnold_solver::incompressible::DrivenGrains;
 
-    /// q* of the grains over the layer's where the water is the layer's own, a mean over the last half second.
-    fn transport_ratio(slope: f64, spacing: f64, start: f64) -> f64 {
-        let mut parameters = BedLoadParameters::of_tier(Tier::Quick);
+    /// q* of the grains over the layer's where the water is the layer's own, a mean over the last half second; the grains may
+    /// have other physics than the layer.
+    fn transport_ratio(
+        mut parameters: BedLoadParameters,
+        (slope, spacing, start): (f64, f64, f64),
+        wrong: impl Fn(&mut Continuum),
+    ) -> f64 {
         parameters.continuum.runs = vec![StageRuns {
             stage: Stage::Dilating,
             slopes: vec![slope],
@@ -246,6 +253,8 @@ mod tests {
         let BedLoadFormulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
         let layer = own.layer(run.stream()).expect("a steady layer");
         let water = |z: f64| layer.at(z).fluid_velocity;
+        let mut own = own.clone();
+        wrong(&mut own.continuum);
         let channel = own.channel(&run, &layer, &water);
         let (length, time_step) = (channel.fluid.length(), channel.numerics.time_step);
         let mut grains = DrivenGrains::new(channel.scene()).expect("a valid scene");
@@ -297,8 +306,34 @@ mod tests {
     #[test]
     fn grains_alone_carry_what_the_layer_carries_in_the_layers_water() {
         for (slope, spacing, start) in [(0.02, 7e-4, 1.0), (0.03, 1e-3, 1.0), (0.03, 1e-3, 1.4), (0.05, 1e-3, 1.0)] {
-            let ratio = transport_ratio(slope, spacing, start);
+            let parameters = BedLoadParameters::of_tier(Tier::Quick);
+            let ratio = transport_ratio(parameters, (slope, spacing, start), |_| {});
             assert!((ratio - 1.0).abs() < 0.02, "slope {slope}, {spacing} m, start {start}: {ratio}");
+        }
+    }
+
+    /// The sheet flow of Revil-Baudard et al. 2015: light grains of 3 mm, which eddies carry.
+    #[test]
+    fn suspended_grains_carry_what_the_layer_carries_and_wrong_eddies_do_not() {
+        let sheet_flow = || {
+            let mut parameters = BedLoadParameters::of_tier(Tier::Quick);
+            let Stream { flow_depth, grain_density, grain_diameter, .. } = MeasuredBedLoad::SheetFlow.stream();
+            let materials = Materials { depth: flow_depth, grain_density, grain_diameter, ..parameters.materials };
+            let continuum = &mut parameters.continuum;
+            (continuum.bed_depth, continuum.held_depth, continuum.length) = (0.03, 0.006, 0.024);
+            (continuum.drag_diameter, continuum.closures.turbulent_schmidt) = (0.5, 0.7);
+            BedLoadParameters { materials, ..parameters }
+        };
+        let slope = MeasuredBedLoad::SheetFlow.stream().slope;
+        let ratio = |wrong: &dyn Fn(&mut Continuum)| transport_ratio(sheet_flow(), (slope, 3e-3, 1.0), wrong);
+        let right = ratio(&|_| {});
+        assert!((right - 1.0).abs() < 0.1, "{right}");
+        // no eddies, a Schmidt number of the layer's lower end, and grains of a third of the settling velocity
+        for (schmidt, drag_diameter) in [(0.0, 0.5), (0.4, 0.5), (0.7, 0.15)] {
+            let wrong = ratio(&|continuum| {
+                (continuum.closures.turbulent_schmidt, continuum.drag_diameter) = (schmidt, drag_diameter);
+            });
+            assert!((wrong - 1.0).abs() > 0.2, "Sc {schmidt}, {drag_diameter} d: {wrong}");
         }
     }
 }

@@ -175,6 +175,9 @@ pub struct Continuum {
     pub length: f64,
     /// Closures of particles and of the layer.
     pub closures: Closures,
+    /// Diameter of the sphere with the drag of a grain, over d `[-]`.
+    #[schemars(transform = between(0.01, 2.0, "1 for spheres, 0.5 for crushed plastic"))]
+    pub drag_diameter: f64,
     /// Largest spacing of grains that move at a given fraction, over τ* d `[-]`: their velocity falls by e over some
     /// 0.9 τ* d, and a layer thinner than that needs finer particles than a file asks for.
     #[schemars(transform = between(0.1, 100.0, "0.9 puts three rows into the layer that moves"))]

@@ -111,9 +111,11 @@ impl BedLoadRun {
     pub fn stream(&self) -> Stream {
         let Materials { depth, gravity, fluid_density, kinematic_viscosity, grain_density, grain_diameter } =
             self.materials;
-        let (bed_depth, held_depth) = match &self.formulation {
-            BedLoadFormulation::Grains(_, grains) => (grains.bed_depth, 0.0),
-            BedLoadFormulation::Continuum(own) => (own.continuum.bed_depth, own.continuum.held_depth),
+        let (bed_depth, held_depth, drag_diameter) = match &self.formulation {
+            BedLoadFormulation::Grains(_, grains) => (grains.bed_depth, 0.0, 1.0),
+            BedLoadFormulation::Continuum(own) => {
+                (own.continuum.bed_depth, own.continuum.held_depth, own.continuum.drag_diameter)
+            }
         };
         Stream {
             slope: self.slope,
@@ -125,7 +127,7 @@ impl BedLoadRun {
             kinematic_viscosity,
             grain_density,
             grain_diameter,
-            drag_diameter: 1.0,
+            drag_diameter,
         }
     }
 }

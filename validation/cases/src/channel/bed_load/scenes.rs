@@ -46,6 +46,7 @@ impl BedLoadRun {
             smoothing_ratio: grains.numerics.smoothing_ratio,
             density: grain_density,
             grain_diameter,
+            drag_diameter: grain_diameter,
             law: grains.material,
             load: solver::SedimentLoad::Packed { level: -grain_diameter, buoyant_weight },
             pressure: solver::SedimentPressure::Incompressible,

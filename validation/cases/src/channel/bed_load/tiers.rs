@@ -120,6 +120,7 @@ fn quick() -> BedLoadParameters {
             held_depth: 0.004,
             length: 0.0085,
             closures: Closures::default(),
+            drag_diameter: 1.0,
             largest_spacing: 0.9,
             least_fraction: 2e-3,
             sparse_row_fraction: 0.03,
