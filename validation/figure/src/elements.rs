@@ -2,8 +2,7 @@
 //! each, which are read here one by one; an element or attribute of another kind is an error and not a gap in the picture.
 
 use super::error::FigureError;
-use super::font::Weight;
-use super::glyphs;
+use super::glyphs::{self, Weight};
 use roxmltree::{Document, Node};
 use tiny_skia::{Path, PathBuilder, Rect, Transform};
 

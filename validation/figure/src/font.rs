@@ -1,8 +1,7 @@
 //! The one font of all figures. It is embedded, so that a figure looks the same on every machine.
 
-use super::glyphs::line;
+use super::glyphs::{Weight, line};
 use super::script::{Run, SMALLER, runs};
-use plotters::style::FontStyle;
 
 /// Family name, as in the font's own name table and as browsers know it.
 pub(super) const FAMILY: &str = "DejaVu Sans";
@@ -12,22 +11,6 @@ pub(super) const FAMILY_WITH_FALLBACK: &str = "DejaVu Sans, Verdana, sans-serif"
 
 /// plotters' text size is a line height, 1.24 times the em that it writes into the SVG.
 pub(super) const LINE_HEIGHT: f64 = 1.24;
-
-/// Thickness of the strokes of a text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Weight {
-    Regular,
-    Bold,
-}
-
-impl Weight {
-    pub(super) fn style(self) -> FontStyle {
-        match self {
-            Self::Regular => FontStyle::Normal,
-            Self::Bold => FontStyle::Bold,
-        }
-    }
-}
 
 /// Width of `text` set at `em` pixels, with its indices and exponents `[px]`; a rough estimate if the font is missing.
 pub(super) fn width(text: &str, em: f64, weight: Weight) -> f64 {

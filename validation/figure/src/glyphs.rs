@@ -1,8 +1,8 @@
 //! Text as outlines of the embedded font.
 
 use super::error::FigureError;
-use super::font::Weight;
 use super::truetype::{ContourPoint, Font};
+use plotters::style::FontStyle;
 use std::sync::LazyLock;
 use tiny_skia::{Path, PathBuilder};
 
@@ -12,7 +12,21 @@ static BOLD: LazyLock<Option<Font>> = LazyLock::new(|| Font::new(dejavu::sans::b
 /// Parts of a glyph may have parts to this depth.
 const DEPTH: u8 = 4;
 
+/// Thickness of the strokes of a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Weight {
+    Regular,
+    Bold,
+}
+
 impl Weight {
+    pub(super) fn style(self) -> FontStyle {
+        match self {
+            Self::Regular => FontStyle::Normal,
+            Self::Bold => FontStyle::Bold,
+        }
+    }
+
     pub(super) fn font(self) -> Result<&'static Font, FigureError> {
         let (font, style) = match self {
             Self::Regular => (&REGULAR, "regular"),

@@ -123,7 +123,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("temporary folder");
         let triangle = |index: usize| stl_io::Triangle {
             normal: stl_io::Normal::new([0.0, 0.0, 1.0]),
-            vertices: [[index as f32, 0.0, 0.0], [index as f32 + 1.0, 0.0, 0.0], [0.5, 1.0, 0.0]]
+            vertices: [[index as f32, 0.0, 0.0], [index as f32 + 1.0, 0.0, 0.0], [index as f32 + 0.5, 1.0, 0.0]]
                 .map(stl_io::Vertex::new),
         };
         let triangles: Vec<_> = (0..=MOST_LISTED).map(triangle).collect();
@@ -132,7 +132,7 @@ mod tests {
         let fields = read("[[walls]]\nmesh = \"a.stl\"", &folder.path().join("case.toml")).expect("read");
         assert!(fields["walls"][0].get("triangles").is_none());
         let mesh: crate::input::PackedTriangles = fields["walls"][0]["packed"].clone().try_into().expect("triangles");
-        assert_eq!(mesh.triangles()[MOST_LISTED], [[10_000.0, 0.0, 0.0], [10_001.0, 0.0, 0.0], [0.5, 1.0, 0.0]]);
+        assert_eq!(mesh.triangles()[MOST_LISTED], [[10_000.0, 0.0, 0.0], [10_001.0, 0.0, 0.0], [10_000.5, 1.0, 0.0]]);
         assert_eq!(mesh.bounds(), Some([[0.0; 3], [10_001.0, 1.0, 0.0]]));
         assert!((mesh.area() - 0.5 * triangles.len() as f64).abs() < 1e-6);
     }
