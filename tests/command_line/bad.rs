@@ -65,14 +65,14 @@ fn pipes_devices_and_files_of_megabytes_are_refused_at_once() {
     let place = Place::new();
     place.file("plan.toml", &format!("case = \"{}\"\n", "x".repeat(2 << 20)));
     place.file("fields.toml", &(0..200_000).map(|index| format!("field{index} = 1\n")).collect::<String>());
-    std::fs::File::create(place.path("case.toml")).and_then(|file| file.set_len(65 << 20)).expect("a long file");
+    std::fs::File::create(place.path("case.toml")).and_then(|file| file.set_len(129 << 20)).expect("a long file");
     let pipe = place.path("pipe.toml");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo").success());
     std::os::unix::fs::symlink("/dev/zero", place.path("zero.toml")).expect("a link");
     let begun = std::time::Instant::now();
     let (case, plans) = (&["run"][..], &["sweep", "calibrate"][..]);
     for (commands, file, reason) in [
-        (case, "case.toml", "is larger than 64 MiB"),
+        (case, "case.toml", "is larger than 128 MiB"),
         (plans, "plan.toml", "is larger than 1 MiB"),
         (plans, "fields.toml", "is larger than 1 MiB"),
         (&["run", "sweep", "calibrate"], "pipe.toml", "is a named pipe, not a regular file"),

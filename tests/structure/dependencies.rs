@@ -4,9 +4,6 @@
 use crate::source::workspace;
 use std::process::Command;
 
-/// Crates that nobody maintains any longer, which others bring along; a new one is a decision.
-const UNMAINTAINED: [&str; 1] = ["ttf-parser"];
-
 /// Name and licence of everything that the two commands of README build on this platform: a machine that has run them has
 /// fetched nothing else, so that Cargo cannot be asked for more without a network.
 fn built() -> Vec<(String, String)> {
@@ -98,7 +95,6 @@ fn every_crate_has_a_licence_and_a_source_that_the_project_allows() {
             offences.push(format!("{name}: licence {licence}"));
         }
     }
-    let mut unmaintained = Vec::new();
     for (name, source) in locked() {
         if banned.contains(&name) {
             offences.push(format!("{name}: banned"));
@@ -108,13 +104,8 @@ fn every_crate_has_a_licence_and_a_source_that_the_project_allows() {
         {
             offences.push(format!("{name}: from {source}"));
         }
-        if UNMAINTAINED.contains(&name.as_str()) {
-            unmaintained.push(name);
-        }
     }
-    unmaintained.sort();
     assert!(offences.is_empty(), "{}", offences.join("\n"));
-    assert_eq!(unmaintained, UNMAINTAINED, "take out of the list what is gone");
 }
 
 #[test]

@@ -41,6 +41,9 @@ pub trait Compiled<const D: usize>: Sized {
     /// Dummy particles behind the facets of a checked scene in so many rows, wall by wall.
     fn compiled_backing(scene: &Scene<D>, rows: usize) -> Vec<Vec<BackingParticle<D>>>;
 
+    /// The state of a checked scene with these dummy particles.
+    fn compiled_state(scene: Scene<D>, backing: &[Vec<BackingParticle<D>>]) -> Self;
+
     /// Takes one step.
     ///
     /// # Errors
@@ -67,6 +70,13 @@ macro_rules! compiled {
 
             fn compiled_backing(scene: &Scene<$dimensions>, rows: usize) -> Vec<Vec<BackingParticle<$dimensions>>> {
                 $backing::lay(&scene.enclosure.walls, &scene.domain, scene.spacing, rows)
+            }
+
+            fn compiled_state(
+                scene: Scene<$dimensions>,
+                backing: &[Vec<BackingParticle<$dimensions>>],
+            ) -> Self {
+                Self { state: State::new(scene, backing) }
             }
 
             fn compiled_step(&mut self) -> Result<(), Divergence<$dimensions>> {
@@ -100,7 +110,7 @@ where
     /// A scene that breaks a rule, or whose particles lie on top of each other.
     pub fn new(scene: Scene<D>) -> Result<Self, SceneError> {
         let backing = Self::backing(&scene)?;
-        let mut simulation = Self { state: State::new(scene, &backing) };
+        let mut simulation = Self::compiled_state(scene, &backing);
         simulation.compiled_start().map_err(|divergence| SceneError::Value {
             quantity: divergence.quantity,
             particle: divergence.particle as usize,

@@ -1,8 +1,9 @@
 //! A drawing surface in fractional pixels over plotters' SVG backend.
 
 use super::error::FigureError;
-use super::font::{FAMILY, FAMILY_WITH_FALLBACK, LINE_HEIGHT, Weight, plain_width, width};
+use super::font::{FAMILY, FAMILY_WITH_FALLBACK, LINE_HEIGHT, plain_width, width};
 use super::format::FigureFormat;
+use super::glyphs::Weight;
 use super::script::{Run, SMALLER, runs};
 use plotters::backend::DrawingBackend;
 use plotters::prelude::SVGBackend;

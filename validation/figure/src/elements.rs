@@ -2,7 +2,7 @@
 //! each, which are read here one by one; an element or attribute of another kind is an error and not a gap in the picture.
 
 use super::error::FigureError;
-use super::glyphs;
+use super::glyphs::{self, Weight};
 use roxmltree::{Document, Node};
 use tiny_skia::{Path, PathBuilder, Rect, Transform};
 
@@ -95,9 +95,9 @@ fn text(node: Node<'_, '_>, surface: &mut impl Surface) -> Result<(), FigureErro
         "middle" => 0.5,
         _ => 1.0,
     };
-    let is_bold = node.attribute("font-weight") == Some("bold");
+    let weight = if node.attribute("font-weight") == Some("bold") { Weight::Bold } else { Weight::Regular };
     let Some((outline, width)) =
-        glyphs::outline(node.text().unwrap_or_default().trim_matches(['\n', ' ']), size, is_bold)?
+        glyphs::outline(node.text().unwrap_or_default().trim_matches(['\n', ' ']), size, weight)?
     else {
         return Ok(());
     };

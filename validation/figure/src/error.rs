@@ -5,8 +5,8 @@ use std::path::PathBuf;
 /// Error in drawing or writing a figure; the message completes "failed to …".
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// The font inside the program could not be registered.
-    #[error("register the embedded font {style}: the font file is damaged, rebuild the program")]
+    /// The font inside the program could not be read.
+    #[error("read the embedded font {style}: the font file is damaged, rebuild the program")]
     Font {
         /// Name of the embedded font.
         style: &'static str,

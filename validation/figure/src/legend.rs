@@ -3,7 +3,8 @@
 use super::canvas::{Canvas, Direction, Ink, Point, Rectangle, TextSpec};
 use super::curves::{Plot, band_outlines, draw_band_sample, draw_sample};
 use super::error::FigureError;
-use super::font::{Weight, width};
+use super::font::width;
+use super::glyphs::Weight;
 use super::palette::{BLACK, GRID};
 use super::{Mark, Panel};
 use plotters::style::WHITE;

@@ -44,6 +44,7 @@ mod sheet;
 mod size;
 mod table;
 mod ticks;
+mod truetype;
 
 #[cfg(test)]
 mod tests;

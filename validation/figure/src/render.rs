@@ -3,7 +3,6 @@
 use super::Figure;
 use super::canvas::UNITS_PER_PIXEL;
 use super::error::FigureError;
-use super::font;
 use super::format::FigureFormat;
 use super::pdf::page;
 use super::raster::pixels;
@@ -14,7 +13,6 @@ use super::sheet;
 /// # Errors
 /// Only if the drawing library refuses; odd data (empty, constant, NaN, infinite) draw an odd figure.
 pub fn svg(figure: &Figure, format: FigureFormat) -> Result<String, FigureError> {
-    font::register()?;
     sheet::draw(figure, format)
 }
 

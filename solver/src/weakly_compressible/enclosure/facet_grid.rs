@@ -1,7 +1,6 @@
 //! A uniform grid over facets: finds those that can be nearer to a place than a range, without a look at the others.
 
 use super::facet::Facet;
-use super::facet_side::{FacetSide, facet_side};
 use crate::vector::Vector;
 
 /// Cells that a grid has for every facet at most, and cells in all: memory.
@@ -119,14 +118,6 @@ impl<const D: usize> FacetGrid<D> {
         &self.facets[self.starts[index] as usize..self.starts[index + 1] as usize]
     }
 
-    /// Side of the grid's facets on which a place is; none where all are farther than the range.
-    #[must_use]
-    pub fn side(&self, facets: &[Facet<D>], place: &Vector<D>) -> Option<FacetSide> {
-        let near = self.near(place);
-        let found = facet_side(near.iter().map(|&index| (&facets[index as usize], *place)))?;
-        (found.distance.abs() < self.range).then(|| FacetSide { facet: near[found.facet] as usize, ..found })
-    }
-
     /// Lower and upper corners of the cells that list any facet `[m]`, in their order. They do not overlap.
     pub(super) fn occupied(&self) -> impl Iterator<Item = (Vector<D>, Vector<D>)> {
         let occupied = (0..self.starts.len() - 1).filter(|&index| self.starts[index] < self.starts[index + 1]);
@@ -163,10 +154,10 @@ mod tests {
         let mut found = 0;
         for _ in 0..2000 {
             let place = Vector::<D>::from_fn(|_, _| 2.0 * random.random::<f64>() - 0.5);
-            let all = facet_side(facets.iter().map(|facet| (facet, place)));
-            let expected = all.filter(|facet_side| facet_side.distance.abs() < range);
-            assert_eq!(grid.side(facets, &place), expected, "{place}");
-            found += usize::from(expected.is_some());
+            let near = (0..facets.len()).filter(|&facet| (facets[facet].nearest(&place) - place).norm() < range);
+            let listed = grid.near(&place);
+            assert!(listed.is_sorted() && near.clone().all(|facet| listed.contains(&(facet as u32))), "{place}");
+            found += near.count();
         }
         assert!(found > 50, "{found}");
     }

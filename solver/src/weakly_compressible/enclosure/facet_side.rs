@@ -8,7 +8,7 @@ use super::facet::Facet;
 use crate::vector::Vector;
 
 /// Relative distance beyond the nearest up to which a facet counts as equally near `[-]`.
-const TIE: f64 = 1e-9;
+pub(super) const TIE: f64 = 1e-9;
 /// Largest deviation from 1 of the cosine between two edges that are one `[-]`.
 const ALONG: f64 = 1e-6;
 

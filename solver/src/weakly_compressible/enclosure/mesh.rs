@@ -4,7 +4,6 @@ use super::facet::Facet;
 use super::facet_wall::{FacetWall, Motion};
 use crate::vector::Vector;
 use crate::weakly_compressible::walls::Surface;
-use std::collections::BTreeMap;
 
 /// Sine of the angle between two normals up to which triangles that share an edge are one flat part `[-]`: what corners
 /// of single precision leave of a plane.
@@ -32,14 +31,19 @@ fn edges(facet: &Facet<3>) -> [Edge; 3] {
     [[a, b], [b, c], [c, a]].map(|[start, end]| if start < end { [start, end] } else { [end, start] })
 }
 
-fn by_edge(facets: &[Facet<3>]) -> BTreeMap<Edge, Vec<usize>> {
-    let mut owners: BTreeMap<Edge, Vec<usize>> = BTreeMap::new();
-    for (index, facet) in facets.iter().enumerate() {
-        for edge in edges(facet) {
-            owners.entry(edge).or_default().push(index);
-        }
-    }
+/// The facets of every edge, sorted by it and in their order.
+fn by_edge(facets: &[Facet<3>]) -> Vec<(Edge, u32)> {
+    let of = |(index, facet): (usize, &Facet<3>)| edges(facet).map(|edge| (edge, index as u32));
+    let mut owners: Vec<_> = facets.iter().enumerate().flat_map(of).collect();
+    owners.sort_unstable();
     owners
+}
+
+/// The facets of an edge.
+fn owners_of<'a>(owners: &'a [(Edge, u32)], edge: &Edge) -> impl Iterator<Item = usize> + use<'a> {
+    let edge = *edge;
+    let first = owners.partition_point(|(other, _)| *other < edge);
+    owners[first..].iter().take_while(move |(other, _)| *other == edge).map(|(_, facet)| *facet as usize)
 }
 
 /// The flat parts of some facets, each by its facets: those that share edges and lie in one plane.
@@ -57,7 +61,7 @@ pub(super) fn flat_parts(facets: &[Facet<3>]) -> Vec<Vec<usize>> {
         while let Some(&own) = part.get(next) {
             next += 1;
             for edge in edges(&facets[own]) {
-                for &other in owners.get(&edge).into_iter().flatten() {
+                for other in owners_of(&owners, &edge) {
                     let facet = &facets[other];
                     let flat = facet.normal.cross(&normal).norm() < FLAT && facet.normal.dot(&normal) > 0.0;
                     if flat && !std::mem::replace(&mut taken[other], true) {
@@ -96,7 +100,7 @@ impl Frame {
             let [a, b, c] = facet.corners;
             edges(facet).into_iter().zip([b - a, c - b, a - c])
         });
-        let rim = rim.filter(|(edge, _)| owners.get(edge).is_some_and(|facets| facets.len() == 1));
+        let rim = rim.filter(|(edge, _)| owners_of(&owners, edge).count() == 1);
         let mut longest = corners[1] - corners[0];
         let mut length = 0.0;
         for (_, edge) in rim {

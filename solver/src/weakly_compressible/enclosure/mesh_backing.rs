@@ -9,7 +9,8 @@
 use super::backing::{is_inside, together};
 use super::facet::Facet;
 use super::facet_grid::FacetGrid;
-use super::facet_side::facet_side;
+use super::facet_side::FacetSide;
+use super::facet_tree::FacetTree;
 use super::facet_wall::{BackingParticle, FacetWall};
 use super::lattice_cell::{CORNERS, Cell, SAMPLES};
 use super::mesh::{Frame, flat_parts};
@@ -24,8 +25,6 @@ const SMALLEST: f64 = 0.02;
 const NARROW: f64 = 1.5;
 /// Depth of a particle in spacings at least, where triangles fold so that its centroid is less deep `[-]`.
 const LEAST_DEPTH: f64 = 0.05;
-/// Search distance for facets over the distance of a cell's corners `[-]`: rounding.
-const BEYOND: f64 = 1.0 + 1e-6;
 
 /// Dummy particles that fill the space behind each facet wall in `rows` at the flow's `spacing` `[m]`, the first half a spacing
 /// behind the surface. Facet walls at rest share their edges; each that moves stands alone. Nothing is laid beyond periods and mirrors.
@@ -70,7 +69,7 @@ struct Laying<'a> {
     /// The part of every facet.
     part_of: Vec<usize>,
     parts: Vec<Part>,
-    grid: FacetGrid<3>,
+    tree: FacetTree,
     domain: &'a Domain<3>,
     spacing: f64,
     rows: usize,
@@ -104,11 +103,11 @@ impl<'a> Laying<'a> {
                 parts.push(Part { wall, facets: own.iter().map(|k| first + k).collect(), narrow });
             }
         }
-        let grid = FacetGrid::new(&[], spacing);
+        let tree = FacetTree::new::<3>(&[], spacing);
         let looked_at = AtomicUsize::new(0);
-        let mut laying = Self { facets, part_of, parts, grid, domain, spacing, rows, looked_at };
+        let mut laying = Self { facets, part_of, parts, tree, domain, spacing, rows, looked_at };
         laying.add_images();
-        laying.grid = FacetGrid::new(&laying.facets, laying.reach() + 2.0 * spacing);
+        laying.tree = FacetTree::new(&laying.facets, laying.reach() + 2.0 * spacing);
         laying
     }
 
@@ -231,8 +230,7 @@ impl<'a> Laying<'a> {
     /// The particle of a piece behind a curved surface.
     fn behind_curve(&self, piece: &Piece) -> Option<(usize, BackingParticle<3>)> {
         let position = piece.place;
-        self.looked_at.fetch_add(self.grid.near(&position).len(), Ordering::Relaxed);
-        let facet = self.grid.side(&self.facets, &position)?.facet;
+        let facet = self.nearest(&position, f64::INFINITY)?.facet;
         let way = self.facets[facet].nearest(&position) - position;
         let depth = way.norm();
         let clear = depth > LEAST_DEPTH * self.spacing;
@@ -244,9 +242,8 @@ impl<'a> Laying<'a> {
     /// Piece of a cell that belongs to facets of a kind: behind them, no farther than the rows reach, inside the
     /// domain, and nearer to none of the others.
     fn piece(&self, cell: &Cell, is_own: impl Fn(usize) -> bool) -> Option<Piece> {
-        let radius = cell.radius();
-        let candidates = self.candidates(&cell.middle, radius)?;
-        let owned = |place: &Vector<3>| self.owner(&candidates, place).is_some_and(&is_own);
+        let mut hint = self.nearest(&cell.middle, self.reach() + cell.radius())?.facet;
+        let mut owned = |place: &Vector<3>| self.owner(&mut hint, place).is_some_and(&is_own);
         let last = SAMPLES - 1;
         let outer =
             (0..CORNERS).filter(|k| owned(&cell.sample([0, 1, 2].map(|axis| last * ((k >> axis) & 1))))).count();
@@ -270,32 +267,19 @@ impl<'a> Laying<'a> {
         (share >= SMALLEST).then_some(Piece { place, volume: share * volume, whole: false })
     }
 
-    /// The facets that can be nearest to a place within `radius` `[m]` of another; none where all are farther than the rows
-    /// reach.
-    fn candidates(&self, middle: &Vector<3>, radius: f64) -> Option<Vec<usize>> {
-        let mut least = (self.reach() + radius) * BEYOND;
-        let near = self.grid.near(middle);
-        self.looked_at.fetch_add(near.len(), Ordering::Relaxed);
-        let mut found = false;
-        for &facet in near {
-            let facet = &self.facets[facet as usize];
-            if facet.may_reach(middle, least) {
-                let distance = (middle - facet.nearest(middle)).norm();
-                found |= distance < least;
-                least = least.min(distance);
-            }
-        }
-        // a place in the cell is nearer to that one than this
-        let range = (least + 2.0 * radius) * BEYOND;
-        let reach = |facet: &usize| self.facets[*facet].may_reach(middle, range);
-        found.then(|| near.iter().map(|&facet| facet as usize).filter(reach).collect())
+    /// The facet that is nearest to a place, and its side, among those within a distance `[m]`.
+    fn nearest(&self, place: &Vector<3>, distance: f64) -> Option<FacetSide> {
+        self.tree.side_within(&self.facets, place, distance, |number| {
+            self.looked_at.fetch_add(number, Ordering::Relaxed);
+        })
     }
 
-    /// The facet that a place behind the facet walls belongs to.
-    fn owner(&self, candidates: &[usize], place: &Vector<3>) -> Option<usize> {
-        let found = || facet_side(candidates.iter().map(|&facet| (&self.facets[facet], *place)));
-        let found = is_inside(self.domain, place).then(found).flatten()?;
-        (found.distance < 0.0 && -found.distance < self.reach()).then(|| candidates[found.facet])
+    /// The facet that a place behind the facet walls belongs to; `hint` is one near to it, for which the nearest then stands.
+    fn owner(&self, hint: &mut usize, place: &Vector<3>) -> Option<usize> {
+        let within = || self.reach().min((place - self.facets[*hint].nearest(place)).norm());
+        let found = is_inside(self.domain, place).then(|| self.nearest(place, within())).flatten()?;
+        *hint = found.facet;
+        (found.distance < 0.0 && -found.distance < self.reach()).then_some(found.facet)
     }
 }
 

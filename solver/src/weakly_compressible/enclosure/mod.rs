@@ -14,6 +14,7 @@ pub mod facet;
 mod facet_contact;
 pub mod facet_grid;
 pub mod facet_side;
+pub mod facet_tree;
 pub mod facet_wall;
 mod feed_rate;
 mod inflow_step;

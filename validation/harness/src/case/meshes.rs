@@ -2,11 +2,14 @@
 //! run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use crate::input::{MOST_TRIANGLES, Triangle, number_in, read_mesh};
+use crate::input::{MOST_TRIANGLES, Triangle, number_in, packed, read_mesh};
 use crate::output::caution;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::path::Path;
 use toml::{Table, Value};
+
+/// Most triangles that a case file lists by their numbers.
+const MOST_LISTED: usize = 10_000;
 
 /// Adds the triangles of the meshes that `walls` name by a path from the case file on. A wall that has triangles keeps
 /// them: the name then says where they came from.
@@ -15,7 +18,11 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
     let mut count = 0;
     let walls = fields.get_mut("walls").and_then(Value::as_array_mut);
     for (index, wall) in walls.into_iter().flatten().enumerate() {
-        let Some(wall) = wall.as_table_mut().filter(|wall| !wall.contains_key("triangles")) else { continue };
+        let Some(wall) =
+            wall.as_table_mut().filter(|wall| !wall.contains_key("triangles") && !wall.contains_key("packed"))
+        else {
+            continue;
+        };
         let Some(name) = wall.get("mesh").and_then(Value::as_str).filter(|name| !name.is_empty()) else { continue };
         let field = format!("walls[{index}].mesh");
         let refused =
@@ -36,10 +43,14 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
         })?;
         let triangles: Vec<Triangle> =
             mesh.triangles.iter().map(|corners| corners.map(|at| placed.place(at))).collect();
-        let triangles = Value::try_from(&triangles).map_err(|_| {
+        let (key, value) = match triangles.len() {
+            0..=MOST_LISTED => ("triangles", Value::try_from(&triangles)),
+            _ => ("packed", Ok(Value::String(packed(&triangles)))),
+        };
+        let value = value.map_err(|_| {
             refused("a mesh that a case file can repeat", "write it anew from the program that made it")
         })?;
-        wall.insert("triangles".to_owned(), triangles);
+        wall.insert(key.to_owned(), value);
     }
     Ok(())
 }
@@ -105,6 +116,25 @@ mod tests {
         let mut fields: Table = toml::from_str(text).expect("TOML");
         read_beside(&mut fields, path).map_err(|error| error.to_string())?;
         Ok(fields)
+    }
+
+    #[test]
+    fn a_large_mesh_is_packed() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let triangle = |index: usize| stl_io::Triangle {
+            normal: stl_io::Normal::new([0.0, 0.0, 1.0]),
+            vertices: [[index as f32, 0.0, 0.0], [index as f32 + 1.0, 0.0, 0.0], [index as f32 + 0.5, 1.0, 0.0]]
+                .map(stl_io::Vertex::new),
+        };
+        let triangles: Vec<_> = (0..=MOST_LISTED).map(triangle).collect();
+        let mut file = std::fs::File::create(folder.path().join("a.stl")).expect("writable");
+        stl_io::write_stl(&mut file, triangles.iter()).expect("written");
+        let fields = read("[[walls]]\nmesh = \"a.stl\"", &folder.path().join("case.toml")).expect("read");
+        assert!(fields["walls"][0].get("triangles").is_none());
+        let mesh: crate::input::PackedTriangles = fields["walls"][0]["packed"].clone().try_into().expect("triangles");
+        assert_eq!(mesh.triangles()[MOST_LISTED], [[10_000.0, 0.0, 0.0], [10_001.0, 0.0, 0.0], [10_000.5, 1.0, 0.0]]);
+        assert_eq!(mesh.bounds(), Some([[0.0; 3], [10_001.0, 1.0, 0.0]]));
+        assert!((mesh.area() - 0.5 * triangles.len() as f64).abs() < 1e-6);
     }
 
     #[test]

@@ -11,9 +11,9 @@ use std::path::Path;
 pub(crate) type Triangle = [[f64; 3]; 3];
 
 /// Largest file of a mesh `[bytes]`.
-const MOST_BYTES: u64 = 1 << 25;
-/// Most triangles of a mesh: what a case file that repeats them may hold.
-pub(crate) const MOST_TRIANGLES: usize = 100_000;
+const MOST_BYTES: u64 = 1 << 29;
+/// Most triangles of a mesh: what a case file that repeats them may hold, even if no two share a corner.
+pub(crate) const MOST_TRIANGLES: usize = 1_100_000;
 /// Bytes of a binary file before its triangles, and of each of them.
 const HEADER: usize = 84;
 const RECORD: usize = 50;
@@ -225,7 +225,7 @@ mod tests {
         assert_eq!(refused(&bytes), "has a coordinate that is not finite in triangle 1");
         let mut bytes = vec![0; HEADER + RECORD * (MOST_TRIANGLES + 1)];
         bytes[HEADER - 4..HEADER].copy_from_slice(&(MOST_TRIANGLES as u32 + 1).to_le_bytes());
-        assert_eq!(refused(&bytes), "has more than 100000 triangles");
+        assert_eq!(refused(&bytes), "has more than 1100000 triangles");
         let gone = read_mesh(Path::new("no/such.stl")).expect_err("no file").to_string();
         assert_eq!(gone, "cannot be read (No such file or directory (os error 2))");
     }

@@ -11,7 +11,7 @@ use std::path::Path;
 pub const WRITTEN_BY_HAND: u64 = 1 << 20;
 
 /// Largest table of measurements, and largest document that a program wrote `[bytes]`.
-pub const DOCUMENT: u64 = 1 << 26;
+pub const DOCUMENT: u64 = 1 << 27;
 
 /// Largest file of a program's own results: a stored run with its snapshots, the manifest of a sweep `[bytes]`.
 pub const STORED: u64 = 1 << 32;

@@ -70,7 +70,7 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> Value {
         "figures": drawn,
         // tables of reference data that are written beside the page
         "tables": tables(&case.name).map(|(name, _)| name).collect::<Vec<_>>(),
-        "parameters": case.parameters_toml,
+        "parameters": shown(&case.parameters_toml),
         "command": typed(&case.command),
         "runs": case.runs.iter().map(run).collect::<Vec<_>>(),
     })
@@ -188,6 +188,16 @@ fn run(run: &RunSummary) -> Value {
         "short_hash": run.state_hash.chars().take(12).collect::<String>(),
         "from_store": run.from_store,
     })
+}
+
+/// A document with its longest lines cut, which hold meshes: a page is for readers.
+fn shown(document: &str) -> String {
+    const LONGEST: usize = 100_000;
+    let line = |line: &str| match line.char_indices().nth(LONGEST) {
+        None => format!("{line}\n"),
+        Some(_) => format!("{} … (whole in case.toml)\n", line.chars().take(LONGEST / 100).collect::<String>()),
+    };
+    document.lines().map(line).collect()
 }
 
 #[cfg(test)]

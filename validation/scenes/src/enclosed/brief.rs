@@ -14,7 +14,7 @@ const LARGEST_MACH_NUMBER: f64 = 0.2;
 const NARROWEST_GAP: f64 = 3.0;
 /// Share of a spacing within which ends of walls touch.
 const TOUCHING: f64 = 0.5;
-/// Most triangles of a wall per square of the spacing: finer ones change nothing, and the start searches among all.
+/// Most triangles of a wall per square of the spacing: finer ones only take time and memory.
 const FINEST: f64 = 16.0;
 /// Most ends of walls between which gaps are searched.
 const MOST_ENDS: usize = 2000;
@@ -43,8 +43,8 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
             let finer = wall.facet_wall().facets.len() as f64 * scene.spacing.powi(2) / wall.measure();
             if finer > FINEST {
                 caution(&format!(
-                    "wall `{}` has {finer:.0} triangles per square of the spacing (limit {FINEST:.0}): finer ones change nothing, \
-                     but the start takes minutes; simplify the mesh",
+                    "wall `{}` has {finer:.0} triangles per square of the spacing (limit {FINEST:.0}): finer ones change nothing \
+                     but the time and memory of the start; simplify the mesh",
                     wall.name()
                 ));
             }

@@ -33,7 +33,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         for (k, wall) in self.walls.iter().enumerate() {
             let sound = wall
                 .check(self.spacing, (upper - lower).max())
-                .and_then(|()| check_motion(&wall.facet_wall().motion, S::Wall::GIVEN_BY));
+                .and_then(|()| check_motion(&wall.motion(), S::Wall::GIVEN_BY));
             sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
         }
         self.check_scales()?;

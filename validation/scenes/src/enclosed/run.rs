@@ -215,7 +215,7 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
 
     /// Largest speed of a wall `[m/s]`.
     fn fastest_wall(&self) -> f64 {
-        self.scene.walls.iter().map(|wall| wall.facet_wall().motion.largest_speed()).fold(0.0, f64::max)
+        self.scene.walls.iter().map(|wall| wall.motion().largest_speed()).fold(0.0, f64::max)
     }
 
     /// Largest speed of an inlet `[m/s]`.

@@ -4,7 +4,7 @@ use super::given::PlainData;
 use super::{GivenRate, Measurand};
 use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::facet_wall::FacetWall;
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion};
 use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};
 use bagnold_solver::weakly_compressible::walls::Surface;
 
@@ -49,6 +49,9 @@ pub trait SceneWall<const D: usize>: PlainData {
 
     /// The wall for the solver.
     fn facet_wall(&self) -> FacetWall<D>;
+
+    /// Its motion from the start.
+    fn motion(&self) -> Motion<D>;
 
     /// Openings of its mesh in words; none of another wall or of a closed mesh. Defects of the mesh are warned of.
     fn openings(&self) -> Option<String> {

@@ -2,7 +2,7 @@
 
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
-use bagnold_solver::weakly_compressible::enclosure::facet_grid::FacetGrid;
+use bagnold_solver::weakly_compressible::enclosure::facet_tree::FacetTree;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::FacetWall;
 use bagnold_solver::weakly_compressible::enclosure::{BoundarySet, Inlet};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
@@ -12,12 +12,12 @@ const FREE: f64 = 0.4;
 /// Particles that are behind a wall by less than this have passed it, in spacings `[-]`.
 const PASSED: f64 = 0.5;
 
-/// Facets that stand together, with a grid to find them by.
+/// Facets that stand together, with a tree to find them by.
 struct FacetSurface<const D: usize> {
     facets: Vec<Facet<D>>,
     /// The wall that each facet is of, by its place among all.
     walls: Vec<usize>,
-    grid: FacetGrid<D>,
+    tree: FacetTree,
 }
 
 /// The wall that is nearest to a place.
@@ -33,12 +33,12 @@ impl<const D: usize> FacetSurface<D> {
     fn of<'a>(walls: impl Iterator<Item = (usize, &'a FacetWall<D>)>, range: f64) -> Self {
         let (walls, facets): (Vec<usize>, Vec<Facet<D>>) =
             walls.flat_map(|(index, wall)| wall.facets.iter().map(move |facet| (index, *facet))).unzip();
-        Self { grid: FacetGrid::new(&facets, range), facets, walls }
+        Self { tree: FacetTree::new(&facets, range), facets, walls }
     }
 
     /// The wall nearest to a place; none where all are farther than the range.
     fn nearest(&self, place: &Vector<D>) -> Option<NearestWall> {
-        let found = self.grid.side(&self.facets, place)?;
+        let found = self.tree.side(&self.facets, place)?;
         Some(NearestWall { wall: self.walls[found.facet], distance: found.distance })
     }
 }

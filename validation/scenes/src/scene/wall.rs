@@ -75,11 +75,15 @@ impl setting::SceneWall<2> for WallLine {
         };
         let mut facet_wall = FacetWall::polyline(&self.name, &points, side);
         facet_wall.roughness = self.surface;
-        facet_wall.motion = Motion {
+        facet_wall.motion = self.motion();
+        facet_wall
+    }
+
+    fn motion(&self) -> Motion<2> {
+        Motion {
             times: self.motion.iter().map(|row| row.0).collect(),
             displacements: self.motion.iter().map(|row| Vector::<2>::new(row.1, row.2)).collect(),
-        };
-        facet_wall
+        }
     }
 
     fn hull(&self) -> Vec<Vector<2>> {

@@ -35,7 +35,9 @@ impl Openings {
         while let Some(start) = open.keys().next().copied() {
             let (mut ring, mut place) = (Vec::new(), start);
             while let Some(next) = open.get_mut(&place).and_then(Vec::pop) {
-                open.retain(|_, ways| !ways.is_empty());
+                if open.get(&place).is_some_and(Vec::is_empty) {
+                    open.remove(&place);
+                }
                 ring.push(Vector::from(place.map(f64::from_bits)));
                 place = next;
                 if place == start {

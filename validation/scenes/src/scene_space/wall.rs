@@ -5,6 +5,7 @@ use super::openings::Openings;
 use crate::case::ParameterError;
 use crate::enclosed::setting::{self, shown, vector};
 use crate::enclosed::{DomainSide, shapes, sides};
+use crate::input::PackedTriangles;
 use crate::output::caution;
 use bagnold_number::four_digits;
 use bagnold_solver::parameter::above;
@@ -41,6 +42,10 @@ pub struct SpaceWall {
     /// Triangles, each by its corners x, y, z `[m]`.
     #[serde(default)]
     pub triangles: Vec<(SpaceVector, SpaceVector, SpaceVector)>,
+    /// Triangles of a mesh of more than 10 000, in base64: the number of corners in 4 bytes, x, y, z of each `[m]` in 8, and the
+    /// three corners of every triangle by their places in 4; least byte first.
+    #[serde(default, skip_serializing_if = "PackedTriangles::is_empty")]
+    pub packed: PackedTriangles,
     /// Plane quadrilaterals, each by its corners x, y, z `[m]` in their order.
     #[serde(default)]
     pub quads: Vec<(SpaceVector, SpaceVector, SpaceVector, SpaceVector)>,
@@ -77,6 +82,7 @@ impl SpaceWall {
             rotate: SpaceVector::default(),
             shift: SpaceVector::default(),
             triangles: Vec::new(),
+            packed: PackedTriangles::default(),
             quads,
             boxes: Vec::new(),
             surface: Surface::Rough,
@@ -87,10 +93,21 @@ impl SpaceWall {
 
     /// All its triangles `[m]`.
     fn corners(&self) -> Vec<[Vector<3>; 3]> {
+        self.unpacked().chain(self.packed.triangles().iter().map(|corners| corners.map(Vector::from))).collect()
+    }
+
+    /// All its triangles but those of a large mesh `[m]`.
+    fn unpacked(&self) -> impl Iterator<Item = [Vector<3>; 3]> {
         let given = self.triangles.iter().map(|(a, b, c)| [vector(a), vector(b), vector(c)]);
         let quads = self.quads.iter().map(|(a, b, c, d)| [vector(a), vector(b), vector(c), vector(d)]);
         let boxes = self.boxes.iter().flat_map(|(lower, upper)| faces(&vector(lower), &vector(upper)));
-        given.chain(quads.chain(boxes).flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])).collect()
+        given.chain(quads.chain(boxes).flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]]))
+    }
+
+    /// Lower and upper corner of its box `[m]`.
+    fn bounds(&self) -> (Vector<3>, Vector<3>) {
+        let packed = self.packed.bounds().into_iter().flatten().map(Vector::from);
+        shapes::around(self.unpacked().flatten().chain(packed))
     }
 }
 
@@ -127,21 +144,25 @@ impl setting::SceneWall<3> for SpaceWall {
     fn facet_wall(&self) -> FacetWall<3> {
         let mut facet_wall = FacetWall::mesh(&self.name, &self.corners());
         facet_wall.roughness = self.surface;
-        facet_wall.motion = Motion {
+        facet_wall.motion = self.motion();
+        facet_wall
+    }
+
+    fn motion(&self) -> Motion<3> {
+        Motion {
             times: self.motion.iter().map(|row| row.0).collect(),
             displacements: self.motion.iter().map(|row| Vector::<3>::new(row.1, row.2, row.3)).collect(),
-        };
-        facet_wall
+        }
     }
 
     /// The corners of its box: a mesh has many.
     fn hull(&self) -> Vec<Vector<3>> {
-        let (lower, upper) = shapes::around(self.corners().into_iter().flatten());
+        let (lower, upper) = self.bounds();
         faces(&lower, &upper)[..2].concat()
     }
 
     fn measure(&self) -> f64 {
-        self.corners().iter().map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum()
+        self.unpacked().map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum::<f64>() + self.packed.area()
     }
 
     /// Refuses walls without an area, quadrilaterals that are not plane and empty boxes.
@@ -149,11 +170,11 @@ impl setting::SceneWall<3> for SpaceWall {
         let refused = |field: &str, value: String, rule: &str, remedy: &str| {
             Err(ParameterError::field(field, value, rule, remedy))
         };
-        if !self.mesh.is_empty() && self.triangles.is_empty() {
+        if !self.mesh.is_empty() && self.triangles.is_empty() && self.packed.is_empty() {
             let rule = "read with the case file that names it";
             return refused("mesh", format!("\"{}\"", self.mesh), rule, "name it in a case file, or give `triangles`");
         }
-        let (lower, upper) = shapes::around(self.corners().into_iter().flatten());
+        let (lower, upper) = self.bounds();
         let size = (upper - lower).max();
         // a file in millimetres is 1000 times too large
         if !self.mesh.is_empty() && bodies > 0.0 && !(bodies / 200.0..=200.0 * bodies).contains(&size) {
