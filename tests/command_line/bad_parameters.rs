@@ -306,8 +306,8 @@ fn a_moving_bed_that_cannot_be() {
         ),
         (
             "continuum.closures.turbulent_schmidt=0.7",
-            "`continuum.closures.turbulent_schmidt` is 0.7, but must be 0; no eddy carries the particles' grains; bed-load-1d \
-             compares both",
+            "`continuum.closures.turbulent_schmidt` is 0.7, but must be 0 unless all runs are `dilating`; eddies carry no grains \
+             of a given fraction",
         ),
         (
             "continuum.columns.node_ratio=0.0",
