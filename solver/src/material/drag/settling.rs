@@ -45,9 +45,9 @@ mod tests {
 
     #[test]
     fn small_grains_settle_by_stokes_and_large_ones_by_newton() {
-        // (ρ_s − ρ_f) g d²/(18 μ) of 10 μm, and √(4 (s − 1) g d/(3 · 0.44)) of 50 mm
-        let small = DragLaw::WenYu.settling_velocity(1e-9, 16_186.5, 1e-5, 1000.0, 1e-6);
-        let stokes = 16_186.5 * 1e-10 / 18e-3;
+        // (ρ_s − ρ_f) g d²/(18 μ) of 1 μm, and √(4 (s − 1) g d/(3 · 0.44)) of 50 mm
+        let small = DragLaw::WenYu.settling_velocity(1e-9, 16_186.5, 1e-6, 1000.0, 1e-6);
+        let stokes = 16_186.5 * 1e-12 / 18e-3;
         assert!((small / stokes - 1.0).abs() < 1e-3, "{small} for {stokes} m/s");
         let large = DragLaw::WenYu.settling_velocity(1e-9, 16_186.5, 0.05, 1000.0, 1e-6);
         let newton = (4.0 * 16.1865 * 0.05 / (3.0 * 0.44_f64)).sqrt();
