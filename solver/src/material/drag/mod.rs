@@ -23,6 +23,8 @@ mod gidaspow;
 mod morsi_alexander;
 mod schiller_naumann;
 mod settling;
+
+pub use settling::{Settling, SettlingTable};
 mod suspension;
 mod wen_yu;
 

@@ -11,7 +11,7 @@
 
 use crate::evidence::read_shipped;
 use crate::metric::Confidence;
-use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::drag::{DragLaw, Settling};
 use serde::Serialize;
 use std::sync::LazyLock;
 
@@ -77,6 +77,16 @@ impl SettlingGrains {
     #[must_use]
     pub fn submerged_weight(&self) -> f64 {
         (self.grain_density - self.fluid_density).abs() * self.gravity
+    }
+
+    /// What the solver's own settling velocity takes.
+    pub(crate) fn settling(&self) -> Settling {
+        Settling {
+            submerged_weight: self.submerged_weight(),
+            grain_diameter: self.grain_diameter,
+            fluid_density: self.fluid_density,
+            kinematic_viscosity: self.kinematic_viscosity,
+        }
     }
 
     /// Archimedes number |ρ_s/ρ_f − 1| g d³/ν² `[-]`.

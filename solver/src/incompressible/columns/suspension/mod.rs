@@ -24,14 +24,9 @@ use super::super::stratification::Stratification;
 use super::grid::ColumnGrid;
 use super::nodes::Nodes;
 use crate::material::dilatancy::Dilatancy;
+use crate::material::drag::{Settling, SettlingTable};
 use crate::material::turbulence::eddy_viscosity;
 use crate::vector::{Tensor, shear_rate};
-
-/// Intervals of the table of w(φ): straight lines are within 1e-4 of the law.
-const INTERVALS: usize = 256;
-
-/// Solid fraction that stands for a grain alone `[-]`.
-const ALONE: f64 = 1e-9;
 
 /// Relative change of the amount of grains to which it is met, and of a cell's pressure at which it is found `[-]`.
 const ROUNDING: f64 = 1e-13;
@@ -47,8 +42,8 @@ const LEAST_LOAD: f64 = 1e-12;
 pub(crate) struct SuspensionLaws {
     /// c `[Pa/m]`.
     pub(crate) submerged_weight: f64,
-    /// w(φ) `[m/s]` over equal intervals from 0 to φ_max.
-    pub(crate) settling: Vec<f64>,
+    /// w(φ) up to φ_max.
+    pub(crate) settling: SettlingTable,
     /// φ_max, B and the grains.
     pub(crate) dilatancy: Dilatancy,
 }
@@ -60,21 +55,14 @@ impl SuspensionLaws {
         dilatancy: Dilatancy,
         submerged_weight: f64,
     ) -> Self {
-        let (density, viscosity) = (scene.fluid.density, scene.fluid.kinematic_viscosity);
-        let velocity = |node: usize| {
-            let fraction = (dilatancy.packing * node as f64 / INTERVALS as f64).max(ALONE);
-            material.drag.settling_velocity(fraction, submerged_weight, material.drag_diameter, density, viscosity)
+        let settling = Settling {
+            submerged_weight,
+            grain_diameter: material.drag_diameter,
+            fluid_density: scene.fluid.density,
+            kinematic_viscosity: scene.fluid.kinematic_viscosity,
         };
-        Self { submerged_weight, settling: (0..=INTERVALS).map(velocity).collect(), dilatancy }
-    }
-
-    /// w `[m/s]` at a solid fraction `[-]`.
-    fn settling_velocity(&self, fraction: f64) -> f64 {
-        let last = self.settling.len() - 1;
-        let place = (fraction / self.dilatancy.packing).clamp(0.0, 1.0) * last as f64;
-        let node = (place as usize).min(last - 1);
-        let part = place - node as f64;
-        self.settling[node] + part * (self.settling[node + 1] - self.settling[node])
+        let settling = SettlingTable::new(&settling, material.drag, dilatancy.packing);
+        Self { submerged_weight, settling, dilatancy }
     }
 
     /// √p′ `[√Pa]` and φ `[-]` in the middle of a cell of a shear rate `[1/s]`: the root r of r² + C r/(r + S) = `below`,
@@ -213,7 +201,7 @@ impl Suspension {
         let (below, own) = (self.diffusivity[node - 1], self.diffusivity[node]);
         // none beside a node without eddies
         let diffusivity = if below > 0.0 && own > 0.0 { 2.0 * below * own / (below + own) } else { 0.0 };
-        self.laws.submerged_weight * diffusivity / self.laws.settling_velocity(fraction)
+        self.laws.submerged_weight * diffusivity / self.laws.settling.at(fraction)
     }
 
     /// Marches up over a base pressure `[Pa]`: φ* and √p′ of the nodes, and the forces; returns the amount of grains `[m]`.
@@ -287,7 +275,7 @@ impl Suspension {
             let part = if to > from { ((amount - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
             way += share * (base(goal) + part * (grid.height(goal) + 0.5 * grid.cell - base(goal)) - height);
         }
-        let fastest = self.laws.settling_velocity(0.0);
+        let fastest = self.laws.settling.at(0.0);
         (way / time).clamp(-fastest, fastest)
     }
 }

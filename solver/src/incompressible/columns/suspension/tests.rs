@@ -3,6 +3,7 @@
 use super::super::super::scene::SedimentPressure;
 use super::super::Columns;
 use super::super::tests::{columns_of, scene, shear_flow, with_eddies};
+use crate::material::drag::SettlingTable;
 use crate::vector::{Tensor, Vector};
 
 /// Settling velocity `[m/s]` and Schmidt number `[-]` of the grains, and the height of their space `[m]`, 12 mm of water over
@@ -35,7 +36,7 @@ fn suspended(physics: Physics, node_ratio: f64, eddies: &dyn Fn(f64) -> f64) -> 
     for _ in 0..600 {
         columns.gather(&mut scene, &fluid, &gradients).expect("within the law");
         let Columns { grid, nodes, suspension: Some(suspension), grains, .. } = &mut columns else { panic!("eddies") };
-        suspension.laws.settling = vec![physics.settling; 2];
+        suspension.laws.settling = SettlingTable::uniform(physics.settling, suspension.laws.dilatancy.packing);
         let held = grid.height(grid.held - 1);
         for node in 0..grid.len() {
             // the topmost held node stands for the half cell above it
@@ -142,7 +143,7 @@ fn no_eddies_no_settling_and_a_tenth_of_the_schmidt_number_are_seen() {
     assert!(particles(&suspended(NO_EDDIES, 0.5, &uniform), 0.0).0 < 0.1 * FALL);
 }
 
-/// What eddies lift the water's pressure carries, and contacts the rest of the weight, in a flow over a bed that moves.
+/// Balance of a flow over a bed that moves: the water's pressure carries the grains that eddies lift, contacts the others.
 #[test]
 fn forces_on_grains_and_water_are_opposite_and_the_weight_is_carried() {
     let (mut columns, mut scene, fluid) = columns_of(with_eddies(scene(0.02, shear_flow, 5), 0.05));

@@ -12,8 +12,9 @@ use super::block_tridiagonal::{BlockRow, solve};
 use super::closures::{Between, StressResponse};
 use super::dilation::Dilation;
 use super::profile::LayerState;
-use super::suspension::{SettlingTable, Stirring, Suspension};
+use super::suspension::{Stirring, Suspension};
 use super::{BedLoadLayer, GrainMotion, InitialVelocity};
+use bagnold_solver::material::drag::SettlingTable;
 
 /// Solid fraction below which suspended grains go with those below them `[-]`.
 const SPARSE: f64 = 1e-6;
@@ -81,8 +82,9 @@ impl<'a> TwoPhaseColumn<'a> {
         let (fraction, fluid) = (fraction.collect(), (0..cells).map(speed).collect());
         let grains = (0..cells).map(|k| if k < held { 0.0 } else { speed(k) }).collect();
         let BedLoadLayer { stream, closures, .. } = layer;
-        let settling = (closures.turbulent_schmidt > 0.0)
-            .then(|| SettlingTable::new(&stream.settling_grains(), closures.drag, closures.largest_fraction));
+        let settling = (closures.turbulent_schmidt > 0.0).then(|| {
+            SettlingTable::new(&stream.settling_grains().settling(), closures.drag, closures.largest_fraction)
+        });
         Self { layer, held, fraction, fluid, grains, settling }
     }
 

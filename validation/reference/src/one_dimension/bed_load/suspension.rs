@@ -14,8 +14,6 @@
 //! Cells march upwards from the base: trapezia for the weight, differences for ∂_z φ, second order.
 
 use super::dilation::share;
-use crate::settling::SettlingGrains;
-use bagnold_solver::material::drag::DragLaw;
 
 /// Inputs besides shear and eddies.
 #[derive(Debug, Clone, Copy)]
@@ -37,36 +35,6 @@ pub(super) struct Stirring<'a> {
     pub(super) shear: &'a [f64],
     /// D `[Pa]` at the faces, that of the base first.
     pub(super) dispersion: &'a [f64],
-}
-
-/// Settling velocity w(φ) `[m/s]` of a suspension over its solid fraction, as a table: the law needs a root at each φ.
-#[derive(Debug, Clone)]
-pub(super) struct SettlingTable {
-    velocity: Vec<f64>,
-    largest_fraction: f64,
-}
-
-/// Intervals of the table: straight lines are within 1e-4 of the law.
-const INTERVALS: usize = 256;
-
-/// Solid fraction that stands for a grain alone `[-]`.
-const ALONE: f64 = 1e-9;
-
-impl SettlingTable {
-    /// From 0 to a largest fraction `[-]`; 0 where the law has no settling velocity.
-    pub(super) fn new(grains: &SettlingGrains, law: DragLaw, largest_fraction: f64) -> Self {
-        let fraction = |node: usize| (largest_fraction * node as f64 / INTERVALS as f64).max(ALONE);
-        let velocity = |node| grains.hindered_velocity(law, fraction(node)).unwrap_or(0.0);
-        Self { velocity: (0..=INTERVALS).map(velocity).collect(), largest_fraction }
-    }
-
-    /// w `[m/s]` at a solid fraction `[-]`.
-    pub(super) fn at(&self, fraction: f64) -> f64 {
-        let place = (fraction / self.largest_fraction).clamp(0.0, 1.0) * INTERVALS as f64;
-        let node = (place as usize).min(INTERVALS - 1);
-        let part = place - node as f64;
-        self.velocity[node] + part * (self.velocity[node + 1] - self.velocity[node])
-    }
 }
 
 /// Share of the weight to which the amount of grains is met `[-]`.
@@ -129,6 +97,8 @@ impl Suspension {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settling::SettlingGrains;
+    use bagnold_solver::material::drag::{DragLaw, SettlingTable};
 
     /// Grains of 0.2 mm of sand, by their settling velocity `[m/s]`, and a stream of 0.1 m with u_* = 0.05 m/s.
     const SETTLING: f64 = 0.025;
@@ -249,7 +219,7 @@ mod tests {
             kinematic_viscosity: 1e-6,
             gravity: 9.81,
         };
-        let table = SettlingTable::new(&grains, DragLaw::DiFelice, 0.6);
+        let table = SettlingTable::new(&grains.settling(), DragLaw::DiFelice, 0.6);
         for fraction in [1e-6, 0.0371, 0.2, 0.333, 0.599] {
             let exact = grains.hindered_velocity(DragLaw::DiFelice, fraction).expect("settles");
             assert!((table.at(fraction) / exact - 1.0).abs() < 1e-4, "{fraction}: {} {exact}", table.at(fraction));
