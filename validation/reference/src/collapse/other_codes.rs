@@ -5,7 +5,7 @@ use crate::evidence::{MeasuredData, ReferenceError, read_shipped};
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
-/// What a code tells of a collapse.
+/// Quantities that codes tell of a collapse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CodeQuantity {
     /// Kinetic energy over ½ M g h_0 `[-]`.
@@ -26,7 +26,7 @@ pub const AT_REST: f64 = 10.0;
 pub struct CodeSeries {
     /// Name of the code.
     pub code: String,
-    /// What it tells.
+    /// The quantity.
     pub quantity: CodeQuantity,
     /// Aspect ratio `[-]` or slope `[°]`.
     pub flow: f64,

@@ -42,8 +42,8 @@ pub struct SpaceWall {
     /// Triangles, each by its corners x, y, z `[m]`.
     #[serde(default)]
     pub triangles: Vec<(SpaceVector, SpaceVector, SpaceVector)>,
-    /// Triangles of a mesh of more than 10 000, in base64: the number of corners in 4 bytes, x, y, z of each `[m]` in 8, and the
-    /// three corners of every triangle by their places in 4; least byte first.
+    /// Triangles of a mesh of more than 10 000, as the program writes them: base64, least byte first. The number of corners has 4
+    /// bytes, x, y and z of a corner `[m]` 8 each. Three places of corners follow for every triangle, of 4 bytes.
     #[serde(default, skip_serializing_if = "PackedTriangles::is_empty")]
     pub packed: PackedTriangles,
     /// Plane quadrilaterals, each by its corners x, y, z `[m]` in their order.
