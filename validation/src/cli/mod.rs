@@ -141,6 +141,14 @@ pub fn execute(
     output.finish().map(|()| exit)
 }
 
+/// The error of a name that is neither a case nor a kind of file, with the kind that is meant.
+fn unknown_schema(name: &str, unknown: ParameterError) -> ParameterError {
+    match crate::input::nearest(name, ["study", "calibration", "sweep"]) {
+        Some(kind) => ParameterError::UnknownCase { file: None, name: name.to_owned(), nearest: Some(kind) },
+        None => unknown,
+    }
+}
+
 fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let junit = match &arguments.command {
         Command::Run(run) => run.junit.as_deref(),
@@ -170,7 +178,8 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
                 (Err(_), "study") => crate::study::schema(),
                 (Err(_), "calibration") => crate::calibration::schema().clone(),
                 (Err(_), "sweep") => crate::sweep::schema().clone(),
-                (case, _) => case?.schema(show.tier),
+                (Ok(case), _) => case.schema(show.tier),
+                (Err(unknown), name) => return Err(unknown_schema(name, unknown).into()),
             };
             print(output, &format!("{schema:#}\n"));
             Ok(Exit::Held)

@@ -18,13 +18,13 @@ pub struct SuspensionInputs {
     #[schemars(transform = between(0.05, 1e9, "0.4 to 1 for suspensions, 1e6 for no suspension"))]
     pub schmidt_number: f64,
     /// Diameter of the sphere with the drag of a grain of the measured sheet flow, over d `[-]`.
-    #[schemars(transform = between(0.01, 2.0, "1 for spheres, 0.5 for crushed plastic"))]
+    #[schemars(transform = between(0.01, 2.0, "it counts grain diameters: 1 for spheres, 0.5 for crushed plastic"))]
     pub drag_diameter: f64,
     /// Other Schmidt numbers `[-]`.
     #[schemars(transform = each(between(0.05, 1e9, "0.4 to 1 for suspensions")))]
     pub schmidt_numbers: Vec<f64>,
     /// Other diameters of drag over d `[-]`.
-    #[schemars(transform = each(between(0.01, 2.0, "1 for spheres, 0.5 for crushed plastic")))]
+    #[schemars(transform = each(between(0.01, 2.0, "it counts grain diameters: 1 for spheres, 0.5 for crushed plastic")))]
     pub drag_diameters: Vec<f64>,
     /// Other values of von Kármán's κ `[-]`.
     #[schemars(transform = each(positive("0.41 in clear water, less with sediment")))]

@@ -187,6 +187,12 @@ impl ParameterError {
         }
     }
 
+    /// The place in a plan of what only a plan's block says: which runs are meant.
+    #[must_use]
+    pub fn of_block(self, block: &str) -> Self {
+        if self.field_path() == Some("only") { self.within(block) } else { self }
+    }
+
     /// The dotted path of the parameter at fault, if the error is about one.
     #[must_use]
     pub fn field_path(&self) -> Option<&str> {

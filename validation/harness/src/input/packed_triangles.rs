@@ -7,7 +7,7 @@ use super::mesh::{MOST_TRIANGLES, Triangle};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -24,10 +24,17 @@ pub struct PackedTriangles {
 }
 
 impl PackedTriangles {
-    /// Whether there are none.
+    /// Whether there is no text.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.triangles.is_empty()
+        self.text.is_empty()
+    }
+
+    /// The beginning of a text that says no triangles, if it is such a one.
+    #[must_use]
+    pub fn damage(&self) -> Option<String> {
+        let is_damaged = !self.is_empty() && self.triangles.is_empty();
+        is_damaged.then(|| format!("\"{}\"", self.text.chars().take(12).collect::<String>()))
     }
 
     /// The triangles, each by its corners `[m]`.
@@ -108,8 +115,7 @@ impl Serialize for PackedTriangles {
 impl<'de> Deserialize<'de> for PackedTriangles {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = String::deserialize(deserializer)?;
-        let triangles = if text.is_empty() { Some(Vec::new()) } else { unpacked(&text) };
-        let triangles = triangles.ok_or_else(|| D::Error::custom("`packed` is damaged: name the `mesh` without it"))?;
+        let triangles = unpacked(&text).unwrap_or_default();
         let (bounds, area) = (bounds_of(&triangles), triangles.iter().map(area_of).sum());
         Ok(Self { text: text.into(), triangles: triangles.into(), bounds, area })
     }
@@ -147,6 +153,9 @@ mod tests {
         assert_eq!(bits(&found), bits(&triangles));
         let whole: PackedTriangles = serde_json::from_value(serde_json::json!(text)).expect("read");
         assert_eq!(serde_json::to_value(&whole).expect("written"), serde_json::json!(text));
+        assert_eq!((whole.damage(), PackedTriangles::default().damage()), (None, None));
+        let damaged: PackedTriangles = serde_json::from_value(serde_json::json!(text[4..])).expect("read");
+        assert_eq!(damaged.damage(), Some(format!("\"{}\"", &text[4..16])));
         for wrong in ["A", "AAAA", &packed(&[[[f64::NAN; 3]; 3]]), &text[4..]] {
             assert_eq!(unpacked(wrong), None, "{wrong}");
         }

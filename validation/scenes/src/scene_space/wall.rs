@@ -174,6 +174,10 @@ impl setting::SceneWall<3> for SpaceWall {
             let rule = "read with the case file that names it";
             return refused("mesh", format!("\"{}\"", self.mesh), rule, "name it in a case file, or give `triangles`");
         }
+        if let Some(text) = self.packed.damage() {
+            let rule = "triangles as the program writes them, whole";
+            return refused("packed", text, rule, "leave it out, so that the `mesh` is read again");
+        }
         let (lower, upper) = self.bounds();
         let size = (upper - lower).max();
         // a file in millimetres is 1000 times too large

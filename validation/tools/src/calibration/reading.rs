@@ -49,7 +49,7 @@ impl CalibrationPlan {
             }
             let prepare = |settings: &[String]| {
                 let prepared = block.request.prepare(registry, &self.file, settings, self.limits);
-                prepared.map_err(|error| PlanError::of(error, &self.file))
+                prepared.map_err(|error| PlanError::of(error.of_block(&block.field), &self.file))
             };
             for choice in &self.choices {
                 prepare(&choice.in_case(&block.request.case))?;

@@ -230,8 +230,9 @@ impl SweepPlan {
         }
         let mut entries = Vec::with_capacity(runs);
         let mut refusal = None;
-        for request in &self.text.cases {
-            request.prepare(registry, &self.file, &[], limits)?;
+        for (index, request) in self.text.cases.iter().enumerate() {
+            let prepared = request.prepare(registry, &self.file, &[], limits);
+            prepared.map_err(|error| error.of_block(&format!("cases[{index}]")))?;
             for point in &points {
                 let setting = |(parameter, value): (&SweptParameter, &String)| {
                     format!("{}={value}", parameter.path.in_case(&request.case).unwrap_or_default())

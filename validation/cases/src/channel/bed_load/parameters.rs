@@ -176,7 +176,7 @@ pub struct Continuum {
     /// Closures of particles and of the layer.
     pub closures: Closures,
     /// Diameter of the sphere with the drag of a grain, over d `[-]`.
-    #[schemars(transform = between(0.01, 2.0, "1 for spheres, 0.5 for crushed plastic"))]
+    #[schemars(transform = between(0.01, 2.0, "it counts grain diameters: 1 for spheres, 0.5 for crushed plastic"))]
     pub drag_diameter: f64,
     /// Largest spacing of grains that move at a given fraction, over τ* d `[-]`: their velocity falls by e over some
     /// 0.9 τ* d, and a layer thinner than that needs finer particles than a file asks for.
