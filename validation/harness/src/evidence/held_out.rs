@@ -67,8 +67,9 @@ impl HeldOutJudgement {
         let (agree, differ, open) = (count(Some(true)), count(Some(false)), count(None));
         let open =
             if open > 0 { format!("; for {open} the parameters are too uncertain to tell") } else { String::new() };
+        let verb = if differ == 1 { "differs" } else { "differ" };
         format!(
-            "Held out: {agree} of {} data agree with their prediction within 2 u_val, {differ} differ{open}.",
+            "Held out: {agree} of {} data agree with their prediction within 2 u_val, {differ} {verb}{open}.",
             self.data.len()
         )
     }

@@ -166,7 +166,7 @@ fn held_out((name, judgement): &(&str, HeldOutJudgement)) -> Value {
     json!({
         "name": name,
         "title": judgement.title,
-        "sources": sources.into_iter().collect::<Vec<_>>().join("; "),
+        "sources": sources.iter().zip(1..).map(|(source, number)| format!("({number}) {source}")).collect::<Vec<_>>().join("; "),
         "sentence": judgement.in_words(),
         "parameters": judgement.parameters,
         "findings": judgement.findings.iter().map(|finding| finding.replace('`', "")).collect::<Vec<_>>(),
