@@ -60,6 +60,16 @@ fn with_slips(text: &str, slips: &[Slip]) -> String {
     letters.into_iter().collect()
 }
 
+fn bytes_with_slips(bytes: &[u8], slips: &[Slip]) -> Vec<u8> {
+    let mut wrong = bytes.to_vec();
+    for (place, gone, slip) in slips {
+        let start = place.index(wrong.len() + 1);
+        let end = (start + gone).min(wrong.len());
+        wrong.splice(start..end, SLIPS[slip.index(SLIPS.len())].bytes());
+    }
+    wrong
+}
+
 /// Texts in the repository with one of these endings.
 fn shipped(folder: &str, ending: &str) -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder);
@@ -187,12 +197,7 @@ fn a_picture_of_another_code_is_read_or_refused() {
     for _ in 0..count() {
         let (which, slips) = slips().new_tree(&mut runner).expect("slips").current();
         let (name, bytes) = &files[which.index(files.len())];
-        let mut wrong = bytes.clone();
-        for (place, gone, slip) in &slips {
-            let start = place.index(wrong.len() + 1);
-            let end = (start + gone).min(wrong.len());
-            wrong.splice(start..end, SLIPS[slip.index(SLIPS.len())].bytes());
-        }
+        let wrong = bytes_with_slips(bytes, &slips);
         let (file, submission) = (folder.path().join(format!("wrong-{name}")), folder.path().join("submission.toml"));
         std::fs::write(&file, &wrong).expect("writable");
         let text = format!(
@@ -225,4 +230,44 @@ fn an_overlay_and_a_study_are_read_or_refused() {
         std::fs::write(&path, text).expect("writable");
         let _ = Study::read(&path, *REGISTRY);
     });
+}
+
+/// A mesh of a wall as text and as bytes, damaged: the scene that names it is prepared or refused by the name of its file.
+#[test]
+fn a_mesh_is_read_or_refused() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/scenes");
+    let text = std::fs::read(examples.join("funnel.stl")).expect("in the repository");
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let scene = folder.path().join("funnel.toml");
+    std::fs::copy(examples.join("funnel.toml"), &scene).expect("writable");
+    let corners: Vec<f32> = String::from_utf8_lossy(&text)
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("vertex "))
+        .flat_map(|line| line.split_whitespace().map(|number| number.parse().expect("a number")).collect::<Vec<f32>>())
+        .collect();
+    let mut binary = vec![0; 80];
+    binary.extend(u32::try_from(corners.len() / 9).expect("few").to_le_bytes());
+    for triangle in corners.chunks(9) {
+        binary.extend([0; 12]);
+        binary.extend(triangle.iter().flat_map(|number| number.to_le_bytes()));
+        binary.extend([0; 2]);
+    }
+    let files = [text, binary];
+    let mut runner = runner();
+    for _ in 0..count() {
+        let (which, slips) = slips().new_tree(&mut runner).expect("slips").current();
+        let wrong = bytes_with_slips(&files[which.index(files.len())], &slips);
+        std::fs::write(folder.path().join("funnel.stl"), &wrong).expect("writable");
+        let begun = processor_time();
+        let prepared = CaseFile::read(&scene).and_then(|file| {
+            let case = REGISTRY.find(&file.case).expect("a case");
+            let changes = bagnold_harness::case::Changes { file: Some((&scene, file.fields)), ..Default::default() };
+            AnyCase::prepare(case, Tier::Quick, &changes).map(|_| ())
+        });
+        if let Err(error) = prepared {
+            assert!(error.to_string().contains("funnel."), "{error}");
+        }
+        let taken = processor_time() - begun;
+        assert!(taken < SOON, "took {taken:?}: {}", String::from_utf8_lossy(&wrong));
+    }
 }
