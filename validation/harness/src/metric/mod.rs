@@ -423,11 +423,22 @@ mod tests {
 
     #[test]
     fn a_metric_is_read_back_from_the_binary_form_that_trials_leave() {
+        let prediction = PredictionInterval {
+            lower: 0.4,
+            upper: 0.6,
+            comparisons: 12,
+            input_uncertainty: None,
+            unit_length: None,
+            quantity: "front".to_owned(),
+            regime: FlowRegime::default(),
+            warnings: Vec::new(),
+        };
         for reason in [None, Some("not steady: it rises".to_owned())] {
-            let metric = Metric::observed("front", &Variant::default(), 0.5, "m").unless(reason.as_ref());
+            let mut metric = Metric::observed("front", &Variant::default(), 0.5, "m").unless(reason.as_ref());
+            metric.prediction = reason.is_none().then(|| prediction.clone());
             let bytes = postcard::to_allocvec(&metric).expect("plain data");
             let read: Metric = postcard::from_bytes(&bytes).expect("the same");
-            assert_eq!((read.name, read.not_steady), (metric.name, reason));
+            assert_eq!((read.name, read.not_steady, read.prediction), (metric.name, reason, metric.prediction));
         }
     }
 

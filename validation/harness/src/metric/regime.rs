@@ -63,7 +63,7 @@ pub struct PredictionInterval {
     #[serde(default)]
     pub input_uncertainty: Option<f64>,
     /// Length `[m]` that a dimensionless value counts; none of others.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub unit_length: Option<f64>,
     /// Quantity of the comparisons.
     pub quantity: String,
