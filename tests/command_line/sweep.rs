@@ -66,7 +66,10 @@ fn a_sweep_may_mean_some_runs_only() {
     let results = std::fs::read_to_string(place.path("out/results.csv")).expect("written");
     assert!(results.contains("fluid=newtonian") && !results.contains("fluid=bingham"), "{results}");
     let other = refusal(&chosen.replace("case = \"film\"", "case = \"film\"\nonly = [\"fluid=oil\"]"), &[]);
-    assert!(other.starts_with("error: plan.toml: `cases[0].only` is \"fluid=oil\", but must be keys of a run"), "{other}");
+    assert!(
+        other.starts_with("error: plan.toml: `cases[0].only` is \"fluid=oil\", but must be keys of a run"),
+        "{other}"
+    );
 }
 
 /// Points of a study, whose parameters a file of its own holds, are simulated one by one.
