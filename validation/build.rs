@@ -32,8 +32,8 @@ const REST: [&str; 3] = ["reference-data", "Cargo.lock", "Cargo.toml"];
 const PLANS: [&str; 4] = ["calibrations", "examples/scenes", "examples/studies", "sweeps"];
 
 /// Endings of the files of decks of other codes; some have none.
-const DECKS: [&str; 10] =
-    ["", "sh", "py", "toml", "gfs", "column", "chute", "bingham", "herschel_bulkley", "newtonian"];
+const DECKS: [&str; 11] =
+    ["", "sh", "py", "csv", "toml", "gfs", "column", "chute", "bingham", "herschel_bulkley", "newtonian"];
 
 /// Whether a file of the league is a deck's, or the submission beside it.
 fn is_of_deck(name: &str) -> bool {

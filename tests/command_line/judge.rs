@@ -121,6 +121,9 @@ fn export_contains_all_inputs() {
     place.bagnold(&["export", "film", "--for", "openfoam", "--out", "deck", "--quiet"]).assert().code(0);
     let own = std::fs::read_to_string(place.path("deck/submission.toml")).expect("written");
     assert!(own.contains("results/newtonian-profile.csv") && place.path("deck/deck/run.sh").is_file(), "{own}");
+    // a deck may have tables
+    place.bagnold(&["export", "water-film", "--for", "dualsphysics", "--out", "sph", "--quiet"]).assert().code(0);
+    assert!(["start.csv", "particles.py"].iter().all(|name| place.path("sph/deck").join(name).is_file()));
     let refused = place.bagnold(&["export", "film", "--for", "newton", "--out", "none", "--quiet"]).assert().code(2);
     let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
     assert!(message.contains("`--for` is newton, but must be a code with a deck of film at the tier quick: openfoam"));

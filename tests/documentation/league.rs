@@ -34,7 +34,7 @@ const ORDERS: &str = "
 
 The observed order is ln(error on the coarse mesh/error on the fine mesh) over ln(ratio of the
 cells). An error that changes its sign has no order, and one that is about to change it has a high
-order. An error of the law, such as a regularisation, stays and lowers the order.
+order. An error of the law or of an operator that no mesh reduces lowers the order.
 
 ";
 

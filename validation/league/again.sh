@@ -1,7 +1,7 @@
 #!/bin/bash
 # Run decks again and compare their tables with the stored ones: again.sh [CODE/CASE...].
-# Without a cell all decks run whose code is installed. Grains and material points may differ by
-# 3 % of the largest value of a column, meshes by 0.1 %.
+# Without a cell all decks run whose code is installed. Grains, particles and material points may
+# differ by 3 % of the largest value of a column, meshes by 0.1 %.
 set -uo pipefail
 league=$(cd "$(dirname "$0")" && pwd)
 cells=("$@")
@@ -27,7 +27,7 @@ for cell in "${cells[@]}"; do
         *) echo "$cell: ended with $code: $(tail -n 1 "$folder/output")"; differ=1; continue ;;
     esac
     case $cell in
-        lammps/* | yade/* | mpm/* | newton/*) tolerance=0.03 ;;
+        lammps/* | yade/* | mpm/* | newton/* | dualsphysics/*) tolerance=0.03 ;;
         *) tolerance=0.001 ;;
     esac
     python3 - "$league/$cell/results" "$folder/results" "$tolerance" "$cell" << 'END' || differ=1

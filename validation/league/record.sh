@@ -3,7 +3,7 @@
 set -euo pipefail
 cell=$(cd "$(dirname "$0")" && pwd)/$1
 folder=${2:-$(mktemp -d)}
-digest() { (cd "$1" && find . -type f | LC_ALL=C sort | xargs cat | sha256sum | cut -d ' ' -f 1); }
+digest() { (cd "$1" && find -L . -type f | LC_ALL=C sort | xargs cat | sha256sum | cut -d ' ' -f 1); }
 
 bash "$cell/deck/run.sh" "$folder"
 times > "$folder/times.txt" # the second line is that of the children: user and system time

@@ -84,7 +84,7 @@ pub struct ExportArguments {
     /// Folder to write.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Also write the deck of this code with run.sh: openfoam, gerris, lammps, newton or yade.
+    /// Also write the deck of this code with run.sh: openfoam, gerris, dualsphysics, lammps, newton or yade.
     #[arg(long = "for", value_name = "CODE")]
     pub code: Option<String>,
     /// Also simulate the case: initial particles, and profiles of Bagnold

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Layers of grains on an incline by Gerris: run.sh FOLDER. ANGLES and LEVEL may be set.
+# Layers of grains on an incline by Gerris: run.sh FOLDER. ANGLES and LEVEL may be set; SQUARE=1
+# takes as many cells along the slope as over the depth instead of one.
 set -euo pipefail
 for program in gerris2D gcc m4; do
     if ! command -v $program > /dev/null || [ ! -e /usr/include/gfs.h ]; then
@@ -11,11 +12,26 @@ done
 deck=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1/results"
 cd "$1"
-for angle in ${ANGLES:-24 25}; do
+level=${LEVEL:-5}
+cells=$((2 ** level))
+if [ -n "${SQUARE:-}" ]; then boxes=1; else boxes=$cells level=0; fi
+bed="bottom = Boundary { BcDirichlet U 0 BcDirichlet V 0 }"
+for angle in ${ANGLES:-22 23 24 25}; do
     mkdir -p "$angle"
-    awk -v angle="$angle" -v level="${LEVEL:-5}" 'BEGIN { radians = angle * atan2(0, -1) / 180 }
-        { sub("LEVEL", level); sub("COSINE", cos(radians)); sub("SINE", sin(radians)); print }' \
-        "$deck/layer.gfs" > "$angle/layer.gfs"
+    {
+        awk -v angle="$angle" -v boxes=$boxes -v level=$level 'BEGIN { radians = angle * atan2(0, -1) / 180 }
+            { sub("BOXES", boxes " " 2 * boxes - 1); sub("LEVEL", level); sub("SIZE", 1 / boxes)
+              sub("COSINE", cos(radians)); sub("SINE", sin(radians)); print }' "$deck/layer.gfs"
+        for ((box = 1; box <= boxes; box++)); do
+            [ $box -gt 1 ] && sides="" || sides="$bed"
+            [ $box -lt $boxes ] || sides+=" top = BoundaryOutflow"
+            echo "GfsBox { $sides }"
+        done
+        for ((box = 1; box <= boxes; box++)); do
+            echo "$box $box right"
+            [ $box -eq $boxes ] || echo "$box $((box + 1)) top"
+        done
+    } > "$angle/layer.gfs"
     (cd "$angle" && gerris2D layer.gfs > log 2>&1) || { tail -n 5 "$angle/log" >&2; exit 1; }
     # the cells at the left end, in SI units: depth 10 mm, bulk density 1500 kg/m3
     grep -v '^#' "$angle/end.txt" | sort -g | awk 'BEGIN { print "y,u,p" } NR == 1 { x = $1 }

@@ -1,0 +1,1 @@
+../../water-column/deck/particles.py
