@@ -79,7 +79,7 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     /// Time between two rows of the series `[s]`.
     #[schemars(transform = positive("give it in seconds, such as a hundredth of the duration"))]
     pub interval: f64,
-    /// Pictures over the duration.
+    /// Least number of pictures over the duration, which are 1, 2, 4, … intervals apart; the last state follows.
     pub pictures: usize,
     /// Bulk modulus over ρ0 g and the height of the scene `[-]`.
     #[schemars(transform = between(20.0, 1e4, "50 for grains; 200 make sound seven times as fast as a fall"))]
