@@ -81,3 +81,39 @@ fn a_run_that_cannot_continue_a_finished_one_says_why() {
     let told = outcome(&place, &other).2;
     assert!(!told.contains("resumes") && !told.contains("anew"), "{told}");
 }
+
+#[test]
+fn longer_runs_of_cases_of_both_models_continue_finished_ones() {
+    let column = |duration: f64| {
+        let lists = "lagree sensitivity regularised bars bars_frictions bars_limiting_frictions";
+        let empty = lists.split(' ').map(|list| format!("{list}.aspect_ratios=[]"));
+        let others = ["eddy", "uncoupled"].map(|list| format!("other_numerics.{list}_aspect_ratios=[]"));
+        let own = [format!("duration={duration}"), "resolution=10".to_owned(), "sand.aspect_ratios=[0.9]".to_owned()];
+        let settings: Vec<String> = empty.chain(others).chain(own).collect();
+        set("column-planar", &settings.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    let incline = |duration: f64| {
+        let duration = format!("duration={duration}");
+        set("incline-collapse", &["slope_angles=[16.0]", "resolution=15", &duration])
+    };
+    let still = |duration: f64| {
+        let duration = format!("duration={duration}");
+        set("still-water", &[&duration, "averaging_time=0.2", "unstabilised_jitters=[]"])
+    };
+    let bed_load = |duration: f64| {
+        let grains = format!("stabilised.duration={duration}");
+        let continuum = format!(
+            "continuum.runs=[{{ stage = \"dilating\", slopes = [0.03], pair_laws = [], starts = [1.0], spacings = [0.001], \
+             duration = {duration}, averaging_time = 0.05 }}]"
+        );
+        let lists = ["stabilised.slopes=[0.03]", "beside=[]", "continuum.numerics.time_step=4e-4"];
+        set("bed-load", &[&lists[..], &["stabilised.averaging_time=0.05", &grains, &continuum]].concat())
+    };
+    let cases: [(&dyn Fn(f64) -> Vec<String>, f64, f64); 4] =
+        [(&column, 0.5, 0.7), (&incline, 0.1, 0.17), (&bed_load, 0.1, 0.13), (&still, 0.5, 0.6)];
+    for (case, short, long) in cases {
+        let place = Place::new();
+        outcome(&place, &case(short));
+        assert_continues(&place, &case(long), &case(long)[0]);
+    }
+}
