@@ -186,7 +186,7 @@ fn unlikely_units_and_speeds_and_gaps_are_warned_of_and_can_be_rejected() {
 }
 
 /// The value of a metric in the results that a run has written.
-fn metric(place: &Place, name: &str, variant: &str) -> f64 {
+pub(crate) fn metric(place: &Place, name: &str, variant: &str) -> f64 {
     let text = std::fs::read_to_string(place.path("out").join("metrics.json")).expect("written");
     let results: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let metrics = results["metrics"].as_array().expect("metrics");

@@ -192,6 +192,7 @@ impl<'a> Channel<'a> {
         };
         let followed = follow_on(
             stage,
+            None,
             |_| Ok::<_, SceneError>(self.scene()),
             begin,
             |seen: &mut ChannelObserver<O>, simulation| {

@@ -10,6 +10,7 @@ use super::surfaces::{Surfaces, behind};
 use super::{BodyPreparation, SceneObservation, SceneParameters, shapes};
 use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, StartState};
 use crate::case::{ParameterError, Progress, Run, cost};
+use crate::checkpoint::Checkpoints;
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
 use bagnold_solver::domain::Domain;
@@ -146,17 +147,25 @@ where
         }
         let (gravity, measures) = (scene.pull(), scene.measures());
         let pull = scene.fall() / scene.height();
+        let (likeness, state) = (scene.likeness(), scene.stored_state()?);
         let periods = Periods::of(&scene.sides.axes());
-        let stage =
-            SimulationStage { progress, end: scene.duration, interval: scene.interval, window: 0.0, context: &() };
+        let stage = SimulationStage {
+            progress,
+            end: scene.duration,
+            interval: scene.interval,
+            window: 0.0,
+            context: &likeness,
+        };
         let pictures = || Pictures::new(scene.duration, scene.interval, scene.pictures);
-        let begin = |_: &Simulation<D>| SceneObserver {
+        let known = |simulation: &Simulation<D>| begun + simulation.inflow().particles() as usize;
+        let begin = |simulation: &Simulation<D>| SceneObserver {
             observation: SceneObservation::default(),
-            memory: Memory::default(),
+            memory: Memory::of(simulation, known(simulation)),
             pictures: pictures(),
         };
         let RestartableRun { simulation, stop, kept: (last_good, watch), started } = recording::follow_on(
             stage,
+            state.as_ref(),
             |beginning| match beginning {
                 StartState::New => self.prepared(made.clone()),
                 StartState::Continued | StartState::Described => Ok(made.clone()),
@@ -166,8 +175,7 @@ where
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, scene.duration, steps);
-                let known = begun + simulation.inflow().particles() as usize;
-                let values = watch.memory.read_all(&measures, simulation, last_good, (known, &periods));
+                let values = watch.memory.read_all(&measures, simulation, last_good, (known(simulation), &periods));
                 watch.observation.enter(simulation, last_good, (&gravity, pull), values);
                 if watch.pictures.is_due(last_good.time) {
                     watch.pictures.frames.push(Frame::of_flow(last_good));
@@ -177,6 +185,9 @@ where
             },
             |(_, watch)| pictures().adopt(&mut watch.pictures),
         )?;
+        if let Some(state) = progress.ends().and_then(Checkpoints::newest) {
+            progress.tell(&format!("a state near its end, for --from, is {}", state.display()));
+        }
         let mut ending = Ending::of(stop, last_good, started);
         "all material has left by open sides".clone_into(&mut ending.criterion);
         ending.frames = watch.pictures.frames;

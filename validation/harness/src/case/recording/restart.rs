@@ -3,7 +3,7 @@
 
 use super::Recordable;
 use crate::case::{Conditions, ParameterError, Progress, StateOutput};
-use crate::checkpoint::{Checkpoints, count_stopped, is_interrupted};
+use crate::checkpoint::{Checkpoints, StoredState, count_stopped, is_interrupted};
 use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fmt::Display;
@@ -126,16 +126,17 @@ where
     E: Into<ParameterError> + Display,
     for<'scene> Conditions: From<&'scene S::Scene>,
 {
-    follow_on(stage, scene, keep, observe, |_| Ok(()))
+    follow_on(stage, None, scene, keep, observe, |_| Ok(()))
 }
 
 /// As [`follow`]; a run that is longer than a finished one continues near its end. `adopt` makes of what that run has kept what this one
-/// would have kept by then, or says why not, as the rest of a sentence about that run.
+/// would have kept by then, or says why not, as the rest of a sentence about that run. A new run may start from a stored state.
 ///
 /// # Errors
 /// A scene that breaks a rule or cannot be made; an interruption.
 pub fn follow_on<const D: usize, S, O, C, E>(
     stage: SimulationStage<'_, C>,
+    state: Option<&StoredState>,
     scene: impl Fn(StartState) -> Result<S::Scene, E>,
     keep: impl FnOnce(&S) -> O,
     observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
@@ -187,7 +188,21 @@ where
             if let Some(reason) = refused {
                 progress.tell(&format!("begins anew: the finished run {reason}"));
             }
-            let simulation = S::begin(scene(StartState::New).map_err(Into::into)?)?;
+            let simulation = match state {
+                None => S::begin(scene(StartState::New).map_err(Into::into)?)?,
+                Some(state) => {
+                    let refused = |defect: String| {
+                        let remedy = "start from a state of a scene with these bodies, walls and material";
+                        ParameterError::field("from.file", defect, "", remedy)
+                    };
+                    let (simulation, ..) = restore(&state.contents).map_err(refused)?;
+                    if simulation.time() >= end {
+                        let rule = format!("beyond {} s, the time of the state", simulation.time());
+                        return Err(ParameterError::field("duration", end, &rule, "the clock of the state goes on"));
+                    }
+                    simulation
+                }
+            };
             // what comes before the start may have been cut short
             if is_interrupted() {
                 return Err(ParameterError::Interrupted);
