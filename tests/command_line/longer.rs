@@ -111,12 +111,16 @@ fn longer_runs_of_cases_of_both_models_continue_finished_ones() {
         let lists = ["stabilised.slopes=[0.03]", "beside=[]", "continuum.numerics.time_step=4e-4"];
         set("bed-load", &[&lists[..], &["stabilised.averaging_time=0.05", &grains, &continuum]].concat())
     };
-    let cases: [(&dyn Fn(f64) -> Vec<String>, f64, f64); 4] =
-        [(&column, 0.5, 0.7), (&incline, 0.1, 0.17), (&bed_load, 0.1, 0.13), (&still, 0.5, 0.6)];
-    for (case, short, long) in cases {
+    let cases = [
+        (column(0.5), column(0.7)),
+        (incline(0.1), incline(0.17)),
+        (bed_load(0.1), bed_load(0.13)),
+        (still(0.5), still(0.6)),
+    ];
+    for (short, long) in cases {
         let place = Place::new();
-        outcome(&place, &case(short));
-        assert_continues(&place, &case(long), &case(long)[0]);
+        outcome(&place, &short);
+        assert_continues(&place, &long, &long[0]);
     }
 }
 
