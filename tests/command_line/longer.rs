@@ -53,7 +53,7 @@ fn a_longer_run_continues_a_finished_one_bit_for_bit() {
         };
         let place = Place::new();
         outcome(&place, &lasting(1.0));
-        for times in [1.3, 2.0] {
+        for times in if name == "gate.toml" { vec![1.3, 2.0] } else { vec![1.3] } {
             assert_continues(&place, &lasting(times), name);
         }
     }
@@ -225,6 +225,9 @@ fn a_state_that_does_not_fit_is_refused_by_field_and_rule() {
     let of_model_b =
         walk(&channel.path("store")).into_iter().find(|file| file.ends_with("0.checkpoint")).expect("a state");
     let coarse = place.file("coarse.toml", &layer(0.0, 0.4, 0.005));
+    // 5 mm lower, and lowered before the state was left
+    let wall = "walls=[{ name = \"bed\", points = [[-0.02, -0.005], [0.07, -0.005]] }]";
+    let moved = "walls=[{ name = \"bed\", points = [[-0.02, 0.0], [0.07, 0.0]], motion = [[0.0, 0.0, 0.0], [0.04, 0.0, -0.005]] }]";
     let bodies = "bodies=[{ shape = \"box\", lower = [0.0, 0.0], upper = [0.05, 0.02] }]";
     for (target, state, settings, message) in [
         (&level, "nowhere", vec!["duration=0.1"], "`--from`: \"nowhere\": it cannot be read"),
@@ -240,6 +243,8 @@ fn a_state_that_does_not_fit_is_refused_by_field_and_rule() {
             "`sides.right.periodic` is 0.06, but must be 0.05",
         ),
         (&level, &state, vec!["duration=0.01", "interval=0.001"], "`duration` is 0.01, but must be beyond 0.045"),
+        (&level, &state, vec!["duration=0.1", wall], "wall particles where its walls have moved"),
+        (&level, &state, vec!["duration=0.1", moved], "wall particles where its walls have moved"),
         (&level, &state, vec!["duration=0.1", bodies], "flow particles, but its scene has"),
         (&"film".to_owned(), &state, vec![], "only scenes start from a state"),
     ] {
