@@ -18,7 +18,6 @@ pub struct RunProgress {
     /// Step of the last one.
     pub(super) observed_step: u64,
     /// Length of the next step as far as it is known `[s]`.
-    #[serde(skip)]
     pub(super) step: f64,
 }
 
