@@ -11,6 +11,7 @@ mod interrupted;
 mod judge;
 mod killed;
 mod long;
+mod longer;
 mod mutate;
 mod nonlocal;
 mod overlay;

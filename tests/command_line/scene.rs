@@ -3,7 +3,7 @@
 use crate::program::{Place, document};
 use std::path::{Path, PathBuf};
 
-fn shipped() -> Vec<PathBuf> {
+pub(crate) fn shipped() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/examples/scenes");
     let entries = std::fs::read_dir(folder).expect("validation/examples/scenes").flatten();
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
@@ -63,7 +63,7 @@ fn a_scene_is_known_by_the_triangles_of_its_mesh() {
     place.run(&["again.toml", "--quiet"]).code(0);
 }
 
-fn walk(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn walk(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).expect("readable").flatten();
     entries.flat_map(|entry| if entry.path().is_dir() { walk(&entry.path()) } else { vec![entry.path()] }).collect()
 }
@@ -186,7 +186,7 @@ fn unlikely_units_and_speeds_and_gaps_are_warned_of_and_can_be_rejected() {
 }
 
 /// The value of a metric in the results that a run has written.
-fn metric(place: &Place, name: &str, variant: &str) -> f64 {
+pub(crate) fn metric(place: &Place, name: &str, variant: &str) -> f64 {
     let text = std::fs::read_to_string(place.path("out").join("metrics.json")).expect("written");
     let results: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let metrics = results["metrics"].as_array().expect("metrics");
@@ -352,45 +352,4 @@ fn a_silo_discharges_through_its_whole_opening() {
     // the half that is simulated, twice
     let rate = 2.0 * (crossed("duration=0.42") - crossed("duration=0.15")) / 0.27;
     assert!((88.0..101.0).contains(&rate), "{rate} kg/(m s)");
-}
-
-#[test]
-fn a_longer_run_continues_a_finished_one_bit_for_bit() {
-    // an inlet, a wall that moves, a mesh in space
-    for (name, duration) in [("fed-slope.toml", 0.06), ("gate.toml", 0.04), ("funnel.toml", 0.02)] {
-        let path = shipped().into_iter().find(|file| file.ends_with(name)).expect("a scene").display().to_string();
-        let lasting = |times: f64| {
-            let settings = [format!("duration={}", times * duration), format!("interval={}", duration / 10.0)];
-            let mut arguments = vec!["run".to_owned(), path.clone(), "--json".to_owned()];
-            for setting in settings.iter().map(String::as_str).chain(["measured=[]", "pictures=2"]) {
-                arguments.extend(["--set".to_owned(), setting.to_owned()]);
-            }
-            arguments
-        };
-        let run = |place: &Place, times: f64, out: &str| {
-            let arguments = [lasting(times), vec!["--out".to_owned(), out.to_owned()]].concat();
-            place.bagnold(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).assert().code(0)
-        };
-        let (one, other) = (Place::new(), Place::new());
-        run(&one, 1.0, "short");
-        // 1.3 of the duration has a picture that the short run lacks: it begins anew
-        let begins_anew = [(1.3, false)].into_iter().filter(|_| name == "gate.toml");
-        for (times, continues) in begins_anew.chain([(2.0, true)]) {
-            let whole = run(&other, times, "whole");
-            let continued = run(&one, times, "continued");
-            let told = String::from_utf8_lossy(&continued.get_output().stderr).into_owned();
-            assert_eq!(told.contains("resumes from its checkpoint"), continues, "{name}: {told}");
-            let [whole, continued] = [whole, continued].map(|finished| document(&finished));
-            assert_eq!(whole.state_hash, continued.state_hash, "{name}");
-            assert_eq!(whole.metrics, continued.metrics, "{name}");
-            let [whole, continued] = [(&other, "whole"), (&one, "continued")].map(|(place, out)| {
-                let files = walk(&place.path(out)).into_iter();
-                let files = files.filter(|file| file.extension().is_some_and(|end| end == "csv" || end == "vtu"));
-                let mut read: Vec<String> = files.map(|file| std::fs::read_to_string(file).expect("text")).collect();
-                read.sort();
-                read
-            });
-            assert!(whole.len() > 2 && whole == continued, "{name}: tables and pictures");
-        }
-    }
 }

@@ -17,25 +17,36 @@ pub struct RunProgress {
     pub(super) observed: u64,
     /// Step of the last one.
     pub(super) observed_step: u64,
+    /// Length of the next step as far as it is known `[s]`.
+    pub(super) step: f64,
 }
 
 impl RunProgress {
     /// A run up to `end` `[s]`, observed at intervals `[s]`.
     #[must_use]
     pub fn new(end: f64, interval: f64) -> Self {
-        Self { end, interval, origin: None, observed: 0, observed_step: 0 }
+        Self { end, interval, origin: None, observed: 0, observed_step: 0, step: 0.0 }
     }
 
-    /// Whether a time `[s]` lies within the last interval of the run.
+    /// Whether a time `[s]` lies within the last interval, or the last two steps, before another one `[s]`.
     #[must_use]
-    pub fn nears_its_end(&self, time: f64) -> bool {
-        time >= self.end - self.interval
+    pub fn nears(&self, time: f64, other: f64) -> bool {
+        time < other && time >= other - self.interval.max(2.0 * self.step)
     }
 
-    /// Course of the same run up to a later end `[s]`; none if the end is not later.
-    #[must_use]
-    pub fn prolonged(self, end: f64) -> Option<Self> {
-        (end > self.end).then_some(Self { end, ..self })
+    /// Course of the same run up to a later end `[s]`, observed at intervals `[s]`.
+    ///
+    /// # Errors
+    /// An end that is not later, or another interval, as the rest of a sentence about the run.
+    pub fn prolonged(self, end: f64, interval: f64) -> Result<Self, String> {
+        if self.interval != interval {
+            return Err(format!("was sampled every {} s, not every {interval} s", self.interval));
+        }
+        if self.end >= end {
+            Err(format!("ended at {} s, not before {end} s", self.end))
+        } else {
+            Ok(Self { end, ..self })
+        }
     }
 }
 

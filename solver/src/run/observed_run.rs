@@ -32,8 +32,12 @@ pub(crate) fn run<S: Stepping<D>, const D: usize>(
             origin
         }
     };
-    // half a step of slack, so that rounding does not add a step
-    while simulation.now() < course.end - 0.5 * simulation.next_step() {
+    loop {
+        course.step = simulation.next_step();
+        // half a step of slack, so that rounding does not add a step
+        if simulation.now() >= course.end - 0.5 * course.step {
+            break;
+        }
         if observer.pause(simulation, course).is_break() {
             return StopReason::Interrupted;
         }

@@ -89,6 +89,12 @@ impl EnergyLedger {
         *self = self.combined(other, |a, b| a + b);
     }
 
+    /// Entries since those of an earlier time.
+    #[must_use]
+    pub fn since(self, earlier: Self) -> Self {
+        self.combined(earlier, |now, then| now - then)
+    }
+
     /// All that was fed in beside the work of gravity `[J]`.
     #[must_use]
     pub fn given(&self) -> f64 {

@@ -17,6 +17,9 @@ use crate::weakly_compressible::walls::{Images, Wall};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
+/// Distance over the spacing from which on a wall particle is not where its wall is `[-]`: rounding of its way is far less.
+const MISPLACED: f64 = 1e-3;
+
 /// A simulation between two steps, for a file; made by [`Simulation::save`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct SavedSimulation<'a, const D: usize> {
@@ -68,7 +71,7 @@ impl<const D: usize> Simulation<D> {
     where
         Self: Compiled<D>,
     {
-        let backing = Self::backing(&scene)?;
+        let (backing, scene_spacing) = (Self::backing(&scene)?, scene.spacing);
         let mut state = State::new(scene, &backing);
         let (particles, images) = (saved.particles.into_owned(), saved.images.into_owned());
         let (list, walls) = (saved.list.into_owned(), saved.walls.into_owned());
@@ -81,6 +84,23 @@ impl<const D: usize> Simulation<D> {
         ForeignState::check("wall particles", particles.wall_count(), state.particles.wall_count())?;
         ForeignState::check("walls", walls.len(), state.walls.len())?;
         ForeignState::check("walls of segments", books.impulses.len(), facet_walls)?;
+        let motions =
+            state.enclosure.walls[..facet_walls - state.enclosure.inlets.len()].iter().map(|wall| &wall.motion);
+        let moved: Vec<Vector<D>> =
+            motions.map(|motion| motion.displacement(saved.time) - motion.displacement(0.0)).collect();
+        let is_at_its_place = |&index: &usize| {
+            let wall = (particles.wall[index] as usize).checked_sub(walls.len());
+            let (Some(moved), Some(place)) =
+                (wall.and_then(|wall| moved.get(wall)), particles.position.get(particles.flow_count() + index))
+            else {
+                return true;
+            };
+            let begun = state.particles.position[state.particles.flow_count() + index];
+            (place - begun - moved).norm() < MISPLACED * scene_spacing
+        };
+        let count = particles.wall_count();
+        let placed = (0..count).filter(is_at_its_place).count();
+        ForeignState::check("wall particles where its walls have moved", placed, count)?;
         let whole = particles.are_complete(images.len(), begun, &state.model.rheology)
             && images.belong_to(real)
             && particles.walls_are_below(walls.len() + facet_walls)

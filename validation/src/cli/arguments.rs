@@ -44,9 +44,10 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run film --overlay mine.csv
   bagnold run column-planar --only material=sand,aspect_ratio=3 --output-every 0.01
   bagnold run my-study.toml
-  bagnold run scene.toml --set duration=2.0    continue a finished scene of half the duration
+  bagnold run scene.toml --set duration=2.0    continue a finished scene of a shorter duration
+  bagnold run tilted.toml --from STATE         start from the state of another run, such as a prepared bed
 
-A longer run of a scene continues a finished one at whole multiples of its duration; otherwise it starts anew.
+A longer run of a scene, a collapse or a channel continues a finished one; if it starts anew, it says why.
 A file names its case with `case = \"film\"`; the tier supplies the fields that it omits. `bagnold show film`
 prints a complete file. Values of --set are TOML; dots reach fields inside tables.
 
@@ -208,6 +209,9 @@ pub struct RunArguments {
     /// Change one parameter; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
+    /// Start a scene from a state that another run has left, with the same particles and other parameters.
+    #[arg(long, value_name = "STATE")]
+    pub from: Option<PathBuf>,
     /// Select runs by their keys, such as material=sand,aspect_ratio=3; may be repeated.
     #[arg(long, value_name = "key=value,…")]
     pub only: Vec<crate::metric::Variant>,

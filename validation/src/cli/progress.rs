@@ -150,9 +150,8 @@ impl Monitor for RunsBar {
         }
     }
 
-    fn resumed(&self, run: usize, simulated: f64) {
-        self.display
-            .say(&format!("{}: resumes from its checkpoint at t = {simulated:.4} s", self.state.runs[run].name));
+    fn told(&self, run: usize, news: &str) {
+        self.display.say(&format!("{}: {news}", self.state.runs[run].name));
     }
 
     fn finished(&self, run: usize) {

@@ -7,7 +7,8 @@ use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
 use super::simulation::{announce, introduce, reject_fast, simulate_showing};
-use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested};
+use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError};
+use crate::checkpoint::StoredState;
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
 use crate::report::Baseline;
@@ -16,6 +17,16 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+/// The setting by which a scene starts from the state in a file.
+fn start_setting(file: &Path) -> Result<String, ParameterError> {
+    let name = file.display().to_string();
+    let refused = |defect: String| {
+        ParameterError::field("--from", format!("\"{name}\": {defect}"), "", "give a state that `bagnold run` has left")
+    };
+    let digest = StoredState::read(file).map_err(refused)?.digest;
+    Ok(format!("from={{ file = {}, sha256 = \"{digest}\" }}", toml::Value::String(name.clone())))
+}
+
 /// Simulates, judges, writes and prints one case.
 pub(super) fn run(
     command: &RunArguments,
@@ -23,15 +34,23 @@ pub(super) fn run(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
+    let start = command.from.as_deref().map(start_setting).transpose()?;
+    let settings: Vec<String> = command.settings.iter().cloned().chain(start).collect();
     let request = Request {
         target: &command.target,
         tier: command.tier,
-        settings: &command.settings,
+        settings: &settings,
         only: &command.only,
         limits: command.allowance.limits(),
     };
     let Requested { prepared, tier, overlay, output: wanted, changed, has_own_parameters } =
-        request.prepare(registry)?;
+        request.prepare(registry).map_err(|error| match (error, &command.from) {
+            (ParameterError::Setting(SettingError::Path { path, .. }), Some(file)) if path == "from" => {
+                let rule = "left out for this case: only scenes start from a state";
+                ParameterError::field("--from", file.display(), rule, "change the parameters of the case instead")
+            }
+            (error, _) => error,
+        })?;
     let wanted = match command.output_every {
         Some(every) => Some(OutputPlan::new(every, command.output_fields.clone()).map_err(ParameterError::from)?),
         None => wanted,

@@ -110,8 +110,8 @@ impl Monitor for Showing<'_> {
         self.progress.advanced(run, simulated, total, particle_steps);
     }
 
-    fn resumed(&self, run: usize, simulated: f64) {
-        self.progress.resumed(run, simulated);
+    fn told(&self, run: usize, news: &str) {
+        self.progress.told(run, news);
     }
 
     fn finished(&self, run: usize) {

@@ -43,7 +43,7 @@ pub use stationarity::StationaritySample;
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
 
-use crate::case::recording::{Ending, RestartableRun, SimulationStage, Stop, follow};
+use crate::case::recording::{Ending, RestartableRun, SimulationStage, Stop, follow_on};
 use crate::case::{ParameterError, Progress};
 use crate::observation::{Frame, Recorded};
 use crate::setup::Lattice;
@@ -177,15 +177,22 @@ impl<'a> Channel<'a> {
         let longest = self.longest();
         let frame_interval = longest / (self.frames.max(2) - 1) as f64;
         // the bed's impulse is that of every step, so the probe sees every step
-        let stage = SimulationStage { progress, end: longest, interval: 1e-3 * self.numerics.time_step, context: &() };
+        let stage = SimulationStage {
+            progress,
+            end: longest,
+            interval: 1e-3 * self.numerics.time_step,
+            window: self.window + self.interval,
+            context: &(),
+        };
         let begin = |simulation: &IncompressibleSimulation<2>| ChannelObserver {
             probe: ChannelProbe::new(self),
             last_good: simulation.snapshot(),
             frames: Vec::new(),
             beside,
         };
-        let followed = follow(
+        let followed = follow_on(
             stage,
+            None,
             |_| Ok::<_, SceneError>(self.scene()),
             begin,
             |seen: &mut ChannelObserver<O>, simulation| {
@@ -201,6 +208,10 @@ impl<'a> Channel<'a> {
                 let particles = simulation.free_particles() as f64;
                 progress.advance(last_good.time, longest, simulation.steps() as f64 * particles);
                 if probe.is_done() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            },
+            |seen| {
+                seen.probe.until = self.until;
+                Ok(())
             },
         )?;
         let RestartableRun { simulation, stop, kept: ChannelObserver { probe, last_good, frames, beside }, started } =

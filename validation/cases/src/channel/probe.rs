@@ -95,7 +95,8 @@ pub(super) struct ChannelProbe {
     depth: f64,
     length: f64,
     weight: f64,
-    until: AveragingWindowEnd,
+    /// End of the run, which a longer one moves.
+    pub(super) until: AveragingWindowEnd,
     window_length: f64,
     interval: f64,
     /// Samples that were due.

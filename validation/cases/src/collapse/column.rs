@@ -152,6 +152,10 @@ impl Run for ColumnRun {
         expected * self.particles()
     }
 
+    fn trajectory(&self) -> Option<Self> {
+        Some(Self { release: Release { duration: 0.0, ..self.release }, ..self.clone() })
+    }
+
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError> {
         match self.geometry {
             Geometry::Planar => self.run::<2>(progress),
@@ -337,7 +341,7 @@ impl ColumnRun {
         let begin = |_: &_| {
             CollapseObserver::new(self.surveyor(), FRAME_INTERVAL * scale, self.picture_times(), EARLIEST_REST * scale)
         };
-        let stage = SimulationStage { progress, end: duration, interval: scale / POINTS, context: &() };
+        let stage = SimulationStage { progress, end: duration, interval: scale / POINTS, window: 0.0, context: &() };
         let watched = recording::watch(
             stage,
             |_| Ok(self.scene::<D>()),

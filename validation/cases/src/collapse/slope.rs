@@ -93,12 +93,16 @@ impl Run for SlopeRun {
         self.reservoir.duration / step * self.particles()
     }
 
+    fn trajectory(&self) -> Option<Self> {
+        Some(Self { reservoir: Reservoir { duration: 0.0, ..self.reservoir }, ..self.clone() })
+    }
+
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
         let Reservoir { reservoir_length, channel_length, duration, .. } = self.reservoir;
         let surveyor = self.surveyor();
         let begin =
             |_: &_| (CollapseObserver::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST), Vec::new());
-        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, context: &() };
+        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, window: 0.0, context: &() };
         let end_of_channel = channel_length - 0.5 * reservoir_length;
         let watched = recording::watch(
             stage,

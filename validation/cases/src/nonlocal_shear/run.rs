@@ -60,8 +60,13 @@ impl Run for ShearRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ShearObservation>, ParameterError> {
         self.with_channel(|channel| {
-            let stage =
-                SimulationStage { progress, end: self.duration, interval: self.duration / SAMPLES, context: &() };
+            let stage = SimulationStage {
+                progress,
+                end: self.duration,
+                interval: self.duration / SAMPLES,
+                window: 0.0,
+                context: &(),
+            };
             let watched = watch(
                 stage,
                 |beginning| channel.scene(beginning),

@@ -234,7 +234,7 @@ impl Run for WaterColumnRun {
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
         let end = self.column.duration * self.time_scale();
-        let stage = SimulationStage { progress, end, interval: end / SAMPLES, context: &() };
+        let stage = SimulationStage { progress, end, interval: end / SAMPLES, window: 0.0, context: &() };
         let begin = |_: &_| ColumnObservation::default();
         let watched = recording::watch(
             stage,

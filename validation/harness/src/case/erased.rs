@@ -186,8 +186,8 @@ impl Progress for CheckpointedProgress<'_> {
         self.progress.advance(simulated, total, particle_steps);
     }
 
-    fn resumed(&self, simulated: f64) {
-        self.progress.resumed(simulated);
+    fn tell(&self, news: &str) {
+        self.progress.tell(news);
     }
 
     fn checkpoints(&self) -> Option<&Checkpoints> {
@@ -210,7 +210,7 @@ type Slot<R> = (R, OnceLock<(Recorded<<R as Run>::Observation>, bool)>);
 impl Progress for OnceLock<Conditions> {
     fn advance(&self, _: f64, _: f64, _: f64) {}
 
-    fn resumed(&self, _: f64) {}
+    fn tell(&self, _: &str) {}
 
     fn conditions(&self) -> Option<&Self> {
         Some(self)

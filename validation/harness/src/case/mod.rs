@@ -180,13 +180,13 @@ pub trait Run: Serialize + Clone + Send + Sync {
 pub trait Progress: Sync {
     /// `simulated` of `total` seconds are done, with `particle_steps` particle-steps so far.
     fn advance(&self, simulated: f64, total: f64, particle_steps: f64);
-    /// The run resumes from a checkpoint at a simulated time `[s]`.
-    fn resumed(&self, simulated: f64);
+    /// News of the run for its user: where it resumes, or why it begins anew.
+    fn tell(&self, news: &str);
     /// Checkpoints of the run; none if nothing is kept.
     fn checkpoints(&self) -> Option<&Checkpoints> {
         None
     }
-    /// States near the end of finished runs that this one may continue, and that it leaves; none if nothing is kept.
+    /// States near the end of finished runs that this one may continue, and the place of its own; none if nothing is kept.
     fn ends(&self) -> Option<&Checkpoints> {
         None
     }

@@ -16,8 +16,8 @@ pub trait Monitor: Sync {
     fn started(&self, run: usize);
     /// `simulated` of `total` seconds of the run are done, with `particle_steps` particle-steps so far.
     fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64);
-    /// The run resumes from a checkpoint that an earlier program has left, at a simulated time `[s]`.
-    fn resumed(&self, run: usize, simulated: f64);
+    /// News of the run: where it resumes, or why it begins anew.
+    fn told(&self, run: usize, news: &str);
     /// The run is done, or was taken from the store.
     fn finished(&self, run: usize);
     /// Receiver of states during the run; a run with a receiver is never taken from the store.
@@ -33,14 +33,14 @@ pub struct Silent;
 impl Monitor for Silent {
     fn started(&self, _run: usize) {}
     fn advanced(&self, _run: usize, _simulated: f64, _total: f64, _particle_steps: f64) {}
-    fn resumed(&self, _run: usize, _simulated: f64) {}
+    fn told(&self, _run: usize, _news: &str) {}
     fn finished(&self, _run: usize) {}
 }
 
 /// No-op monitor.
 impl Progress for Silent {
     fn advance(&self, _simulated: f64, _total: f64, _particle_steps: f64) {}
-    fn resumed(&self, _simulated: f64) {}
+    fn tell(&self, _news: &str) {}
 }
 
 struct MonitoredRun<'a> {
@@ -53,8 +53,8 @@ impl Progress for MonitoredRun<'_> {
         self.monitor.advanced(self.run, simulated, total, particle_steps);
     }
 
-    fn resumed(&self, simulated: f64) {
-        self.monitor.resumed(self.run, simulated);
+    fn tell(&self, news: &str) {
+        self.monitor.told(self.run, news);
     }
 
     fn output(&self) -> Option<&dyn StateOutput> {

@@ -42,30 +42,32 @@ pub(super) enum Refused {
     State(String),
 }
 
-/// The state in a checkpoint of the run with a key.
-pub(super) fn read(path: &Path, key: &str) -> Result<Vec<u8>, Refused> {
+/// The state in a checkpoint of the run with a key, or of any run.
+pub(super) fn read(path: &Path, key: Option<&str>) -> Result<Vec<u8>, Refused> {
     if !std::fs::symlink_metadata(path)?.is_file() {
         return Err(Refused::NoFile);
     }
-    let mut file = File::open(path)?;
-    let mut head = vec![0; head(key, &[]).len()];
-    file.read_exact(&mut head).map_err(short)?;
-    let rest = head.strip_prefix(TITLE).ok_or(Refused::NoCheckpoint)?;
-    let (version, rest) = rest.split_first_chunk().ok_or(Refused::Damaged)?;
-    match u32::from_le_bytes(*version) {
+    let file = File::open(path)?;
+    let part = |length: u64| {
+        let mut bytes = Vec::new();
+        (&file).take(length).read_to_end(&mut bytes).map(|_| bytes)
+    };
+    let title = part(TITLE.len() as u64)?;
+    if title != TITLE {
+        return Err(if TITLE.starts_with(&title) { Refused::Damaged } else { Refused::NoCheckpoint });
+    }
+    let version = part(4)?.try_into().map_err(|_| Refused::Damaged)?;
+    match u32::from_le_bytes(version) {
         VERSION => {}
         other => return Err(Refused::Version(other)),
     }
-    let own = [&(key.len() as u64).to_le_bytes(), key.as_bytes()].concat();
-    let checksum = rest.strip_prefix(&*own).ok_or(Refused::Foreign)?;
-    let mut contents = Vec::new();
-    file.read_to_end(&mut contents)?;
-    if Sha256::digest(&contents).as_slice() != checksum { Err(Refused::Damaged) } else { Ok(contents) }
-}
-
-/// A file that ends within its head has been cut short.
-fn short(error: io::Error) -> Refused {
-    if error.kind() == io::ErrorKind::UnexpectedEof { Refused::Damaged } else { Refused::Unreadable(error) }
+    let length = u64::from_le_bytes(part(8)?.try_into().map_err(|_| Refused::Damaged)?);
+    let own = part(length)?;
+    if own.len() as u64 == length && key.is_some_and(|key| own != key.as_bytes()) {
+        return Err(Refused::Foreign);
+    }
+    let (checksum, contents) = (part(CHECKSUM_BYTES as u64)?, part(u64::MAX)?);
+    if *Sha256::digest(&contents) != *checksum { Err(Refused::Damaged) } else { Ok(contents) }
 }
 
 /// Head of a checkpoint file, which precedes the contents.

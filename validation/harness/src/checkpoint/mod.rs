@@ -2,6 +2,9 @@
 //! kept, and continued by the next command that wants the same run of the same program.
 
 mod file;
+mod stored;
+
+pub use stored::{Likeness, StoredState};
 
 use crate::interruption;
 use crate::output::FirstWarning;
@@ -93,13 +96,18 @@ impl Checkpoints {
         decode(&found.contents).map_err(refuse).ok()
     }
 
+    /// File of the newest checkpoint.
+    pub fn newest(&self) -> Option<PathBuf> {
+        self.numbers().last().map(|number| self.path(*number))
+    }
+
     /// All whole checkpoints, the newest first; others are refused with their reason.
     fn whole(&self) -> Vec<CheckpointFile> {
         let mut numbers = self.numbers();
         numbers.reverse();
         let read = |number: u64| {
             let path = self.path(number);
-            match file::read(&path, &self.key) {
+            match file::read(&path, Some(&self.key)) {
                 Ok(contents) => Some(CheckpointFile { path, contents }),
                 Err(refused) => {
                     self.warn(&path, &refused);

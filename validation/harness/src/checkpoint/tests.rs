@@ -43,7 +43,7 @@ fn damaged_checkpoint_gives_way_to_the_previous_one() {
     let refused = |bytes: &[u8]| {
         std::fs::write(&newest, bytes).expect("writable");
         assert_eq!(left(&folder, "a").as_deref(), Some("one"));
-        file::read(&newest, "a").expect_err("refused").to_string()
+        file::read(&newest, Some("a")).expect_err("refused").to_string()
     };
     assert_eq!(refused(&whole[..whole.len() - 1]), "it is damaged");
     assert_eq!(refused(&whole[..10]), "it is damaged");
@@ -60,7 +60,7 @@ fn damaged_checkpoint_gives_way_to_the_previous_one() {
     std::fs::remove_file(&newest).expect("removable");
     std::fs::create_dir(&newest).expect("writable");
     assert_eq!(left(&folder, "a").as_deref(), Some("one"));
-    assert_eq!(file::read(&newest, "a").expect_err("refused").to_string(), "it is no plain file");
+    assert_eq!(file::read(&newest, Some("a")).expect_err("refused").to_string(), "it is no plain file");
 }
 
 #[test]

@@ -40,7 +40,8 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         self.check_lateral_pressure()?;
         self.check_inlets()?;
         self.check_gauges()?;
-        self.check_numerics()
+        self.check_numerics()?;
+        self.stored_state().map(|_| ())
     }
 
     /// Pore liquid that the solver serves, and a start that only a material with one has.

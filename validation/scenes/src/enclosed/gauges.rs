@@ -33,15 +33,19 @@ impl<const D: usize> Memory<D> {
         self.crossed.resize(measures.len(), 0.0);
         let read = |(k, measure)| self.read((k, measure), simulation, snapshot, periods);
         let values = measures.iter().enumerate().flat_map(read).collect();
-        let particles = simulation.particles();
-        self.places.clear();
-        self.places.resize(known, (Vector::repeat(f64::NAN), Vector::zeros()));
-        for (index, &identity) in particles.identity.iter().enumerate() {
-            self.places[identity as usize] = (particles.position[index], particles.velocity[index]);
-        }
-        self.impulses = simulation.facet_wall_impulses().to_vec();
-        self.time = simulation.time();
+        *self = Self { crossed: std::mem::take(&mut self.crossed), ..Self::of(simulation, known) };
         values
+    }
+
+    /// The present state, of which `known` particles have been there so far.
+    pub(crate) fn of(simulation: &Simulation<D>, known: usize) -> Self {
+        let particles = simulation.particles();
+        let mut places = vec![(Vector::repeat(f64::NAN), Vector::zeros()); known];
+        for (index, &identity) in particles.identity.iter().enumerate() {
+            places[identity as usize] = (particles.position[index], particles.velocity[index]);
+        }
+        let impulses = simulation.facet_wall_impulses().to_vec();
+        Self { time: simulation.time(), places, impulses, crossed: Vec::new() }
     }
 
     /// The values of the gauge at this place among all, one a column.

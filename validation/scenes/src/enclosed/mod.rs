@@ -28,6 +28,7 @@ pub mod setting;
 mod settling;
 pub(super) mod shapes;
 pub mod sides;
+mod start;
 mod surfaces;
 mod tiers;
 
@@ -36,7 +37,7 @@ pub use given_rate::GivenRate;
 pub use measure::{DepthGauge, Measurand, Opening, Probe};
 pub use measured::MeasuredSeries;
 pub use observation::{FedMass, OutflowRecord, SceneObservation};
-pub use parameters::{Dimension, SceneParameters};
+pub use parameters::{Dimension, SceneParameters, SceneStart};
 pub use run::SceneRun;
 pub use settling::BodyPreparation;
 pub use sides::DomainSide;

@@ -3,6 +3,7 @@
 use crate::observation::EnergyBook;
 use bagnold_solver::material::pore_liquid::SKELETON_SHARE;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::energy::{EnergyAccount, EnergyLedger};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -36,7 +37,7 @@ pub struct FedMass {
 /// Volume that a mixture of grains and liquid has lost, and where its water went, up to the last sample; in the plane per metre of depth.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct WaterBook {
-    /// Volume and what compression of the pore liquid has taken from it at the start `[m³]`.
+    /// Volume, and what compression of the pore liquid and expelled water have taken from it, at the start `[m³]`.
     start: (f64, f64),
     /// Water that has left by the free surface `[m³]`.
     pub expelled: f64,
@@ -61,12 +62,22 @@ impl WaterBook {
             self.expelled += own * memory[1];
         }
         if is_first {
-            self.start = (volume, compressed);
+            self.start = (volume, compressed + self.expelled);
         }
         let lost = self.start.0 - volume;
         self.largest = self.largest.max(lost.abs());
         self.missing = self.missing.max((lost - self.expelled - (compressed - self.start.1)).abs());
     }
+}
+
+/// Sums of a simulation at the start of an observation.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct SumsBefore {
+    /// Mass inside and outside without that of inlets `[kg]`.
+    mass: f64,
+    /// Mass times the time that it was there `[kg s]`.
+    mass_times_time: f64,
+    ledger: EnergyLedger,
 }
 
 /// Series and balances; every series has the shape `[samples]`.
@@ -99,8 +110,10 @@ pub struct SceneObservation<const D: usize> {
     pub unassigned_impulse: f64,
     /// Impulse of gravity up to the last sample, its size, and more under pressure `[kg m/s]`.
     pub gravity_impulse: f64,
-    /// Momentum at the start `[kg m/s]`.
+    /// Momentum at the start, without what a state has got before `[kg m/s]`.
     pub momentum_at_start: Vector<D>,
+    /// Sums at the start: those of a state that the scene starts from.
+    pub(super) before: SumsBefore,
     /// The same without directions, Σ m |v| `[kg m/s]`.
     #[serde(default)]
     pub motion_at_start: f64,
@@ -132,6 +145,7 @@ impl<const D: usize> Default for SceneObservation<D> {
             unassigned_impulse: 0.0,
             gravity_impulse: 0.0,
             momentum_at_start: Vector::zeros(),
+            before: SumsBefore::default(),
             motion_at_start: 0.0,
             largest_speed: 0.0,
             behind: 0,
@@ -165,14 +179,16 @@ impl<const D: usize> SceneObservation<D> {
         let worked = sides.iter().map(|side| side.mass_times_time).sum::<f64>() - absent;
         let over_time = inside * snapshot.time + worked;
         let given = gravity * over_time;
+        let unsolved = simulation.unsolved_impulse();
+        let taken = supports + simulation.side_wall_impulse();
         self.water.enter(simulation, snapshot, self.time.is_empty());
         if self.time.is_empty() {
-            self.momentum_at_start = held;
+            self.momentum_at_start = held + gone + unsolved - came - taken - given;
+            let ledger = snapshot.energy.map_or_else(EnergyLedger::default, |account| account.ledger);
+            self.before = SumsBefore { mass: inside + outside - brought, mass_times_time: over_time, ledger };
             self.motion_at_start = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm() * m).sum();
             self.gauges = vec![Vec::new(); gauges.len()];
         }
-        let unsolved = simulation.unsolved_impulse();
-        let taken = supports + simulation.side_wall_impulse();
         let missing = held + gone + unsolved - came - self.momentum_at_start - taken - given;
         self.time.push(snapshot.time);
         self.mass.push(inside);
@@ -195,17 +211,18 @@ impl<const D: usize> SceneObservation<D> {
             let (farthest, impulse) = (entry.farthest.max(off), fed.momentum.norm());
             *entry = FedMass { particles: fed.particles, mass: fed.mass, farthest, impulse };
         }
-        self.missing_mass = self.missing_mass.max((inside + outside - self.mass[0] - brought).abs());
+        self.missing_mass = self.missing_mass.max((inside + outside - self.before.mass - brought).abs());
         self.missing_impulse = self.missing_impulse.max(missing.norm());
         self.unsolved_impulse = self.unsolved_impulse.max(unsolved.norm());
         self.viscous_iterations = simulation.viscous_iterations() as f64 / simulation.steps().max(1) as f64;
         self.unassigned_impulse = self.unassigned_impulse.max((supports - walls).norm());
-        self.gravity_impulse = pull * over_time;
+        self.gravity_impulse = pull * (over_time - self.before.mass_times_time);
         if let Some(account) = &snapshot.energy {
             let kept: f64 = sides.iter().map(|side| side.energy).sum();
             let given: f64 = inlets.iter().map(|fed| fed.energy).sum();
             self.energy.entered.1 = given;
-            self.energy.enter(snapshot.time, account, kept - given);
+            let account = EnergyAccount { ledger: account.ledger.since(self.before.ledger), ..*account };
+            self.energy.enter(snapshot.time, &account, kept - given);
         }
     }
 
@@ -216,6 +233,7 @@ impl<const D: usize> SceneObservation<D> {
 
     /// All the mass that there has been, at the start or by inlets up to the last sample `[kg]`.
     pub(super) fn whole_mass(&self) -> f64 {
-        self.mass.first().copied().unwrap_or(f64::NAN) + self.fed.iter().map(|fed| fed.mass).sum::<f64>()
+        let begun = if self.mass.is_empty() { f64::NAN } else { self.before.mass };
+        begun + self.fed.iter().map(|fed| fed.mass).sum::<f64>()
     }
 }

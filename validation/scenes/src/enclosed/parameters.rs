@@ -79,7 +79,7 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     /// Time between two rows of the series `[s]`.
     #[schemars(transform = positive("give it in seconds, such as a hundredth of the duration"))]
     pub interval: f64,
-    /// Pictures over the duration.
+    /// Least number of pictures over the duration, which are 1, 2, 4, … intervals apart; the last state follows.
     pub pictures: usize,
     /// Bulk modulus over ρ0 g and the height of the scene `[-]`.
     #[schemars(transform = between(20.0, 1e4, "50 for grains; 200 make sound seven times as fast as a fall"))]
@@ -133,8 +133,21 @@ pub struct SceneParameters<S: Dimension<D>, const D: usize> {
     pub gauges: Vec<S::Gauge>,
     /// Measured series that gauges are compared with.
     pub measured: Vec<MeasuredSeries>,
+    /// State that the scene starts from in place of its bodies; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<SceneStart>,
     /// Numerics.
     pub numerics: Numerics,
+}
+
+/// A state that a run of a scene has left.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SceneStart {
+    /// File of the state, from the current folder.
+    pub file: String,
+    /// SHA-256 of the state.
+    pub sha256: String,
 }
 
 fn is_none(pressure: &f64) -> bool {
@@ -186,6 +199,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             side_walls: None,
             gauges: Vec::new(),
             measured: Vec::new(),
+            from: None,
             // a liquid comes to rest, grains keep the operator that they are verified with
             numerics: Numerics { momentum_operator: MomentumOperator::ByLaw, ..Numerics::default() },
         }

@@ -10,6 +10,7 @@ use super::surfaces::{Surfaces, behind};
 use super::{BodyPreparation, SceneObservation, SceneParameters, shapes};
 use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, StartState};
 use crate::case::{ParameterError, Progress, Run, cost};
+use crate::checkpoint::Checkpoints;
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
 use bagnold_solver::domain::Domain;
@@ -45,25 +46,53 @@ enum Moment {
 struct SceneObserver<const D: usize> {
     observation: SceneObservation<D>,
     memory: Memory<D>,
+    pictures: Pictures,
+}
+
+/// Pictures on the way, at multiples of a period that is a power of two of intervals: of two runs that differ in their duration, the longer
+/// has no picture that the shorter lacks.
+#[derive(Serialize, Deserialize)]
+struct Pictures {
+    /// Time between two samples, and between two pictures `[s]`.
+    interval: f64,
+    period: f64,
     frames: Vec<Frame>,
 }
 
-/// Earliest time `[s]` of a picture among so many over the duration.
-fn picture_due(picture: usize, duration: f64, interval: f64, pictures: usize) -> f64 {
-    picture as f64 * duration / pictures as f64 - 0.5 * interval
-}
+impl Pictures {
+    /// None yet, of which there are to be so many at least over a duration `[s]` of many samples.
+    fn new(duration: f64, interval: f64, least: usize) -> Self {
+        let mut period = interval;
+        while 2.0 * period * least as f64 <= duration * (1.0 + 1e-9) {
+            period *= 2.0;
+        }
+        Self { interval, period, frames: Vec::new() }
+    }
 
-impl<const D: usize> SceneObserver<D> {
-    /// Keeps of the pictures those that a run of another duration has by now; whether none of them is missing.
-    fn keep_pictures_of(&mut self, duration: f64, interval: f64, pictures: usize) -> bool {
-        let times = &self.observation.time;
-        let taken = |picture: usize| {
-            let due = picture_due(picture, duration, interval, pictures);
-            times.iter().copied().find(|time| *time >= due)
-        };
-        let wanted: Vec<f64> = (0..pictures).map_while(taken).collect();
-        self.frames.retain(|frame| wanted.contains(&frame.time));
-        self.frames.len() == wanted.len()
+    /// Number of periods at the sample of a time `[s]`.
+    fn number(&self, time: f64) -> f64 {
+        ((time + 0.5 * self.interval) / self.period).floor()
+    }
+
+    /// Whether a sample of a time `[s]` is the first of its period.
+    fn is_due(&self, time: f64) -> bool {
+        self.frames.last().is_none_or(|last| self.number(last.time) < self.number(time))
+    }
+
+    /// Takes the place of the pictures of a shorter run, with those of them that are its own.
+    ///
+    /// # Errors
+    /// Pictures that the shorter run lacks.
+    fn adopt(self, shorter: &mut Self) -> Result<(), String> {
+        if shorter.period > self.period {
+            return Err(format!("has a picture every {} s, not every {} s", shorter.period, self.period));
+        }
+        for frame in std::mem::replace(shorter, self).frames {
+            if shorter.is_due(frame.time) {
+                shorter.frames.push(frame);
+            }
+        }
+        Ok(())
     }
 }
 
@@ -101,7 +130,7 @@ where
     }
 
     fn trajectory(&self) -> Option<Self> {
-        Some(Self { scene: SceneParameters { duration: 0.0, pictures: 0, ..self.scene.clone() } })
+        Some(Self { scene: SceneParameters { duration: 0.0, interval: 0.0, pictures: 0, ..self.scene.clone() } })
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
@@ -118,15 +147,25 @@ where
         }
         let (gravity, measures) = (scene.pull(), scene.measures());
         let pull = scene.fall() / scene.height();
+        let (likeness, state) = (scene.likeness(), scene.stored_state()?);
         let periods = Periods::of(&scene.sides.axes());
-        let stage = SimulationStage { progress, end: scene.duration, interval: scene.interval, context: &() };
-        let begin = |_: &Simulation<D>| SceneObserver {
+        let stage = SimulationStage {
+            progress,
+            end: scene.duration,
+            interval: scene.interval,
+            window: 0.0,
+            context: &likeness,
+        };
+        let pictures = || Pictures::new(scene.duration, scene.interval, scene.pictures);
+        let known = |simulation: &Simulation<D>| begun + simulation.inflow().particles() as usize;
+        let begin = |simulation: &Simulation<D>| SceneObserver {
             observation: SceneObservation::default(),
-            memory: Memory::default(),
-            frames: Vec::new(),
+            memory: Memory::of(simulation, known(simulation)),
+            pictures: pictures(),
         };
         let RestartableRun { simulation, stop, kept: (last_good, watch), started } = recording::follow_on(
             stage,
+            state.as_ref(),
             |beginning| match beginning {
                 StartState::New => self.prepared(made.clone()),
                 StartState::Continued | StartState::Described => Ok(made.clone()),
@@ -136,21 +175,24 @@ where
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, scene.duration, steps);
-                let known = begun + simulation.inflow().particles() as usize;
-                let values = watch.memory.read_all(&measures, simulation, last_good, (known, &periods));
+                let values = watch.memory.read_all(&measures, simulation, last_good, (known(simulation), &periods));
                 watch.observation.enter(simulation, last_good, (&gravity, pull), values);
-                let due = picture_due(watch.frames.len(), scene.duration, scene.interval, scene.pictures);
-                if last_good.time >= due && watch.frames.len() < scene.pictures {
-                    watch.frames.push(Frame::of_flow(last_good));
+                if watch.pictures.is_due(last_good.time) {
+                    watch.pictures.frames.push(Frame::of_flow(last_good));
                 }
                 let is_over = simulation.inlets().iter().all(|inlet| inlet.rate.is_over(last_good.time));
                 if last_good.mass.is_empty() && is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             },
-            |(_, watch)| watch.keep_pictures_of(scene.duration, scene.interval, scene.pictures),
+            |(_, watch)| pictures().adopt(&mut watch.pictures),
         )?;
+        if let Some(state) = progress.ends().and_then(Checkpoints::newest) {
+            progress.tell(&format!("a state near its end, for --from, is {}", state.display()));
+        }
         let mut ending = Ending::of(stop, last_good, started);
         "all material has left by open sides".clone_into(&mut ending.criterion);
-        ending.frames = watch.frames;
+        ending.frames = watch.pictures.frames;
+        // the last state follows
+        ending.frames.retain(|frame| frame.time + 0.5 * scene.interval.min(scene.duration) < scene.duration);
         let mut observation = watch.observation;
         (observation.behind, observation.cut_off) = (behind(&simulation), cut_off);
         Ok(ending.record(&simulation, |_| observation))

@@ -120,6 +120,10 @@ impl Run for BedLoadRun {
         }
     }
 
+    fn trajectory(&self) -> Option<Self> {
+        Some(Self { duration: 0.0, ..self.clone() })
+    }
+
     fn particles(&self) -> f64 {
         let (area, spacing, _) = self.size();
         area / spacing.powi(2)

@@ -165,6 +165,12 @@ impl Run for ClearWaterRun {
         self.channel(&|_| 0.0).expected_steps() * self.water.particles()
     }
 
+    fn trajectory(&self) -> Option<Self> {
+        let Period::Fixed { averaging_time, .. } = self.flow.period else { return None };
+        let period = Period::Fixed { duration: 0.0, averaging_time };
+        Some(Self { flow: RoughBedFlow { period, ..self.flow }, ..self.clone() })
+    }
+
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let law = self.reference();
         self.channel(&|z| self.flow.start_share * law.velocity(z)).run(progress)

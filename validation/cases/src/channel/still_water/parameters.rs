@@ -133,6 +133,10 @@ impl Run for StillWaterRun {
         self.channel().expected_steps() * self.water.particles()
     }
 
+    fn trajectory(&self) -> Option<Self> {
+        Some(Self { duration: 0.0, ..self.clone() })
+    }
+
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         self.channel().run(progress)
     }

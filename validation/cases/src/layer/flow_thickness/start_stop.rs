@@ -228,7 +228,7 @@ impl StartStopRun {
         let (h, duration) = (self.layer.layer.layer_height, self.layer.duration);
         let threshold = STOPPED * (self.layer.layer.gravity * h).sqrt();
         let lag = (STEADY_TIME / INTERVAL) as usize;
-        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, context: search };
+        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, window: 0.0, context: search };
         let begin = |simulation: &Simulation<2>| LayerObserver {
             means: Vec::new(),
             trial: SlopeTrial {

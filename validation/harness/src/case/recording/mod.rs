@@ -61,7 +61,7 @@ pub fn record<const D: usize, O>(
 where
     Simulation<D>: Compiled<D>,
 {
-    let stage = SimulationStage { progress, end, interval: 0.01 * end, context: &() };
+    let stage = SimulationStage { progress, end, interval: 0.01 * end, window: 0.0, context: &() };
     let watched = watch(stage, |_| Ok(scene()), |_| (), |(), _| ControlFlow::Continue(()))?;
     Ok(watched.ending.record(&watched.simulation, measure))
 }

@@ -3,7 +3,7 @@
 
 use super::Recordable;
 use crate::case::{Conditions, ParameterError, Progress, StateOutput};
-use crate::checkpoint::{Checkpoints, count_stopped, is_interrupted};
+use crate::checkpoint::{Checkpoints, StoredState, count_stopped, is_interrupted};
 use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fmt::Display;
@@ -53,6 +53,8 @@ pub struct SimulationStage<'a, C> {
     pub end: f64,
     /// Time between two observations `[s]`.
     pub interval: f64,
+    /// Time before the end in which observations depend on the end `[s]`.
+    pub window: f64,
     /// Results of the run before this simulation; [`resumed`] gives those of an interrupted run.
     pub context: &'a C,
 }
@@ -124,20 +126,21 @@ where
     E: Into<ParameterError> + Display,
     for<'scene> Conditions: From<&'scene S::Scene>,
 {
-    follow_on(stage, scene, keep, observe, |_| false)
+    follow_on(stage, None, scene, keep, observe, |_| Ok(()))
 }
 
-/// As [`follow`]; a run that is longer than a finished one continues near its end, if `adopt` makes of what that run has kept what this
-/// one would have kept by then.
+/// As [`follow`]; a run that is longer than a finished one continues near its end. `adopt` makes of what that run has kept what this one
+/// would have kept by then, or says why not, as the rest of a sentence about that run. A new run may start from a stored state.
 ///
 /// # Errors
 /// A scene that breaks a rule or cannot be made; an interruption.
 pub fn follow_on<const D: usize, S, O, C, E>(
     stage: SimulationStage<'_, C>,
+    state: Option<&StoredState>,
     scene: impl Fn(StartState) -> Result<S::Scene, E>,
     keep: impl FnOnce(&S) -> O,
     observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
-    mut adopt: impl FnMut(&mut O) -> bool,
+    mut adopt: impl FnMut(&mut O) -> Result<(), String>,
 ) -> Result<RestartableRun<S, O>, ParameterError>
 where
     S: Restartable<D>,
@@ -147,7 +150,7 @@ where
     for<'scene> Conditions: From<&'scene S::Scene>,
 {
     let now = Instant::now();
-    let SimulationStage { progress, end, interval, context } = stage;
+    let SimulationStage { progress, end, interval, window, context } = stage;
     if let Some(conditions) = progress.conditions() {
         let described = scene(StartState::Described).map_err(Into::into)?;
         conditions.get_or_init(|| Conditions::from(&described));
@@ -161,22 +164,45 @@ where
         let simulation = S::continued(scene, read.simulation).map_err(|error| error.to_string())?;
         Ok((simulation, read.course, read.kept, read.seconds))
     };
+    let mut refused = None;
     let shorter = |bytes: &[u8]| {
         let (simulation, course, mut kept, seconds) = restore(bytes).ok()?;
-        let course = course.prolonged(end).filter(|_| adopt(&mut kept))?;
-        Some((simulation, course, kept, seconds))
+        match course.prolonged(end, interval).and_then(|course| adopt(&mut kept).map(|()| course)) {
+            Ok(course) => Some((simulation, course, kept, seconds)),
+            Err(reason) => {
+                refused.get_or_insert(reason);
+                None
+            }
+        }
     };
     let left = checkpoints.and_then(|checkpoints| checkpoints.take(restore));
     let left = left.or_else(|| progress.ends()?.usable(shorter));
     let (mut simulation, mut course, kept, started) = match left {
         Some((simulation, course, kept, seconds)) => {
-            progress.resumed(simulation.time());
+            progress.tell(&format!("resumes from its checkpoint at t = {:.4} s", simulation.time()));
             tracing::info!("resumed at t = {:.6} s, step {}", simulation.time(), simulation.steps());
             let spent = Duration::try_from_secs_f64(seconds).unwrap_or_default();
             (simulation, course, kept, now.checked_sub(spent).unwrap_or(now))
         }
         None => {
-            let simulation = S::begin(scene(StartState::New).map_err(Into::into)?)?;
+            if let Some(reason) = refused {
+                progress.tell(&format!("begins anew: the finished run {reason}"));
+            }
+            let simulation = match state {
+                None => S::begin(scene(StartState::New).map_err(Into::into)?)?,
+                Some(state) => {
+                    let refused = |defect: String| {
+                        let remedy = "start from a state of a scene with these bodies, walls and material";
+                        ParameterError::field("from.file", defect, "", remedy)
+                    };
+                    let (simulation, ..) = restore(&state.contents).map_err(refused)?;
+                    if simulation.time() >= end {
+                        let rule = format!("beyond {} s, the time of the state", simulation.time());
+                        return Err(ParameterError::field("duration", end, &rule, "the clock of the state goes on"));
+                    }
+                    simulation
+                }
+            };
             // what comes before the start may have been cut short
             if is_interrupted() {
                 return Err(ParameterError::Interrupted);
@@ -187,8 +213,18 @@ where
     };
     let output = progress.output();
     let ends = progress.ends();
-    let mut watching =
-        CheckpointingObserver { checkpoints, ends, output, context, started, kept, observe, simulation: PhantomData };
+    let before = end - window;
+    let mut watching = CheckpointingObserver {
+        checkpoints,
+        ends,
+        before,
+        output,
+        context,
+        started,
+        kept,
+        observe,
+        simulation: PhantomData,
+    };
     let stop = match simulation.follow(&mut course, &mut watching) {
         StopReason::Finished => Stop::Finished,
         StopReason::Stopped => Stop::Stopped,
@@ -204,8 +240,9 @@ where
 /// Shows a simulation to the observer of a case and to who wants states on its way, and keeps checkpoints.
 struct CheckpointingObserver<'a, const D: usize, S, O, C, F> {
     checkpoints: Option<&'a Checkpoints>,
-    /// Place of a state near the end, until it is written.
+    /// Place of a state near the end, until it is written, and the time before which it is taken `[s]`.
     ends: Option<&'a Checkpoints>,
+    before: f64,
     output: Option<&'a dyn StateOutput>,
     context: &'a C,
     started: Instant,
@@ -242,7 +279,7 @@ where
             checkpoints.keep(|| postcard::to_stdvec(&written))
         };
         let is_kept = wanted.is_some_and(write);
-        if course.nears_its_end(simulation.time())
+        if course.nears(simulation.time(), self.before)
             && let Some(ends) = self.ends.take()
         {
             write(ends);
