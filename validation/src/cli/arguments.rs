@@ -42,6 +42,7 @@ const RUN_EXAMPLES: &str = "Examples:
   bagnold run column-planar --only material=sand,aspect_ratio=3
   bagnold run film --json > metrics.json
   bagnold run film --overlay mine.csv
+  bagnold run bagnold --panel velocity-profile:a --figure 85mm,9pt,300dpi    one panel for a column of a journal
   bagnold run column-planar --only material=sand,aspect_ratio=3 --output-every 0.01
   bagnold run my-study.toml
   bagnold run scene.toml --set duration=2.0    continue a finished scene of a shorter duration
@@ -218,6 +219,9 @@ pub struct RunArguments {
     /// Draw measurements into the figure with their axes and compute the difference; may be repeated.
     #[arg(long, value_name = "FILE.csv")]
     pub overlay: Vec<PathBuf>,
+    /// Also draw one panel of a figure as a figure of its own, such as deposit:b; may be repeated.
+    #[arg(long = "panel", value_name = "FIGURE:LETTER")]
+    pub panels: Vec<String>,
     /// Write the particles of every run at this interval of simulated time, for ParaView (states/*.pvd).
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     pub output_every: Option<f64>,

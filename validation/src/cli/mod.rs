@@ -17,6 +17,7 @@ mod logging;
 mod machine;
 mod mutate;
 mod new;
+mod panels;
 mod places;
 mod profile;
 mod progress;

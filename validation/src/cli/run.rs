@@ -3,6 +3,7 @@
 use super::Exit;
 use super::arguments::RunArguments;
 use super::error::ProgramError;
+use super::panels::add_panels;
 use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
@@ -85,6 +86,7 @@ pub(super) fn run(
     profile.over("runs and their figures");
     for result in &mut results {
         draw_measured(result, &overlay)?;
+        add_panels(&mut result.figures, &command.panels)?;
         if let Some(plan) = &wanted {
             result.parameters_toml += &format!("\n{}", plan.text());
             "bagnold run case.toml".clone_into(&mut result.command);

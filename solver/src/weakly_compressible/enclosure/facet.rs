@@ -90,6 +90,19 @@ impl<const D: usize> Facet<D> {
         })
     }
 
+    /// Directions out of a triangle across its edges in its plane `[-]`, each with the place of the edge along it `[m]`; zero for a
+    /// segment.
+    pub(super) fn edges(&self) -> [(Vector<D>, f64); D] {
+        std::array::from_fn(|k| {
+            let [start, end, opposite] = [0, 1, 2].map(|next| self.corners[(k + next) % D]);
+            let (along, across) = (end - start, start - opposite);
+            let out =
+                if D < 3 { Vector::zeros() } else { across - along * (across.dot(&along) / along.norm_squared()) };
+            let out = out.try_normalize(0.0).unwrap_or(out);
+            (out, out.dot(&start))
+        })
+    }
+
     /// Angle that it fills around a point of its rim `[rad]`; 1 for a segment, whose ends are all alike.
     #[must_use]
     pub(super) fn angle(&self, point: &Vector<D>) -> f64 {

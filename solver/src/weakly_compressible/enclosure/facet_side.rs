@@ -11,6 +11,8 @@ use crate::vector::Vector;
 pub(super) const TIE: f64 = 1e-9;
 /// Largest deviation from 1 of the cosine between two edges that are one `[-]`.
 const ALONG: f64 = 1e-6;
+/// Triangles around a point that are compared each with each: fewer are not worth a list, which a step may not allocate.
+const FEW: usize = 32;
 
 /// Distance of a place from some facets, signed by the side.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,10 +70,25 @@ fn is_open<'a, const D: usize>(facets: impl Iterator<Item = (&'a Facet<D>, Vecto
         let nearest = facet.nearest(&place);
         ((place - nearest).norm() <= least * (1.0 + TIE)).then(|| facet.rays(&nearest))
     });
+    if tied.clone().nth(FEW).is_some() {
+        return is_open_among_many(tied.enumerate().flat_map(|(own, rays)| rays.map(|ray| (own, ray))).collect());
+    }
     let joined = |own: usize, ray: &Vector<D>| {
         tied.clone().enumerate().any(|(k, rays)| k != own && rays.iter().any(|other| other.dot(ray) > 1.0 - ALONG))
     };
     tied.clone().enumerate().any(|(own, rays)| !rays.iter().all(|ray| joined(own, ray)))
+}
+
+/// What [`is_open`] says, of the rays of many triangles with their numbers: joined rays are near each other along an axis.
+fn is_open_among_many<const D: usize>(mut rays: Vec<(usize, Vector<D>)>) -> bool {
+    rays.sort_unstable_by(|one, other| one.1[0].total_cmp(&other.1[0]).then(one.0.cmp(&other.0)));
+    let is_joined = |at: usize| {
+        let (own, ray) = rays[at];
+        let is_near = |other: &&(usize, Vector<D>)| (other.1[0] - ray[0]).abs() <= 2.0 * ALONG.sqrt();
+        let joins = |other: &(usize, Vector<D>)| other.0 != own && other.1.dot(&ray) > 1.0 - ALONG;
+        rays[at + 1..].iter().take_while(is_near).any(joins) || rays[..at].iter().rev().take_while(is_near).any(joins)
+    };
+    !(0..rays.len()).all(is_joined)
 }
 
 #[cfg(test)]
@@ -175,5 +192,31 @@ mod tests {
             assert!((distance(&outside, [-0.1, -0.2, -0.2]) - 0.3).abs() < 1e-15);
             assert!((distance(&outside, [0.3, 0.1, 0.2]) + 0.1).abs() < 1e-15);
         }
+    }
+
+    #[test]
+    fn hundreds_of_slivers_around_a_corner_are_not_compared_each_with_each() {
+        // a pit with the flow in it, steeper than 45 degrees, and places below its corner
+        let count = 600_u32;
+        let rim = |k: u32| {
+            let angle = f64::from(k % count) * std::f64::consts::TAU / f64::from(count);
+            [libm::cos(angle), libm::sin(angle), 2.0]
+        };
+        // in any order
+        let pit: Vec<_> = (0..count).map(|k| k * 1237 % count).map(|k| [[0.0; 3], rim(k), rim(k + 1)]).collect();
+        let seen = |corners: &[[[f64; 3]; 3]]| {
+            let (facets, looks) = (triangles(corners), std::cell::Cell::new(0));
+            let place = Vector::<3>::new(0.01, 0.02, -0.3);
+            let look = |facet| {
+                looks.set(looks.get() + 1);
+                (facet, place)
+            };
+            let found = facet_side(facets.iter().map(look)).expect("facets").distance;
+            assert!(looks.get() < 10 * facets.len(), "{} looks at {} facets", looks.get(), facets.len());
+            found / place.norm()
+        };
+        assert!((seen(&pit) + 1.0).abs() < 1e-12, "behind a closed pit");
+        let open: Vec<_> = pit.iter().copied().filter(|corners| corners[1][0] < 0.99).collect();
+        assert!((seen(&open) - 1.0).abs() < 1e-12, "there is no wall beyond a rim");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::facet::Facet;
 use super::facet_side::{FacetSide, TIE, facet_side};
-use crate::vector::Vector;
+use crate::vector::{Tensor, Vector};
 
 /// Most facets of a leaf.
 const LEAF: usize = 4;
@@ -25,13 +25,55 @@ pub struct FacetTree {
     facets: Vec<u32>,
 }
 
-/// Lower and upper corner `[m]`.
-type Corners = [Vector<3>; 2];
+/// Three corners `[m]`; the last two are one in the plane.
+type Triangle = [Vector<3>; 3];
 
 #[derive(Debug, Clone, PartialEq)]
 struct Node {
-    corners: Corners,
+    turned: TurnedBox,
     content: Content,
+}
+
+/// A box along the axes, or along a triangle in it if that one is smaller: boxes of slivers that lie askew hold little else.
+#[derive(Debug, Clone, PartialEq)]
+struct TurnedBox {
+    /// Directions of its edges, row by row `[-]`.
+    along: Tensor<3>,
+    /// Lower and upper corner along them `[m]`.
+    corners: [Vector<3>; 2],
+}
+
+impl TurnedBox {
+    fn of<'a>(triangles: impl Iterator<Item = &'a Triangle>, along: Tensor<3>) -> Self {
+        let none = [Vector::<3>::repeat(f64::INFINITY), Vector::<3>::repeat(f64::NEG_INFINITY)];
+        let corners = triangles.flatten().map(|corner| along * corner);
+        Self { along, corners: corners.fold(none, |[low, high], corner| [low.inf(&corner), high.sup(&corner)]) }
+    }
+
+    fn lengths(&self) -> Vector<3> {
+        self.corners[1] - self.corners[0]
+    }
+
+    /// Half of its surface `[m²]`, which orders flat ones, too.
+    fn surface(&self) -> f64 {
+        let [x, y, z] = self.lengths().into();
+        x * y + y * z + z * x
+    }
+}
+
+/// Directions along the longest edge of a triangle, across it, and normal to it `[-]`; none of a segment.
+fn directions(triangle: &Triangle) -> Option<Tensor<3>> {
+    let [a, b, c] = longest_first(*triangle);
+    let along = (b - a).try_normalize(0.0)?;
+    let across = (b - a).cross(&(c - a)).cross(&along).try_normalize(0.0)?;
+    Some(Tensor::<3>::from_rows(&[along, across, along.cross(&across)].map(|row| row.transpose())))
+}
+
+/// The triangle from the start of its longest edge on.
+fn longest_first([a, b, c]: Triangle) -> Triangle {
+    let turns = [[a, b, c], [b, c, a], [c, a, b]];
+    let length = |turn: &Triangle| (turn[1] - turn[0]).norm_squared();
+    turns.into_iter().fold(turns[0], |long, turn| if length(&turn) > length(&long) { turn } else { long })
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -46,27 +88,18 @@ fn in_space<const D: usize>(place: &Vector<D>) -> Vector<3> {
     Vector::<3>::from_fn(|axis, _| if axis < D { place[axis] } else { 0.0 })
 }
 
-fn around(boxes: impl Iterator<Item = Corners>) -> Corners {
-    let none = [Vector::<3>::repeat(f64::INFINITY), Vector::<3>::repeat(f64::NEG_INFINITY)];
-    boxes.fold(none, |[lower, upper], [low, high]| [lower.inf(&low), upper.sup(&high)])
-}
-
-/// Adds the boxes of the halves of a triangle's longest edges, down to a size `[m]`: the one box of a long thin triangle holds much
-/// beside it.
-fn add_pieces(corners: &[Vector<3>; 3], size: f64, depth: u8, boxes: &mut Vec<Corners>) {
-    let bounds = around(corners.iter().map(|corner| [*corner; 2]));
+/// Adds the halves of a triangle's longest edges, down to a size `[m]`: the one box of a long thin triangle holds much beside it.
+fn add_pieces(corners: &Triangle, size: f64, depth: u8, pieces: &mut Vec<Triangle>) {
     let [a, b, c] = *corners;
-    if depth == 0 || b == c || (bounds[1] - bounds[0]).amax() <= size {
-        boxes.push(bounds);
+    let extent = a.sup(&b).sup(&c) - a.inf(&b).inf(&c);
+    if depth == 0 || b == c || extent.amax() <= size {
+        pieces.push(*corners);
         return;
     }
-    let turns = [[a, b, c], [b, c, a], [c, a, b]];
-    let length = |turn: &[Vector<3>; 3]| (turn[1] - turn[0]).norm_squared();
-    let [a, b, c] =
-        turns.into_iter().fold(turns[0], |long, turn| if length(&turn) > length(&long) { turn } else { long });
+    let [a, b, c] = longest_first(*corners);
     let middle = (a + b) * 0.5;
-    add_pieces(&[a, middle, c], size, depth - 1, boxes);
-    add_pieces(&[middle, b, c], size, depth - 1, boxes);
+    add_pieces(&[a, middle, c], size, depth - 1, pieces);
+    add_pieces(&[middle, b, c], size, depth - 1, pieces);
 }
 
 impl FacetTree {
@@ -79,54 +112,57 @@ impl FacetTree {
     }
 
     /// The tree of triangles; segments have their last corner twice.
-    fn of_triangles(triangles: &[[Vector<3>; 3]], range: f64) -> Self {
-        let (mut boxes, mut owners): (Vec<Corners>, Vec<u32>) = (Vec::new(), Vec::new());
+    fn of_triangles(triangles: &[Triangle], range: f64) -> Self {
+        let (mut pieces, mut owners): (Vec<Triangle>, Vec<u32>) = (Vec::new(), Vec::new());
         let mut size = if range > 0.0 { range } else { f64::INFINITY };
         let most = PIECES + 2 * triangles.len();
         let mut is_whole = false;
         while !is_whole {
-            boxes.clear();
+            pieces.clear();
             owners.clear();
             is_whole = triangles.iter().zip(0..).all(|(corners, owner)| {
-                add_pieces(corners, size, DEEPEST, &mut boxes);
-                owners.resize(boxes.len(), owner);
-                boxes.len() <= most
+                add_pieces(corners, size, DEEPEST, &mut pieces);
+                owners.resize(pieces.len(), owner);
+                pieces.len() <= most
             });
             size *= 2.0;
         }
         let mut tree = Self { range, slack: 0.0, nodes: Vec::new(), facets: Vec::new() };
-        let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
-        if !boxes.is_empty() {
-            tree.divide(&boxes, &mut order, 0);
-            let [lower, upper] = tree.nodes[0].corners;
+        let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
+        if !pieces.is_empty() {
+            tree.divide(&pieces, &mut order, 0);
+            let [lower, upper] = tree.nodes[0].turned.corners;
             tree.slack = ROUNDING * (lower.amax().max(upper.amax()) + range);
         }
         Self { facets: order.into_iter().map(|piece| owners[piece as usize]).collect(), ..tree }
     }
 
-    /// Adds the box of some facets, and what is in it, halved along its longest edge; facets with one middle by their places.
-    fn divide(&mut self, boxes: &[Corners], order: &mut [u32], start: usize) {
-        let of = |facet: &u32| boxes[*facet as usize];
-        let corners = around(order.iter().map(of));
+    /// Adds the box of some pieces, and what is in it, halved along its longest edge; pieces with one middle by their places.
+    fn divide(&mut self, pieces: &[Triangle], order: &mut [u32], start: usize) {
+        let of = |piece: &u32| &pieces[*piece as usize];
+        let straight = TurnedBox::of(order.iter().map(of), Tensor::<3>::identity());
+        let axis = straight.lengths().imax();
+        let along_one = directions(of(&order[0])).map(|along| TurnedBox::of(order.iter().map(of), along));
+        let turned = along_one.filter(|one| one.surface() < straight.surface()).unwrap_or(straight);
         let own = self.nodes.len();
         let content = Content::Facets(start as u32, (start + order.len()) as u32);
-        self.nodes.push(Node { corners, content });
+        self.nodes.push(Node { turned, content });
         if order.len() <= LEAF {
             return;
         }
-        let axis = (corners[1] - corners[0]).imax();
-        let middle = |facet: &u32| of(facet)[0][axis] + of(facet)[1][axis];
+        let middle = |piece: &u32| of(piece).iter().map(|corner| corner[axis]).sum::<f64>();
         let half = order.len() / 2;
         order.select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)).then(a.cmp(b)));
         let (first, second) = order.split_at_mut(half);
-        self.divide(boxes, first, start);
+        self.divide(pieces, first, start);
         self.nodes[own].content = Content::Boxes(self.nodes.len() as u32);
-        self.divide(boxes, second, start + half);
+        self.divide(pieces, second, start + half);
     }
 
     /// Distance of a place from a box `[m]`, less rounding.
     fn distance(&self, node: usize, place: &Vector<3>) -> f64 {
-        let [lower, upper] = &self.nodes[node].corners;
+        let TurnedBox { along, corners: [lower, upper] } = &self.nodes[node].turned;
+        let place = along * place;
         (lower - place).sup(&(place - upper)).sup(&Vector::zeros()).norm() - self.slack
     }
 
@@ -243,5 +279,24 @@ mod tests {
         let one = Facet::triangle([Vector::zeros(), at(0.0), at(1.0)]).expect("a triangle");
         assert_eq!(FacetTree::new(&[one; 100], 0.2).side(&[one; 100], &at(0.5)).map(|found| found.facet), Some(0));
         assert_eq!(FacetTree::new::<2>(&[], 0.1).side::<2>(&[], &Vector::zeros()), None);
+    }
+
+    #[test]
+    fn around_a_fan_of_slivers_few_are_looked_at() {
+        let (count, range) = (20_000_u32, 0.12);
+        let at = |k: u32| {
+            let angle = f64::from(k % count) * std::f64::consts::TAU / f64::from(count);
+            Vector::<3>::new(libm::cos(angle), libm::sin(angle), 0.1)
+        };
+        let fan: Vec<_> = (0..count).filter_map(|k| Facet::triangle([Vector::zeros(), at(k), at(k + 1)])).collect();
+        let tree = FacetTree::new(&fan, range);
+        let mut looked_at = 0;
+        for k in 0..400 {
+            let (radius, angle) = (0.05 + 0.9 * f64::from(k) / 400.0, 2.4 * f64::from(k));
+            let place = Vector::<3>::new(radius * libm::cos(angle), radius * libm::sin(angle), 0.1 * radius - 0.05);
+            let found = tree.side_within(&fan, &place, range, |number| looked_at += number);
+            assert!(found.is_some_and(|side| (side.distance + 0.05 / 1.01_f64.sqrt()).abs() < 1e-6), "{found:?}");
+        }
+        assert!(looked_at < 400 * 300, "{looked_at} of {count} slivers for 400 places");
     }
 }

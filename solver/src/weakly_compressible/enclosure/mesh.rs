@@ -20,6 +20,16 @@ impl FacetWall<3> {
     }
 }
 
+/// The corner `[m]` that most triangles share, and their number; none without triangles.
+#[must_use]
+pub fn largest_fan(triangles: &[[Vector<3>; 3]]) -> Option<(Vector<3>, usize)> {
+    let bits = |corner: &Vector<3>| [corner[0], corner[1], corner[2]].map(|coordinate| (coordinate + 0.0).to_bits());
+    let mut corners: Vec<[u64; 3]> = triangles.iter().flatten().map(bits).collect();
+    corners.sort_unstable();
+    let fan = corners.chunk_by(|one, other| one == other).max_by_key(|same| same.len())?;
+    Some((Vector::from(fan[0].map(f64::from_bits)), fan.len()))
+}
+
 /// An edge by its ends, either way round, in single precision: computed corners that are one may differ in a last digit.
 type Edge = [[u32; 3]; 2];
 

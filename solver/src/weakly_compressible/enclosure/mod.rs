@@ -26,3 +26,4 @@ pub mod mesh_backing;
 pub use boundary_set::BoundarySet;
 pub use feed_rate::FeedRate;
 pub use inlet::Inlet;
+pub use mesh::largest_fan;

@@ -8,7 +8,7 @@ use super::material::Material;
 use super::release::Release;
 use super::watch::CollapseObserver;
 use crate::case::recording::{self, Ending, ObservedRun, SimulationStage};
-use crate::case::{ParameterError, Progress, Run, cost};
+use crate::case::{ParameterError, Progress, Run, RunScales, cost};
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::Recorded;
 use crate::setup::acoustic_step;
@@ -132,6 +132,10 @@ impl Run for ColumnRun {
             speed,
             self.release.gravity,
         )
+    }
+
+    fn scales(&self) -> Option<RunScales> {
+        Some(RunScales { length: self.half_width, time: self.time_scale() })
     }
 
     fn particles(&self) -> f64 {

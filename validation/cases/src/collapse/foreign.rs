@@ -259,7 +259,7 @@ const ORIGIN: &str = "check the unit and the origin: it lies on the bed in the s
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{NamedColumns, Parameters, Tier};
+    use crate::case::{NamedColumns, Parameters, Run, Tier};
     use crate::collapse::planar::ColumnPlanarParameters;
 
     /// A column higher than half of it is wide.
@@ -312,6 +312,15 @@ mod tests {
         // a triangle of the length 3 r_0
         assert!((seen.observation.centroid - 1.0).abs() < 0.01, "{}", seen.observation.centroid);
         assert!(!seen.measured.contains(&"height_by_top"));
+    }
+
+    #[test]
+    fn columns_over_the_half_width_and_the_time_of_fall_are_those_of_the_run() {
+        let (run, scales) = (run(), run().scales().expect("a column has scales"));
+        assert_eq!(scales.length, run.half_width);
+        let nominal = (run.aspect_ratio * run.half_width / run.release.gravity).sqrt();
+        // the height is a whole number of rows
+        assert!((scales.time / nominal - 1.0).abs() < 0.03, "{} and {nominal}", scales.time);
     }
 
     #[test]

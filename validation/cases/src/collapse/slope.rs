@@ -6,7 +6,7 @@ use super::deposit::{Collapse, Surveyor};
 use super::reservoir::Reservoir;
 use super::watch::CollapseObserver;
 use crate::case::recording::{self, Ending, ObservedRun, SimulationStage};
-use crate::case::{ParameterError, Progress, Run};
+use crate::case::{ParameterError, Progress, Run, RunScales};
 use crate::metric::{FlowRegime, Value, Variant};
 use crate::observation::Recorded;
 use crate::setup::{Lattice, acoustic_step};
@@ -82,6 +82,11 @@ impl Run for SlopeRun {
             speed,
             gravity,
         )
+    }
+
+    fn scales(&self) -> Option<RunScales> {
+        let Reservoir { initial_height, reservoir_length, gravity, .. } = self.reservoir;
+        Some(RunScales { length: reservoir_length, time: (initial_height / gravity).sqrt() })
     }
 
     fn particles(&self) -> f64 {

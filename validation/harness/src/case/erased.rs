@@ -10,7 +10,7 @@ use super::notes::notes;
 use super::result::{CaseResult, RunSummary, microseconds_each};
 use super::{
     Case, CaseFile, Conditions, Estimate, ExternalData, ExternalSchema, Parameters, Progress, RecordOf, Run, RunOf,
-    StateOutput, Tier, schema, tables_to_add,
+    RunScales, StateOutput, Tier, schema, tables_to_add,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::control::{self, Control};
@@ -90,6 +90,10 @@ pub trait PreparedCase: Send + Sync {
     /// # Errors
     /// Parameters whose combination gives no valid scene.
     fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError>;
+    /// Scales of a run, in which another code may give its columns.
+    fn scales(&self, _run: usize) -> Option<RunScales> {
+        None
+    }
     /// The same with some of its runs only, in this order.
     fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn PreparedCase>;
     /// Judges and draws what another code gives, a run each; those of which it gives no files are left out.
@@ -256,6 +260,10 @@ impl<C: Case> PreparedCase for CasePlan<C> {
 
     fn run_parameters(&self, run: usize) -> serde_json::Value {
         as_json(&self.slots[run].0)
+    }
+
+    fn scales(&self, run: usize) -> Option<RunScales> {
+        self.slots[run].0.scales()
     }
 
     fn particle_steps(&self, run: usize) -> f64 {

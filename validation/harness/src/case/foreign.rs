@@ -49,6 +49,15 @@ impl ExternalColumn {
     }
 }
 
+/// Scales of a run, which are units of the columns of other codes, `r0` and `t0`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunScales {
+    /// Initial half width, radius or length r_0 `[m]`.
+    pub length: f64,
+    /// t_0 = √(h_0/g) with the initial height h_0 `[s]`.
+    pub time: f64,
+}
+
 /// Data that a case accepts for a run from an external code, besides single numbers, which every case accepts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExternalSchema {

@@ -41,6 +41,7 @@ pub use features::{FeatureOption, Features};
 pub use file::CaseFile;
 pub use foreign::{
     ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,
+    RunScales,
 };
 pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
 pub use registry::Registry;
@@ -153,9 +154,17 @@ pub trait Run: Serialize + Clone + Send + Sync {
     fn seconds_per_particle_step(&self) -> f64 {
         cost::WEAKLY_COMPRESSIBLE
     }
+    /// Time of one core before the first step `[s]`: nothing, unless a case tells.
+    fn preparation_seconds(&self) -> f64 {
+        0.0
+    }
     /// The regime of the flow that it leaves behind; nothing, unless a case tells.
     fn regime(&self, _: &Self::Observation) -> FlowRegime {
         FlowRegime::default()
+    }
+    /// Scales r_0 and t_0 of columns that another code gives; none, unless a case tells.
+    fn scales(&self) -> Option<RunScales> {
+        None
     }
     /// Constitutive laws of its scene that its own fields do not name, because they hold a law's numbers alone.
     fn laws(&self) -> Vec<Rheology> {

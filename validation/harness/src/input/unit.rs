@@ -1,7 +1,7 @@
 //! Units as people write them, `cm/s`, `g/cm^3`, `kPa`, and what they are in SI.
 
 /// Powers of length, mass and time.
-type UnitExponents = [i32; 3];
+pub type UnitExponents = [i32; 3];
 
 /// Symbols that stand for themselves, with their value in metres, kilograms and seconds.
 const SYMBOLS: [(&str, f64, UnitExponents); 10] = [
@@ -30,16 +30,21 @@ struct Unit {
 
 /// The factor from one unit to another `[-]`; none where one is unknown or they measure different things.
 pub fn factor(from: &str, to: &str) -> Option<f64> {
-    let (from, to) = (parse(from)?, parse(to)?);
+    factor_with(from, to, &[])
+}
+
+/// The factor from one unit to another `[-]`, either of which may use further symbols, each with its value in SI and its dimension.
+pub fn factor_with(from: &str, to: &str, further: &[(&str, f64, UnitExponents)]) -> Option<f64> {
+    let (from, to) = (parse(from, further)?, parse(to, further)?);
     (from.dimension == to.dimension).then_some(from.factor / to.factor)
 }
 
 /// Whether a unit can be converted at all.
 pub fn is_known(unit: &str) -> bool {
-    parse(unit).is_some()
+    parse(unit, &[]).is_some()
 }
 
-fn parse(text: &str) -> Option<Unit> {
+fn parse(text: &str, further: &[(&str, f64, UnitExponents)]) -> Option<Unit> {
     let text = text.trim();
     if text.is_empty() {
         return None;
@@ -50,7 +55,9 @@ fn parse(text: &str) -> Option<Unit> {
         let part = if place > 0 { part.trim_start_matches('(').trim_end_matches(')') } else { part };
         for word in part.split(['·', '*', ' ']).filter(|word| !word.is_empty()) {
             let (symbol, power) = powered(word)?;
-            let own = symbol_of(symbol)?;
+            let is_further = |own: &&(&str, f64, UnitExponents)| own.0 == symbol;
+            let own = further.iter().find(is_further).map(|own| Unit { factor: own.1, dimension: own.2 });
+            let own = own.or_else(|| symbol_of(symbol))?;
             let power = sign * power;
             unit.factor *= own.factor.powi(power);
             for (sum, own) in unit.dimension.iter_mut().zip(own.dimension) {

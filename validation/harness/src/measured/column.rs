@@ -1,6 +1,6 @@
 //! Columns of an external file: the quantity and unit of each.
 
-use crate::case::ExternalColumn;
+use crate::case::{ExternalColumn, RunScales};
 use crate::input::{FieldError, number_in, unit};
 
 /// Source of the values of a quantity.
@@ -65,13 +65,22 @@ impl ColumnSource {
         }
     }
 
-    /// The factor to the unit of an item.
+    /// The factor to the unit of an item; `r0` and `t0` are the scales of the run, where it has some.
     ///
     /// # Errors
-    /// A unit that is unknown or measures something else.
-    pub fn factor(&self, item: &ExternalColumn, field: &str) -> Result<f64, FieldError> {
-        unit::factor(self.unit(), item.unit).ok_or_else(|| {
-            let rule = format!("a unit of the same kind as {}", item.unit);
+    /// A unit that is unknown or measures something else, or a scale that the run does not have.
+    pub fn factor(&self, item: &ExternalColumn, field: &str, scales: Option<RunScales>) -> Result<f64, FieldError> {
+        let with = |scales: RunScales| {
+            unit::factor_with(
+                self.unit(),
+                item.unit,
+                &[("r0", scales.length, [1, 0, 0]), ("t0", scales.time, [0, 0, 1])],
+            )
+        };
+        scales.map_or_else(|| unit::factor(self.unit(), item.unit), with).ok_or_else(|| {
+            let is_scaled = with(RunScales { length: 1.0, time: 1.0 }).is_some();
+            let lacks = if is_scaled { ", in a case without r_0 and t_0" } else { "" };
+            let rule = format!("a unit of the same kind as {}{lacks}", item.unit);
             let remedy =
                 "such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes";
             FieldError::new(field, format!("[{}]", self.unit()), &rule, remedy)
@@ -92,7 +101,7 @@ mod tests {
     fn a_heading_has_its_unit_in_brackets_and_a_constant_beside_it() {
         let heading = parse("\"X position [cm]\"").expect("a heading");
         let item = ExternalColumn::new("x", "m", "place");
-        assert_eq!(heading.factor(&item, "columns.x"), Ok(1e-2));
+        assert_eq!(heading.factor(&item, "columns.x", None), Ok(1e-2));
         assert!(matches!(heading, ColumnSource::Heading { name, .. } if name == "X position"));
         let constant = ColumnSource::Constant { value: 2.0, unit: "mm".to_owned() };
         assert_eq!(parse("{ value = 2, unit = \"mm\" }"), Ok(constant));
@@ -104,10 +113,34 @@ mod tests {
             let message = parse(text).expect_err("no unit").to_string();
             assert!(message.contains("but must be a heading with its unit in brackets"), "{message}");
         }
-        let wrong = parse("\"t [s]\"").expect("a heading").factor(&ExternalColumn::new("x", "m", "place"), "columns.x");
+        let wrong =
+            parse("\"t [s]\"").expect("a heading").factor(&ExternalColumn::new("x", "m", "place"), "columns.x", None);
         assert_eq!(
             wrong.expect_err("not a length").to_string(),
             "`columns.x` is [s], but must be a unit of the same kind as m; such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes"
         );
+    }
+
+    #[test]
+    fn scales_of_a_run_are_units_where_it_has_them() {
+        let factor = |text: &str, unit: &'static str, scales| {
+            parse(text).expect("a heading").factor(&ExternalColumn::new("x", unit, ""), "columns.x", scales)
+        };
+        let scales = Some(RunScales { length: 0.25, time: 0.125 });
+        for (text, unit, expected) in [
+            ("\"x/r0 [r0]\"", "m", 0.25),
+            ("\"t* [t0]\"", "s", 0.125),
+            ("\"A [r0^2]\"", "m^2", 0.0625),
+            ("\"u [r0/t0]\"", "m/s", 2.0),
+            ("\"x [cm]\"", "m", 1e-2),
+        ] {
+            assert_eq!(factor(text, unit, scales), Ok(expected), "{text}");
+        }
+        let message = |text, scales| factor(text, "m", scales).expect_err("no length").to_string();
+        let without =
+            "`columns.x` is [r0], but must be a unit of the same kind as m, in a case without r_0 and t_0; such as cm";
+        assert!(message("\"x [r0]\"", None).starts_with(without), "{}", message("\"x [r0]\"", None));
+        let wrong = "`columns.x` is [t0], but must be a unit of the same kind as m; such as cm";
+        assert!(message("\"x [t0]\"", scales).starts_with(wrong));
     }
 }

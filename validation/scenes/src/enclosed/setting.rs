@@ -53,6 +53,11 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// Its motion from the start.
     fn motion(&self) -> Motion<D>;
 
+    /// Number of triangles, which take time before the run; a polyline has none.
+    fn triangle_count(&self) -> usize {
+        0
+    }
+
     /// Openings of its mesh in words; none of another wall or of a closed mesh. Defects of the mesh are warned of.
     fn openings(&self) -> Option<String> {
         None

@@ -11,6 +11,7 @@ use bagnold_number::four_digits;
 use bagnold_solver::parameter::above;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion};
+use bagnold_solver::weakly_compressible::enclosure::largest_fan;
 use bagnold_solver::weakly_compressible::walls::Surface;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -62,6 +63,9 @@ pub struct SpaceWall {
     #[serde(default)]
     pub motion: Vec<(f64, f64, f64, f64)>,
 }
+
+/// Triangles around one corner at most: particles near it look at all of them.
+const LARGEST_FAN: usize = 10_000;
 
 fn metres() -> String {
     "m".to_owned()
@@ -161,6 +165,10 @@ impl setting::SceneWall<3> for SpaceWall {
         faces(&lower, &upper)[..2].concat()
     }
 
+    fn triangle_count(&self) -> usize {
+        self.unpacked().count() + self.packed.triangles().len()
+    }
+
     fn measure(&self) -> f64 {
         self.unpacked().map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum::<f64>() + self.packed.area()
     }
@@ -209,9 +217,15 @@ impl setting::SceneWall<3> for SpaceWall {
                 return refused(&format!("boxes[{k}]"), value, rule, "exchange what is not");
             }
         }
+        let triangles = self.corners();
+        if let Some((at, count)) = largest_fan(&triangles).filter(|(_, count)| *count > LARGEST_FAN) {
+            let value = format!("a fan of {count} triangles around {} m", shown(&at));
+            let rule = format!("a surface with at most {LARGEST_FAN} triangles around a corner");
+            return refused("mesh", value, &rule, "divide it evenly: no particle feels edges far below the spacing");
+        }
         let area = self.measure();
         if !(area > spacing * spacing && area.is_finite()) {
-            let value = format!("{} triangles", self.corners().len());
+            let value = format!("{} triangles", triangles.len());
             let rule = "a surface larger than the square of the spacing";
             return refused("quads", value, rule, "give `mesh`, `triangles`, `quads` or `boxes`, in metres");
         }
@@ -290,6 +304,17 @@ mod tests {
         assert_eq!(
             unread.check(0.1, 1.0).expect_err("unread").to_string(),
             "`mesh` is \"a.stl\", but must be read with the case file that names it; name it in a case file, or give `triangles`"
+        );
+        let at = |k: u32| (libm::cos(1e-4 * f64::from(k)), libm::sin(1e-4 * f64::from(k)), 0.0);
+        let fan = |count| SpaceWall {
+            triangles: (0..count).map(|k| (o, at(k), at(k + 1))).collect(),
+            ..SpaceWall::of_quads("fan", Vec::new())
+        };
+        assert!(fan(10_000).check(0.1, 1.0).is_ok() && fan(10_000).triangle_count() == 10_000);
+        assert_eq!(
+            fan(10_001).check(0.1, 1.0).expect_err("a fan").to_string(),
+            "`mesh` is a fan of 10001 triangles around (0, 0, 0) m, but must be a surface with at most 10000 triangles around a corner; \
+             divide it evenly: no particle feels edges far below the spacing"
         );
         assert!(SpaceWall::of_quads("none", Vec::new()).check(0.1, 1.0).is_err());
         let inverse =

@@ -184,8 +184,8 @@ fn entry(
         let mut given = vec![ExternalData::default(); prepared.run_count()];
         for (number, (run, &place)) in runs.iter().zip(places).enumerate() {
             let field = format!("run {}", number + 1);
-            given[place] =
-                reading::read(run, form, &field, &folder).map_err(|error| error.in_file(&submission.path))?;
+            given[place] = reading::read(run, (form, prepared.scales(place)), &field, &folder)
+                .map_err(|error| error.in_file(&submission.path))?;
         }
         Ok(prepared.judge_external(&given).map_err(|(place, error)| {
             let number = places.iter().position(|own| *own == place).map_or(0, |number| number + 1);

@@ -3,7 +3,7 @@
 use super::lammps;
 use super::submission::{ForeignRun, ParticleFiles, TableFile, rising, sources};
 use super::vtk::{self, NamedArrays, PLACES, PointArrays};
-use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame};
+use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame, RunScales};
 use crate::evaluation::PlanError;
 use crate::input::{self, FieldError, TextTable, did_you_mean, nearest};
 use crate::measured::ColumnSource;
@@ -26,17 +26,23 @@ type ColumnAssignments = Vec<(&'static ExternalColumn, ColumnSource, f64, String
 /// that do not rise.
 pub(super) fn read(
     run: &ForeignRun,
-    form: &ExternalSchema,
+    (form, scales): (&ExternalSchema, Option<RunScales>),
     field: &str,
     folder: &Path,
 ) -> Result<ExternalData, PlanError> {
+    let plan = |texts: &_, items, field: &str| plan(texts, items, scales, field);
+    let columns = |table: &TableFile, items, field: &str| -> Result<NamedColumns, PlanError> {
+        let plan = plan(&table.columns, items, field)?;
+        let file = folder.join(&table.file);
+        Ok(of_table(&read_text_table(&file)?, &plan, &file)?)
+    };
     let mut given = ExternalData::default();
     if let Some(files) = &run.particles {
         let plan = plan(&files.columns, form.particles, &format!("{field}.particles"))?;
         given.pictures = pictures(files, &plan, folder)?;
     }
     if let Some(table) = &run.series {
-        given.series = columns(table, form.series, &format!("{field}.series"), folder)?;
+        given.series = columns(table, form.series, &format!("{field}.series"))?;
         let names =
             ["time", "relative_time"].into_iter().filter(|name| form.series.iter().any(|item| item.name == *name));
         let Some(name) = names.clone().find(|name| !given.series(name).is_empty()) else {
@@ -48,7 +54,7 @@ pub(super) fn read(
         in_order(given.series(name), &format!("{field}.series.columns.{name}"), &folder.join(&table.file))?;
     }
     if let Some(table) = &run.profile {
-        given.profile = columns(table, form.profile, &format!("{field}.profile"), folder)?;
+        given.profile = columns(table, form.profile, &format!("{field}.profile"))?;
         if let Some(first) = form.profile.first() {
             in_order(
                 given.profile(first.name),
@@ -71,6 +77,7 @@ fn in_order(numbers: &[f64], field: &str, file: &Path) -> Result<(), FieldError>
 fn plan(
     texts: &BTreeMap<String, toml::Value>,
     items: &'static [ExternalColumn],
+    scales: Option<RunScales>,
     field: &str,
 ) -> Result<ColumnAssignments, FieldError> {
     let sources = sources(texts, field)?;
@@ -82,21 +89,10 @@ fn plan(
         .map(|(name, source)| {
             let item = ExternalSchema::find(items, &format!("{field}.columns"), &name)?;
             let field = format!("{field}.columns.{name}");
-            let factor = source.factor(item, &field)?;
+            let factor = source.factor(item, &field, scales)?;
             Ok((item, source, factor, field))
         })
         .collect()
-}
-
-fn columns(
-    table: &TableFile,
-    items: &'static [ExternalColumn],
-    field: &str,
-    folder: &Path,
-) -> Result<NamedColumns, PlanError> {
-    let plan = plan(&table.columns, items, field)?;
-    let file = folder.join(&table.file);
-    Ok(of_table(&read_text_table(&file)?, &plan, &file)?)
 }
 
 /// Files that another one names, unless one of them is missing.
@@ -279,7 +275,7 @@ mod tests {
                 "files = [\"case.vtm\"]\ntimes = [0.0]\ncolumns = {{ y = \"Points:1 [m]\", area = \"{area}\" }}\n"
             );
             let files: ParticleFiles = toml::from_str(&text).expect("files");
-            pictures(&files, &plan(&files.columns, COLUMNS, "particles").expect("columns"), folder.path())
+            pictures(&files, &plan(&files.columns, COLUMNS, None, "particles").expect("columns"), folder.path())
         };
         let seen = read("area [cm^2]").expect("a picture");
         assert_eq!((&seen[0].columns["y"][..], &seen[0].columns["area"][..]), (&[2.0][..], &[1e-4][..]));
