@@ -77,7 +77,11 @@ impl Expectation {
         order.sort_by(|a, b| b.cost.total_cmp(&a.cost));
         let runs: Vec<f64> = order.into_iter().map(core_seconds).collect();
         let beside = |case: &&str| {
-            let shipped = || shipped.beside(case, self.command).unwrap_or(0.0) * machine;
+            // the shipped time is that of all runs of the quick tier; some of them have less to draw, but not by their cost
+            let asked: f64 = self.runs.iter().filter(|run| run.case == *case).map(|run| run.nominal).sum();
+            let share = |whole: f64| if whole > 0.0 { (asked / whole).min(1.0).sqrt() } else { 1.0 };
+            let whole = shipped.nominal(case);
+            let shipped = || shipped.beside(case, self.command).unwrap_or(0.0) * share(whole) * machine;
             known.beside(case, self.command).unwrap_or_else(shipped)
         };
         wall_time(&runs, threads) + self.cases.iter().map(beside).sum::<f64>()
@@ -177,6 +181,15 @@ mod tests {
             20.25,
             "the longest run alone, though it begins last"
         );
+    }
+
+    #[test]
+    fn a_part_of_the_runs_has_a_part_of_the_figures() {
+        let (known, mut shipped) = (Speeds::default(), Speeds::default());
+        shipped.learn("film", &Variant::of("resolution", 0), 8.0, 8.0);
+        shipped.learn_beside("film", "run", 20.0);
+        assert_eq!(expectation(&[2.0]).seconds_by(&known, &shipped, 1.0, 1), 12.0, "half for a quarter of the cost");
+        assert_eq!(expectation(&[16.0]).seconds_by(&known, &shipped, 1.0, 1), 36.0, "no more than of the whole case");
     }
 
     #[test]

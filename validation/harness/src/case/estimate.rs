@@ -48,7 +48,7 @@ impl Estimate {
             all_running: running,
             all_particles: particles,
             particle_steps,
-            core_seconds: particle_steps * run.seconds_per_particle_step(),
+            core_seconds: particle_steps * run.seconds_per_particle_step() + run.preparation_seconds(),
         }
     }
 

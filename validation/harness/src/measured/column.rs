@@ -79,10 +79,12 @@ impl ColumnSource {
         };
         scales.map_or_else(|| unit::factor(self.unit(), item.unit), with).ok_or_else(|| {
             let is_scaled = with(RunScales { length: 1.0, time: 1.0 }).is_some();
-            let lacks = if is_scaled { ", in a case without r_0 and t_0" } else { "" };
-            let rule = format!("a unit of the same kind as {}{lacks}", item.unit);
-            let remedy =
-                "such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes";
+            let rule = format!("a unit of the same kind as {}", item.unit);
+            let remedy = if is_scaled {
+                "this case has no r_0 and t_0: convert the column"
+            } else {
+                "such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes"
+            };
             FieldError::new(field, format!("[{}]", self.unit()), &rule, remedy)
         })
     }
@@ -137,8 +139,7 @@ mod tests {
             assert_eq!(factor(text, unit, scales), Ok(expected), "{text}");
         }
         let message = |text, scales| factor(text, "m", scales).expect_err("no length").to_string();
-        let without =
-            "`columns.x` is [r0], but must be a unit of the same kind as m, in a case without r_0 and t_0; such as cm";
+        let without = "`columns.x` is [r0], but must be a unit of the same kind as m; this case has no r_0 and t_0: convert the column";
         assert!(message("\"x [r0]\"", None).starts_with(without), "{}", message("\"x [r0]\"", None));
         let wrong = "`columns.x` is [t0], but must be a unit of the same kind as m; such as cm";
         assert!(message("\"x [t0]\"", scales).starts_with(wrong));

@@ -63,15 +63,27 @@ impl Speeds {
         }
     }
 
-    /// Time taken over the nominal one `[-]`: of that run, else of all runs of its case.
+    /// Time taken over the nominal one `[-]`: of that run, else the median of all runs of its case, which a single odd one does not
+    /// move.
     #[must_use]
     pub fn ratio(&self, case: &str, variant: &Variant) -> Option<f64> {
         let runs = &self.cases.get(case)?.runs;
         let ratio = |taken: f64, nominal: f64| (nominal > 0.0).then_some(taken / nominal);
         match runs.get(&variant.to_string()) {
             Some(run) => ratio(run.taken, run.nominal),
-            None => ratio(runs.values().map(|run| run.taken).sum(), runs.values().map(|run| run.nominal).sum()),
+            None => {
+                let mut ratios: Vec<f64> = runs.values().filter_map(|run| ratio(run.taken, run.nominal)).collect();
+                ratios.sort_by(f64::total_cmp);
+                let middle = |place: usize| ratios.get(place).copied();
+                Some((middle(ratios.len().saturating_sub(1) / 2)? * middle(ratios.len() / 2)?).sqrt())
+            }
         }
+    }
+
+    /// Nominal time of the runs of a case that are known `[s]`.
+    #[must_use]
+    pub fn nominal(&self, case: &str) -> f64 {
+        self.cases.get(case).map_or(0.0, |case| case.runs.values().map(|run| run.nominal).sum())
     }
 
     /// Wall time of a command beside the runs of a case `[s]`.
@@ -124,7 +136,10 @@ mod tests {
         }
         assert_eq!(speeds.ratio("film", &variant(10)), Some(3.0));
         assert_eq!(speeds.ratio("film", &variant(20)), Some(1.0 / 3.0));
-        assert_eq!(speeds.ratio("film", &variant(40)), Some(1.0), "4 s for 4 s");
+        assert_eq!(speeds.ratio("film", &variant(40)), Some(1.0), "between 3 and 1/3");
+        let mut odd = speeds.clone();
+        odd.learn("film", &variant(30), 1.0, 1000.0);
+        assert_eq!(odd.ratio("film", &variant(40)).map(f64::round), Some(3.0), "one odd run says little of others");
         assert_eq!(speeds.ratio("bagnold", &variant(10)), None);
         speeds.learn("film", &variant(10), 2.0, 4.0);
         assert_eq!(speeds.ratio("film", &variant(10)), Some(2.0), "the latest counts");

@@ -40,7 +40,7 @@ pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + S
 
     /// Remedy for a scene without bodies.
     const ADD_A_BODY: &'static str;
-    /// Cost per particle-step relative to the plane `[-]` (more neighbours).
+    /// Cost of a particle-step over that of a layer in the plane `[-]`.
     const COST: f64;
     /// Mean force on a gauge's wall, in the unit that forces have here.
     const MEAN_FORCE: Quantity;

@@ -125,6 +125,10 @@ where
         S::COST * cost::WEAKLY_COMPRESSIBLE * step * all_per_flow
     }
 
+    fn preparation_seconds(&self) -> f64 {
+        cost::TRIANGLE * self.scene.walls.iter().map(SceneWall::triangle_count).sum::<usize>() as f64
+    }
+
     fn brief(&self) -> Option<String> {
         Some(self.summary())
     }

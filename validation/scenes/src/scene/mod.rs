@@ -44,7 +44,7 @@ impl Dimension<2> for Plane {
     type Gauge = PlaneGauge;
 
     const ADD_A_BODY: &'static str = "add a box, a disc or a polygon of material";
-    const COST: f64 = 1.0;
+    const COST: f64 = 0.6;
     const MEAN_FORCE: Quantity =
         Quantity::accounted("mean_force", "N/m", "time average of the force of the flow on the wall of a gauge");
     const MASS_CROSSED: Quantity =

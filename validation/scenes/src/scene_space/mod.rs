@@ -45,7 +45,7 @@ impl Dimension<3> for Space {
     type Gauge = SpaceGauge;
 
     const ADD_A_BODY: &'static str = "add a box, a cylinder or a sphere of material";
-    const COST: f64 = 4.0;
+    const COST: f64 = 1.5;
     const MEAN_FORCE: Quantity =
         Quantity::accounted("mean_force", "N", "time average of the force of the flow on the wall of a gauge");
     const MASS_CROSSED: Quantity =
