@@ -46,7 +46,7 @@ pub(super) fn run(
             tell(&cost_in_words(&cost, plan.limits.core_hours));
         }
     }
-    let bar = EvaluationBar(CountBar::new("evaluations", 0, 0, quiet));
+    let bar = EvaluationBar(CountBar::new("simulations", 0, 0, quiet));
     bar.0.plan(plan.usual_evaluations());
     let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
     bar.0.clear();
@@ -109,7 +109,7 @@ fn text(outcome: &CalibrationResult) -> String {
     text
 }
 
-/// A progress bar that counts evaluations.
+/// A progress bar that counts the simulations of all evaluations.
 struct EvaluationBar(CountBar);
 
 impl CalibrationMonitor for EvaluationBar {
