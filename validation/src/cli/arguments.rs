@@ -257,6 +257,7 @@ pub struct RunArguments {
 /// `bagnold completions`
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
+  mkdir -p ~/.local/share/bash-completion/completions ~/.local/share/man/man1
   bagnold completions bash > ~/.local/share/bash-completion/completions/bagnold
   bagnold completions man > ~/.local/share/man/man1/bagnold.1")]
 pub struct CompletionsArguments {

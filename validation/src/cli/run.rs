@@ -22,7 +22,12 @@ use std::time::Instant;
 fn start_setting(file: &Path) -> Result<String, ParameterError> {
     let name = file.display().to_string();
     let refused = |defect: String| {
-        ParameterError::field("--from", format!("\"{name}\": {defect}"), "", "give a state that `bagnold run` has left")
+        ParameterError::field(
+            "--from",
+            format!("\"{name}\": {defect}"),
+            "",
+            "give the file that `bagnold run` names as a state near its end; with --fresh it simulates and names it again",
+        )
     };
     let digest = StoredState::read(file).map_err(refused)?.digest;
     Ok(format!("from={{ file = {}, sha256 = \"{digest}\" }}", toml::Value::String(name.clone())))

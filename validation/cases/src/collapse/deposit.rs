@@ -217,10 +217,11 @@ impl Collapse {
         self.deposit_front() - 1.0
     }
 
-    /// The same with the front at 0.05 r_0 by thickness in bins, which a row of particles has from 20 over r_0 on `[-]`.
+    /// The same with the front at 0.05 r_0 by thickness in bins, which a row of particles has from 20 over r_0 on `[-]`;
+    /// not a number without a deposit, as where another code gave its front alone.
     #[must_use]
     pub fn run_out_of_rows(&self) -> f64 {
-        end_of_profile(&self.deposit, ROW_THICKNESS) - 1.0
+        if self.deposit.is_empty() { f64::NAN } else { end_of_profile(&self.deposit, ROW_THICKNESS) - 1.0 }
     }
 
     /// Standard uncertainty of a front over r_0 from the spacing, where no study of the resolution tells it `[-]`: the

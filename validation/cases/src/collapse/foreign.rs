@@ -387,6 +387,7 @@ mod tests {
         let seen = of(5.0 * run.time_scale());
         assert_eq!(seen.measured, ["run_out"]);
         assert!((seen.observation.run_out() - 1.5).abs() < 1e-12);
+        assert!(seen.observation.run_out_of_rows().is_nan(), "there is no profile");
         assert!(of(run.time_scale()).measured.is_empty());
     }
 

@@ -48,6 +48,13 @@ const USUAL: &[Usual] = &[
         slip: |value| (value > 0.1).then_some((value * 1e-3, "in millimetres")),
     },
     Usual {
+        field: "spacing",
+        low: 1e-6,
+        high: 2.0,
+        unit: "m",
+        slip: |value| (value > 2.0).then_some((value * 1e-3, "in millimetres, as all lengths then are,")),
+    },
+    Usual {
         field: "grain_density",
         low: 500.0,
         high: 12_000.0,
@@ -152,6 +159,7 @@ mod tests {
             of("bodies = [{ material = { static_friction = 27 } }]")
                 .contains("bodies[0].material.static_friction` is 27 -")
         );
+        assert!(of("spacing = 5.0").ends_with("; 5 in millimetres, as all lengths then are, is 0.005"));
         assert!(of("slope_angle = 0.436").ends_with("; 0.436 in radians is 24.98"));
         assert_eq!(of("gravity = [4.9, -8.5]\nmaterial = { grain_diameter = 0.0005, bulk_density = 0 }"), "");
     }

@@ -81,11 +81,12 @@ impl ColumnSource {
             let is_scaled = with(RunScales { length: 1.0, time: 1.0 }).is_some();
             let rule = format!("a unit of the same kind as {}", item.unit);
             let remedy = if is_scaled {
-                "this case has no r_0 and t_0: convert the column"
+                "this case has no r_0 and t_0: convert the column".to_owned()
             } else {
-                "such as cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes"
+                let scaled = if scales.is_some() { "r0 or t0 of the column, or " } else { "" };
+                format!("such as {scaled}cm, mm/s, g/cm^3, kPa; products and powers of m, g, s, min, h, Pa, N, J with prefixes")
             };
-            FieldError::new(field, format!("[{}]", self.unit()), &rule, remedy)
+            FieldError::new(field, format!("[{}]", self.unit()), &rule, &remedy)
         })
     }
 }
@@ -141,7 +142,8 @@ mod tests {
         let message = |text, scales| factor(text, "m", scales).expect_err("no length").to_string();
         let without = "`columns.x` is [r0], but must be a unit of the same kind as m; this case has no r_0 and t_0: convert the column";
         assert!(message("\"x [r0]\"", None).starts_with(without), "{}", message("\"x [r0]\"", None));
-        let wrong = "`columns.x` is [t0], but must be a unit of the same kind as m; such as cm";
+        let wrong =
+            "`columns.x` is [t0], but must be a unit of the same kind as m; such as r0 or t0 of the column, or cm";
         assert!(message("\"x [t0]\"", scales).starts_with(wrong));
     }
 }

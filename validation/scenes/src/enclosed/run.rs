@@ -190,7 +190,10 @@ where
             |(_, watch)| pictures().adopt(&mut watch.pictures),
         )?;
         if let Some(state) = progress.ends().and_then(Checkpoints::newest) {
-            progress.tell(&format!("a state near its end, for --from, is {}", state.display()));
+            progress.tell(&format!(
+                "a state near its end, for --from, is {} (copy it: only the last two of a scene are kept)",
+                state.display()
+            ));
         }
         let mut ending = Ending::of(stop, last_good, started);
         "all material has left by open sides".clone_into(&mut ending.criterion);
