@@ -96,14 +96,21 @@ impl setting::SceneWall<2> for WallLine {
 
     fn check(&self, spacing: f64, _: f64) -> Result<(), ParameterError> {
         let least = if self.closed { 3 } else { 2 };
-        if self.points.len() < least || self.measure() <= spacing {
-            let rule = if self.closed {
-                "three points or more, farther apart than the spacing"
-            } else {
-                "two points or more, farther apart than the spacing"
-            };
+        if self.points.len() < least {
+            let rule =
+                format!("{} points or more, farther apart than the spacing", if self.closed { "three" } else { "two" });
             let value = format!("{} points", self.points.len());
-            return Err(ParameterError::field("points", value, rule, "give the wall's corners in their order"));
+            return Err(ParameterError::field("points", value, &rule, "give the wall's corners in their order"));
+        }
+        let length = self.measure();
+        if length <= spacing {
+            let (value, rule) = (format!("{length} m long"), format!("longer than the spacing, {spacing} m"));
+            return Err(ParameterError::field(
+                "points",
+                value,
+                &rule,
+                "check the unit of `spacing` and of the corners",
+            ));
         }
         check_crossing(&self.points, self.closed)
     }
