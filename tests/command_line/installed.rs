@@ -3,7 +3,7 @@
 use crate::program::{CHEAP, Place, path};
 use assert_cmd::Command;
 use bagnold_harness::case::Tier;
-use bagnold_harness::report::Baseline;
+use bagnold_report::Baseline;
 use bagnold_validation::REGISTRY;
 use std::path::PathBuf;
 

@@ -4,8 +4,8 @@ use bagnold_harness::case::{AnyCase, CaseResult, Request, Silent, Tier, execute}
 use bagnold_harness::control::{Answer, Control, ControlKind, ControlTrial, TriedControls};
 use bagnold_harness::evidence::{MetricName, PAPERS};
 use bagnold_harness::metric::{MetricKind, Verdict};
-use bagnold_harness::report::papers::Status;
 use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_report::papers::Status;
 use bagnold_validation::REGISTRY;
 use std::collections::BTreeSet;
 

@@ -10,8 +10,8 @@
 use bagnold_harness::case::{Changes, Silent, Tier, execute};
 use bagnold_harness::evidence::{Element, MetricName, PAPERS};
 use bagnold_harness::metric::{Limit, Metric};
-use bagnold_harness::report::papers::Status;
 use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_report::papers::Status;
 use bagnold_validation::REGISTRY;
 use std::collections::{BTreeMap, BTreeSet};
 

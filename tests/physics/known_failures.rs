@@ -4,7 +4,7 @@ use crate::verdict::complaints;
 use bagnold_harness::case::{CaseResult, Changes, RunSummary, Tier};
 use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
 use bagnold_harness::observation::Outcome;
-use bagnold_harness::report::{KnownFailure, KnownFailures};
+use bagnold_report::{KnownFailure, KnownFailures};
 use bagnold_validation::REGISTRY;
 use std::path::Path;
 

@@ -4,8 +4,8 @@ use crate::known_failures::{self, owing_tier};
 use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_harness::metric::{Limit, Metric, Verdict};
 use bagnold_harness::observation::Outcome;
-use bagnold_harness::report::{KnownFailureStatus, KnownFailures};
 use bagnold_harness::store::{Store, StorePolicy};
+use bagnold_report::{KnownFailureStatus, KnownFailures};
 use bagnold_validation::REGISTRY;
 use std::sync::{Mutex, PoisonError};
 

@@ -1,12 +1,12 @@
-//! Every option that parameters leave is used by a run of some tier, or `validation/harness/coverage.toml` names the tests that hold it or
+//! Every option that parameters leave is used by a run of some tier, or `validation/report/coverage.toml` names the tests that hold it or
 //! the reason why none does.
 
 use crate::source::workspace;
 use bagnold_harness::case::{Changes, FeatureOption, Features, RunSummary, Tier};
 use bagnold_harness::metric::{Limit, Metric, MetricKind, Value, Variant};
 use bagnold_harness::observation::Outcome;
-use bagnold_harness::report::CaseReport;
-use bagnold_harness::report::coverage::{CaseCoverage, DECLARATIONS, Grade, OptionCoverage, coverage};
+use bagnold_report::CaseReport;
+use bagnold_report::coverage::{CaseCoverage, DECLARATIONS, Grade, OptionCoverage, coverage};
 use bagnold_validation::REGISTRY;
 use std::collections::BTreeSet;
 
@@ -32,7 +32,7 @@ fn every_option_is_used_by_a_run_or_declared() {
         features.options().filter(is_open).map(|option| format!("{} = {}", option.feature, option.option)).collect();
     assert!(
         open.is_empty(),
-        "no run of any tier uses these options; let a case use them, or declare them in validation/harness/coverage.toml with \
+        "no run of any tier uses these options; let a case use them, or declare them in validation/report/coverage.toml with \
          their tests:\n{}",
         open.join("\n")
     );
@@ -68,7 +68,7 @@ fn every_declaration_is_needed_and_names_tests_that_there_are() {
             wrong.push(format!("{}: no such parameter, or no reason", selection.feature));
         }
     }
-    assert!(wrong.is_empty(), "validation/harness/coverage.toml:\n{}", wrong.join("\n"));
+    assert!(wrong.is_empty(), "validation/report/coverage.toml:\n{}", wrong.join("\n"));
 }
 
 fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {

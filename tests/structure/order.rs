@@ -40,20 +40,21 @@ const HARNESS: &[Floor] = &[
     floor(&["control"]),
     floor(&["case"]),
     floor(&["setup"]),
-    floor(&["evaluation", "result", "report"]),
+    floor(&["evaluation", "result"]),
     floor(&["measured"]),
 ];
 
 /// Packages of `validation/`, each with the packages of this project that it may depend on.
-const PACKAGES: [(&str, &[&str]); 8] = [
+const PACKAGES: [(&str, &[&str]); 9] = [
     ("number", &[]),
     ("figure", &["number"]),
     ("inference", &["number"]),
     ("harness", &["number", "figure", "inference", "solver"]),
+    ("report", &["number", "figure", "inference", "harness"]),
     ("reference", &["inference", "solver", "harness"]),
     ("cases", &["number", "figure", "inference", "solver", "harness", "reference"]),
     ("scenes", &["number", "figure", "inference", "solver", "harness", "reference"]),
-    ("tools", &["number", "figure", "inference", "solver", "harness"]),
+    ("tools", &["number", "figure", "inference", "solver", "harness", "report"]),
 ];
 
 /// Rooms of the models by which a term could see more than its arguments.

@@ -8,9 +8,10 @@ pub use registry::REGISTRY;
 use bagnold_figure as figure;
 use bagnold_harness::{
     case, checkpoint, control, evaluation, evidence, input, interruption, measured, metric, observation, output,
-    report, result, store,
+    result, store,
 };
 use bagnold_number as number;
+use bagnold_report as report;
 use bagnold_scenes::study;
 use bagnold_tools::{calibration, compare, judge, league, mutation, sweep};
 

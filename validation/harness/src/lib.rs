@@ -1,5 +1,5 @@
-//! The frame of every judgement: what a case is, how its runs are recorded and stored, what their metrics are compared with,
-//! and the report of all verdicts. It knows no case and no flow; cases, scenes and tools stand on it.
+//! The frame of every judgement: what a case is, how its runs are recorded and stored, and what their metrics are compared with.
+//! It knows no case and no flow; cases, scenes and tools stand on it.
 
 pub mod case;
 pub mod checkpoint;
@@ -13,7 +13,6 @@ pub mod metric;
 pub mod observation;
 pub mod output;
 pub mod page;
-pub mod report;
 pub mod result;
 pub mod setup;
 pub mod store;

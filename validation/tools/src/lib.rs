@@ -8,8 +8,7 @@ pub mod mutation;
 pub mod sweep;
 
 use bagnold_figure as figure;
-use bagnold_harness::{
-    case, evaluation, evidence, input, measured, metric, observation, output, page, report, result, store,
-};
+use bagnold_harness::{case, evaluation, evidence, input, measured, metric, observation, output, page, result, store};
 use bagnold_inference::{inference, sampling, statistics};
 use bagnold_number as number;
+use bagnold_report as report;

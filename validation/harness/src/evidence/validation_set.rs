@@ -110,7 +110,7 @@ pub struct ValidationSet {
 }
 
 static SHIPPED: LazyLock<ValidationSet> = LazyLock::new(|| {
-    let text = FILES.iter().find(|(name, _)| *name == "comparisons/quick.csv").map_or("", |(_, text)| *text);
+    let text = FILES.iter().find(|(name, _)| *name == "quick.csv").map_or("", |(_, text)| *text);
     ValidationSet::parse(text).unwrap_or_else(|error| panic!("failed to read the accepted comparisons: {error}"))
 });
 

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::metric::{Confidence, MetricKind, Origin, Variant};
-use crate::report::{tests, write};
 use crate::store::Drawings;
+use crate::{tests, write};
 
 fn compared(name: &str, value: f64, reference: f64) -> Metric {
     Metric::observed(name, &Variant::of("value", value), value, "-").of_kind(MetricKind::Validation).against(

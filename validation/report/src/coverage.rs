@@ -1,7 +1,7 @@
 //! Coverage of the options of laws, operators and boundaries by the cases, and the kind of evidence for each.
 //!
 //! Options come from the parameters' own types, uses from the runs, and how an option is judged from the metrics of these runs. What no
-//! case uses is declared in `validation/harness/coverage.toml`, with the tests that hold it or the reason why none does.
+//! case uses is declared in `validation/report/coverage.toml`, with the tests that hold it or the reason why none does.
 
 use super::CaseReport;
 use crate::case::{FeatureOption, Features};
@@ -154,9 +154,8 @@ impl Declarations {
 }
 
 /// Declarations that this program was built with.
-pub static DECLARATIONS: LazyLock<Declarations> = LazyLock::new(|| {
-    toml::from_str(include_str!("../../coverage.toml")).expect("a test reads the file that is built in")
-});
+pub static DECLARATIONS: LazyLock<Declarations> =
+    LazyLock::new(|| toml::from_str(include_str!("../coverage.toml")).expect("a test reads the file that is built in"));
 
 /// Coverage of every option that the parameters offer, by the cases of a report.
 #[must_use]

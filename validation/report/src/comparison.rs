@@ -111,7 +111,7 @@ pub fn comparisons(report: &Report) -> Vec<QuantityComparisons<'_>> {
 mod tests {
     use super::*;
     use crate::metric::{Confidence, Limit, MetricKind, Origin, Variant};
-    use crate::report::tests::{case, report};
+    use crate::tests::{case, report};
 
     fn run_out(value: f64) -> Metric {
         Metric::observed("run_out", &Variant::default(), value, "m")

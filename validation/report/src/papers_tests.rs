@@ -236,7 +236,7 @@ fn deliberate_errors_that_escape_are_named_where_they_are_few() {
     let words = |wrong: f64, number: usize| {
         let mut report = report(vec![gated(0.5)]);
         report.cases[0].controls = vec![trial("velocity_l2", &gated(wrong)); number];
-        crate::report::power::rejected_inputs(&report.cases[0])
+        crate::power::rejected_inputs(&report.cases[0])
     };
     assert_eq!(words(2.0, 1).as_deref(), Some("film: 1 of 1 deliberate errors are rejected"));
     assert_eq!(words(0.6, 1).as_deref(), Some("film: 0 of 1 deliberate errors are rejected; not rejected: an-error"));

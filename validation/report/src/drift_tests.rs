@@ -3,7 +3,7 @@
 use super::*;
 use crate::case::Tier;
 use crate::metric::{Limit, Metric, Variant};
-use crate::report::{Baseline, Report, history, judge, tests};
+use crate::{Baseline, Report, history, judge, tests};
 
 fn metric(name: &str, value: f64) -> Metric {
     Metric::observed(name, &Variant::of("resolution", 40), value, "%")

@@ -1,4 +1,4 @@
-//! Verdicts → one self-contained folder with a page, figures and the numbers behind them.
+//! Verdicts beside accepted values → one self-contained folder with pages, figures and the numbers behind them.
 
 pub mod accepted;
 mod case_page;
@@ -54,16 +54,20 @@ pub use power::GatePower;
 pub use snapshot_text::description;
 pub use speed_history::{SpeedHistory, SpeedRow};
 
-use crate::case::{Features, Tier};
-use crate::control::ControlTrial;
-use crate::evidence::Paper;
-use crate::figure::{self, Animation, Figure, FigureError};
-use crate::metric::{Metric, Quantity};
-use crate::store::{Drawings, provenance};
+use bagnold_figure as figure;
+use bagnold_harness::{case, control, evidence, input, metric, observation, page as pages, result, store};
+use bagnold_inference::statistics;
+use bagnold_number as number;
+use case::{Features, Tier};
+use control::ControlTrial;
+use evidence::Paper;
+use figure::{Animation, Figure, FigureError};
+use metric::{Metric, Quantity};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use store::{Drawings, provenance};
 
 /// Everything that a report shows.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! The templates of the report's pages.
 
-use crate::page;
+use crate::pages;
 use serde::Serialize;
 
 const TEMPLATES: [(&str, &str); 16] = [
@@ -24,5 +24,5 @@ const TEMPLATES: [(&str, &str); 16] = [
 
 /// Fills one of them.
 pub(super) fn fill(name: &str, values: &impl Serialize) -> Result<String, minijinja::Error> {
-    page::fill(&TEMPLATES, name, values)
+    pages::fill(&TEMPLATES, name, values)
 }

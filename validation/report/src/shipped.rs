@@ -13,7 +13,7 @@ pub(super) fn text(path: &Path) -> Option<&'static str> {
 mod tests {
     use super::*;
     use crate::case::Tier;
-    use crate::report::{Baseline, KnownFailures};
+    use crate::{Baseline, KnownFailures};
 
     #[test]
     fn every_file_of_accepted_values_is_read() {

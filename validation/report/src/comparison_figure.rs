@@ -95,7 +95,7 @@ fn names(own: &[Comparison<'_>]) -> Vec<String> {
 mod tests {
     use super::*;
     use crate::metric::{Confidence, Metric, MetricKind, Origin, Variant};
-    use crate::report::tests::{case, report};
+    use crate::tests::{case, report};
 
     #[test]
     fn comparisons_stand_in_lines_named_by_what_differs() {

@@ -1,0 +1,14 @@
+//! Gives the package the accepted values and known failures that an installed program carries.
+
+#[path = "build/embed.rs"]
+mod embed;
+
+use embed::{embed, texts};
+use std::path::PathBuf;
+
+fn main() {
+    let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
+    embed("accepted_values", &texts(&package, &["snapshots"], &["snap", "toml"]));
+    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rerun-if-changed=build");
+}
