@@ -57,10 +57,10 @@ impl BedLoadLayer {
     ///
     /// # Errors
     /// Those of [`Self::steady_states`]; [`LayerError::NotSteady`] if it was stopped.
-    pub fn steady_states_unless(&self, stopped: &dyn Fn() -> bool) -> Result<SteadyStates, LayerError> {
-        let slow = self.steady_unless(InitialVelocity::Rest, stopped)?;
-        let fast = self.steady_unless(self.fast_start(), stopped)?;
-        Ok(SteadyStates::of(slow, fast))
+    pub fn steady_states_unless(&self, stopped: &(dyn Fn() -> bool + Sync)) -> Result<SteadyStates, LayerError> {
+        let steady = |start| self.steady_unless(start, stopped);
+        let (slow, fast) = rayon::join(|| steady(InitialVelocity::Rest), || steady(self.fast_start()));
+        Ok(SteadyStates::of(slow?, fast?))
     }
 }
 
