@@ -109,9 +109,9 @@ mod tests {
             entries: values.iter().map(|value| Some(entry("front", *value))).collect(),
             tolerances: None,
         };
-        assert_eq!(of(&[2.0, 2.1]).change_in_words(1).as_deref(), Some("+0.10 (+5.0 %)"));
-        assert_eq!(of(&[-2.0, -2.1]).change_in_words(1).as_deref(), Some("-0.10 (-5.0 %)"));
-        assert_eq!(of(&[0.0, 0.5]).change_in_words(1).as_deref(), Some("+0.50"));
+        assert_eq!(of(&[2.0, 2.1]).change_in_words(1).as_deref(), Some("+0.1 (+5 %)"));
+        assert_eq!(of(&[-2.0, -2.1]).change_in_words(1).as_deref(), Some("−0.1 (−5 %)"));
+        assert_eq!(of(&[0.0, 0.5]).change_in_words(1).as_deref(), Some("+0.5"));
         assert_eq!(of(&[2.0, 2.0]).change(1), None);
         assert_eq!(of(&[f64::NAN, 2.0]).change(1), None);
     }
