@@ -189,6 +189,34 @@ fn a_scene_from_its_own_state_ends_as_an_uninterrupted_run() {
 }
 
 #[test]
+fn a_folder_of_results_and_one_of_states_stand_for_their_newest_state() {
+    let place = Place::new();
+    let level = place.file("level.toml", &layer(0.0, 0.4, 0.005));
+    let state = state_of(&outcome(&place, &set(&level, &[])));
+    std::fs::rename(place.path("out"), place.path("first")).expect("renamed");
+    let states = std::path::Path::new(&state).parent().expect("a folder").display().to_string();
+    let ends = ["first", &states, &state].map(|given| {
+        let begun = outcome(&place, &from(&level, given, &["duration=0.07"]));
+        let case = std::fs::read_to_string(place.path("out/case.toml")).expect("written");
+        assert!(case.contains(".checkpoint\""), "{given}: {case}");
+        begun.0.0
+    });
+    assert!(ends.iter().all(|end| *end == ends[2]), "{ends:?}");
+    // --fresh neither discards nor overlooks it
+    let fresh = [from(&level, "first", &["duration=0.08"]), vec!["--fresh".to_owned()]].concat();
+    outcome(&place, &fresh);
+    std::fs::create_dir(place.path("empty")).expect("writable");
+    std::fs::remove_dir_all(place.path("store")).expect("removed");
+    for (given, reason) in [("empty", "neither a state nor the case.toml"), ("first", "the store keeps no state")] {
+        let arguments = from(&level, given, &[]);
+        let all = std::iter::once("run").chain(arguments.iter().map(String::as_str)).collect::<Vec<_>>();
+        let finished = place.bagnold(&all).assert().code(2);
+        let told = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
+        assert!(told.contains(reason) && told.contains("; give the file that"), "{told}");
+    }
+}
+
+#[test]
 fn a_prepared_bed_is_tilted_and_its_balances_close() {
     let place = Place::new();
     let level = place.file("level.toml", &layer(0.0, 0.4, 0.0025));

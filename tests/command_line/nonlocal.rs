@@ -60,7 +60,7 @@ fn a_sweep_varies_the_amplitude() {
     let fronts: Vec<f64> = table
         .lines()
         .filter(|row| row.contains(",front,"))
-        .map(|row| row.rsplit(',').nth(2).and_then(|value| value.parse().ok()).expect("a front"))
+        .map(|row| row.rsplit(',').nth(3).and_then(|value| value.parse().ok()).expect("a front"))
         .collect();
     assert_eq!(fronts.len(), 2, "{table}");
     assert!((fronts[0] - local).abs() <= 0.005 + 1e-12, "{fronts:?} m beside {local} m");

@@ -245,3 +245,22 @@ fn points_of_a_hypercube_fill_their_range_on_its_scale() {
     let quarters: Vec<u32> = points.iter().map(|point| ((point.1 - 20.0) / 2.0) as u32).collect();
     assert_eq!(quarters, [0, 1, 2, 3], "{points:?}");
 }
+
+/// A film that has no time to become steady has no profile, and the table and the summary give the reason.
+#[test]
+fn a_value_that_is_not_a_number_has_its_reason() {
+    let place = Place::new();
+    let short = PLAN.replace("resolution = 10,", "resolution = 10, relaxation_times = 0.2,");
+    let short = short.replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]").replace("[20.0, 25.0, 95.0]", "[20.0]");
+    let plan = place.file("plan.toml", &short);
+    let ended = place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().success();
+    let printed = String::from_utf8_lossy(&ended.get_output().stdout).into_owned();
+    assert!(printed.contains("values are not numbers (column `reason`"), "{printed}");
+    let results = std::fs::read_to_string(place.path("out/results.csv")).expect("written");
+    assert!(results.lines().next().is_some_and(|head| head.ends_with("verdict,reason")), "{results}");
+    for line in results.lines().skip(1) {
+        let reason = line.split_once(",NaN,").map(|(_, rest)| rest.splitn(3, ',').nth(2).unwrap_or_default());
+        assert!(reason.map_or(line.ends_with(','), |reason| reason.len() > 10), "{line}");
+    }
+    assert!(results.contains(",NaN,"), "{results}");
+}

@@ -210,7 +210,7 @@ pub struct RunArguments {
     /// Change one parameter; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
-    /// Start a scene from a state that another run has left, with the same particles and other parameters.
+    /// Start a scene from a state that another run has left, or from the last state of a folder of results.
     #[arg(long, value_name = "STATE")]
     pub from: Option<PathBuf>,
     /// Select runs by their keys, such as material=sand,aspect_ratio=3; may be repeated.

@@ -69,5 +69,7 @@ fn in_words(one: &Difference) -> String {
         value.map_or_else(|| "–".to_owned(), four_digits)
     };
     let values: Vec<String> = one.entries.iter().map(value).collect();
-    format!("  {} {} {}: {} {}\n", one.case, one.metric, one.variant, values.join(" → "), one.unit)
+    let changes: Vec<String> = (0..values.len()).filter_map(|folder| one.change_in_words(folder)).collect();
+    let changes = if changes.is_empty() { String::new() } else { format!("; {}", changes.join(", ")) };
+    format!("  {} {} {}: {} {}{changes}\n", one.case, one.metric, one.variant, values.join(" → "), one.unit)
 }

@@ -249,7 +249,10 @@ impl ResourceLimits {
 
 impl ExecutionOptions {
     fn open_store(&self) -> Store {
-        let policy = if self.fresh { StorePolicy::Refresh } else { StorePolicy::Use };
+        self.store_for(if self.fresh { StorePolicy::Refresh } else { StorePolicy::Use })
+    }
+
+    fn store_for(&self, policy: StorePolicy) -> Store {
         let store = self.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));
         store.with_checkpoints_every(self.checkpoint_interval)
     }

@@ -9,28 +9,49 @@ use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
 use super::simulation::{announce, introduce, reject_fast, simulate_showing};
 use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError};
-use crate::checkpoint::StoredState;
+use crate::checkpoint::{Checkpoints, StoredState};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
 use crate::report::Baseline;
 use crate::result::States;
+use crate::store::StorePolicy;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// The setting by which a scene starts from the state in a file.
-fn start_setting(file: &Path) -> Result<String, ParameterError> {
-    let name = file.display().to_string();
+/// The setting by which a scene starts from the state in a file, or from the newest state of a folder.
+fn start_setting(given: &Path, command: &RunArguments, registry: Registry) -> Result<String, ParameterError> {
     let refused = |defect: String| {
         ParameterError::field(
             "--from",
-            format!("\"{name}\": {defect}"),
+            format!("\"{}\": {defect}", given.display()),
             "",
             "give the file that `bagnold run` names as a state near its end; with --fresh it simulates and names it again",
         )
     };
-    let digest = StoredState::read(file).map_err(refused)?.digest;
-    Ok(format!("from={{ file = {}, sha256 = \"{digest}\" }}", toml::Value::String(name.clone())))
+    let file = if given.is_dir() { newest_state(given, command, registry).map_err(refused)? } else { given.to_owned() };
+    let digest = StoredState::read(&file).map_err(refused)?.digest;
+    let name = file.display().to_string();
+    Ok(format!("from={{ file = {}, sha256 = \"{digest}\" }}", toml::Value::String(name)))
+}
+
+/// The newest state in a folder of states, or that the store keeps of the run in a folder of results.
+fn newest_state(folder: &Path, command: &RunArguments, registry: Registry) -> Result<PathBuf, String> {
+    let case = folder.join("case.toml");
+    if !case.is_file() {
+        let newest = Checkpoints::at(folder, "", None).newest();
+        return newest.ok_or_else(|| "the folder holds neither a state nor the case.toml of a run".to_owned());
+    }
+    let target = case.display().to_string();
+    let request = Request { target: &target, tier: None, settings: &[], only: &[], limits: command.allowance.limits() };
+    let prepared = request.prepare(registry).map_err(|error| error.to_string())?.prepared;
+    match prepared.run_count() {
+        // --fresh must not discard the state that it starts from
+        1 => prepared
+            .kept_state(0, &command.work.store_for(StorePolicy::Use).with_ends())
+            .ok_or_else(|| "the store keeps no state of its run any more, or never of this case".to_owned()),
+        runs => Err(format!("the folder is of {runs} runs, so that it does not say which one continues")),
+    }
 }
 
 /// Simulates, judges, writes and prints one case.
@@ -40,7 +61,7 @@ pub(super) fn run(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let start = command.from.as_deref().map(start_setting).transpose()?;
+    let start = command.from.as_deref().map(|given| start_setting(given, command, registry)).transpose()?;
     let settings: Vec<String> = command.settings.iter().cloned().chain(start).collect();
     let request = Request {
         target: &command.target,

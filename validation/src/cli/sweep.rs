@@ -31,7 +31,9 @@ pub(super) fn sweep(
             let record = run_entry(&sweep, sweep.manifest().entry(*entry)?, registry, &work.open_store())?;
             Ok(if record.failure.is_some() { Exit::Diverged } else { Exit::Held })
         }),
-        (Some(SweepAction::Collect { folder, resubmit, cluster }), _) => collect(folder, *resubmit, cluster, output),
+        (Some(SweepAction::Collect { folder, resubmit, cluster }), _) => {
+            collect(folder, *resubmit, cluster, registry, output)
+        }
         (None, Some(file)) => begin(file, command, registry, quiet, output),
         (None, None) => Ok(Exit::BadInput),
     }
@@ -68,13 +70,13 @@ fn begin(
                     output,
                     &format!("all {} runs were done before: nothing was run; {ANEW}\n", manifest.entries.len()),
                 );
-                return finish(&sweep, output);
+                return finish(&sweep, registry, output);
             }
             let watch = SweepBar::new(&sweep, quiet);
             let outcome = run_locally(&sweep, registry, &command.work.open_store(), &watch);
             watch.0.clear();
             outcome?;
-            finish(&sweep, output)
+            finish(&sweep, registry, output)
         }
         Engine::Slurm => {
             submit(&sweep, &command.cluster, command.work.store.clone(), output)?;
@@ -88,13 +90,14 @@ fn collect(
     folder: &Path,
     resubmit: bool,
     cluster: &Cluster,
+    registry: Registry,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
     let sweep = SweepFolder::open(folder)?;
     if resubmit {
         submit(&sweep, cluster, None, output)?;
     }
-    finish(&sweep, output)
+    finish(&sweep, registry, output)
 }
 
 /// Submits what is neither done nor queued.
@@ -131,8 +134,8 @@ fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::SlurmRequest) -
 }
 
 /// Gathers and says how far the sweep is.
-fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
-    let SweepProgress { done, failed, missing } = gather(sweep)?;
+fn finish(sweep: &SweepFolder, registry: Registry, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+    let SweepProgress { done, failed, missing, without_value } = gather(sweep, registry)?;
     let all = sweep.manifest().entries.len();
     let mut text = format!("{done} of {all} runs done");
     if failed > 0 {
@@ -140,6 +143,9 @@ fn finish(sweep: &SweepFolder, output: &mut (dyn Write + Send)) -> Result<Exit, 
     }
     if missing > 0 {
         text += &format!(", {missing} missing");
+    }
+    if without_value > 0 {
+        text += &format!("; {without_value} values are not numbers (column `reason` of results.csv says why)");
     }
     say(output, &format!("{text}\nwritten to {}\n", sweep.path().join("results.csv").display()));
     Ok(match (missing, failed) {

@@ -22,6 +22,7 @@ use crate::observation::Recorded;
 use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
 use sha2::{Digest, Sha256};
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
 /// A case whose types are hidden; every [`Case`] is one.
@@ -85,6 +86,8 @@ pub trait PreparedCase: Send + Sync {
     fn briefs(&self) -> Vec<String>;
     /// Key of a run in a store, equal for identical simulations; none if the store is bypassed.
     fn identity(&self, run: usize, store: &Store) -> Option<String>;
+    /// File of the newest state near the end of a run that a store keeps; none where it keeps none.
+    fn kept_state(&self, run: usize, store: &Store) -> Option<PathBuf>;
     /// Takes a run's record from the store or simulates it, in the current rayon pool.
     ///
     /// # Errors
@@ -233,6 +236,14 @@ struct CasePlan<C: Case> {
     slots: Vec<Slot<RunOf<C::Parameters>>>,
 }
 
+impl<C: Case> CasePlan<C> {
+    /// States near the end of a run, where a store keeps them.
+    fn ends(&self, run: usize, store: &Store) -> Option<Checkpoints> {
+        let trajectory = self.slots[run].0.trajectory().filter(|_| store.keeps_ends())?;
+        store.key(C::ORIGIN, C::NAME, &("trajectory", trajectory)).map(|key| store.ends(&key))
+    }
+}
+
 impl<C: Case> PreparedCase for CasePlan<C> {
     fn name(&self) -> &'static str {
         C::NAME
@@ -286,6 +297,10 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         store.key(C::ORIGIN, self.name(), &self.slots[run].0).map(|key| key.to_string())
     }
 
+    fn kept_state(&self, run: usize, store: &Store) -> Option<PathBuf> {
+        self.ends(run, store)?.newest()
+    }
+
     fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
         let (description, slot) = &self.slots[run];
         if is_interrupted() {
@@ -299,9 +314,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             return Ok(());
         }
         let checkpoints = key.as_ref().filter(|_| !anew).map(|key| store.checkpoints(key));
-        let trajectory = description.trajectory().filter(|_| !anew && store.keeps_ends());
-        let trajectory = trajectory.and_then(|run| store.key(C::ORIGIN, self.name(), &("trajectory", run)));
-        let ends = trajectory.map(|key| store.ends(&key));
+        let ends = if anew { None } else { self.ends(run, store) };
         let simulated = description.simulate(&CheckpointedProgress { progress, checkpoints, ends });
         let record = match simulated {
             // what was cut short may look like something that is refused

@@ -55,7 +55,11 @@ impl MatchingPanel {
     fn at(measurements: &Measurements, panel: &Panel) -> Option<Self> {
         let (over, what) = (&measurements.abscissa, &measurements.measured);
         let has_curves = panel.field.is_none() && panel.series.iter().any(is_ours);
-        let fit = |x: &MeasuredColumn, y: &MeasuredColumn| Some((factor(x, &panel.x)?, factor(y, &panel.y)?));
+        let vertical = |y: &MeasuredColumn| {
+            let of_curve = || panel.series.iter().any(|one| names(y, panel, one)).then(|| parted(&panel.y.label).1);
+            factor(y, &panel.y).or_else(|| same_kind(&y.unit, of_curve()?))
+        };
+        let fit = |x: &MeasuredColumn, y: &MeasuredColumn| Some((factor(x, &panel.x)?, vertical(y)?));
         let place = |is_across, factors| Self { figure: 0, panel: 0, is_across, factors };
         let upright = fit(over, what).map(|factors| place(false, factors));
         let across = fit(what, over).map(|(what, over)| place(true, (over, what)));
@@ -74,8 +78,11 @@ impl MatchingPanel {
         figures: &[Figure],
     ) -> Result<Vec<CurveResidual>, FieldError> {
         let panel = &figures[self.figure].panels[self.panel];
-        let meant = |series: &&Series| {
-            is_ours(series) && measurements.said.curve.as_ref().is_none_or(|label| *label == series.label)
+        let named = |series: &Series| names(&measurements.measured, panel, series);
+        let names_one = panel.series.iter().any(named);
+        let meant = |series: &&Series| match &measurements.said.curve {
+            Some(label) => is_ours(series) && *label == series.label,
+            None => is_ours(series) && (!names_one || named(series)),
         };
         let series: Vec<&Series> = panel.series.iter().filter(meant).collect();
         if let (Some(label), true) = (&measurements.said.curve, series.is_empty()) {
@@ -125,11 +132,28 @@ fn is_ours(series: &Series) -> bool {
     series.mark != Mark::Reference && series.points.len() > 1
 }
 
+/// Name and unit of a label.
+fn parted(label: &str) -> (&str, &str) {
+    let label = label.trim();
+    let parted = label.strip_suffix(']').and_then(|label| label.rsplit_once('['));
+    parted.map_or((label, "-"), |(name, unit)| (name.trim(), unit.trim()))
+}
+
+/// Heading of a curve in the tables of results, where it is a column of a gauge: its legend with a unit, or of an only curve the axis.
+fn heading<'a>(panel: &'a Panel, series: &'a Series) -> Option<&'a str> {
+    let label = if series.label.is_empty() { &panel.y.label } else { &series.label };
+    (is_ours(series) && !panel.title.is_empty() && label.ends_with(']')).then_some(label)
+}
+
+/// Whether a column has the name of a curve in the tables of results, with or without the gauge in front.
+fn names(column: &MeasuredColumn, panel: &Panel, series: &Series) -> bool {
+    let of_gauge = column.name.strip_prefix(&panel.title).and_then(|name| name.strip_prefix(": "));
+    heading(panel, series).is_some_and(|label| parted(label).0 == of_gauge.unwrap_or(&column.name))
+}
+
 /// The factor from a column's unit to that of an axis of its name; to a ratio also from the quantity that it is a ratio of.
 fn factor(column: &MeasuredColumn, axis: &Axis) -> Option<f64> {
-    let label = axis.label.trim();
-    let parted = label.strip_suffix(']').and_then(|label| label.rsplit_once('['));
-    let (name, unit) = parted.map_or((label, "-"), |(name, unit)| (name.trim(), unit.trim()));
+    let (name, unit) = parted(&axis.label);
     if name == column.name {
         return same_kind(&column.unit, unit);
     }
@@ -154,8 +178,13 @@ fn axes(measurements: &Measurements) -> String {
 fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
     let panels = figures.iter().flat_map(|figure| figure.panels.iter().map(move |panel| (figure, panel)));
     let drawn = panels.filter(|(_, panel)| panel.field.is_none() && panel.series.iter().any(is_ours));
-    let there: BTreeSet<String> =
-        drawn.map(|(figure, panel)| format!("{}: {} and {}", figure.name, named(&panel.x), named(&panel.y))).collect();
+    let heads = |panel: &Panel| -> String {
+        let heads = panel.series.iter().filter_map(|one| heading(panel, one));
+        heads.map(|head| format!(" or {}: {head}", panel.title)).collect()
+    };
+    let there = drawn
+        .map(|(figure, panel)| format!("{}: {} and {}{}", figure.name, named(&panel.x), named(&panel.y), heads(panel)));
+    let there: BTreeSet<String> = there.collect();
     let there: Vec<String> = there.into_iter().collect();
     let rule = format!("the axes of one of the case's figures, in names and kinds of units ({})", there.join("; "));
     let remedy = "name the columns as the axes are labelled, with any unit of the same kind";

@@ -222,3 +222,31 @@ fn names_become_values_of_variants() {
     assert_eq!(text_of_variant("24°, N = 40_a"), "24-N-40-a");
     assert_eq!(text_of_variant("="), "unnamed");
 }
+
+#[test]
+fn a_column_may_have_the_name_of_a_gauge_in_the_tables_of_results() {
+    let gauges = || {
+        let mut load = Panel::new("load", Axis::linear("t [s]"), Axis::linear("force [N/m]"));
+        load.line("force along x [N/m]", 0, [(0.0, 1.0), (1.0, 1.0)]);
+        load.line("force along y [N/m]", 1, [(0.0, 2.0), (1.0, 2.0)]);
+        let mut front = Panel::new("tip", Axis::linear("t [s]"), Axis::linear("front [m]"));
+        front.line("", 0, [(0.0, 0.0), (1.0, 2.0)]);
+        CaseResult { figures: vec![Figure::new("gauges", "", vec![load, front])], ..result() }
+    };
+    let of = |heading: &str| {
+        let mut result = gauges();
+        let read = read(&format!("t [s],{heading} [kN/m],u [N/m]\n0.5,0.002,1\n")).expect("a table");
+        read.draw(&mut result).map(|()| result.metrics).map_err(|error| error.to_string())
+    };
+    for name in ["load: force along y", "force along y"] {
+        let metrics = of(name).expect("a column");
+        // the measured force is that along y, so along x nothing is compared
+        assert!(metrics.len() == 1 && metrics[0].value < 1e-9, "{metrics:?}");
+    }
+    assert_eq!(of("force").expect("the axis").len(), 2);
+    let mut tip = gauges();
+    read("t [s],tip: front [cm],u [cm]\n0.5,100,1\n").expect("a table").draw(&mut tip).expect("the only curve");
+    assert!(tip.metrics[0].value < 1e-9);
+    let told = of("Fy").expect_err("no such column");
+    assert!(told.contains("force [N/m] or load: force along x [N/m] or load: force along y [N/m]"), "{told}");
+}

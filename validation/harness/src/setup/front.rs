@@ -23,6 +23,19 @@ impl<const D: usize> FrontLine<D> {
     /// The first place along it, from its start and where material stands on, with less than the section `[m]`: volumes of
     /// particles are spread over a `spacing` `[m]` to either side.
     pub fn reached(&self, spacing: f64, snapshot: &Snapshot<D>) -> f64 {
+        self.first_below([self.section], spacing, snapshot)[0]
+    }
+
+    /// The same, and its places for half a row of particles more and less than the section `[m]`: where a layer is about as thick as the
+    /// section, the front jumps between them, because a layer consists of whole rows.
+    pub fn interval(&self, spacing: f64, snapshot: &Snapshot<D>) -> [f64; 3] {
+        let half_a_row = 0.5 * spacing * self.strip.map_or(1.0, |(_, half)| 2.0 * half);
+        // less than nothing would stand everywhere
+        let less = (self.section - half_a_row).max(f64::MIN_POSITIVE);
+        self.first_below([self.section, self.section + half_a_row, less], spacing, snapshot)
+    }
+
+    fn first_below<const N: usize>(&self, sections: [f64; N], spacing: f64, snapshot: &Snapshot<D>) -> [f64; N] {
         let (bin, length) = (0.25 * spacing, (self.to - self.from).norm());
         let along = (self.to - self.from) / length;
         let bins = (length / bin).ceil() as usize;
@@ -46,10 +59,12 @@ impl<const D: usize> FrontLine<D> {
             }
         }
         let area: Vec<f64> = shares.iter().map(|parts| parts.iter().map(|part| part / PARTS as f64).sum()).collect();
-        let stands = |area: &f64| *area >= self.section * bin;
-        let Some(first) = area.iter().position(stands) else { return 0.0 };
-        let gap = area[first..].iter().position(|area| !stands(area));
-        gap.map_or(length, |gap| (first + gap) as f64 * bin)
+        sections.map(|section| {
+            let stands = |area: &f64| *area >= section * bin;
+            let Some(first) = area.iter().position(stands) else { return 0.0 };
+            let gap = area[first..].iter().position(|area| !stands(area));
+            gap.map_or(length, |gap| (first + gap) as f64 * bin)
+        })
     }
 }
 
@@ -63,4 +78,33 @@ pub fn end_of_profile(thickness: &[(f64, f64)], least: f64) -> f64 {
         }
     }
     thickness.last().map_or(0.0, |bin| bin.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Front and interval of a layer of so many rows in a length of cells of 1 m, and of one row in as many more with a gap in the middle
+    /// of them.
+    fn fronts(section: f64, gap: f64) -> [f64; 3] {
+        let thick = (0..10).flat_map(|k| (0..4).map(move |row| [f64::from(k) + 0.5, f64::from(row) + 0.5]));
+        let thin = (10..20).map(|k| [f64::from(k) + 0.5 + if k < 15 { 0.0 } else { gap }, 0.5]);
+        let position: Vec<Vector<2>> = thick.chain(thin).map(Vector::from).collect();
+        let ones = vec![1.0; position.len()];
+        let snapshot = Snapshot { mass: ones.clone(), density: ones, position, ..Snapshot::default() };
+        let line = FrontLine { from: Vector::<2>::zeros(), to: Vector::<2>::new(40.0, 0.0), section, strip: None };
+        line.interval(1.0, &snapshot)
+    }
+
+    #[test]
+    fn a_front_that_jumps_along_a_thin_layer_stays_in_its_interval() {
+        // a gap of a tenth of a spacing takes the front from the end of the row to its middle
+        let ([whole, ..], [parted, least, most]) = (fronts(0.95, 0.0), fronts(0.95, 0.2));
+        assert!((whole - 20.0).abs() < 1.0 && (parted - 15.0).abs() < 1.5, "{whole} and {parted}");
+        assert!(least <= parted && whole <= most + 0.5, "{whole} and {parted} from {least} to {most}");
+        assert!((least - 10.0).abs() < 1.0, "four rows end at {least}");
+        // a steep front has a narrow interval
+        let [front, least, most] = fronts(2.0, 0.0);
+        assert!(most - least < 1.0 && (front - 10.0).abs() < 1.0, "{least} to {most}");
+    }
 }

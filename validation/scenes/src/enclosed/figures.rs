@@ -4,7 +4,7 @@ use super::filling::SiteFate;
 use super::parameters::Dimension;
 use super::setting::SceneInlet;
 use super::surfaces::Surfaces;
-use super::{SceneObservation, SceneParameters, SceneRecord};
+use super::{Measurand, SceneObservation, SceneParameters, SceneRecord};
 use super::{series, shapes};
 use crate::figure::{Axis, Figure, Panel};
 use bagnold_solver::vector::Vector;
@@ -70,6 +70,11 @@ fn gauges<S: Dimension<D>, const D: usize>(
         let mut panel = Panel::new(series.gauge, Axis::linear("t [s]"), Axis::linear(axis));
         for measured in series.measured {
             panel.reference("measured", measured.points.iter().copied());
+        }
+        if let (Measurand::Front(_), [_, least, most, ..]) = (&series.measure, series.values) {
+            let points =
+                data.time.iter().zip(least.iter().zip(most)).map(|(&time, (&least, &most))| (time, least, most));
+            panel.band("half a row of particles more or less", points);
         }
         for (slot, column) in columns.iter().enumerate().filter(|(_, column)| column.axis == axis) {
             let values = series.values.get(slot).map_or(&[][..], Vec::as_slice);

@@ -21,7 +21,7 @@ const STEPS: f64 = 8.0;
 
 impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     /// Particles on the sites of lattices that bodies hold and that are free of walls, under the pressure of the material above
-    /// them; and the share of the sites of bodies that walls take `[-]`.
+    /// them; and the share of the sites of bodies that are behind walls `[-]`.
     ///
     /// # Errors
     /// A body of which walls take more than they may.
@@ -39,16 +39,17 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         }
         let (up, pull) = self.uphill();
         let weight = equation_of_state.reference_density * pull;
-        let (mut all, mut free) = (0, Vec::new());
+        let (mut all, mut hidden, mut free) = (0, 0, Vec::new());
         for LatticeGroup { lattice, bodies: members } in &groups {
             let sites = self.held(lattice, members, walls);
             let behind = self.permissions(self.cut_at_most).behind(&sites)?;
             let is_free = |site: &Site<D>| !site.nearest.is_some_and(|nearest| is_taken(&nearest, lattice.shortest()));
             all += sites.len();
+            hidden += behind.iter().filter(|is_behind| **is_behind).count();
             let pairs = sites.into_iter().zip(behind);
             free.extend(pairs.filter(|(site, behind)| !behind && is_free(site)).map(|(site, _)| (site, *lattice)));
         }
-        let share = if all == 0 { 0.0 } else { (all - free.len()) as f64 / all as f64 };
+        let share = if all == 0 { 0.0 } else { hidden as f64 / all as f64 };
         let start = GeostaticStress { lateral_ratio: self.lateral_pressure_ratio, up };
         // grains in a liquid have a share of the mixture's stiffness
         let (mut skeleton, grains) = (*equation_of_state, 1.0 - self.pore_pressure_ratio);

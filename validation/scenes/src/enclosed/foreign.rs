@@ -102,7 +102,10 @@ fn columns<S: Dimension<D>, const D: usize>(run: &SceneRun<S, D>, gauge: &str, f
     let counts = series::counts(&run.scene);
     counts
         .into_iter()
-        .flat_map(|(name, count)| vec![if name == gauge { front.to_vec() } else { Vec::new() }; count])
+        .flat_map(|(name, count)| {
+            let known = move |column: usize| if name == gauge && column == 0 { front.to_vec() } else { Vec::new() };
+            (0..count).map(known)
+        })
         .collect()
 }
 

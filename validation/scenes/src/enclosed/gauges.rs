@@ -59,7 +59,7 @@ impl<const D: usize> Memory<D> {
         let elapsed = simulation.time() - self.time;
         let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
         match measure {
-            Measurand::Front(line) => vec![line.reached(simulation.spacing(), snapshot)],
+            Measurand::Front(line) => line.interval(simulation.spacing(), snapshot).to_vec(),
             Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
             Measurand::Probe(probe) => probe.values(simulation, periods, snapshot),
             Measurand::Force { wall } => {

@@ -30,7 +30,7 @@ quantities! { shared pub(super)
     MASS_LEFT: accounted("mass_left", "%", "outflow through open sides over the initial mass and inflow"),
     WATER_RESIDUAL:
         accounted("water_residual", "%", "volume lost minus water expelled and pore liquid compressed, over the largest volume lost or gained"),
-    CUT_OFF: accounted("cut_off", "%", "share of the bodies removed at the start because it lies behind or at walls"),
+    CUT_OFF: accounted("cut_off", "%", "share of the bodies behind walls, removed at the start, as `cut_at_most` limits it of each body"),
     FEED_ERROR:
         accounted("feed_error", "-", "largest difference between inflow and the integral of its rate, over the mass of one row"),
     FINAL_RMS_SPEED:

@@ -124,7 +124,7 @@ pub struct SceneObservation<const D: usize> {
     /// Water of a mixture.
     #[serde(default)]
     pub water: WaterBook,
-    /// Share of the sites of bodies that are behind walls or nearer to them than particles start `[-]`.
+    /// Share of the sites of bodies that are behind walls, as `cut_at_most` limits it of each `[-]`.
     pub cut_off: f64,
 }
 

@@ -310,7 +310,7 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
         }
     }
 
-    /// The scene, and the share of the sites of bodies that walls take `[-]`.
+    /// The scene, and the share of the sites of bodies that are behind walls `[-]`.
     ///
     /// # Errors
     /// A body of which walls take more than they may.

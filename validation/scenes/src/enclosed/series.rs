@@ -63,7 +63,10 @@ fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<G
         axis: format!("{axis} [{unit}]"),
     };
     match measure {
-        Measurand::Front(_) => vec![column("front", "front", "m")],
+        Measurand::Front(_) => {
+            let half = |word: &str| column(&format!("front at half a row {word}"), "interval of the front", "m");
+            vec![column("front", "front", "m"), half("more"), half("less")]
+        }
         Measurand::Depth(_) => vec![column("depth", "depth", "m")],
         Measurand::Probe(_) => {
             let along = |axis: &&str| column(&format!("velocity along {axis}"), "velocity", "m/s");

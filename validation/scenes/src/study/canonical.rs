@@ -15,7 +15,7 @@ use crate::input::FieldError;
 use crate::metric::{Quantity, Variant};
 use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 /// A study of the program.
@@ -211,6 +211,11 @@ impl PreparedCase for StudyPlan {
     fn identity(&self, run: usize, store: &Store) -> Option<String> {
         let (case, own, _) = self.at(run);
         case.identity(own, store)
+    }
+
+    fn kept_state(&self, run: usize, store: &Store) -> Option<PathBuf> {
+        let (case, own, _) = self.at(run);
+        case.kept_state(own, store)
     }
 
     fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {

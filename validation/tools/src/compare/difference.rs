@@ -2,6 +2,7 @@
 
 use super::reading::Results;
 use crate::metric::Variant;
+use crate::number::two_digits;
 use crate::result::MetricEntry;
 
 /// A number in every folder.
@@ -49,6 +50,26 @@ pub fn differences(all: &[Results]) -> Vec<Difference> {
     differences
 }
 
+impl Difference {
+    /// Change of the number in a folder from the first folder that has a value, absolute in its unit and relative to that value;
+    /// the latter only where the value is not zero. None where nothing changed.
+    #[must_use]
+    pub fn change(&self, folder: usize) -> Option<(f64, Option<f64>)> {
+        let first = self.entries.iter().flatten().find_map(|entry| entry.value)?;
+        let change = self.entries.get(folder)?.as_ref()?.value? - first;
+        (change != 0.0).then(|| (change, (first != 0.0).then(|| change / first.abs())))
+    }
+
+    /// The same in words, such as `+0.12 (+3.4 %)`.
+    #[must_use]
+    pub fn change_in_words(&self, folder: usize) -> Option<String> {
+        let signed = |value: f64| format!("{}{}", if value > 0.0 { "+" } else { "" }, two_digits(value));
+        let (change, relative) = self.change(folder)?;
+        let share = relative.map(|relative| format!(" ({} %)", signed(100.0 * relative)));
+        Some(signed(change) + &share.unwrap_or_default())
+    }
+}
+
 impl Results {
     pub(super) fn entries(&self) -> impl Iterator<Item = (&str, &MetricEntry)> {
         self.cases.iter().flat_map(|(case, own)| own.document.metrics.iter().map(|metric| (case.as_str(), metric)))
@@ -76,6 +97,23 @@ mod tests {
     fn entry(name: &str, value: f64) -> MetricEntry {
         let metric = Metric::observed(name, &Variant::default(), value, "m").with_snapshot_tolerance(0.01, 0.0);
         MetricEntry::from(&metric)
+    }
+
+    #[test]
+    fn a_change_is_absolute_and_relative_to_a_base_that_is_not_zero() {
+        let of = |values: &[f64]| Difference {
+            case: "film".to_owned(),
+            metric: "front".to_owned(),
+            variant: Variant::default(),
+            unit: "m".to_owned(),
+            entries: values.iter().map(|value| Some(entry("front", *value))).collect(),
+            tolerances: None,
+        };
+        assert_eq!(of(&[2.0, 2.1]).change_in_words(1).as_deref(), Some("+0.1 (+5 %)"));
+        assert_eq!(of(&[-2.0, -2.1]).change_in_words(1).as_deref(), Some("−0.1 (−5 %)"));
+        assert_eq!(of(&[0.0, 0.5]).change_in_words(1).as_deref(), Some("+0.5"));
+        assert_eq!(of(&[2.0, 2.0]).change(1), None);
+        assert_eq!(of(&[f64::NAN, 2.0]).change(1), None);
     }
 
     #[test]

@@ -44,6 +44,8 @@ fn line(one: &Difference) -> Value {
         "variant": one.variant.to_string(),
         "unit": one.unit,
         "values": one.entries.iter().map(|entry| entry.as_ref().and_then(|entry| entry.value)).collect::<Vec<_>>(),
+        // from the first, over its size; null where that is zero, missing or the same
+        "relative_changes": (0..one.entries.len()).map(|folder| one.change(folder)?.1).collect::<Vec<_>>(),
         // largest difference from the first in tolerances of its drift; null where it is not finite or one folder has it only
         "tolerances": one.tolerances.filter(|tolerances| tolerances.is_finite()),
     })
@@ -85,7 +87,7 @@ fn folder(results: &Results) -> Value {
 }
 
 fn row(one: &Difference) -> Value {
-    let first = one.entries.iter().flatten().find_map(|entry| entry.value);
+    let cells = one.entries.iter().enumerate();
     json!({
         "case": one.case,
         "metric": one.metric,
@@ -97,22 +99,21 @@ fn row(one: &Difference) -> Value {
             Some(_) => "∞".to_owned(),
         },
         "is_moved": is_moved(one),
-        "cells": one.entries.iter().map(|entry| cell(entry.as_ref(), first)).collect::<Vec<_>>(),
+        "cells": cells.map(|(folder, entry)| cell(entry.as_ref(), one.change_in_words(folder))).collect::<Vec<_>>(),
     })
 }
 
-fn cell(entry: Option<&MetricEntry>, first: Option<f64>) -> Value {
+fn cell(entry: Option<&MetricEntry>, change: Option<String>) -> Value {
     let Some(entry) = entry else { return json!({ "class": "observed", "symbol": "–", "value": "" }) };
     let (class, symbol) = match entry.verdict {
         Verdict::Pass => ("pass", "✓"),
         Verdict::Fail => ("fail", "✗"),
         Verdict::Observed => ("observed", "○"),
     };
-    let change = entry.value.zip(first).map(|(value, first)| value - first).filter(|change| *change != 0.0);
     json!({
         "class": class,
         "symbol": symbol,
         "value": entry.value.map_or_else(|| "not a number".to_owned(), four_digits),
-        "change": change.map(|change| format!("{}{}", if change > 0.0 { "+" } else { "" }, two_digits(change))),
+        "change": change,
     })
 }

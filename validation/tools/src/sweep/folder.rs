@@ -19,6 +19,8 @@ pub struct SweepProgress {
     pub failed: usize,
     /// Runs without a record.
     pub missing: usize,
+    /// Values that are not numbers, of all runs with numbers; counted by [`super::gather`] only.
+    pub without_value: usize,
 }
 
 /// A sweep on disk.

@@ -4,6 +4,7 @@ use super::error::SweepError;
 use super::folder::{SweepFolder, SweepProgress};
 use super::manifest::{Manifest, SweepRun};
 use super::map::{self, MetricMap};
+use crate::case::Registry;
 use crate::evaluation::{EvaluationRecord, MetricValue};
 use crate::figure::{Axis, Figure, FigureError, Mark, Panel, Series};
 use crate::metric::{Variant, Verdict};
@@ -18,12 +19,12 @@ const DRAWN: usize = 4;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn gather(sweep: &SweepFolder) -> Result<SweepProgress, SweepError> {
+pub fn gather(sweep: &SweepFolder, registry: Registry) -> Result<SweepProgress, SweepError> {
     let unwritable = |error: std::io::Error| FileError::unwritable(sweep.path(), &error);
     let records: Vec<(&SweepRun, EvaluationRecord)> =
         sweep.manifest().entries.iter().filter_map(|entry| sweep.record(entry).map(|record| (entry, record))).collect();
     let names = &sweep.manifest().parameters;
-    let results = results(names, &records).map_err(unwritable)?;
+    let results = results(names, &records, registry).map_err(unwritable)?;
     write_whole(&sweep.path().join("results.csv"), &results).map_err(unwritable)?;
     let failures = failures(names, &records).map_err(unwritable)?;
     write_whole(&sweep.path().join("failures.csv"), &failures).map_err(unwritable)?;
@@ -33,7 +34,9 @@ pub fn gather(sweep: &SweepFolder) -> Result<SweepProgress, SweepError> {
     let figures = figures(sweep.manifest(), &records);
     let undrawn = |error: FigureError| unwritable(std::io::Error::other(error.to_string()));
     page::draw(&figures, &sweep.path().join("figures")).map_err(undrawn)?;
-    Ok(sweep.tally())
+    let empty = |record: &EvaluationRecord| record.metrics.iter().filter(|metric| !metric.value.is_finite()).count();
+    let whole = records.iter().filter(|(_, record)| record.failure.is_none());
+    Ok(SweepProgress { without_value: whole.map(|(_, record)| empty(record)).sum(), ..sweep.tally() })
 }
 
 /// Metrics that the plan names and no run has, once there is a run that could have them.
@@ -46,10 +49,14 @@ fn unknown_metrics<'a>(manifest: &'a Manifest, records: &[(&SweepRun, Evaluation
     manifest.metrics.iter().map(String::as_str).filter(|name| !given.contains(name)).collect()
 }
 
-/// One line per metric: run, case, tier, parameters, metric, variant, value, unit, verdict.
-fn results(names: &[String], records: &[(&SweepRun, EvaluationRecord)]) -> std::io::Result<Vec<u8>> {
+/// One line per metric: run, case, tier, parameters, metric, variant, value, unit, verdict, and the reason of a value that is not a number.
+fn results(
+    names: &[String],
+    records: &[(&SweepRun, EvaluationRecord)],
+    registry: Registry,
+) -> std::io::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let (head, tail) = (["run", "case", "tier"], ["metric", "variant", "value", "unit", "verdict"]);
+    let (head, tail) = (["run", "case", "tier"], ["metric", "variant", "value", "unit", "verdict", "reason"]);
     writer.write_record(head.into_iter().chain(names.iter().map(String::as_str)).chain(tail))?;
     for (entry, record) in records.iter().filter(|(_, record)| record.failure.is_none()) {
         for metric in &record.metrics {
@@ -59,10 +66,23 @@ fn results(names: &[String], records: &[(&SweepRun, EvaluationRecord)]) -> std::
                 metric.value.to_string(),
                 metric.unit.clone(),
                 metric.verdict.word().to_owned(),
+                reason(metric, &record.case, registry),
             ]))?;
         }
     }
     writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
+}
+
+/// Reason of a value that is not a number: the one that the case states, else what the run did not give; empty beside a number.
+fn reason(metric: &MetricValue, case: &str, registry: Registry) -> String {
+    if metric.value.is_finite() {
+        return String::new();
+    }
+    let quantities = registry.find(case).map(|case| case.quantities()).unwrap_or_default();
+    let described =
+        quantities.iter().find(|quantity| quantity.name == metric.name).map(|quantity| quantity.description);
+    let stated = metric.not_steady.clone();
+    stated.unwrap_or_else(|| format!("the run ended, but gave no {}", described.unwrap_or("such value")))
 }
 
 /// One line per run that failed: run, case, tier, parameters, reason.

@@ -81,7 +81,7 @@ pub struct FilmParameters {
     /// The Herschel–Bulkley fluid.
     #[schemars(transform = within("consistency", positive(VISCOUS)))]
     pub herschel_bulkley: HerschelBulkley,
-    /// The liquid with eddies.
+    /// Liquid of the fluid "eddies": a Newtonian one whose eddy viscosity carries as much of the stress as its own.
     pub eddies: EddyLiquid,
     /// Any other law, for the fluid "material".
     pub material: Rheology,

@@ -298,8 +298,8 @@ mod tests {
         let weak = found.iter().find(|finding| matches!(finding.kind, FindingKind::WeakDirection { .. })).unwrap();
         assert_eq!(
             weak.to_string(),
-            "the data fix 0.71 `viscosity` + 0.71 `friction` (each as a share of its range) but hardly 0.71 \
-             `viscosity` − 0.71 `friction`: any point from `viscosity` = 1.01 Pa·s, `friction` = 0.745 to `viscosity` \
+            "near the best point the data fix 0.71 `viscosity` + 0.71 `friction` (each as a share of its range) but hardly 0.71 \
+             `viscosity` − 0.71 `friction`: any point on the line from `viscosity` = 1.01 Pa·s, `friction` = 0.745 to `viscosity` \
              = 1.99 Pa·s, `friction` = 0.255 agrees with them at 95 %"
         );
     }

@@ -96,8 +96,8 @@ impl SentenceWriter<'_> {
                 if *correlation > 0.0 { "larger" } else { "smaller" }
             ),
             FindingKind::WeakDirection { free, fixed, within: [back, step], .. } => format!(
-                "the data fix {} (each as a share of its range) but hardly {}: any point from {} to {} agrees with them at \
-                 95 %",
+                "near the best point the data fix {} (each as a share of its range) but hardly {}: any point on the \
+                 line from {} to {} agrees with them at 95 %",
                 self.combination(fixed),
                 self.combination(free),
                 self.place(minimum, free, -back),
