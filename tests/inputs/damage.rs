@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::strategy::ValueTree;
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Texts that a typing mistake inserts.
 const SLIPS: [&str; 24] = [
@@ -38,8 +38,8 @@ const SLIPS: [&str; 24] = [
 /// Processor time that reading a file may take.
 const SOON: Duration = Duration::from_secs(5);
 
-/// Wall time after which a reader is taken for endless, on a machine however busy.
-const ENDLESS: Duration = Duration::from_secs(120);
+/// Looks of the watch, each a fifth of a second, after which a reader is taken for endless, on a machine however busy.
+const ENDLESS: u32 = 600;
 
 /// Processor time between two words on how far a long study is.
 const WORD: Duration = Duration::from_secs(10);
@@ -67,18 +67,21 @@ fn processor_time() -> Duration {
     Duration::from_nanos(told.split(' ').next().and_then(|nanoseconds| nanoseconds.parse().ok()).unwrap_or_default())
 }
 
-/// The input that is read at present, and since when. It is shown where its reader panics or does not end.
-struct Watch(Arc<Mutex<(Instant, Vec<u8>)>>);
+/// The input that is read at present, with its number. It is shown where its reader panics or does not end.
+struct Watch(Arc<Mutex<(u32, Vec<u8>)>>);
 
 impl Watch {
     fn begin() -> Self {
-        let shared = Arc::new(Mutex::new((Instant::now(), Vec::new())));
+        let shared = Arc::new(Mutex::new((0, Vec::new())));
         let seen = Arc::downgrade(&shared);
         std::thread::spawn(move || {
+            let (mut last, mut looks) = (0, 0);
             while let Some(shared) = seen.upgrade() {
                 let reading = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                if reading.0.elapsed() > ENDLESS {
-                    eprintln!("not read within {} s: {}", ENDLESS.as_secs(), reading.1.escape_ascii());
+                looks = if reading.0 == last { looks + 1 } else { 0 };
+                last = reading.0;
+                if looks > ENDLESS {
+                    eprintln!("input {last} is not read to its end: {}", reading.1.escape_ascii());
                     std::process::abort();
                 }
                 drop(reading);
@@ -89,8 +92,8 @@ impl Watch {
         Self(shared)
     }
 
-    fn show(&self, input: &[u8]) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = (Instant::now(), input.to_vec());
+    fn show(&self, number: u32, input: &[u8]) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = (number, input.to_vec());
     }
 }
 
@@ -112,7 +115,7 @@ pub(crate) fn read_damaged(files: &[impl AsRef<[u8]>], mut read: impl FnMut(usiz
         let (which, slips) = slips().new_tree(&mut runner).expect("slips").current();
         let which = which.index(files.len());
         let wrong = with_slips(files[which].as_ref(), &slips);
-        watch.show(&wrong);
+        watch.show(tried, &wrong);
         let begun = processor_time();
         read(which, &wrong);
         let taken = processor_time() - begun;

@@ -75,7 +75,8 @@ fn a_table_of_an_inlet_is_read_or_refused() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let (path, table) = (folder.path().join("fed.toml"), folder.path().join("feed.csv"));
     std::fs::write(&path, scene.replace(rates, "table = \"feed.csv\"")).expect("writable");
-    let tables = ["time [s],rate [kg/(s m)]\n0.0,2.476\n0.9,2.476\n1.0,0\n", "t;q [g/(s cm)]\r\n# a note\r\n0;1\r\n2;3,5\r\n"];
+    let tables =
+        ["time [s],rate [kg/(s m)]\n0.0,2.476\n0.9,2.476\n1.0,0\n", "t;q [g/(s cm)]\r\n# a note\r\n0;1\r\n2;3,5\r\n"];
     read_damaged(&tables, |_, text| {
         std::fs::write(&table, text).expect("writable");
         if let Err(error) = prepare(&path) {
@@ -219,14 +220,8 @@ fn a_picture_of_another_form_is_read_or_refused() {
                   </vtkMultiBlockDataSet></VTKFile>";
     let set = "# x y U\n0.1 0.1 (1 0 0)\n0.2 0.1 (1 0 0)\n";
     let series = "{\"file-series-version\":\"1.0\",\"files\":[{\"name\":\"vtk-ascii.vtu\",\"time\":0.5}]}";
-    let forms = [
-        ("a.dump", dump),
-        ("a.pvd", pvd),
-        ("a.csv", table),
-        ("a.series", series),
-        ("a.vtm", blocks),
-        ("a.xy", set),
-    ];
+    let forms =
+        [("a.dump", dump), ("a.pvd", pvd), ("a.csv", table), ("a.series", series), ("a.vtm", blocks), ("a.xy", set)];
     read_pictures(&forms.map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec())));
 }
 
@@ -234,7 +229,8 @@ fn a_picture_of_another_form_is_read_or_refused() {
 #[test]
 fn a_submission_is_read_or_refused() {
     let folder = tempfile::tempdir().expect("temporary folder");
-    let all = ["dualsphysics/water-film", "gerris/bagnold", "lammps/column-planar", "newton/column-planar", "openfoam/film"];
+    let all =
+        ["dualsphysics/water-film", "gerris/bagnold", "lammps/column-planar", "newton/column-planar", "openfoam/film"];
     let mut submissions = Vec::new();
     for (place, name) in all.into_iter().enumerate() {
         let own = format!("validation/league/{name}");

@@ -47,7 +47,8 @@ fn a_folder_of_results_is_compared_or_refused() {
     let [own, out, store] = ["own", "out", "store"].map(|name| folder.path().join(name));
     let settings = ["resolution=6", "convergence_resolutions=[]", "comparison_resolution=6", "relaxation_times=0.1"];
     let settings = settings.iter().chain(&["yield_relaxation_times=0.1"]).flat_map(|setting| ["--set", setting]);
-    let run: Vec<&str> = ["run", "film", "--out", text(&own), "--store", text(&store)].into_iter().chain(settings).collect();
+    let run: Vec<&str> =
+        ["run", "film", "--out", text(&own), "--store", text(&store)].into_iter().chain(settings).collect();
     bagnold(&run).expect("a run");
     let mut names = vec![PathBuf::from("metrics.json"), PathBuf::from("case.toml")];
     let tables = std::fs::read_dir(own.join("tables")).expect("tables").flatten();
@@ -104,7 +105,8 @@ fn a_sweep_is_continued_or_refused() {
     damage(&files, &contents, |_| {
         let _ = slurm::check(&sweep, &request);
         let Ok(opened) = SweepFolder::open(&sweep) else { return };
-        let _ = (opened.missing(), opened.tally(), gather(&opened), slurm::queued(&opened), slurm::last_request(&opened));
+        let _ =
+            (opened.missing(), opened.tally(), gather(&opened), slurm::queued(&opened), slurm::last_request(&opened));
     });
 }
 
@@ -187,7 +189,8 @@ fn a_stored_run_is_read_or_simulated_again() {
     let start = 16 + 4 + 4 + 64;
     let store = Store::at(&folder.path().join("store"), StorePolicy::Use);
     read_damaged(&[whole.clone(), whole[start + 32..].to_vec()], |which, wrong| {
-        let wrong = if which == 0 { wrong.to_vec() } else { sealed(&[&whole[..start + 32], wrong].concat(), start, true) };
+        let wrong =
+            if which == 0 { wrong.to_vec() } else { sealed(&[&whole[..start + 32], wrong].concat(), start, true) };
         std::fs::write(&stored, wrong).expect("writable");
         let file = CaseFile::read(&scene).expect("a scene");
         let changes = Changes { file: Some((&scene, file.fields)), ..Changes::default() };
@@ -206,7 +209,8 @@ fn a_kept_state_is_continued_or_refused() {
     let start = 19 + 4 + 8 + 64;
     let state = folder.path().join("state");
     read_damaged(&[whole.clone(), whole[start + 32..].to_vec()], |which, wrong| {
-        let wrong = if which == 0 { wrong.to_vec() } else { sealed(&[&whole[..start + 32], wrong].concat(), start, false) };
+        let wrong =
+            if which == 0 { wrong.to_vec() } else { sealed(&[&whole[..start + 32], wrong].concat(), start, false) };
         std::fs::write(&state, wrong).expect("writable");
         let Ok(StoredState { digest, .. }) = StoredState::read(&state) else { return };
         let file = CaseFile::read(&scene).expect("a scene");
