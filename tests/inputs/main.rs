@@ -5,6 +5,8 @@
 
 mod bounds;
 mod changes;
+mod damage;
 mod files;
 mod judge;
+mod stored;
 mod submission;

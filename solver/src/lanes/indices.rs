@@ -153,6 +153,11 @@ impl CheckedIndices {
         self.bound
     }
 
+    /// Chunks of a region; zero without regions.
+    pub(crate) fn region(&self) -> usize {
+        self.region
+    }
+
     /// Lets `fill` rewrite the chunks and checks that every index is below `bound` afterwards.
     ///
     /// # Panics

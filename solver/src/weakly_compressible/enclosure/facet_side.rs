@@ -33,34 +33,68 @@ pub fn facet_side<'a, const D: usize>(
     if least == f64::INFINITY {
         return None;
     }
-    let mut tied = 0;
-    let (mut sum, mut way) = (Vector::<D>::zeros(), Vector::<D>::zeros());
-    let (mut beyond_a_rim, mut behind_one, mut on_a_face) = (false, false, false);
-    let (mut first, mut owner, mut depth) = (0, None, f64::INFINITY);
+    let mut tied = Tied::at(least);
+    let mut sum = Vector::<D>::zeros();
     for (index, (facet, place)) in facets.clone().enumerate() {
         let nearest = facet.nearest(&place);
         let from = place - nearest;
         if from.norm() > least * (1.0 + TIE) {
             continue;
         }
-        let height = facet.height(&place);
-        if tied == 0 {
-            (first, way) = (index, from);
-            beyond_a_rim = height.abs() < (1.0 - TIE) * least;
-        }
-        tied += 1;
-        on_a_face |= height.abs() >= (1.0 - TIE) * least;
+        tied.add(index, facet, &place, from);
         sum += facet.normal * facet.angle(&nearest);
-        behind_one |= from.dot(&facet.normal) < 0.0;
-        if height < 0.0 && -height < depth {
-            (owner, depth) = (Some(index), -height);
+    }
+    Some(tied.side(sum, || is_open(facets, least)))
+}
+
+/// Facets that are equally near to a place.
+pub(super) struct Tied<const D: usize> {
+    /// Their distance `[m]`.
+    least: f64,
+    count: usize,
+    first: usize,
+    /// From the nearest point of the first to the place `[m]`.
+    way: Vector<D>,
+    beyond_a_rim: bool,
+    behind_one: bool,
+    on_a_face: bool,
+    owner: Option<usize>,
+    depth: f64,
+}
+
+impl<const D: usize> Tied<D> {
+    /// None yet, at a distance `[m]`.
+    pub(super) fn at(least: f64) -> Self {
+        let (way, depth) = (Vector::zeros(), f64::INFINITY);
+        let (beyond_a_rim, behind_one, on_a_face) = (false, false, false);
+        Self { least, count: 0, first: 0, way, beyond_a_rim, behind_one, on_a_face, owner: None, depth }
+    }
+
+    /// Adds one by its number, with the way from its nearest point to the place `[m]`.
+    #[inline(always)]
+    pub(super) fn add(&mut self, index: usize, facet: &Facet<D>, place: &Vector<D>, from: Vector<D>) {
+        let height = facet.height(place);
+        if self.count == 0 {
+            (self.first, self.way) = (index, from);
+            self.beyond_a_rim = height.abs() < (1.0 - TIE) * self.least;
+        }
+        self.count += 1;
+        self.on_a_face |= height.abs() >= (1.0 - TIE) * self.least;
+        self.behind_one |= from.dot(&facet.normal) < 0.0;
+        if height < 0.0 && -height < self.depth {
+            (self.owner, self.depth) = (Some(index), -height);
         }
     }
-    let cancel = sum.norm() < TIE;
-    let behind = if cancel { behind_one } else { way.dot(&sum) < 0.0 };
-    let beyond = |facets| if D < 3 { tied == 1 && beyond_a_rim } else { !on_a_face && is_open(facets, least) };
-    let behind = behind && !beyond(facets);
-    Some(FacetSide { distance: if behind { -least } else { least }, facet: owner.unwrap_or(first) })
+
+    /// What they say, by the sum of their normals, each times its angle; `is_open` tells whether they leave a gap around the nearest point.
+    pub(super) fn side(self, sum: Vector<D>, is_open: impl FnOnce() -> bool) -> FacetSide {
+        let cancel = sum.norm() < TIE;
+        let behind = if cancel { self.behind_one } else { self.way.dot(&sum) < 0.0 };
+        let beyond = || if D < 3 { self.count == 1 && self.beyond_a_rim } else { !self.on_a_face && is_open() };
+        let behind = behind && !beyond();
+        let distance = if behind { -self.least } else { self.least };
+        FacetSide { distance, facet: self.owner.unwrap_or(self.first) }
+    }
 }
 
 /// Whether triangles that are equally near by their rims leave a gap around the point that is nearest: an edge there has a
@@ -80,7 +114,7 @@ fn is_open<'a, const D: usize>(facets: impl Iterator<Item = (&'a Facet<D>, Vecto
 }
 
 /// What [`is_open`] says, of the rays of many triangles with their numbers: joined rays are near each other along an axis.
-fn is_open_among_many<const D: usize>(mut rays: Vec<(usize, Vector<D>)>) -> bool {
+pub(super) fn is_open_among_many<const D: usize>(mut rays: Vec<(usize, Vector<D>)>) -> bool {
     rays.sort_unstable_by(|one, other| one.1[0].total_cmp(&other.1[0]).then(one.0.cmp(&other.0)));
     let is_joined = |at: usize| {
         let (own, ray) = rays[at];

@@ -1,6 +1,7 @@
 //! A tree of boxes over facets: finds the nearest of them for the set-up, in a time that hardly grows with their number.
 
 use super::facet::Facet;
+use super::facet_fan::Fan;
 use super::facet_side::{FacetSide, TIE, facet_side};
 use crate::vector::{Tensor, Vector};
 
@@ -23,6 +24,8 @@ pub struct FacetTree {
     nodes: Vec<Node>,
     /// Places of the facets, leaf by leaf.
     facets: Vec<u32>,
+    /// Fans of many triangles, to whose corners many places are nearest.
+    fans: Vec<Fan>,
 }
 
 /// Three corners `[m]`; the last two are one in the plane.
@@ -108,7 +111,7 @@ impl FacetTree {
     pub fn new<const D: usize>(facets: &[Facet<D>], range: f64) -> Self {
         let corner = |facet: &Facet<D>, k: usize| in_space(&facet.corners[k.min(D - 1)]);
         let triangles: Vec<_> = facets.iter().map(|facet| [0, 1, 2].map(|k| corner(facet, k))).collect();
-        Self::of_triangles(&triangles, range)
+        Self { fans: Fan::all(facets), ..Self::of_triangles(&triangles, range) }
     }
 
     /// The tree of triangles; segments have their last corner twice.
@@ -127,7 +130,7 @@ impl FacetTree {
             });
             size *= 2.0;
         }
-        let mut tree = Self { range, slack: 0.0, nodes: Vec::new(), facets: Vec::new() };
+        let mut tree = Self { range, slack: 0.0, nodes: Vec::new(), facets: Vec::new(), fans: Vec::new() };
         let mut order: Vec<u32> = (0..pieces.len() as u32).collect();
         if !pieces.is_empty() {
             tree.divide(&pieces, &mut order, 0);
@@ -212,8 +215,18 @@ impl FacetTree {
         distance: f64,
         look: impl FnOnce(usize),
     ) -> Option<FacetSide> {
+        let (at, within) = (in_space(place), distance.min(self.range));
         let distance_of = |facet: u32| (place - facets[facet as usize].nearest(place)).norm();
-        let (near, looked_at) = self.nearest(&in_space(place), distance.min(self.range), &distance_of);
+        let tip = self.fans.iter().find_map(|fan| Some((fan, fan.distance(&at).filter(|least| *least <= within)?)));
+        if let Some((fan, least)) = tip {
+            let of_other = |k: u32| if fan.has(&facets[k as usize]) { f64::INFINITY } else { distance_of(k) };
+            let (others, looked_at) = self.nearest(&at, least, &of_other);
+            if others.is_empty() {
+                look(looked_at);
+                return (least < self.range).then(|| fan.side(facets, place));
+            }
+        }
+        let (near, looked_at) = self.nearest(&at, within, &distance_of);
         look(looked_at);
         let found = facet_side(near.iter().map(|&facet| (&facets[facet as usize], *place)))?;
         (found.distance.abs() < self.range).then(|| FacetSide { facet: near[found.facet] as usize, ..found })

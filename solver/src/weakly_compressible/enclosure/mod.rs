@@ -12,6 +12,7 @@ pub(crate) mod boundary_state;
 mod boundary_step;
 pub mod facet;
 mod facet_contact;
+mod facet_fan;
 pub mod facet_grid;
 pub mod facet_side;
 pub mod facet_tree;

@@ -54,12 +54,21 @@ impl VerletList {
     /// Whether the list is that of so many flow and real particles, of all that the arrays hold.
     pub(crate) fn belongs_to(&self, flow: usize, real: usize, all: usize) -> bool {
         let groups = flow.div_ceil(LANES) + (real - flow).div_ceil(LANES);
-        let inside = |extent: &Extent| extent.last_chunk() < self.indices.len();
+        let is_wall = |chunks: std::ops::Range<usize>| {
+            self.indices.part(chunks).raw().iter().flatten().all(|&index| index as usize >= flow)
+        };
+        let is_sound = |(group, extent): (usize, &Extent)| {
+            let (region, start, last) = (group / GROUPS * self.region, extent.start as usize, extent.last_chunk());
+            let is_inside = start >= region && last < (region + self.region).min(self.indices.len());
+            let walls = start + 1 + usize::from(extent.flow)..last + 1;
+            is_inside && is_wall(walls) && (group < self.flow_groups() || is_wall(start..start + 1))
+        };
         self.flow == flow
             && self.indices.bound() == all
             && self.sentinel as usize + 1 == all
             && self.extents.len() == groups
-            && self.extents.iter().all(inside)
+            && self.region == self.indices.region()
+            && self.extents.iter().enumerate().all(is_sound)
     }
 
     /// Group `index` of eight flow particles: those from 8 `index` on.
@@ -185,6 +194,35 @@ mod tests {
         rebuilt(&mut list, &positions, 1.5);
         assert_eq!(list.row(250).flow, [249, 251]);
         assert_eq!([500, 501, 502, 503].map(|stray| list.row(stray).flow), [vec![], vec![], vec![503], vec![502]]);
+    }
+
+    #[test]
+    fn a_list_whose_walls_are_of_the_flow_or_whose_chunks_lie_in_another_block_belongs_to_no_particles() {
+        let places = |count: u32, y: f64| (0..count).map(move |k| Vector::<2>::new(f64::from(k), y));
+        let positions: Vec<_> = places(600, 0.0).chain(places(20, -1.0)).chain([Vector::<2>::repeat(1e9)]).collect();
+        let (flow, real, mut list, mut grids) = (600, 620, VerletList::default(), [CellGrid::new(), CellGrid::new()]);
+        for (grid, range) in grids.iter_mut().zip([0..flow, flow..real]) {
+            grid.cover(&positions[..real], 1.5);
+            let first = range.start;
+            grid.sort(&positions, range.len(), |entry| entry + first);
+            grid.take_coordinates(&positions);
+        }
+        list.rebuild(&positions, flow, real, 1.5, (&grids[0], &grids[1]), InstructionSet::best()).expect("room");
+        assert!(list.row(3).wall.len() == 3 && list.belongs_to(flow, real, positions.len()));
+        let changes: [fn(&mut Extent); 4] = [
+            |extent| (extent.flow, extent.wall) = (extent.flow - 1, extent.wall + 1),
+            |extent| extent.start = 0,
+            |extent| extent.wall = u16::MAX,
+            |extent| extent.start = u32::MAX,
+        ];
+        for (change, group) in changes.into_iter().zip([0, GROUPS + 8, 0, 1]) {
+            let mut other = list.clone();
+            change(&mut other.extents[group]);
+            assert!(!other.belongs_to(flow, real, positions.len()), "group {group}");
+        }
+        let walls = list.flow_groups();
+        list.extents[walls].start = list.extents[0].start;
+        assert!(!list.belongs_to(flow, real, positions.len()), "walls that are flow particles");
     }
 
     #[test]
