@@ -7,8 +7,8 @@ use bagnold_harness::checkpoint::StoredState;
 use bagnold_harness::evaluation::{EvaluationRecord, MetricValue};
 use bagnold_harness::metric::{Variant, Verdict};
 use bagnold_harness::output::OutputFolder;
-use bagnold_harness::report::{Baseline, GateList, History, KnownFailures, RemovedGates, SpeedHistory};
 use bagnold_harness::store::{AllSpeeds, Store, StorePolicy};
+use bagnold_report::{Baseline, GateList, History, KnownFailures, RemovedGates, SpeedHistory};
 use bagnold_tools::sweep::slurm::{self, SlurmRequest, TEMPLATE};
 use bagnold_tools::sweep::{SweepFolder, SweepPlan, gather};
 use bagnold_validation::REGISTRY;
@@ -105,8 +105,13 @@ fn a_sweep_is_continued_or_refused() {
     damage(&files, &contents, |_| {
         let _ = slurm::check(&sweep, &request);
         let Ok(opened) = SweepFolder::open(&sweep) else { return };
-        let _ =
-            (opened.missing(), opened.tally(), gather(&opened), slurm::queued(&opened), slurm::last_request(&opened));
+        let _ = (
+            opened.missing(),
+            opened.tally(),
+            gather(&opened, *REGISTRY),
+            slurm::queued(&opened),
+            slurm::last_request(&opened),
+        );
     });
 }
 

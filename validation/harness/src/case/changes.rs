@@ -34,10 +34,13 @@ pub(super) struct ParameterSource {
 }
 
 impl ParameterSource {
-    /// An error whose field stands in the user's file says so.
+    /// An error whose field stands in the user's file, or that names none of his fields, says which file it is.
     pub(super) fn placed(&self, error: ParameterError) -> ParameterError {
-        match (&self.file, error.field_path()) {
-            (Some(file), Some(field)) if !is_set(&self.settings, field) => error.in_file(file),
+        let names_none = matches!(error, ParameterError::Changed { .. });
+        match &self.file {
+            Some(file) if error.field_path().map_or(names_none, |field| !is_set(&self.settings, field)) => {
+                error.in_file(file)
+            }
             _ => error,
         }
     }

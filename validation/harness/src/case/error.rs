@@ -23,8 +23,10 @@ pub enum ParameterError {
         error: Box<ParameterError>,
     },
     /// An error that names no field of the user's.
-    #[error("{error}; what differs from the tier's parameters: {changed}")]
+    #[error("{}{error}; what differs from the tier's parameters: {changed}", origin(.file))]
     Changed {
+        /// File of the user's, where there is one.
+        file: Option<PathBuf>,
         /// The error.
         error: Box<ParameterError>,
         /// The fields that the user has changed, with their values.
@@ -212,6 +214,7 @@ impl ParameterError {
         | Self::UnknownField { file, .. }
         | Self::MissingField { file, .. }
         | Self::Follows { file, .. }
+        | Self::Changed { file, .. }
         | Self::UnknownCase { file, .. } = &mut self
         {
             file.get_or_insert_with(|| path.to_owned());

@@ -189,7 +189,7 @@ pub(super) fn with_changed(error: ParameterError, changed: &[(String, String)]) 
     if changed.len() > LISTED {
         listed.push(format!("and {} more", changed.len() - LISTED));
     }
-    ParameterError::Changed { error: Box::new(error), changed: listed.join(", ") }
+    ParameterError::Changed { file: None, error: Box::new(error), changed: listed.join(", ") }
 }
 
 #[cfg(test)]
