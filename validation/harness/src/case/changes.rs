@@ -110,10 +110,19 @@ where
             unlikely.iter().for_each(|warning| caution(warning));
             value.try_into().map_err(|error: toml::de::Error| {
                 let remedy = format!("`bagnold show {case}` prints valid ones");
-                ParameterError::field("parameters", "not valid", error.message(), &remedy)
+                let (field, value, rule) =
+                    said(error.message()).unwrap_or(("parameters", "not valid", error.message()));
+                ParameterError::field(field, value, rule, &remedy)
             })
         }
     }
+}
+
+/// Field, value and rule of what the maker of a law says of a parameter, where it says them.
+fn said(message: &str) -> Option<(&str, &str, &str)> {
+    let (field, rest) = message.strip_prefix('`')?.split_once("` is ")?;
+    let (value, rule) = rest.split_once(", but must be ")?;
+    Some((field, value, rule.split(';').next().unwrap_or(rule)))
 }
 
 /// A law that is neither the solver's nor one of the user's own: the schema leaves the names of the latter open.
