@@ -51,7 +51,11 @@ fn without_interval(metrics: &[Metric]) -> String {
         let mean = values.iter().sum::<f64>() / count as f64;
         let square: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
         let deviation = (square / (count - 1) as f64).sqrt();
-        format!("{name} over {count} runs: {} ± {} {unit}\n", aligned_digits(mean), aligned_digits(deviation))
+        format!(
+            "{name} over {count} runs: {} {unit}, standard deviation {}\n",
+            aligned_digits(mean),
+            aligned_digits(deviation)
+        )
     });
     let names: Vec<&str> = single.iter().map(|(name, _)| name.as_str()).collect();
     let line = format!("no interval for {}: vary `seed`, `spacing` and `stiffness` in a study\n", names.join(", "));

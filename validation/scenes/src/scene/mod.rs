@@ -45,8 +45,11 @@ impl Dimension<2> for Plane {
 
     const ADD_A_BODY: &'static str = "add a box, a disc or a polygon of material";
     const COST: f64 = 0.6;
-    const MEAN_FORCE: Quantity =
-        Quantity::accounted("mean_force", "N/m", "time average of the force of the flow on the wall of a gauge");
+    const MEAN_FORCE: Quantity = Quantity::accounted(
+        "mean_force",
+        "N/m",
+        "time average, from the start, of the force of the flow on the wall of a gauge",
+    );
     const MASS_CROSSED: Quantity =
         Quantity::accounted("mass_crossed", "kg/m", "mass that crosses the line of a gauge until the end");
     const MASS_FED: Quantity = Quantity::accounted("mass_fed", "kg/m", "inflow through an inlet until the end");

@@ -46,8 +46,11 @@ impl Dimension<3> for Space {
 
     const ADD_A_BODY: &'static str = "add a box, a cylinder or a sphere of material";
     const COST: f64 = 1.5;
-    const MEAN_FORCE: Quantity =
-        Quantity::accounted("mean_force", "N", "time average of the force of the flow on the wall of a gauge");
+    const MEAN_FORCE: Quantity = Quantity::accounted(
+        "mean_force",
+        "N",
+        "time average, from the start, of the force of the flow on the wall of a gauge",
+    );
     const MASS_CROSSED: Quantity =
         Quantity::accounted("mass_crossed", "kg", "mass that crosses the parallelogram of a gauge until the end");
     const MASS_FED: Quantity = Quantity::accounted("mass_fed", "kg", "inflow through an inlet until the end");
