@@ -23,7 +23,7 @@ pub enum ParameterError {
         error: Box<ParameterError>,
     },
     /// An error that names no field of the user's.
-    #[error("{}{error}; what differs from the tier's parameters: {changed}", origin(.file))]
+    #[error("{}{error}; what differs from the tier: {changed}", origin(.file))]
     Changed {
         /// File of the user's, where there is one.
         file: Option<PathBuf>,

@@ -260,7 +260,7 @@ mod tests {
         let unnamed = || ParameterError::NothingToRun { case: "pendulum".to_owned(), empty: Vec::new() };
         let changed = [("grain.damping".to_owned(), "2.0".to_owned())];
         let message = with_changed(unnamed(), &changed).to_string();
-        assert!(message.ends_with("; what differs from the tier's parameters: `grain.damping` is 2.0"), "{message}");
+        assert!(message.ends_with("; what differs from the tier: `grain.damping` is 2.0"), "{message}");
         assert_eq!(with_changed(unnamed(), &[]).to_string(), unnamed().to_string());
         let named = ParameterError::field("grain", 1, "2", "change it");
         assert!(!with_changed(named, &changed).to_string().contains("differs"));
