@@ -181,7 +181,7 @@ fn a_scene_from_its_own_state_ends_as_an_uninterrupted_run() {
         let whole = outcome(&Place::new(), &set(&example(name), &longer));
         let other = Place::new();
         let begun = outcome(&other, &from(&example(name), &state, &longer));
-        assert!(!begun.2.contains("resumes"), "{}", begun.2);
+        assert!(!begun.2.contains("resumes") && begun.2.contains("starts at t = 0.0"), "{}", begun.2);
         assert_eq!(whole.0.0, begun.0.0, "{name}: the last state");
         let case = std::fs::read_to_string(other.path("out/case.toml")).expect("written");
         assert!(case.contains("sha256 = \""), "{case}");

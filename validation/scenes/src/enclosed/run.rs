@@ -1,7 +1,7 @@
 //! From the parameters to a scene of the solver, and what is watched while it runs.
 
 use super::gauges::Memory;
-use super::parameters::Dimension;
+use super::parameters::{Dimension, SceneStart};
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneInlet, SceneWall};
 use super::settling::{self, RestCriterion};
@@ -12,7 +12,9 @@ use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, Star
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::checkpoint::Checkpoints;
 use crate::metric::Variant;
+
 use crate::observation::{Frame, Recorded};
+use bagnold_number::four_digits;
 use bagnold_solver::domain::Domain;
 use bagnold_solver::weakly_compressible::enclosure::Inlet;
 use bagnold_solver::weakly_compressible::enclosure::boundary_set::Exits;
@@ -174,7 +176,12 @@ where
                 StartState::New => self.prepared(made.clone()),
                 StartState::Continued | StartState::Described => Ok(made.clone()),
             },
-            |simulation: &Simulation<D>| (simulation.snapshot(), begin(simulation)),
+            |simulation: &Simulation<D>| {
+                if let Some(SceneStart { file, .. }) = &scene.from {
+                    progress.tell(&format!("starts at t = {} s, from {file}", four_digits(simulation.time())));
+                }
+                (simulation.snapshot(), begin(simulation))
+            },
             |(last_good, watch): &mut (Snapshot<D>, SceneObserver<D>), simulation| {
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
