@@ -99,7 +99,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         let found: Vec<String> = many.into_iter().chain(short).collect();
         (!found.is_empty() && self.spacing <= USUAL_SPACING).then(|| {
             format!(
-                "scene `{}`: {}; its lengths are probably in millimetres: give all in metres, such as `spacing = {}`",
+                "scene `{}`: {}; its lengths are probably in millimetres: give all in metres, such as `spacing = {}`, or your own `grain_diameter`",
                 self.name,
                 found.join(", and "),
                 four_digits(self.spacing * 1e-3)
@@ -155,7 +155,12 @@ mod tests {
     fn a_geometry_in_millimetres_is_doubted() {
         let both = doubt([100.0, 150.0, 1.5], 0.7e-3, 0.5).expect("doubted");
         assert!(both.contains("214286 grains") && both.contains("a fall over its height takes 5.530 s"), "{both}");
-        assert!(both.ends_with("probably in millimetres: give all in metres, such as `spacing = 0.0015`"), "{both}");
+        assert!(
+            both.ends_with(
+                "probably in millimetres: give all in metres, such as `spacing = 0.0015`, or your own `grain_diameter`"
+            ),
+            "{both}"
+        );
         // each evidence alone: a long duration, and grains in the same wrong unit
         assert!(doubt([100.0, 150.0, 1.5], 0.7e-3, 20.0).is_some_and(|text| !text.contains("duration")));
         assert!(doubt([100.0, 150.0, 1.5], 0.7, 0.5).is_some_and(|text| !text.contains("grains")));
