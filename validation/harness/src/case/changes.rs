@@ -109,20 +109,26 @@ where
         None => {
             unlikely.iter().for_each(|warning| caution(warning));
             value.try_into().map_err(|error: toml::de::Error| {
-                let remedy = format!("`bagnold show {case}` prints valid ones");
-                let (field, value, rule) =
-                    said(error.message()).unwrap_or(("parameters", "not valid", error.message()));
-                ParameterError::field(field, value, rule, &remedy)
+                let usual = format!("`bagnold show {case}` prints valid ones");
+                let (field, value, rule, remedy) =
+                    said(error.message()).unwrap_or(("parameters", "not valid", error.message(), &usual));
+                let error = ParameterError::field(field, value, rule, remedy);
+                // the name alone does not tell whether an argument or the file holds the value
+                match &changes.file {
+                    Some((file, _)) if changes.settings.is_empty() => error.in_file(file),
+                    _ => error,
+                }
             })
         }
     }
 }
 
-/// Field, value and rule of what the maker of a law says of a parameter, where it says them.
-fn said(message: &str) -> Option<(&str, &str, &str)> {
+/// Field, value, rule and remedy of what the maker of a law says of a parameter, where it says all four.
+fn said(message: &str) -> Option<(&str, &str, &str, &str)> {
     let (field, rest) = message.strip_prefix('`')?.split_once("` is ")?;
-    let (value, rule) = rest.split_once(", but must be ")?;
-    Some((field, value, rule.split(';').next().unwrap_or(rule)))
+    let (value, rest) = rest.split_once(", but must be ")?;
+    let (rule, remedy) = rest.split_once("; ")?;
+    Some((field, value, rule, remedy.trim_end()))
 }
 
 /// A law that is neither the solver's nor one of the user's own: the schema leaves the names of the latter open.

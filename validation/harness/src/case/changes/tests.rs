@@ -276,6 +276,6 @@ fn a_law_that_nobody_knows_is_refused_at_its_key() {
 #[test]
 fn what_the_maker_of_a_law_says_is_told_of_its_field() {
     let text = "`friction_growth` is -1, but must be positive; give it without a unit\n";
-    assert_eq!(super::said(text), Some(("friction_growth", "-1", "positive")));
+    assert_eq!(super::said(text), Some(("friction_growth", "-1", "positive", "give it without a unit")));
     assert_eq!(super::said("a law without words"), None);
 }
