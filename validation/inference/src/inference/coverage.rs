@@ -80,11 +80,11 @@ fn held(experiments: u64) -> [usize; 4] {
     held
 }
 
-/// 95 of 100, and three standard deviations of a binomial count, 2.2.
+/// 95 of 100, give or take three standard deviations of a binomial count (2.18 each), and never all.
 #[test]
 fn the_joint_region_has_its_nominal_coverage() {
     let held = held(100);
-    assert!(held.iter().all(|count| (88..=99).contains(count)), "{held:?} of 100");
+    assert!(held.iter().all(|count| (89..=99).contains(count)), "{held:?} of 100");
 }
 
 mod long {
