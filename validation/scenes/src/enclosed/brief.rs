@@ -96,10 +96,11 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         let short = (size > LARGE && gravity > 0.0 && self.duration < fall).then(|| {
             format!("`duration` is {} s, but a fall over its height takes {} s", self.duration, four_digits(fall))
         });
+        let or = many.as_ref().map_or("", |_| ", or your own `grain_diameter`");
         let found: Vec<String> = many.into_iter().chain(short).collect();
         (!found.is_empty() && self.spacing <= USUAL_SPACING).then(|| {
             format!(
-                "scene `{}`: {}; its lengths are probably in millimetres: give all in metres, such as `spacing = {}`, or your own `grain_diameter`",
+                "scene `{}`: {}; its lengths are probably in millimetres: give all in metres, such as `spacing = {}`{or}",
                 self.name,
                 found.join(", and "),
                 four_digits(self.spacing * 1e-3)
@@ -163,7 +164,7 @@ mod tests {
         );
         // each evidence alone: a long duration, and grains in the same wrong unit
         assert!(doubt([100.0, 150.0, 1.5], 0.7e-3, 20.0).is_some_and(|text| !text.contains("duration")));
-        assert!(doubt([100.0, 150.0, 1.5], 0.7, 0.5).is_some_and(|text| !text.contains("grains")));
+        assert!(doubt([100.0, 150.0, 1.5], 0.7, 0.5).is_some_and(|text| !text.contains("grain")));
     }
 
     #[test]

@@ -12,7 +12,6 @@ use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, Star
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::checkpoint::Checkpoints;
 use crate::metric::Variant;
-
 use crate::observation::{Frame, Recorded};
 use bagnold_number::four_digits;
 use bagnold_solver::domain::Domain;
