@@ -9,7 +9,7 @@ use bagnold_harness::result::MetricsDocument;
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_scenes::study::{Study, is_study};
 use bagnold_validation::REGISTRY;
-use bagnold_validation::cli::ProgramError;
+use bagnold_validation::cli::{ProgramError, warn_of_fast};
 use clap::ValueEnum;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -51,7 +51,10 @@ pub(crate) fn run<'py>(
             }
             let study = Study::read(path, *REGISTRY)?;
             let cases = study.prepare(*REGISTRY, tier, &settings, Limits::of(None, None))?;
-            let result = study.judge(execute(cases, &open(), &Silent)?)?;
+            cases.iter().for_each(|case| drop(case.briefs()));
+            let results = execute(cases, &open(), &Silent)?;
+            warn_of_fast(&results);
+            let result = study.judge(results)?;
             let document = MetricsDocument::of(&result, rayon::current_num_threads()).text();
             return Ok::<_, ProgramError>((result, document));
         }
@@ -59,7 +62,10 @@ pub(crate) fn run<'py>(
         let Requested { prepared, overlay: named, .. } = request.prepare(*REGISTRY)?;
         let measured =
             named.iter().chain(&overlay).map(|file| Measurements::read(file)).collect::<Result<Vec<_>, _>>()?;
+        // what it warns of is told at the end
+        drop(prepared.briefs());
         let mut result = execute(vec![prepared], &open(), &Silent)?.pop().ok_or(ParameterError::Interrupted)?;
+        warn_of_fast(std::slice::from_ref(&result));
         draw_measured(&mut result, &measured)?;
         let document = MetricsDocument::of(&result, rayon::current_num_threads()).text();
         Ok((result, document))

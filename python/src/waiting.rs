@@ -2,9 +2,11 @@
 
 use bagnold_harness::input::escaped_lines;
 use bagnold_harness::interruption;
+use bagnold_harness::output::cautions;
 use pyo3::create_exception;
-use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
+use std::ffi::CString;
 use std::fmt::Display;
 use std::time::Duration;
 
@@ -20,8 +22,10 @@ const PATIENCE: Duration = Duration::from_millis(20);
 
 /// Does the work on a thread of its own, inside a pool of so many threads (one a core where none are named).
 ///
+/// What is warned of for the first time becomes a `UserWarning`.
+///
 /// # Errors
-/// What the work says, as [`Refused`]; an exception of a signal handler, such as `KeyboardInterrupt`, once the work has ended.
+/// What the work says, as [`Refused`]; a warning that Python makes an error; an exception of a signal handler, such as `KeyboardInterrupt`, once the work has ended.
 pub(crate) fn wait_for<T: Send, E: Display + Send>(
     py: Python<'_>,
     threads: Option<u16>,
@@ -31,7 +35,8 @@ pub(crate) fn wait_for<T: Send, E: Display + Send>(
         .num_threads(threads.unwrap_or(0).into())
         .build()
         .map_err(|error| Refused::new_err(format!("failed to start threads: {error}")))?;
-    std::thread::scope(|scope| {
+    let told = cautions();
+    let outcome = std::thread::scope(|scope| {
         let caller = std::thread::current();
         let worker = scope.spawn(move || {
             let outcome = pool.install(work);
@@ -59,5 +64,10 @@ pub(crate) fn wait_for<T: Send, E: Display + Send>(
             }
             (Err(_), None) => Err(PyRuntimeError::new_err("Bagnold has panicked; this is an error in Bagnold")),
         }
-    })
+    })?;
+    for (_, text) in cautions().into_iter().filter(|(subject, _)| !told.contains_key(subject)) {
+        let text = CString::new(text).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
+    Ok(outcome)
 }

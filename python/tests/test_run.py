@@ -59,6 +59,11 @@ def test_profiles_are_tables_and_found_by_a_part_of_their_name(film):
         film.profile("depth")
 
 
+def test_what_the_program_warns_of_is_a_warning_of_python():
+    with pytest.warns(UserWarning, match="0.5 in radians is 28.65"):
+        bagnold.run("film", **CHEAP, slope_angle=0.5)
+
+
 def test_particles_are_arrays_that_nobody_can_change(film):
     particles = film.particles()
     assert particles["position"].shape == particles["velocity"].shape == (len(particles["pressure"]), 3)

@@ -93,7 +93,7 @@ fn every_command_works_and_keeps_its_runs_in_the_users_cache() {
     let template = bagnold(&place, &["judge", "--template", "water-film"]).assert().code(0);
     assert!(String::from_utf8_lossy(&template.get_output().stdout).contains("case = \"water-film\""));
 
-    bagnold(&place, &["examples", "--out", "examples"]).assert().code(0);
+    bagnold(&place, &["examples"]).assert().code(0);
     assert_eq!(
         names(place.path(WORK).join("examples")),
         [".bagnold-output", "calibrations", "scenes", "studies", "sweeps"]

@@ -148,6 +148,15 @@ fn material_removed_by_walls_is_reported() {
     }
 }
 
+/// A box of some height `[m]` that falls onto a floor, with more fields before it.
+fn falls_with(fields: &str, top: f64) -> String {
+    format!(
+        "case = \"scene\"\nname = \"falls\"\nspacing = 0.005\nduration = 0.15\ninterval = 0.01\n{fields}\
+         [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.1]\nupper = [0.04, {top}]\n\
+         [[walls]]\nname = \"floor\"\npoints = [[-0.1, 0.0], [0.14, 0.0]]\n"
+    )
+}
+
 #[test]
 fn unlikely_units_and_speeds_and_gaps_are_warned_of_and_can_be_rejected() {
     let place = Place::new();
@@ -161,15 +170,24 @@ fn unlikely_units_and_speeds_and_gaps_are_warned_of_and_can_be_rejected() {
     let millimetres = warned("obstacle.toml", "material.grain_diameter=0.7");
     assert!(millimetres.contains("0.7 m, usual are 0.000001 to 0.1 m; 0.7 in millimetres is 7×10⁻⁴"), "{millimetres}");
     assert!(millimetres.contains("175 particle spacings"), "{millimetres}");
+    // the same in a file is not told once a setting corrects it; a single length is told before the particles are counted
+    let upwards = falls_with("gravity = [0.0, 9.81]\n", 0.12);
+    let file = place.file("falls.toml", &upwards);
+    let told =
+        String::from_utf8_lossy(&place.run(&[&file, "--deny-warnings"]).code(2).get_output().stderr).into_owned();
+    assert!(told.contains("its last component is 9.81; downwards it is -9.81"), "{told}");
+    place.run(&[&file, "--set", "gravity=[0.0, -9.81]", "--set", "duration=0.01", "--deny-warnings"]).code(0);
+    let file = place.file("falls.toml", &falls_with("", 60_000.0));
+    let told = String::from_utf8_lossy(&place.run(&[&file]).code(2).get_output().stderr).into_owned();
+    let all = "`bodies[0]` reaches 60000 m, but all else 0.14 m; coordinates of a map";
+    assert!(told.contains(all) && told.contains("less demanding"), "{told}");
     let soft = warned("obstacle.toml", "stiffness=20");
     assert!(soft.contains("a speed of 2.701 m/s is Mach 0.32, above 0.2"), "{soft}");
     assert!(soft.contains("set `stiffness = 50`"), "{soft}");
     let coarse = warned("hopper-36.toml", "spacing=0.015");
     assert!(coarse.contains("walls `left` and `right` is 2.4 particle spacings wide"), "{coarse}");
     // what a run has reached is told after it, and not of a stiff material
-    let falls = "case = \"scene\"\nname = \"falls\"\nspacing = 0.005\nduration = 0.15\ninterval = 0.01\nstiffness = 20.0\n\
-        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.1]\nupper = [0.04, 0.12]\n\
-        [[walls]]\nname = \"floor\"\npoints = [[-0.1, 0.0], [0.14, 0.0]]\n";
+    let falls = falls_with("stiffness = 20.0\n", 0.12);
     let told = |stiffness: &str| {
         let file = place.file("falls.toml", &falls.replace("stiffness = 20.0", stiffness));
         // so soft an impact may fail the balance of energy as well

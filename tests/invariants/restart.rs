@@ -186,6 +186,24 @@ fn a_state_of_another_scene_is_refused() {
     assert_eq!(refused.to_string(), "the saved state has 1 sediments, but its scene has 0");
 }
 
+/// A clock far before the start would run for ever.
+#[test]
+fn a_state_from_before_the_start_is_refused() {
+    let scene = column([20, 12]);
+    let mut simulation = simulation(scene.clone());
+    patches::advance(&mut simulation, 3);
+    let written = postcard::to_stdvec(&simulation.save()).expect("written");
+    let now = simulation.time().to_le_bytes();
+    let place = written.windows(8).position(|bytes| bytes == now).expect("the time");
+    for time in [-3.2e277, f64::NAN, f64::INFINITY] {
+        let mut damaged = written.clone();
+        damaged[place..place + 8].copy_from_slice(&time.to_le_bytes());
+        let read: SavedSimulation<'_, 2> = postcard::from_bytes(&damaged).expect("read");
+        let refused = Simulation::continued(scene.clone(), read).expect_err("a damaged clock");
+        assert!(refused.to_string().contains("0 clocks at or after the start"), "{time}: {refused}");
+    }
+}
+
 /// Interrupts a run after some steps, and remembers when it was shown what.
 struct Interrupting {
     steps: u64,

@@ -31,7 +31,7 @@ const EXAMPLES: &str = "Examples:
   bagnold run my.toml --out results            run the edited file
   bagnold report                               all cases, judged on one page: reports/index.html
   bagnold judge mine.toml                      results of another code under the same gates
-  bagnold examples --out examples              sample calibrations, scenes, sweeps
+  bagnold examples                             sample calibrations, scenes, sweeps
 
 Exit codes: 0 all gates pass except known failures, 1 a gate fails or is missing, 2 bad input, 3 a run diverged.";
 
@@ -93,7 +93,7 @@ Exit codes: 0 all gates pass except known failures, 1 a gate fails or is missing
 2 bad input, 3 a run diverged.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:
-  bagnold examples --out examples
+  bagnold examples
   bagnold calibrate examples/calibrations/lube-run-out.toml
   bagnold calibrate my.toml --out mine
   bagnold run mine/calibrated.toml
@@ -259,7 +259,10 @@ pub struct RunArguments {
 #[command(after_help = "Examples:
   mkdir -p ~/.local/share/bash-completion/completions ~/.local/share/man/man1
   bagnold completions bash > ~/.local/share/bash-completion/completions/bagnold
-  bagnold completions man > ~/.local/share/man/man1/bagnold.1")]
+  bagnold completions man > ~/.local/share/man/man1/bagnold.1
+
+Zsh reads `_bagnold` in a folder of $fpath, fish reads ~/.config/fish/completions/bagnold.fish. `man bagnold` finds the page
+where ~/.local/bin is in the PATH, else `man -M ~/.local/share/man bagnold`.")]
 pub struct CompletionsArguments {
     /// Shell, or `man` for the manual page.
     #[arg(value_enum)]

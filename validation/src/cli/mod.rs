@@ -42,6 +42,7 @@ pub use arguments::{Arguments, Command};
 pub use error::ProgramError;
 pub use exit::Exit;
 pub use new::error::NewError;
+pub use simulation::warn_of_fast;
 
 use crate::case::{Limits, ParameterError, Registry};
 use crate::checkpoint::{self, InterruptedRuns};

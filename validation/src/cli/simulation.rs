@@ -47,6 +47,12 @@ pub(super) fn announce(
 /// Warns of scenes that became faster than the weakly compressible model is validated for, and rejects an input that was warned of, if
 /// the user asks for that.
 pub(super) fn reject_fast(results: &[CaseResult], is_denied: bool) -> Result<(), ProgramError> {
+    warn_of_fast(results);
+    reject_warnings(is_denied)
+}
+
+/// Warns of scenes that became faster than the weakly compressible model is validated for.
+pub fn warn_of_fast(results: &[CaseResult]) {
     let metrics = results.iter().flat_map(|result| &result.metrics);
     for metric in metrics.filter(|metric| metric.name == "mach_number" && metric.value > LARGEST_MACH_NUMBER) {
         let (mach, variant) = (metric.value, &metric.variant);
@@ -56,12 +62,11 @@ pub(super) fn reject_fast(results: &[CaseResult], is_denied: bool) -> Result<(),
             (mach / LARGEST_MACH_NUMBER).powi(2)
         ));
     }
-    reject_warnings(is_denied)
 }
 
 /// Rejects an input that was warned of, if the user asks for that.
 fn reject_warnings(is_denied: bool) -> Result<(), ProgramError> {
-    match cautions() {
+    match cautions().len() {
         count if is_denied && count > 0 => Err(ProgramError::Cautions { count }),
         _ => Ok(()),
     }

@@ -100,8 +100,11 @@ where
     }
     // Together, so that a law and its parameters may come in any order.
     overlay(schema, &mut table, &settings);
-    let given = changes.file.iter().map(|(_, fields)| fields).chain([&settings]);
-    let unlikely: Vec<String> = given.flat_map(plausible::warnings).chain(plausible::wide_grains(&table)).collect();
+    // what a setting corrects is not warned of
+    let of_file = changes.file.iter().flat_map(|(_, fields)| plausible::warnings(fields));
+    let of_file = of_file.filter(|(path, _)| !is_set(changes.settings, path));
+    let given = of_file.chain(plausible::warnings(&settings)).map(|(_, text)| text);
+    let unlikely: Vec<String> = given.chain(plausible::wide_grains(&table)).collect();
     let value = Value::Table(table);
     match first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
         Some(fault) => Err(blame(fault, case, &defaults, changes)),

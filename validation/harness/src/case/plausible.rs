@@ -48,13 +48,6 @@ const USUAL: &[Usual] = &[
         slip: |value| (value > 0.1).then_some((value * 1e-3, "in millimetres")),
     },
     Usual {
-        field: "spacing",
-        low: 1e-6,
-        high: 2.0,
-        unit: "m",
-        slip: |value| (value > 2.0).then_some((value * 1e-3, "in millimetres, as all lengths then are,")),
-    },
-    Usual {
         field: "grain_density",
         low: 500.0,
         high: 12_000.0,
@@ -80,20 +73,24 @@ const USUAL: &[Usual] = &[
         low: 1.0,
         high: 300.0,
         unit: "m/s²",
-        slip: |value| (900.0..1100.0).contains(&value).then_some((value * 1e-2, "in cm/s²")),
+        slip: |value| match value {
+            900.0..1100.0 => Some((value * 1e-2, "in cm/s²")),
+            9000.0..11_000.0 => Some((value * 1e-3, "in mm/s²")),
+            _ => None,
+        },
     },
 ];
 /// Most spacings that a grain is wide: beyond, a particle is a small part of a grain.
 const WIDEST_GRAIN: f64 = 10.0;
 
-/// Warnings of what the user gave, with the likely unit.
-pub(super) fn warnings(fields: &Table) -> Vec<String> {
+/// Warnings of what the user gave, with the likely unit, each behind its field.
+pub(super) fn warnings(fields: &Table) -> Vec<(String, String)> {
     let mut found = Vec::new();
     collect(fields, "", &mut found);
     found
 }
 
-fn collect(fields: &Table, above: &str, found: &mut Vec<String>) {
+fn collect(fields: &Table, above: &str, found: &mut Vec<(String, String)>) {
     for (name, value) in fields {
         let path = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
         match value {
@@ -102,8 +99,9 @@ fn collect(fields: &Table, above: &str, found: &mut Vec<String>) {
                 let parts: Vec<f64> = entries.iter().filter_map(number_in).collect();
                 let size = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
                 found.extend(unusual(name, &path, size));
-                if parts.last().is_some_and(|up| *up > 0.0) {
-                    found.push(format!("`{path}` points upwards: its last component is usually negative"));
+                if let Some(up) = parts.last().filter(|up| **up > 0.0) {
+                    let text = format!("`{path}` points upwards: its last component is {up}; downwards it is {}", -up);
+                    found.push((path, text));
                 }
             }
             Value::Array(entries) => {
@@ -118,7 +116,7 @@ fn collect(fields: &Table, above: &str, found: &mut Vec<String>) {
     }
 }
 
-fn unusual(name: &str, path: &str, value: f64) -> Option<String> {
+fn unusual(name: &str, path: &str, value: f64) -> Option<(String, String)> {
     let usual = USUAL.iter().find(|usual| usual.field == name)?;
     // 0 switches most of these off
     if value == 0.0 || (usual.low..=usual.high).contains(&value) {
@@ -127,7 +125,8 @@ fn unusual(name: &str, path: &str, value: f64) -> Option<String> {
     let Usual { low, high, unit, slip, .. } = usual;
     let shown = four_digits(value);
     let likely = slip(value).map(|(meant, words)| format!("; {shown} {words} is {}", four_digits(meant)));
-    Some(format!("`{path}` is {shown} {unit}, usual are {low} to {high} {unit}{}", likely.unwrap_or_default()))
+    let text = format!("`{path}` is {shown} {unit}, usual are {low} to {high} {unit}{}", likely.unwrap_or_default());
+    Some((path.to_owned(), text))
 }
 
 /// Warning of grains of a scene that are many particle spacings wide.
@@ -146,7 +145,9 @@ mod tests {
 
     #[test]
     fn another_unit_is_told_with_the_value_that_was_meant() {
-        let of = |text: &str| warnings(&text.parse().expect("TOML")).join("\n");
+        let of = |text: &str| {
+            warnings(&text.parse().expect("TOML")).into_iter().map(|(_, text)| text).collect::<Vec<_>>().join("\n")
+        };
         assert_eq!(
             of("[sand.law]\nfriction_angle = 0.48"),
             "`sand.law.friction_angle` is 0.48 °, usual are 3 to 60 °; 0.48 in radians is 27.50"
@@ -154,12 +155,12 @@ mod tests {
         assert!(of("material.grain_diameter = 0.7").ends_with("; 0.7 in millimetres is 7×10⁻⁴"));
         assert!(of("material.grain_density = 2.65").ends_with("; 2.65 in g/cm³ is 2650"));
         assert!(of("gravity = [0.0, -966.0]").ends_with("; 966 in cm/s² is 9.66"));
-        assert!(of("gravity = [0.0, 9.81]").contains("points upwards"));
+        assert!(of("gravity = [0.0, 9.81]").ends_with("its last component is 9.81; downwards it is -9.81"));
+        assert!(of("gravity = [0.0, -9810.0]").ends_with("; 9810 in mm/s² is 9.81"));
         assert!(
             of("bodies = [{ material = { static_friction = 27 } }]")
                 .contains("bodies[0].material.static_friction` is 27 -")
         );
-        assert!(of("spacing = 5.0").ends_with("; 5 in millimetres, as all lengths then are, is 0.005"));
         assert!(of("slope_angle = 0.436").ends_with("; 0.436 in radians is 24.98"));
         assert_eq!(of("gravity = [4.9, -8.5]\nmaterial = { grain_diameter = 0.0005, bulk_density = 0 }"), "");
     }

@@ -1,10 +1,11 @@
 //! Warnings that many runs may have the same cause for.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-static CAUTIONS: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+/// Warnings so far by their subjects.
+static CAUTIONS: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
 
 /// Warns of an input that is possible but unlikely to be meant. Each text appears once.
 pub fn caution(text: &str) {
@@ -13,15 +14,17 @@ pub fn caution(text: &str) {
 
 /// Warns of a subject once, whatever the text is: a scene is filled for each of its spacings and controls.
 pub fn caution_about(subject: &str, text: &str) {
-    if CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).insert(subject.to_owned()) {
+    let mut cautions = CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    cautions.entry(subject.to_owned()).or_insert_with(|| {
         tracing::warn!("{text}");
-    }
+        text.to_owned()
+    });
 }
 
-/// Number of different warnings by [`caution`] in this process.
+/// The different warnings by [`caution`] in this process, by their subjects.
 #[must_use]
-pub fn cautions() -> usize {
-    CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).len()
+pub fn cautions() -> BTreeMap<String, String> {
+    CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).clone()
 }
 
 /// Warns once; what follows are details that only a verbose program shows.

@@ -10,7 +10,7 @@ quantities! {
     ENERGY_RISE: accounted("energy_rise", "%", "largest rise of total energy above its earlier minimum, over the scale of energy_residual"),
     WALL_WORK: accounted("wall_work", "%", "work of walls over the scale of energy_residual; for walls at rest an error, or slip along them"),
     CORRECTION_WORK:
-        accounted("correction_work", "%", "energy added by the kernel correction of the forces, over the scale of energy_residual"),
+        accounted("correction_work", "%", "numerical error: energy that correcting the kernel at surfaces adds, over the scale of energy_residual"),
 }
 
 /// Scale that energies are compared with.

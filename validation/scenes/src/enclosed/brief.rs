@@ -16,12 +16,6 @@ const NARROWEST_GAP: f64 = 3.0;
 const TOUCHING: f64 = 0.5;
 /// Most triangles of a wall per square of the spacing: finer ones only take time and memory.
 const FINEST: f64 = 16.0;
-/// Size `[m]` of a scene in which a duration shorter than a fall is doubted.
-const LARGE: f64 = 10.0;
-/// Most grains across a scene that is not doubted: 50 m of sand.
-const MOST_GRAINS: f64 = 1e5;
-/// Spacing `[m]` above which the case file itself is warned of.
-const USUAL_SPACING: f64 = 2.0;
 /// Most ends of walls between which gaps are searched.
 const MOST_ENDS: usize = 2000;
 
@@ -44,9 +38,6 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
         // a fall over the height of the scene reaches the limit itself at the default stiffness
         if mach > 1.01 * LARGEST_MACH_NUMBER {
             caution(&too_fast(&scene.name, speed, mach, scene.stiffness));
-        }
-        if let Some(doubt) = scene.doubtful_unit() {
-            caution(&doubt);
         }
         for wall in scene.walls.iter().filter(|_| D == 3) {
             let finer = wall.facet_wall().facets.len() as f64 * scene.spacing.powi(2) / wall.measure();
@@ -84,30 +75,6 @@ fn too_fast(name: &str, speed: f64, mach: f64, stiffness: f64) -> String {
 }
 
 impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
-    /// Warning of a geometry that is probably in millimetres: too many grains across it, or over before anything could fall.
-    fn doubtful_unit(&self) -> Option<String> {
-        let (lower, upper) = self.extent();
-        let (size, gravity) = ((upper - lower).max(), self.pull().norm());
-        let grains = self.material.grain_diameter().map(|diameter| size / diameter);
-        let fall = (2.0 * self.height() / gravity).sqrt();
-        let many = grains.filter(|grains| *grains > MOST_GRAINS).map(|grains| {
-            format!("{} grains of `material.grain_diameter` fit across its {size} m", four_digits(grains))
-        });
-        let short = (size > LARGE && gravity > 0.0 && self.duration < fall).then(|| {
-            format!("`duration` is {} s, but a fall over its height takes {} s", self.duration, four_digits(fall))
-        });
-        let or = many.as_ref().map_or("", |_| ", or your own `grain_diameter`");
-        let found: Vec<String> = many.into_iter().chain(short).collect();
-        (!found.is_empty() && self.spacing <= USUAL_SPACING).then(|| {
-            format!(
-                "scene `{}`: {}; its lengths are probably in millimetres: give all in metres, such as `spacing = {}`{or}",
-                self.name,
-                found.join(", and "),
-                four_digits(self.spacing * 1e-3)
-            )
-        })
-    }
-
     /// The narrowest gap `[m]` between ends of different walls that is too narrow for a flow, and their names.
     fn narrowest_gap(&self) -> Option<(f64, &str, &str)> {
         let ends: Vec<(Vec<Vector<D>>, &str)> =
@@ -131,47 +98,5 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             }
         }
         narrowest
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Tier;
-    use crate::scene::{Plane, PlaneBody};
-    use bagnold_solver::material::rheology::Rheology;
-
-    /// A column of a width, a height and a spacing `[m]`, with grains of a diameter `[m]`, over a duration `[s]`.
-    fn doubt([width, height, spacing]: [f64; 3], diameter: f64, duration: f64) -> Option<String> {
-        let mut scene = Plane::of_tier(Tier::Quick);
-        (scene.walls, scene.inlets, scene.duration, scene.spacing) = (Vec::new(), Vec::new(), duration, spacing);
-        scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (width, height), velocity: (0.0, 0.0) }];
-        if let Rheology::MuI(law) = &mut scene.material {
-            law.grain_diameter = diameter;
-        }
-        scene.doubtful_unit()
-    }
-
-    #[test]
-    fn a_geometry_in_millimetres_is_doubted() {
-        let both = doubt([100.0, 150.0, 1.5], 0.7e-3, 0.5).expect("doubted");
-        assert!(both.contains("214286 grains") && both.contains("a fall over its height takes 5.530 s"), "{both}");
-        assert!(
-            both.ends_with(
-                "probably in millimetres: give all in metres, such as `spacing = 0.0015`, or your own `grain_diameter`"
-            ),
-            "{both}"
-        );
-        // each evidence alone: a long duration, and grains in the same wrong unit
-        assert!(doubt([100.0, 150.0, 1.5], 0.7e-3, 20.0).is_some_and(|text| !text.contains("duration")));
-        assert!(doubt([100.0, 150.0, 1.5], 0.7, 0.5).is_some_and(|text| !text.contains("grain")));
-    }
-
-    #[test]
-    fn a_landslide_and_a_column_in_the_laboratory_are_not_doubted() {
-        assert_eq!(doubt([400.0, 150.0, 2.0], 0.3, 30.0), None);
-        assert_eq!(doubt([0.1, 0.15, 0.0015], 0.7e-3, 0.01), None);
-        // a larger spacing is warned of where the file is read
-        assert_eq!(doubt([100.0, 150.0, 2.5], 0.7e-3, 0.5), None);
     }
 }

@@ -5,6 +5,7 @@
 mod behind_walls;
 mod brief;
 mod checks;
+mod doubts;
 pub(super) mod figures;
 pub(super) mod filling;
 pub(super) mod foreign;

@@ -4,7 +4,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "Examples:
-  bagnold examples --out examples
+  bagnold examples
   bagnold calibrate examples/calibrations/mu-i-from-profiles.toml
   bagnold sweep examples/sweeps/bed-load-1d-map.toml
 
@@ -15,6 +15,6 @@ The folder receives calibrations/*.toml and studies/*.toml with their data, scen
 #[command(after_help = EXAMPLES)]
 pub struct ExamplesArguments {
     /// Folder to write.
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", default_value = "examples")]
     pub out: PathBuf,
 }

@@ -1,0 +1,185 @@
+//! Lengths of a scene that are possible but unlikely, because they were given in millimetres.
+
+use super::SceneParameters;
+use super::measure::Measurand;
+use super::parameters::Dimension;
+use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall};
+use super::sides::SceneSides;
+
+use bagnold_number::four_digits;
+use bagnold_solver::vector::Vector;
+
+/// Size `[m]` of a scene in which a duration shorter than a fall is doubted.
+const LARGE: f64 = 10.0;
+/// Most grains across a scene that is not doubted: 50 m of sand.
+const MOST_GRAINS: f64 = 1e5;
+/// Farthest that one part of a scene reaches, over the farthest of all others `[-]`.
+const FARTHEST: f64 = 30.0;
+
+impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
+    /// Warnings of lengths that are probably in millimetres: all of them, or those of one part.
+    pub(super) fn doubtful_units(&self) -> Vec<String> {
+        let found = self.stray().or_else(|| self.all_large());
+        found.map(|doubt| format!("scene `{}`: {doubt}", self.name)).into_iter().chain(self.wide_gauges()).collect()
+    }
+
+    /// The geometry as a whole: too many grains across it, or over before anything could fall.
+    fn all_large(&self) -> Option<String> {
+        let (lower, upper) = self.extent();
+        let (size, gravity) = ((upper - lower).max(), self.pull().norm());
+        let grains = self.material.grain_diameter().map(|diameter| size / diameter);
+        let fall = (2.0 * self.height() / gravity).sqrt();
+        let many = grains.filter(|grains| *grains > MOST_GRAINS).map(|grains| {
+            format!("{} grains of `material.grain_diameter` fit across its {size} m", four_digits(grains))
+        });
+        let short = (size > LARGE && gravity > 0.0 && self.duration < fall).then(|| {
+            format!("`duration` is {} s, but a fall over its height takes {} s", self.duration, four_digits(fall))
+        });
+        let or = many.as_ref().map_or("", |_| ", or your own `grain_diameter`");
+        let found: Vec<String> = many.into_iter().chain(short).collect();
+        (!found.is_empty()).then(|| {
+            format!(
+                "{}; its lengths are probably in millimetres: give all in metres, such as `spacing = {}`{or}",
+                found.join(", and "),
+                four_digits(self.spacing * 1e-3)
+            )
+        })
+    }
+
+    /// The one part that reaches much farther than all others.
+    fn stray(&self) -> Option<String> {
+        let mut parts = self.reaches();
+        parts.sort_by(|one, other| other.1.total_cmp(&one.1));
+        let ((part, far), (_, near)) = (parts.first()?, parts.get(1)?);
+        (*near > 0.0 && *far > FARTHEST * near).then(|| {
+            let metres = far * 1e-3;
+            let remedy = if metres > FARTHEST * near {
+                "coordinates of a map need its corner subtracted (`move` of a mesh)".to_owned()
+            } else {
+                format!("in millimetres it is {} m: give it in metres", four_digits(metres))
+            };
+            format!("`{part}` reaches {} m, but all else {} m; {remedy}", four_digits(*far), four_digits(*near))
+        })
+    }
+
+    /// Every part of the scene as a field, with its largest coordinate `[m]`.
+    fn reaches(&self) -> Vec<(String, f64)> {
+        let of = |places: &[Vector<D>]| places.iter().map(Vector::<D>::amax).fold(0.0, f64::max);
+        let bodies = self.bodies.iter().enumerate().map(|(k, body)| {
+            let (lower, upper) = body.extent();
+            (format!("bodies[{k}]"), of(&[lower, upper]))
+        });
+        let walls = self.walls.iter().map(|wall| (wall.name().to_owned(), of(&wall.hull())));
+        let inlets = self.inlets.iter().map(|inlet| (inlet.name().to_owned(), of(&inlet.corners())));
+        let gauges = self.gauges.iter().map(|gauge| (gauge.name().to_owned(), of(&gauge.places())));
+        let sides = self.sides.pairs().into_iter().zip(S::Sides::NAMES).flat_map(|((lower, upper), (low, high))| {
+            [(lower, low), (upper, high)]
+                .into_iter()
+                .filter_map(|(side, name)| Some((format!("sides.{name}"), side.coordinate()?.abs())))
+        });
+        bodies.chain(walls).chain(inlets).chain(gauges).chain(sides).collect()
+    }
+
+    /// Gauges that measure over more than the scene.
+    fn wide_gauges(&self) -> impl Iterator<Item = String> {
+        let (lower, upper) = self.extent();
+        let size = (upper - lower).max();
+        self.gauges.iter().zip(self.measures()).filter_map(move |(gauge, measure)| {
+            let (field, width) = match measure {
+                Measurand::Front(line) => ("thickness", line.section / line.strip.map_or(1.0, |(_, half)| 2.0 * half)),
+                Measurand::Depth(depth) => ("width", depth.width),
+                _ => return None,
+            };
+            (width > size).then(|| {
+                format!(
+                    "gauge `{}`: `{field}` is {width} m, more than the scene's {} m; in millimetres it is {} m: give it in metres",
+                    gauge.name(),
+                    four_digits(size),
+                    four_digits(width * 1e-3)
+                )
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Tier;
+    use crate::enclosed::DomainSide;
+    use crate::scene::{Plane, PlaneBody, PlaneGauge, PlaneSides};
+    use bagnold_solver::material::rheology::Rheology;
+
+    fn unbounded() -> PlaneSides {
+        let none = DomainSide::None;
+        PlaneSides { left: none, right: none, bottom: none, top: none }
+    }
+
+    /// A column of a width, a height and a spacing `[m]`, with grains of a diameter `[m]`, over a duration `[s]`.
+    fn doubt([width, height, spacing]: [f64; 3], diameter: f64, duration: f64) -> Option<String> {
+        let mut scene = Plane::of_tier(Tier::Quick);
+        (scene.walls, scene.inlets, scene.duration, scene.spacing) = (Vec::new(), Vec::new(), duration, spacing);
+        (scene.gauges, scene.sides) = (Vec::new(), unbounded());
+        scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (width, height), velocity: (0.0, 0.0) }];
+        if let Rheology::MuI(law) = &mut scene.material {
+            law.grain_diameter = diameter;
+        }
+        scene.doubtful_units().pop()
+    }
+
+    #[test]
+    fn a_geometry_in_millimetres_is_doubted() {
+        let both = doubt([100.0, 150.0, 1.5], 0.7e-3, 0.5).expect("doubted");
+        assert!(both.contains("214286 grains") && both.contains("a fall over its height takes 5.530 s"), "{both}");
+        assert!(
+            both.ends_with(
+                "probably in millimetres: give all in metres, such as `spacing = 0.0015`, or your own `grain_diameter`"
+            ),
+            "{both}"
+        );
+        // each evidence alone: a long duration, and grains in the same wrong unit
+        assert!(doubt([100.0, 150.0, 1.5], 0.7e-3, 20.0).is_some_and(|text| !text.contains("duration")));
+        assert!(doubt([100.0, 150.0, 1.5], 0.7, 0.5).is_some_and(|text| !text.contains("grain")));
+    }
+
+    #[test]
+    fn a_landslide_and_a_column_in_the_laboratory_are_not_doubted() {
+        assert_eq!(doubt([400.0, 150.0, 2.0], 0.3, 30.0), None);
+        assert_eq!(doubt([0.1, 0.15, 0.0015], 0.7e-3, 0.01), None);
+        assert_eq!(doubt([2000.0, 600.0, 5.0], 0.3, 60.0), None);
+    }
+
+    /// A column of 0.2 m with a floor of 1 m, one of whose parts is changed.
+    fn doubts(change: impl Fn(&mut SceneParameters<Plane, 2>)) -> String {
+        let mut scene = Plane::of_tier(Tier::Quick);
+        (scene.walls, scene.inlets, scene.duration, scene.spacing) = (Vec::new(), Vec::new(), 30.0, 0.01);
+        scene.sides = unbounded();
+        scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (0.2, 0.2), velocity: (0.0, 0.0) }];
+        let gauge = "kind = \"front\"\nname = \"front\"\nfrom = [0.0, 0.0]\nto = [1.0, 0.0]\nthickness = 0.01";
+        scene.gauges = vec![toml::from_str(gauge).expect("a gauge")];
+        change(&mut scene);
+        scene.doubtful_units().join("\n")
+    }
+
+    #[test]
+    fn one_length_in_millimetres_is_named() {
+        assert_eq!(doubts(|_| ()), "");
+        let far = doubts(|scene| scene.sides.right = DomainSide::Open(900.0));
+        let all = "reaches 900 m, but all else 1 m; in millimetres it is 0.9 m: give it in metres";
+        assert!(far.ends_with(&format!("`sides.right` {all}")), "{far}");
+        let map = doubts(|scene| scene.sides.right = DomainSide::Open(4.5e5));
+        assert!(
+            map.ends_with("all else 1 m; coordinates of a map need its corner subtracted (`move` of a mesh)"),
+            "{map}"
+        );
+        let body = |scene: &mut SceneParameters<Plane, 2>| {
+            scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (200.0, 200.0), velocity: (0.0, 0.0) }];
+        };
+        assert!(doubts(body).contains("`bodies[0]` reaches 200 m"));
+        let gauge = |scene: &mut SceneParameters<Plane, 2>| {
+            let PlaneGauge::Front { thickness, .. } = &mut scene.gauges[0] else { unreachable!("a front") };
+            *thickness = 10.0;
+        };
+        assert!(doubts(gauge).starts_with("gauge `front`: `thickness` is 10 m, more than the scene's 0.2 m"));
+    }
+}
