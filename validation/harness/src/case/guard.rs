@@ -4,6 +4,7 @@
 use super::changes::{Changes, find, leaves, table_of};
 use super::error::ParameterError;
 use super::{Estimate, Parameters, Run, Tier};
+use crate::output::caution;
 use bagnold_solver::parameter::shortened;
 use std::collections::BTreeMap;
 use toml::{Table, Value};
@@ -34,6 +35,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
     pub(super) fn runs(&self) -> Result<Vec<P::Run>, ParameterError> {
         let source = self.changes.source();
         self.parameters.check().map_err(|error| source.placed(self.named(error)))?;
+        self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
         let runs = self.parameters.runs();
         if runs.is_empty() {
             return Err(ParameterError::NothingToRun { case: self.case.to_owned(), empty: self.emptied() });

@@ -115,6 +115,10 @@ pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send +
     fn check_runs(&self, _runs: &[&Self::Run]) -> Result<(), ParameterError> {
         Ok(())
     }
+    /// Warnings of values that are possible but unlikely; asked of parameters that hold.
+    fn doubts(&self) -> Vec<String> {
+        Vec::new()
+    }
     /// The rules between fields and those of every run.
     ///
     /// # Errors

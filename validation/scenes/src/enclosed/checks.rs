@@ -6,7 +6,6 @@ use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector};
 use super::{Measurand, SceneParameters, names, shapes, sides::SceneSides};
 use crate::case::ParameterError;
-use crate::output::caution;
 use crate::setup::rules;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
@@ -42,7 +41,6 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         self.check_inlets()?;
         self.check_gauges()?;
         self.check_numerics()?;
-        self.doubtful_units().iter().for_each(|doubt| caution(doubt));
         self.stored_state().map(|_| ())
     }
 

@@ -19,6 +19,10 @@ where
         self.checked()
     }
 
+    fn doubts(&self) -> Vec<String> {
+        self.doubtful_units()
+    }
+
     fn runs(&self) -> Vec<SceneRun<S, D>> {
         vec![SceneRun { scene: self.clone() }]
     }
