@@ -7,8 +7,10 @@ use bagnold_harness::checkpoint::StoredState;
 use bagnold_harness::evaluation::{EvaluationRecord, MetricValue};
 use bagnold_harness::metric::{Variant, Verdict};
 use bagnold_harness::output::OutputFolder;
-use bagnold_harness::store::{AllSpeeds, Store, StorePolicy};
+use bagnold_harness::store::{AllSpeeds, CodeOrigin, Store, StorePolicy};
 use bagnold_report::{Baseline, GateList, History, KnownFailures, RemovedGates, SpeedHistory};
+use bagnold_tools::calibration::CalibrationFolder;
+use bagnold_tools::league::blind;
 use bagnold_tools::sweep::slurm::{self, SlurmRequest, TEMPLATE};
 use bagnold_tools::sweep::{SweepFolder, SweepPlan, gather};
 use bagnold_validation::REGISTRY;
@@ -150,6 +152,27 @@ fn a_list_is_read_or_refused() {
             let _ = (speeds.ratio("film", &Variant::default()), speeds.nominal("film"), speeds.beside("film", "run"));
         }
         _ => drop((OutputFolder::is_one(root), OutputFolder::claim(root))),
+    });
+}
+
+/// What a blind league and a folder of a calibration hold.
+#[test]
+fn a_prediction_and_an_owner_are_read_or_refused() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let root = folder.path();
+    let tables = ["prediction", "measured", "friction", "law"].map(|name| format!("blind/results/{name}.csv"));
+    let read = |name: &String| std::fs::read(in_repository(&format!("validation/league/{name}"))).expect("a table");
+    let mut contents: Vec<Vec<u8>> = tables.iter().map(read).collect();
+    let mut files: Vec<PathBuf> = tables.iter().map(|name| root.join("league").join(name)).collect();
+    let (plan, fit) = (root.join("plan.toml"), root.join("fit"));
+    std::fs::write(&plan, "a plan").expect("writable");
+    let begin = || CalibrationFolder::begin(&fit, &plan, CodeOrigin::PACKAGE, true);
+    drop(begin().expect("a folder"));
+    files.push(fit.join("plan.json"));
+    contents.push(std::fs::read(&files[4]).expect("written"));
+    damage(&files, &contents, |which| match which {
+        4 => drop(begin()),
+        _ => drop((blind::read(&root.join("league")), blind::seeds(&root.join("league")))),
     });
 }
 

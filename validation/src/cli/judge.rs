@@ -8,8 +8,12 @@ use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
 use crate::metric::Verdict;
 use crate::output::OutputFolder;
+use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+
+/// Gates without data that are named on the terminal.
+const MOST_NAMES: usize = 6;
 
 /// Judges submissions, or prints an empty one.
 pub(super) fn judge(
@@ -94,9 +98,15 @@ fn verdicts(judgement: &CodeComparison) -> String {
         } else {
             ""
         };
+        let gated = judged.metrics.iter().filter(|one| one.own.verdict() != Verdict::Observed);
+        let open: BTreeSet<&str> =
+            gated.filter(|one| one.verdict().is_none()).map(|one| one.own.name.as_str()).collect();
+        let more = if open.len() > MOST_NAMES { ", …" } else { "" };
+        let open: Vec<&str> = open.into_iter().take(MOST_NAMES).collect();
+        let open = if open.is_empty() { String::new() } else { format!(" ({}{more})", open.join(", ")) };
         let moved = judged.moved.as_ref().map(|notice| format!("{notice}\n")).unwrap_or_default();
         format!(
-            "{}: {holding} gates pass, {failing} fail, {not_given} without data\n{moved}{nothing}{table}",
+            "{}: {holding} gates pass, {failing} fail, {not_given} without data{open}\n{moved}{nothing}{table}",
             name.trim()
         )
     };
