@@ -2,7 +2,7 @@
 
 use crate::program;
 use crate::restart::{RUN_IN_PLANE, Work, checkpoints, has_gone_on, output_of_the_program, place};
-use std::io::Write;
+use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
@@ -59,6 +59,24 @@ fn nohup_ignores_the_end_of_the_terminal() {
     send(&child, "HUP");
     let (status, said) = output_of_the_program(child);
     assert!(status.code().is_some_and(|code| code <= 1), "{status}: {said}");
+}
+
+/// The load on each particle of so many rows is felt for hours before the first step.
+#[test]
+fn a_signal_ends_the_filling_of_a_body() {
+    let place = place();
+    let tower = "case = \"scene\"\nname = \"tower\"\nspacing = 0.005\nduration = 100.0\n\
+        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.0]\nupper = [0.02, 1000.0]\n";
+    place.file("tower.toml", tower);
+    let mut process = Command::new(program::path());
+    process.current_dir(place.path("")).args(["run", "tower.toml", "--store", "store"]).stdout(Stdio::null());
+    let mut child = process.stderr(Stdio::piped()).spawn().expect("started");
+    let mut lines = BufReader::new(child.stderr.take().expect("piped")).lines().map_while(Result::ok);
+    assert!(lines.any(|line| line.contains("1 run, about")));
+    std::thread::sleep(Duration::from_millis(500));
+    send(&child, "TERM");
+    assert!(lines.any(|line| line.contains("interrupted by SIGTERM")));
+    assert_eq!(child.wait().expect("ended").code(), Some(143));
 }
 
 #[test]

@@ -9,6 +9,7 @@ use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
 use super::{SceneParameters, shapes};
 use crate::case::ParameterError;
+use crate::checkpoint::is_interrupted;
 use crate::output::caution_about;
 use crate::setup::displaced_flow;
 use bagnold_solver::material::equation_of_state::EquationOfState;
@@ -24,7 +25,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     /// them; and the share of the sites of bodies that are behind walls `[-]`.
     ///
     /// # Errors
-    /// A body of which walls take more than they may.
+    /// A body of which walls take more than they may; an interruption.
     pub(super) fn fill(
         &self,
         walls: &Surfaces<D>,
@@ -56,18 +57,21 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         if self.material.pore_liquid().is_some() {
             skeleton.bulk_modulus *= SKELETON_SHARE;
         }
-        let overburden = |site: &Vector<D>| weight * depth(bodies, site, &up, spacing);
-        let mut flow = displaced_flow(
-            free.iter().map(|(site, _)| site.place),
-            (jitter * spacing, self.seed),
-            |site| skeleton.density(self.pressure + grains * start.pressure(overburden(site))),
-            |_| 0.0,
-        );
+        // takes minutes in a body of many thousand rows
+        let overburden = |(site, _): &(Site<D>, SiteLattice<D>)| {
+            let load = || weight * depth(bodies, &site.place, &up, spacing);
+            if is_interrupted() { Err(ParameterError::Interrupted) } else { Ok(load()) }
+        };
+        let loads: Vec<f64> = free.iter().map(overburden).collect::<Result<_, _>>()?;
+        let sites = free.iter().map(|(site, _)| site.place);
+        let mut flow = displaced_flow(sites, (jitter * spacing, self.seed), |_| 0.0, |_| 0.0);
+        let density = |load: &f64| skeleton.density(self.pressure + grains * start.pressure(*load));
+        flow.density = loads.iter().map(density).collect();
         if self.pore_pressure_ratio > 0.0 {
-            flow.field = free.iter().map(|(site, _)| self.pore_pressure_ratio * overburden(&site.place)).collect();
+            flow.field = loads.iter().map(|load| self.pore_pressure_ratio * load).collect();
         }
         if self.lateral_pressure_ratio != 1.0 {
-            flow.stress = free.iter().map(|(site, _)| start.deviator(grains * overburden(&site.place))).collect();
+            flow.stress = loads.iter().map(|load| start.deviator(grains * load)).collect();
         }
         flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();
         flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();
