@@ -3,7 +3,7 @@
 use super::{Figure, Mark, Panel};
 use std::fmt::Write;
 
-const HEAD: &str = "panel,x_axis,y_axis,drawn_as,label,x,y,error,lower,upper,value\n";
+const HEAD: &str = "panel,x_axis,y_axis,drawn_as,label,curve,x,y,error,lower,upper,value\n";
 
 /// The table of a figure: series with the half height of their error bars, bands with their edges, particles with their scalar.
 #[must_use]
@@ -17,9 +17,13 @@ pub fn csv(figure: &Figure) -> String {
 }
 
 fn add_panel(text: &mut String, start: &str, panel: &Panel) {
-    let mut row = |kind: &str, label: &str, numbers: [Option<f64>; 6]| {
+    // several curves may have one label or none
+    let mut curve = 0;
+    let mut row = |kind: &str, (label, is_first): (&str, bool), numbers: [Option<f64>; 6]| {
+        curve += usize::from(is_first);
         let numbers = numbers.map(|number| number.map(short).unwrap_or_default());
-        writeln!(text, "{start},{kind},{},{}", quoted(label), numbers.join(",")).expect("a string takes any text");
+        writeln!(text, "{start},{kind},{},{curve},{}", quoted(label), numbers.join(","))
+            .expect("a string takes any text");
     };
     for series in &panel.series {
         let kind = match series.mark {
@@ -30,17 +34,25 @@ fn add_panel(text: &mut String, start: &str, panel: &Panel) {
             Mark::LinePoints => "line with points",
         };
         for (place, &(x, y)) in series.points.iter().enumerate() {
-            row(kind, &series.label, [Some(x), Some(y), series.error.get(place).copied(), None, None, None]);
+            row(
+                kind,
+                (&series.label, place == 0),
+                [Some(x), Some(y), series.error.get(place).copied(), None, None, None],
+            );
         }
     }
     for band in &panel.bands {
-        for &(x, lower, upper) in &band.points {
-            row("band", &band.label, [Some(x), None, None, Some(lower), Some(upper), None]);
+        for (place, &(x, lower, upper)) in band.points.iter().enumerate() {
+            row("band", (&band.label, place == 0), [Some(x), None, None, Some(lower), Some(upper), None]);
         }
     }
     for field in panel.field.iter().chain(&panel.opposite) {
         for (place, &(x, y)) in field.points.iter().enumerate() {
-            row("particles", &field.label, [Some(x), Some(y), None, None, None, field.values.get(place).copied()]);
+            row(
+                "particles",
+                (&field.label, place == 0),
+                [Some(x), Some(y), None, None, None, field.values.get(place).copied()],
+            );
         }
     }
 }
@@ -71,8 +83,8 @@ mod tests {
         let rows: Vec<&str> = text.lines().collect();
         let start = "\"1 rest, \"\"slow\"\"\",u [m/s],y [m]";
         assert_eq!(rows[0], HEAD.trim_end());
-        assert_eq!(rows[1], format!("{start},points,a,0.1,2,0.25,,,"));
-        assert_eq!(rows[2], format!("{start},band,b,1,,,1e-9,3,"));
-        assert_eq!(rows[3], format!("{start},particles,p [Pa],1,2,,,,0.3333333"));
+        assert_eq!(rows[1], format!("{start},points,a,1,0.1,2,0.25,,,"));
+        assert_eq!(rows[2], format!("{start},band,b,2,1,,,1e-9,3,"));
+        assert_eq!(rows[3], format!("{start},particles,p [Pa],3,1,2,,,,0.3333333"));
     }
 }
