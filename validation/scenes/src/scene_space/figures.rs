@@ -23,10 +23,16 @@ struct ViewDirection {
     towards: (usize, f64),
 }
 
-const VIEWS: [ViewDirection; 2] = [
-    ViewDirection { name: "from the side", right: 0, up: 2, towards: (1, -1.0) },
-    ViewDirection { name: "from above", right: 0, up: 1, towards: (2, 1.0) },
-];
+/// The view across the longer horizontal axis, along which a slope runs, and that from above.
+fn views(parameters: &SpaceParameters) -> [ViewDirection; 2] {
+    let (lower, upper) = parameters.extent();
+    let (right, towards) =
+        if upper[1] - lower[1] > 1.1 * (upper[0] - lower[0]) { (1, (0, 1.0)) } else { (0, (1, -1.0)) };
+    [
+        ViewDirection { name: "from the side", right, up: 2, towards },
+        ViewDirection { name: "from above", right: 0, up: 1, towards: (2, 1.0) },
+    ]
+}
 
 /// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
 pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
@@ -41,7 +47,8 @@ pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure
             (facet_wall, edges)
         })
         .collect();
-    let panels = frames.iter().flat_map(|frame| VIEWS.iter().map(move |view| (frame, view)));
+    let views = views(parameters);
+    let panels = frames.iter().flat_map(|frame| views.iter().map(move |view| (frame, view)));
     let panels = panels.map(|(frame, view)| {
         let title = format!("t = {:.3} s, {}", frame.time, view.name);
         let mut panel = Panel::new(&title, axes[view.right].clone(), axes[view.up].clone());
@@ -113,7 +120,7 @@ pub(super) fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) ->
         }
         panel
     };
-    VIEWS.iter().map(view).collect()
+    views(parameters).iter().map(view).collect()
 }
 
 /// An edge of a triangle.
@@ -144,6 +151,9 @@ fn sharp_edges(facets: &[Facet<3>]) -> Vec<[Vector<3>; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Tier;
+    use crate::scene_space::SpaceBody;
+    use crate::scene_space::tiers::of_tier;
 
     #[test]
     fn the_diagonals_of_faces_are_not_drawn() {
@@ -154,5 +164,17 @@ mod tests {
             [[a, b, c], [a, c, d], [b, a, e], [b, e, f]].into_iter().filter_map(Facet::triangle).collect();
         assert_eq!(sharp_edges(&folded[..2]).len(), 4);
         assert_eq!(sharp_edges(&folded).len(), 7, "and the fold once");
+    }
+
+    #[test]
+    fn a_slope_is_seen_from_its_side() {
+        let mut scene = of_tier(Tier::Quick);
+        let across = |scene: &SpaceParameters| (views(scene)[0].right, views(scene)[0].towards);
+        assert_eq!(across(&scene), (0, (1, -1.0)));
+        scene.walls.clear();
+        scene.bodies =
+            vec![SpaceBody::Box { lower: (0.0, 0.0, 0.0), upper: (0.1, 0.4, 0.1), velocity: (0.0, 0.0, 0.0) }];
+        // y to the right and z upwards are seen from the side of large x
+        assert_eq!(across(&scene), (1, (0, 1.0)));
     }
 }
