@@ -67,7 +67,8 @@ fn sheared_particles_press_the_harder_until_dilation_ends() {
     assert!((pressure / largest - 1.0).abs() < 1e-3 && pressure > 3.0 * start, "{pressure} for {largest}");
 }
 
-fn falling(law: SofteningDruckerPrager) -> Scene<2> {
+/// A column on a rough bed beside a symmetry plane that moves apart.
+pub(crate) fn falling(law: SofteningDruckerPrager) -> Scene<2> {
     let mut scene = open_scene(block([8, 12], Disorder::FULL, 3));
     scene.rheology = Rheology::SofteningDruckerPrager(law);
     scene.domain.axes[0] = AxisBoundary::Mirror { lower: Some(0.0), upper: None };

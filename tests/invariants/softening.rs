@@ -1,13 +1,11 @@
 //! Particles of a material that softens: sheared at a prescribed rate, falling, and without its softening.
 
+use crate::dilation::falling;
 use crate::fields::collapsed;
-use crate::patches::{Disorder, EQUATION_OF_STATE, GRAINS, bed, block, open_scene, simulation};
-use bagnold_solver::domain::AxisBoundary;
+use crate::patches::{Disorder, EQUATION_OF_STATE, GRAINS, block, open_scene, simulation};
 use bagnold_solver::material::rheology::{MuI, Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
-use bagnold_solver::weakly_compressible::walls::wall;
 
 const SOIL: SofteningDruckerPrager = SofteningDruckerPrager {
     peak_friction: 0.6,
@@ -66,23 +64,11 @@ fn sheared_particles_follow_the_curve_of_one_point() {
     assert!(worst < turn * turn && most > 0.14, "{worst}, {most}");
 }
 
-/// A cohesive column on a rough bed beside a symmetry plane that moves apart.
-fn falling() -> Simulation<2> {
-    let mut scene = open_scene(block([8, 12], Disorder::FULL, 3));
-    scene.rheology = Rheology::SofteningDruckerPrager(SOIL);
-    scene.domain.axes[0] = AxisBoundary::Mirror { lower: Some(0.0), upper: None };
-    scene.gravity[1] = -9.81;
-    scene.walls = vec![bed()];
-    let extent = (Vector::zeros(), Vector::repeat(0.3));
-    scene.wall_particles = wall::fill(&scene.walls, &scene.domain, extent, scene.spacing, 4);
-    simulation(scene)
-}
-
 /// Plastic work of the ledger: Σ V ∫ τ dκ, with the strains of the particles, and the elastic energy that they lose
 /// with their pressure; with that entry the ledger closes.
 #[test]
 fn the_strain_of_the_particles_is_the_plastic_work_of_the_ledger() {
-    let mut simulation = falling();
+    let mut simulation = simulation(falling(SOIL));
     let start = simulation.energy().expect("a ledger");
     let modulus = Numerics::default().shear_modulus_ratio * EQUATION_OF_STATE.bulk_modulus;
     let (mut by_strain, mut lost) = (0.0, 0.0);

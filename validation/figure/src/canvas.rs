@@ -129,19 +129,15 @@ impl<'a> Canvas<'a> {
     }
 
     pub(super) fn fill_rectangle(&mut self, rectangle: &Rectangle, ink: Ink) -> Result<(), FigureError> {
-        self.rectangle(rectangle, ink, true)
+        let upper_left = units((rectangle.left, rectangle.top));
+        let lower_right = units((rectangle.right, rectangle.bottom));
+        self.backend.draw_rect(upper_left, lower_right, &ink.style(), true).map_err(draw_error)
     }
 
     pub(super) fn frame(&mut self, rectangle: &Rectangle, ink: Ink) -> Result<(), FigureError> {
         let Rectangle { left, top, right, bottom } = *rectangle;
         let corners = [(left, top), (right, top), (right, bottom), (left, bottom), (left, top)];
         self.polyline(&corners, ink)
-    }
-
-    fn rectangle(&mut self, rectangle: &Rectangle, ink: Ink, filled: bool) -> Result<(), FigureError> {
-        let upper_left = units((rectangle.left, rectangle.top));
-        let lower_right = units((rectangle.right, rectangle.bottom));
-        self.backend.draw_rect(upper_left, lower_right, &ink.style(), filled).map_err(draw_error)
     }
 
     /// A filled circle.

@@ -146,7 +146,7 @@ impl Baseline {
     /// The path of a case's file in the folder of all accepted values.
     #[must_use]
     pub fn path(folder: &Path, case: &str, tier: Tier) -> PathBuf {
-        folder.join(tier_name(tier)).join(format!("{case}.snap"))
+        folder.join(tier.name()).join(format!("{case}.snap"))
     }
 
     /// Reads the values of `case` from `folder`; a missing file is an empty baseline.
@@ -176,7 +176,7 @@ impl Baseline {
 
     fn parse(path: PathBuf, text: &str, case: &str, tier: Tier) -> Result<Self, BaselineError> {
         let refuse = |message: String| BaselineError::Content { path: path.clone(), message };
-        let lines = snapshot_text::parse(text, case, tier_name(tier)).map_err(refuse)?;
+        let lines = snapshot_text::parse(text, case, tier.name()).map_err(refuse)?;
         let mut read = Self::default();
         for (line, row) in lines.into_iter().enumerate() {
             let key = MetricKey { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.clone() };
@@ -216,7 +216,7 @@ impl Baseline {
             return Err(BaselineError::Name { name: case.to_owned() });
         }
         let path = Self::path(folder, case, tier);
-        let text = snapshot_text::text(case, tier_name(tier), self.lines(case));
+        let text = snapshot_text::text(case, tier.name(), self.lines(case));
         let write_error = |path: &Path, source| BaselineError::Write { path: path.to_owned(), source };
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent).map_err(|source| write_error(parent, source))?;
@@ -306,15 +306,6 @@ impl Baseline {
 /// Largest change of `metric` from `from` that does not count as changed, in the metric's unit.
 pub(super) fn snapshot_tolerance(metric: &Metric, from: f64) -> f64 {
     metric.snapshot_tolerance * from.abs() + metric.snapshot_floor
-}
-
-/// The tier's name in files and on the page.
-pub(super) fn tier_name(tier: Tier) -> &'static str {
-    match tier {
-        Tier::Quick => "quick",
-        Tier::Paper => "paper",
-        Tier::Fine => "fine",
-    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! The page of one case: what fails, its figures, then verdicts, parameters and runs. `run` writes it alone, `report` among others.
 
-use super::accepted::tier_name;
 use super::failures;
 use super::judgement::{JudgedCase, JudgedMetric, Severity};
 use super::origin::{provenance, seconds};
@@ -26,7 +25,7 @@ pub(super) fn render(
 ) -> Result<String, minijinja::Error> {
     let page = json!({
         "title": report.title,
-        "tier": tier_name(report.tier),
+        "tier": report.tier.name(),
         "case": case(judged, drawn),
         // whether there is a baseline to have moved from
         "compared": !report.baseline.is_empty(),

@@ -1,6 +1,5 @@
 //! The page of the comparisons with measurements: a figure and a table per quantity.
 
-use super::accepted::tier_name;
 use super::comparison::{self, Comparison, ModelError, QuantityComparisons};
 use super::template::fill;
 use super::view::{VerdictMark, anchor};
@@ -21,7 +20,7 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Option<Result<St
     let quantities = groups.iter().enumerate().map(|(place, group)| quantity(group, drawn.get(place)));
     let page = json!({
         "title": report.title,
-        "tier": tier_name(report.tier),
+        "tier": report.tier.name(),
         "within": count(|error| matches!(error, ModelError::Within(_))),
         "beyond": count(|error| matches!(error, ModelError::AtLeast(_))),
         "partly": count(|error| matches!(error, ModelError::BeyondKnown(_))),

@@ -1,7 +1,6 @@
 //! The page of the coverage: a row per option, a column per case.
 
 use super::Report;
-use super::accepted::tier_name;
 use super::coverage::{self, CaseCoverage, Grade, OptionCoverage};
 use super::template::fill;
 use crate::case::Features;
@@ -37,7 +36,7 @@ pub(super) fn render(report: &Report, features: &Features) -> Result<String, min
     let is_open = |row: &&OptionCoverage| row.is_unused() && row.declared.is_some_and(|own| own.tests.is_empty());
     let page = json!({
         "title": report.title,
-        "tier": tier_name(report.tier),
+        "tier": report.tier.name(),
         "grades": Grade::ALL.map(|grade| (grade.letter(), grade.meaning())),
         "cases": report.cases.iter().map(|case| &case.name).collect::<Vec<_>>(),
         "unused": rows.iter().filter(|row| row.is_unused()).count(),

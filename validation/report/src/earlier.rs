@@ -1,6 +1,6 @@
 //! An earlier report's folder as the baseline of a new one.
 
-use super::accepted::{Baseline, MetricKey, tier_name};
+use super::accepted::{Baseline, MetricKey};
 use super::error::EarlierError;
 use crate::case::Tier;
 use crate::figure::is_file_name;
@@ -27,7 +27,7 @@ impl Baseline {
             let refuse = |message: String| EarlierError::Content { path: path.clone(), message };
             let document: MetricsDocument = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
             if document.tier != tier {
-                let (its, own) = (tier_name(document.tier), tier_name(tier));
+                let (its, own) = (document.tier.name(), tier.name());
                 return Err(refuse(format!("it is of the {its} tier, not of the {own} tier")));
             }
             found = true;

@@ -81,13 +81,8 @@ fn expected(metric: &Metric) -> Option<f64> {
     let bound = || {
         Some(match metric.gate.as_ref()?.limit {
             Limit::AtMost(bound) | Limit::AtLeast(bound) => bound,
-            Limit::Within(lower, upper) => {
-                if metric.value < lower {
-                    lower
-                } else {
-                    upper
-                }
-            }
+            Limit::Within(lower, _) if metric.value < lower => lower,
+            Limit::Within(_, upper) => upper,
         })
     };
     reference.or_else(bound)

@@ -1,7 +1,7 @@
 //! The list of gates, `tests/snapshots/gates/TIER.txt`: every gate that a tier has ever had, a line each. A gate that is no longer
 //! judged stays in the list, and `gates_removed.toml` has to say why it went: a limit cannot be lost in a change of something else.
 
-use super::accepted::{Baseline, MetricKey, tier_name};
+use super::accepted::{Baseline, MetricKey};
 use super::error::{BaselineError, read_if_there};
 use crate::case::Tier;
 use crate::input::{DOCUMENT, WRITTEN_BY_HAND};
@@ -26,7 +26,7 @@ impl GateList {
     /// The file of a tier in the folder of all accepted values.
     #[must_use]
     pub fn path(folder: &Path, tier: Tier) -> PathBuf {
-        folder.join("gates").join(format!("{}.txt", tier_name(tier)))
+        folder.join("gates").join(format!("{}.txt", tier.name()))
     }
 
     /// Reads the list of a tier; a missing file is an empty list.

@@ -1,6 +1,6 @@
 //! The page of the history: small plots of value, bias and speed over the commits at which the baseline was taken.
 
-use super::accepted::{MetricKey, tier_name};
+use super::accepted::MetricKey;
 use super::judgement::{JudgedMetric, Judgement};
 use super::rows::limit;
 use super::template::fill;
@@ -152,7 +152,7 @@ pub(super) fn render(report: &Report, judgement: &Judgement<'_>) -> Result<Strin
     };
     let page = json!({
         "title": report.title,
-        "tier": tier_name(report.tier),
+        "tier": report.tier.name(),
         "commits": report.history.commits().len(),
         "biases": biases(report),
         "speeds": speeds(report),

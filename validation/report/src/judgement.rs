@@ -113,7 +113,7 @@ pub struct DriftTally {
 }
 
 /// A judged report.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Judgement<'r> {
     /// Cases, the worst first, else in the report's order.
     pub cases: Vec<JudgedCase<'r>>,
@@ -193,19 +193,8 @@ impl Judgement<'_> {
 #[must_use]
 pub fn judge(report: &Report) -> Judgement<'_> {
     let mut cases: Vec<JudgedCase<'_>> = report.cases.iter().map(|case| judge_case(report, case)).collect();
-    let mut judgement = Judgement {
-        cases: Vec::new(),
-        bookkeeping: GateTally::default(),
-        verification: GateTally::default(),
-        validation: GateTally::default(),
-        statements: GateTally::default(),
-        drift: DriftTally::default(),
-        contradictions: 0,
-        diverged: 0,
-        not_judged: 0,
-        known_elsewhere: 0,
-        papers: report.papers.iter().map(|paper| PaperSummary::of(paper, &report.cases)).collect(),
-    };
+    let papers = report.papers.iter().map(|paper| PaperSummary::of(paper, &report.cases)).collect();
+    let mut judgement = Judgement { papers, ..Judgement::default() };
     let listed_here = |failure: &&KnownFailure| {
         let is_it = |metric: &Metric| metric.name == failure.metric && metric.variant == failure.variant;
         report.cases.iter().any(|case| case.name == failure.case && case.metrics.iter().any(is_it))

@@ -1,7 +1,6 @@
 //! Verdicts as JUnit's XML, which CI systems show as tests: one per gate, and one for every run that should not have diverged.
 
 use super::Report;
-use super::accepted::tier_name;
 use super::judgement::{JudgedCase, JudgedMetric, Judgement};
 use super::known_failures::KnownFailureStatus;
 use super::rows::{note, statement};
@@ -37,7 +36,7 @@ pub(super) fn text(report: &Report, judgement: &Judgement<'_>) -> String {
         let mut suite = TestSuite::new(case.case.name.as_str());
         let seconds: f64 = case.case.runs.iter().map(|run| run.wall_seconds).sum();
         suite.set_time(Duration::try_from_secs_f64(seconds).unwrap_or_default());
-        suite.add_property(Property::new("tier", tier_name(report.tier)));
+        suite.add_property(Property::new("tier", report.tier.name()));
         suite.add_property(Property::new("command", typed(&case.case.command)));
         suite.add_test_cases(cases(case));
         document.add_test_suite(suite);

@@ -1,6 +1,5 @@
 //! The first page: judged report → text → template.
 
-use super::accepted::tier_name;
 use super::failures;
 use super::flows;
 use super::judgement::{GateTally, Judgement};
@@ -22,7 +21,7 @@ pub(super) fn render(
 ) -> Result<String, minijinja::Error> {
     let page = json!({
         "title": report.title,
-        "tier": tier_name(report.tier),
+        "tier": report.tier.name(),
         "banner": banner(judgement),
         "counts": counts(judgement),
         "flows": flows::panels(report, drawn, small),

@@ -1,6 +1,5 @@
 //! The page of the papers: every element, what became of it, and where that is shown; and its card on the overview.
 
-use super::accepted::tier_name;
 use super::papers::{self, ElementOutcome, Ended, PaperSummary, Shown, Status};
 use super::template::fill;
 use super::view::{VerdictMark, anchor};
@@ -50,7 +49,7 @@ pub(super) fn count(accounts: &[PaperSummary<'_>]) -> Option<Value> {
 pub(super) fn render(report: &Report, accounts: &[PaperSummary<'_>]) -> Result<String, minijinja::Error> {
     let page = json!({
         "title": report.title,
-        "tier": tier_name(report.tier),
+        "tier": report.tier.name(),
         "papers": accounts.iter().map(|account| paper(account, &report.cases)).collect::<Vec<_>>(),
         "script": include_str!("template/page.js"),
     });
@@ -175,5 +174,5 @@ pub(super) fn json(tier: Tier, accounts: &[PaperSummary<'_>]) -> String {
             json!({ "paper": account.paper.name, "counts": counts, "elements": elements })
         })
         .collect();
-    format!("{:#}\n", json!({ "tier": tier_name(tier), "papers": papers }))
+    format!("{:#}\n", json!({ "tier": tier.name(), "papers": papers }))
 }

@@ -1,6 +1,5 @@
 //! The page of the validated space: in which regimes each quantity was compared with measurements, and what that predicts.
 
-use super::accepted::tier_name;
 use super::template::fill;
 use super::{CaseReport, DrawnFigure, Report};
 use crate::evidence::{HeldOutDatum, HeldOutJudgement, ValidatedComparison, ValidationSet, WAY_OF_FRONT};
@@ -138,7 +137,7 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, m
     };
     let page = json!({
         "title": report.title,
-        "tier": tier_name(report.tier),
+        "tier": report.tier.name(),
         "numbers": REGIME_NUMBERS,
         "quantities": groups(set).iter().map(view).collect::<Vec<_>>(),
         "predictions": predictions(report).iter().map(row).collect::<Vec<_>>(),

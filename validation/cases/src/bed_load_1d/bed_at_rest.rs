@@ -2,11 +2,12 @@
 
 use super::BedLoad1dRecord;
 use super::records::of;
-use super::run::{BedLoad1dRun, LayerPurpose, percent};
+use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, quantities};
 use crate::reference::one_dimension::bed_load::LayerState;
+use crate::shared::percent;
 
 quantities! {
     shared pub(super)
@@ -76,8 +77,11 @@ pub(super) fn metrics(run: &BedLoad1dRun, state: &LayerState, rest: &LayerState)
 pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &LayerState)]) -> Figure {
     let mut compared = Vec::new();
     let panel = |&(run, state): &(&BedLoad1dRun, &LayerState)| {
-        let mut panel =
-            Panel::new(&percent(run), Axis::logarithmic("z/d [-]").between(0.02, 12.0), Axis::linear("u_f/u_* [-]"));
+        let mut panel = Panel::new(
+            &percent(run.stream.slope),
+            Axis::logarithmic("z/d [-]").between(0.02, 12.0),
+            Axis::linear("u_f/u_* [-]"),
+        );
         let curve = |state: &LayerState| {
             let above = (0..state.height.len()).filter(|&k| state.height[k] > 0.0);
             let scale = run.stream.shear_velocity();
@@ -90,7 +94,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
             panel.reference("the same bed at rest", curve(rest));
             let differences = curve(state).into_iter().zip(curve(rest)).map(|((z, own), (_, rest))| (z, own - rest));
             let found = against_rest(&differences.collect::<Vec<_>>());
-            compared.push(format!("At {} the water over moving grains is {found}.", percent(run)));
+            compared.push(format!("At {} the water over moving grains is {found}.", percent(run.stream.slope)));
         }
         panel
     };

@@ -3,10 +3,10 @@
 use super::BedLoad1dRecord;
 use super::metrics::difference;
 use super::records::{literature, of};
-use super::run::{BedLoad1dRun, LayerPurpose, percent};
+use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::one_dimension::bed_load::LayerState;
-use crate::shared::transport_panel;
+use crate::shared::{percent, transport_panel};
 
 type SolvedLayer<'a> = (&'a BedLoad1dRun, &'a LayerState);
 
@@ -20,7 +20,7 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
     figures.extend(super::onset::figure(records));
     figures.extend(super::others::figure(records));
     figures.extend(super::suspension::figure(records));
-    figures.extend(super::regimes::figure(&layers, super::metrics::MOVING, percent));
+    figures.extend(super::regimes::figure(&layers, super::metrics::MOVING));
     figures.extend(super::sensitivities::figure(records, &layers));
     figures
 }
@@ -44,7 +44,7 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
         Panel::new("stresses", Axis { limits: Some((0.0, 1.6)), ..Axis::linear("τ/(ρ_f g h tanθ) [-]") }, height()),
     ];
     for (slot, &(run, state)) in layers.iter().enumerate() {
-        let label = percent(run);
+        let label = percent(run.stream.slope);
         let stream = &run.stream;
         let cells = |values: &[f64], keep: &dyn Fn(usize) -> bool| -> Vec<(f64, f64)> {
             let inside = (0..state.height.len()).filter(|k| keep(*k));
@@ -134,7 +134,7 @@ fn convergence(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Optio
                 panel.reference("second order", guide);
             }
             if !points.is_empty() {
-                panel.line_points(&percent(run), slot, points);
+                panel.line_points(&percent(run.stream.slope), slot, points);
             }
         }
         if !panel.series.is_empty() {

@@ -9,6 +9,7 @@ use crate::reference::bed_load::{
     LOWEST_LAYER_TOP, MeasuredRates, SHEET_FLOW_LOWEST_VELOCITY, TransportFormula, measured_rates_about,
 };
 use crate::reference::one_dimension::bed_load::LayerState;
+use crate::shared::percent;
 use crate::statistics::{Exponent, linear_fit, power_law};
 
 quantities! {
@@ -139,11 +140,7 @@ pub(super) fn beside_measured(run: &BedLoad1dRun, state: &LayerState, input: Opt
 }
 
 /// The water among moving grains beside the measured sheet flow.
-pub(super) fn figure(
-    layers: &[(&BedLoad1dRun, &LayerState)],
-    speed: f64,
-    name: impl Fn(&BedLoad1dRun) -> String,
-) -> Option<Figure> {
+pub(super) fn figure(layers: &[(&BedLoad1dRun, &LayerState)], speed: f64) -> Option<Figure> {
     let measured = &*SHEET_FLOW_LOWEST_VELOCITY;
     let mut panel = Panel::new(
         "",
@@ -164,10 +161,10 @@ pub(super) fn figure(
     for (slot, (run, state)) in layers.iter().enumerate() {
         let points = lowest_layer(run, state, speed);
         let (Some(law), Some(ends)) = (power_law(&points), range(&points)) else { continue };
-        let (entry, line) = fit(&name(run), law, ends);
+        let (entry, line) = fit(&percent(run.stream.slope), law, ends);
         let local = points.windows(2).filter_map(power_law).map(|law| law.value);
         let (least, most) = local.fold((f64::INFINITY, 0.0_f64), |(least, most), n| (least.min(n), most.max(n)));
-        bends.push(format!("{least:.2} to {most:.2} at {}", name(run)));
+        bends.push(format!("{least:.2} to {most:.2} at {}", percent(run.stream.slope)));
         panel.line(&entry, slot + 1, points);
         panel.reference("", line);
     }

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What each closure is replaced by, one at a time; empty lists for none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Sensitivities {
     /// μ_2 `[-]`.
     #[schemars(transform = each(positive("give μ_2, such as 0.97")))]
@@ -65,22 +65,7 @@ impl Sensitivities {
     /// The one closure that is no literature's, over the range in which it may lie: a hundredth of a grain, and as much room as a layer
     /// of moving grains has.
     pub(super) fn chosen() -> Self {
-        Self { bed_roughness_fade_length: vec![0.01, 0.1, 0.3], ..Self::none() }
-    }
-
-    /// None.
-    fn none() -> Self {
-        Self {
-            limiting_friction: Vec::new(),
-            static_friction: Vec::new(),
-            reference_inertia: Vec::new(),
-            largest_fraction: Vec::new(),
-            dilation: Vec::new(),
-            cell_height: Vec::new(),
-            bed_roughness_fade_length: Vec::new(),
-            drag: Vec::new(),
-            mixing_length: Vec::new(),
-        }
+        Self { bed_roughness_fade_length: vec![0.01, 0.1, 0.3], ..Self::default() }
     }
 
     /// The range of the literature for each closure; Gidaspow's drag, which jumps at φ = 0.2, has no steady state.

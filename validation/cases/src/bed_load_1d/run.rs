@@ -348,8 +348,3 @@ fn refused(error: LayerError) -> ParameterError {
 fn scaled(stream: &Stream, factor: f64) -> Stream {
     Stream { slope: factor * stream.slope, ..*stream }
 }
-
-/// Name of a slope.
-pub(super) fn percent(run: &BedLoad1dRun) -> String {
-    format!("{} %", (1e4 * run.stream.slope).round() / 100.0)
-}

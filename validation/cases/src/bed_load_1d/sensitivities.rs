@@ -3,10 +3,11 @@
 use super::BedLoad1dRecord;
 use super::records::of;
 use super::replacements::Replaced;
-use super::run::{BedLoad1dRun, LayerPurpose, percent};
+use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::reference::one_dimension::bed_load::{LayerState, MixingLengthClosure};
+use crate::shared::percent;
 use bagnold_solver::material::drag::DragLaw;
 
 /// Closures in the order of the figure, with their labels.
@@ -115,7 +116,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
             own_place = Some(chosen);
             points.push((chosen, state.transport() / expected));
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let entry = if panels.is_empty() { percent(run) } else { String::new() };
+            let entry = if panels.is_empty() { percent(run.stream.slope) } else { String::new() };
             let mark = if matches!(name, "drag" | "mixing_length") { Mark::Points } else { Mark::LinePoints };
             panel.series.push(Series::new(&entry, mark, slot, points));
         }

@@ -17,6 +17,7 @@ use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{
     CodeQuantity, CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE, ROUND_COLUMN_RUN_OUTS,
 };
+use crate::shared::distinct;
 
 pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
     let laws: Vec<&CollapseRecord> = records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Law).collect();
@@ -27,7 +28,7 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
     if !others.is_empty() {
         figures.push(scaling_figure(&others));
     }
-    for material in materials(&laws) {
+    for material in distinct(laws.iter().map(|(run, _)| run.material)) {
         let own: Vec<&CollapseRecord> = laws.iter().copied().filter(|(run, _)| run.material == material).collect();
         if is_shown(&own[0].0) {
             figures.extend([deposits(&own), histories(&own), energy_budget(&own), wedges(&own)]);
@@ -42,17 +43,6 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
         figures.extend(velocity_profiles(run, record));
     }
     figures
-}
-
-/// The materials in their order.
-fn materials(records: &[&CollapseRecord]) -> Vec<Material> {
-    let mut found: Vec<Material> = Vec::new();
-    for (run, _) in records {
-        if !found.contains(&run.material) {
-            found.push(run.material);
-        }
-    }
-    found
 }
 
 /// A name with the material of its columns.
@@ -112,12 +102,7 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
                 panel.band(entry, [0.93, 1.07].map(|part| (part * run.initial_height(), low, high)));
             }
         }
-        let mut kinds: Vec<(Material, usize)> = Vec::new();
-        for (run, _) in records {
-            if !kinds.contains(&(run.material, run.resolution)) {
-                kinds.push((run.material, run.resolution));
-            }
-        }
+        let kinds = distinct(records.iter().map(|(run, _)| (run.material, run.resolution)));
         for (slot, (material, resolution)) in kinds.into_iter().enumerate() {
             let own = || records.iter().filter(|(run, _)| (run.material, run.resolution) == (material, resolution));
             let holds = |run: &ColumnRun, value: f64| gate(run).is_none_or(|(limit, _)| limit.holds(value));
@@ -139,7 +124,7 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
                 }
             }
         }
-        for material in materials(records) {
+        for material in distinct(records.iter().map(|(run, _)| run.material)) {
             if let Some(found) = scaling::fit(records, material, measure) {
                 let ends = [found.range.0, found.range.1];
                 let curve = ends.map(|a| (a, found.law.coefficient * libm::pow(a, found.law.value)));

@@ -128,9 +128,6 @@ impl Toe {
         if self.sizes.is_empty() {
             return self.start;
         }
-        if self.sizes.is_empty() {
-            return self.start;
-        }
         if thickness < least {
             return self.place(self.resolved) + self.wedge * (1.0 - thickness / least);
         }

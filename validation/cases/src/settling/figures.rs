@@ -7,6 +7,7 @@ use super::suspension::SuspensionRun;
 use super::{SettlingRecord, drag_curves};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::settling::{GrainForm, richardson_zaki_exponent};
+use crate::shared::distinct;
 use bagnold_solver::material::drag::DragLaw;
 
 /// The formulations that single grains have, in the order of their panels.
@@ -122,15 +123,9 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
 fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
     let mut slip = Panel::new("slip", Axis::linear("φ [-]"), Axis::linear("u_r [m/s]"));
     let mut sinking = Panel::new("sinking velocity", Axis::linear("φ [-]"), Axis::linear("(1 − φ) u_r [m/s]"));
-    let mut laws: Vec<DragLaw> = Vec::new();
-    for (run, _) in records {
-        if !laws.contains(&run.experiment.law) {
-            laws.push(run.experiment.law);
-        }
-    }
     let grains = records[0].0.experiment.grains;
     let fractions = || (1..=120).map(|k| DENSEST * f64::from(k) / 120.0);
-    for &law in &laws {
+    for law in distinct(records.iter().map(|(run, _)| run.experiment.law)) {
         let slot = drag_curves::slot(law);
         let root = |phi| Some((phi, grains.hindered_slip(law, phi)?));
         let curve: Vec<(f64, f64)> =

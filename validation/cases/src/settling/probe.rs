@@ -107,7 +107,7 @@ impl Probe {
         duration: f64,
         progress: &dyn Progress,
     ) -> Result<Recorded<SettlingObservation>, ParameterError> {
-        let sediment = sediment_of(scene);
+        let sediment = sediment(scene);
         let probe = Self {
             drag,
             grains: SettlingGrains {
@@ -174,7 +174,9 @@ impl Probe {
         series.time.push(seen.time);
         series.slip.push(match self.drag {
             Drag::OfMean => around.mean,
-            Drag::OfPairs => self.grains.slip_of_drag(sediment(simulation).drag, around.drag).unwrap_or(f64::NAN),
+            Drag::OfPairs => {
+                self.grains.slip_of_drag(sediment(simulation.scene()).drag, around.drag).unwrap_or(f64::NAN)
+            }
         });
         series.slip_of_means.push(around.mean);
         series.root_mean_square_slip.push(around.square.sqrt());
@@ -185,7 +187,7 @@ impl Probe {
 
     /// Means over the fluid around each grain, of all grains, and the velocity at which they sink.
     fn around_grains(&self, simulation: &IncompressibleSimulation<2>) -> (Around, f64) {
-        let law = sediment(simulation).drag;
+        let law = sediment(simulation.scene()).drag;
         let ((place, fluid), (grain_place, grain)) = (simulation.fluid(), simulation.sediment());
         let mut of_all = Around::default();
         let mut sinking = 0.0;
@@ -251,7 +253,7 @@ struct Force {
 
 /// Momentum of both phases and the forces on them, per metre of width.
 fn momentum(simulation: &IncompressibleSimulation<2>) -> (Vector<2>, Force) {
-    let (scene, material) = (simulation.scene(), sediment(simulation));
+    let (scene, material) = (simulation.scene(), sediment(simulation.scene()));
     let fluid = (simulation.fluid().1, simulation.voidage(), &scene.fluid.gravity);
     let grains = (simulation.sediment().1, &material.filling[..], &material.gravity);
     let gradient = simulation.mean_pressure_gradient();
@@ -280,10 +282,6 @@ fn unevenness(velocity: &[Vector<2>]) -> f64 {
     (velocity.iter().map(|u| (u - mean).norm_squared()).sum::<f64>() / count).sqrt()
 }
 
-fn sediment(simulation: &IncompressibleSimulation<2>) -> &Sediment<2> {
-    sediment_of(simulation.scene())
-}
-
-fn sediment_of(scene: &IncompressibleScene<2>) -> &Sediment<2> {
+fn sediment(scene: &IncompressibleScene<2>) -> &Sediment<2> {
     scene.sediment.as_ref().expect("a settling run has grains")
 }

@@ -4,19 +4,15 @@ use super::Record;
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::water::{HEIGHT_READING, OTHER_WATER_FRONTS, WATER_FRONT, WATER_HEIGHTS, spread_of_water_fronts};
+use crate::shared::distinct;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let time = || Axis::linear("t/√(a/(2g)) [-]").over("t", "s", records.iter().map(|(run, _)| run.time_scale()));
     let widths = records.iter().map(|(run, _)| run.column.width);
     let mut front = Panel::new("", time(), Axis::linear("front x/a [-]").over("front", "m", widths));
     let mut energy = Panel::new("", time(), Axis::linear("energy change/work of gravity [%]"));
-    let mut drawn: Vec<&str> = Vec::new();
-    for (run, _) in records {
-        let measured = run.measured();
-        if !drawn.contains(&measured.name) {
-            front.reference(measured.name, measured.points.iter().copied());
-            drawn.push(measured.name);
-        }
+    for measured in distinct(records.iter().map(|(run, _)| run.measured())) {
+        front.reference(measured.name, measured.points.iter().copied());
     }
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data;

@@ -167,10 +167,8 @@ impl Parameters for WaterColumnParameters {
         let gated = Self { width: self.gated.width, aspect_ratio: 1.0, ..self.clone() };
         runs.extend(self.gated.resolutions.iter().map(|&resolution| WaterColumnRun {
             column: gated.clone(),
-            resolution,
-            surface: BedSurface::Smooth,
-            tension: Tension::Cut,
             gate_speed: self.gated.gate_speed,
+            ..new(resolution, BedSurface::Smooth, Tension::Cut)
         }));
         runs
     }
@@ -227,9 +225,8 @@ impl Run for WaterColumnRun {
     }
 
     fn particle_steps(&self) -> f64 {
-        let particles = self.column.aspect_ratio * (self.resolution as f64).powi(2);
         let crossing = self.column.stiffness.sqrt() * self.resolution as f64;
-        particles * crossing * self.column.duration
+        self.particles() * crossing * self.column.duration
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {

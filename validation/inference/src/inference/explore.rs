@@ -5,7 +5,7 @@
 //! that the emulator proposes, and again where it disagrees; then just inside and just outside of the joint region along
 //! its principal axes. Whoever finds a lower point on the way ends the exploration: the search is to resume from there.
 
-use super::emulator::{Degree, Emulator, Minimum};
+use super::emulator::{Degree, Emulator, Minimum, distance};
 use super::ends::{CLOSE, IntervalEnd, IntervalSide, TOLERANCE};
 use super::profile::ProfileLikelihood;
 use super::region::{Region, Uncertainties};
@@ -294,11 +294,6 @@ fn edge(region: &Region, check: &RegionCheck) -> Vec<f64> {
 pub(super) fn extent(region: &Region) -> f64 {
     let ends = region.profiles.iter().flat_map(|profile| &profile.ends);
     ends.map(|end| distance(end, &region.minimum.point)).fold(0.0, f64::max)
-}
-
-/// Euclidean distance.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]

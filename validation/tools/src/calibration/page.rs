@@ -12,6 +12,7 @@ use crate::inference::UNLIKELY;
 use crate::number::{four_digits, short_digits};
 use crate::output::{FileError, write_whole};
 use crate::page::{self, PageFigure};
+use crate::result::pretty;
 use serde_json::{Value, json};
 use std::io;
 use std::path::Path;
@@ -32,14 +33,12 @@ pub fn write(outcome: &CalibrationResult, plan: &CalibrationPlan, folder: &Path)
     write_whole(&folder.join("data.csv"), &data(outcome).map_err(unwritable)?).map_err(unwritable)?;
     let judged = held_out::judged(outcome, plan.digest()?);
     if let Some(judged) = &judged {
-        let json = serde_json::to_string_pretty(judged).map_err(|error| unwritable(error.into()))?;
-        write_whole(&folder.join("held-out.json"), format!("{json}\n").as_bytes()).map_err(unwritable)?;
+        write_whole(&folder.join("held-out.json"), pretty(judged).as_bytes()).map_err(unwritable)?;
     }
     let html =
         render(outcome, judged.as_ref(), pictures).map_err(|error| unwritable(io::Error::other(error.to_string())))?;
     write_whole(&folder.join("index.html"), html.as_bytes()).map_err(unwritable)?;
-    let json = serde_json::to_string_pretty(outcome).map_err(|error| unwritable(error.into()))?;
-    write_whole(&folder.join("result.json"), format!("{json}\n").as_bytes()).map_err(unwritable)
+    write_whole(&folder.join("result.json"), pretty(outcome).as_bytes()).map_err(unwritable)
 }
 
 fn evaluations(outcome: &CalibrationResult) -> io::Result<Vec<u8>> {

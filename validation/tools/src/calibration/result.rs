@@ -131,7 +131,7 @@ pub struct ElementaryEffect {
 }
 
 /// One choice of a bake-off.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ChoiceResult {
     /// The choice.
     pub name: String,
@@ -156,7 +156,7 @@ pub struct ChoiceResult {
 }
 
 /// A finished calibration.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct CalibrationResult {
     /// Subject of the calibration.
     pub title: String,

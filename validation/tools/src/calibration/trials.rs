@@ -6,7 +6,7 @@ use super::objective::{Objective, Question};
 use super::plan::{CalibrationPlan, Choice};
 use super::result::{CalibrationResult, ChoiceResult, DatumComparison, weighted_error};
 use super::target::Target;
-use crate::inference::scores::{self, Score};
+use crate::inference::scores;
 
 /// Resamplings of the data for the ranks.
 const REPEATS: usize = 2000;
@@ -43,7 +43,8 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<CalibrationResult, Ca
                 },
             }),
             Err(error) => {
-                trials.push(ChoiceResult::failed(choice.name.clone(), error.to_string()));
+                let (name, failure) = (choice.name.clone(), Some(error.to_string()));
+                trials.push(ChoiceResult { name, failure, ..ChoiceResult::default() });
                 first_error.get_or_insert(error);
             }
         }
@@ -59,7 +60,10 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<CalibrationResult, Ca
         return Err(first_error.unwrap_or(nothing));
     };
     for trial in &mut trials {
-        trial.score(ranked.iter().find(|score| score.name == trial.name));
+        let score = ranked.iter().find(|score| score.name == trial.name);
+        trial.weight = score.map(|score| score.weight);
+        trial.first = score.map(|score| score.first);
+        trial.ranks = score.map(|score| (score.ranks[0], score.ranks[1]));
     }
     let weight = |trial: &ChoiceResult| trial.chi_squared.unwrap_or(f64::INFINITY);
     trials.sort_by(|a, b| weight(a).total_cmp(&weight(b)));
@@ -74,29 +78,15 @@ impl CalibrationResult {
             method: "all choices".to_owned(),
             stopped: "done: every choice was tried".to_owned(),
             searched: trials.len(),
-            evaluations: Vec::new(),
-            parameters: Vec::new(),
-            minima: Vec::new(),
-            samples: Vec::new(),
-            chi_squared: None,
-            reduced_chi_squared: None,
-            p_value: None,
             inflation: 1.0,
-            correlation: Vec::new(),
-            region: Vec::new(),
-            covered: None,
-            truth_inside: None,
             findings: undecided(&trials),
-            sensitivity: Vec::new(),
-            fit: Vec::new(),
-            hold_out: Vec::new(),
             trials,
-            calibrated: Vec::new(),
+            ..Self::default()
         }
     }
 }
 
-/// Open questions of a bake-off, in sentences.
+/// Open questions of a bake-off, in sentences; the best choice comes first.
 fn undecided(trials: &[ChoiceResult]) -> Vec<String> {
     let is_rival = |trial: &&ChoiceResult| {
         trial.weight.is_some_and(|weight| weight >= RIVAL) || trial.ranks.is_some_and(|(best, _)| best == 1)
@@ -118,10 +108,7 @@ fn undecided(trials: &[ChoiceResult]) -> Vec<String> {
     if data < FEW_DATA {
         findings.push(format!("{data} data are few: resampling them tells little about ranks, so look at the weights"));
     }
-    let best = trials.iter().filter(|trial| trial.failure.is_none()).min_by(|a, b| {
-        let of = |trial: &ChoiceResult| trial.chi_squared.unwrap_or(f64::INFINITY);
-        of(a).total_cmp(&of(b))
-    });
+    let best = trials.iter().find(|trial| trial.failure.is_none());
     if let Some(error) = best.and_then(|trial| weighted_error(&trial.fit)).filter(|error| *error > 2.0) {
         findings.push(format!(
             "even the best choice misses the data by {error:.1} standard uncertainties: the weights between choices mean \
@@ -140,21 +127,7 @@ impl ChoiceResult {
             hold_out_chi_squared: (!hold_out.is_empty()).then(|| sum(&hold_out)),
             fit,
             hold_out,
-            weight: None,
-            first: None,
-            ranks: None,
-            failure: None,
-            hold_out_failure: None,
+            ..Self::default()
         }
-    }
-
-    pub(super) fn failed(name: String, reason: String) -> Self {
-        Self { chi_squared: None, failure: Some(reason), ..Self::of(name, Vec::new(), Vec::new()) }
-    }
-
-    pub(super) fn score(&mut self, score: Option<&Score>) {
-        self.weight = score.map(|score| score.weight);
-        self.first = score.map(|score| score.first);
-        self.ranks = score.map(|score| (score.ranks[0], score.ranks[1]));
     }
 }

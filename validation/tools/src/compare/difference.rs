@@ -4,6 +4,7 @@ use super::reading::Results;
 use crate::metric::Variant;
 use crate::number::two_digits;
 use crate::result::MetricEntry;
+use std::collections::BTreeSet;
 
 /// A number in every folder.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,15 +27,12 @@ pub struct Difference {
 /// order of the first folder.
 #[must_use]
 pub fn differences(all: &[Results]) -> Vec<Difference> {
-    let mut keys: Vec<(String, String, Variant, String)> = Vec::new();
-    for (case, metric) in all.iter().flat_map(Results::entries) {
-        let key = (case.to_owned(), metric.name.clone(), metric.variant.clone(), metric.unit.clone());
-        if !keys.contains(&key) {
-            keys.push(key);
-        }
-    }
-    let mut differences: Vec<Difference> = keys
-        .into_iter()
+    let mut seen = BTreeSet::new();
+    let mut differences: Vec<Difference> = all
+        .iter()
+        .flat_map(Results::entries)
+        .map(|(case, entry)| (case.to_owned(), entry.name.clone(), entry.variant.clone(), entry.unit.clone()))
+        .filter(|key| seen.insert(key.clone()))
         .map(|(case, metric, variant, unit)| {
             let find = |results: &Results| {
                 let metrics = &results.cases.get(&case)?.document.metrics;

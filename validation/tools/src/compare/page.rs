@@ -5,13 +5,14 @@ use super::figures;
 use super::parameters::{ChangedParameter, changed};
 use super::reading::Results;
 use crate::figure::Figure;
-use crate::metric::Verdict;
+use crate::judge::mark;
 use crate::number::{four_digits, two_digits};
 use crate::page::{self, PageFigure};
 use crate::report::ReportError;
 use crate::result::{MetricEntry, pretty};
 use crate::store::provenance::short_commit;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Writes `index.html`, `differences.json`, `parameters.json` and `figures/` into a folder; returns the numbers that differ by more
@@ -23,9 +24,7 @@ pub fn write(all: &[Results], folder: &Path) -> Result<Vec<Difference>, ReportEr
     let put =
         |path: PathBuf, text: &str| std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source });
     let found = differences(all);
-    let mut cases: Vec<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
-    cases.sort();
-    cases.dedup();
+    let cases: BTreeSet<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
     let figures: Vec<Figure> = cases.into_iter().flat_map(|case| figures::all(all, case)).collect();
     let pictures = page::draw(&figures, &folder.join("figures"))?;
     put(folder.join("differences.json"), &pretty(&found.iter().map(line).collect::<Vec<_>>()))?;
@@ -104,12 +103,8 @@ fn row(one: &Difference) -> Value {
 }
 
 fn cell(entry: Option<&MetricEntry>, change: Option<String>) -> Value {
-    let Some(entry) = entry else { return json!({ "class": "observed", "symbol": "–", "value": "" }) };
-    let (class, symbol) = match entry.verdict {
-        Verdict::Pass => ("pass", "✓"),
-        Verdict::Fail => ("fail", "✗"),
-        Verdict::Observed => ("observed", "○"),
-    };
+    let [class, symbol, _] = mark(entry.map(|entry| entry.verdict));
+    let Some(entry) = entry else { return json!({ "class": class, "symbol": symbol, "value": "" }) };
     json!({
         "class": class,
         "symbol": symbol,

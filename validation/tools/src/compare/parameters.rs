@@ -25,9 +25,7 @@ pub struct ChangedParameter {
 /// The parameters of each case that two folders have at least and that are not the same in all of them.
 #[must_use]
 pub fn changed(all: &[Results]) -> Vec<ChangedParameter> {
-    let mut cases: Vec<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
-    cases.sort();
-    cases.dedup();
+    let cases: BTreeSet<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
     cases.into_iter().flat_map(|case| of_case(all, case)).collect()
 }
 

@@ -134,23 +134,18 @@ impl Results {
 
     fn of(folder: &Path) -> Result<Self, CompareError> {
         let mut cases = BTreeMap::new();
-        let alone = folder.join("metrics.json");
-        let is_report = folder.join("cases").is_dir();
-        if is_report {
-            let entries =
-                std::fs::read_dir(folder.join("cases")).map_err(|error| FileError::unreadable(folder, &error))?;
-            for entry in entries.flatten().map(|entry| entry.path()) {
-                let file = entry.join("metrics.json");
-                if file.is_file() {
-                    let (document, parameters) = (document(&file)?, parameters(&entry)?);
-                    let case = CaseResults { document, parameters, tables: Vec::new() };
-                    cases.insert(case.document.case.clone(), case);
-                }
-            }
-        } else if alone.is_file() {
-            let (document, parameters) = (document(&alone)?, parameters(folder)?);
-            let case = CaseResults { document, parameters, tables: tables(&folder.join("tables"))? };
-            cases.insert(case.document.case.clone(), case);
+        let of_report = folder.join("cases");
+        let is_report = of_report.is_dir();
+        let places = if is_report {
+            let entries = std::fs::read_dir(of_report).map_err(|error| FileError::unreadable(folder, &error))?;
+            entries.flatten().map(|entry| entry.path()).collect()
+        } else {
+            vec![folder.to_owned()]
+        };
+        for place in places.into_iter().filter(|place| place.join("metrics.json").is_file()) {
+            let (document, parameters) = (document(&place.join("metrics.json"))?, parameters(&place)?);
+            let tables = if is_report { Vec::new() } else { tables(&place.join("tables"))? };
+            cases.insert(document.case.clone(), CaseResults { document, parameters, tables });
         }
         if cases.is_empty() {
             return Err(CompareError::NoResults { folder: folder.to_owned() });

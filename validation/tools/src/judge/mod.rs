@@ -19,8 +19,8 @@ pub use blank::blank;
 pub use error::JudgeError;
 pub use export::export;
 pub use inputs::inputs_of;
-pub(crate) use page::other_limit;
 pub use page::write;
+pub(crate) use page::{mark, other_limit};
 pub use submission::{CoarseRun, Code, ForeignRun, LawOrigin, ParticleFiles, Submission, TableFile};
 pub use verdicts::MetricComparison;
 
@@ -29,6 +29,7 @@ use crate::evaluation::PlanError;
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Variant, Verdict};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Submissions of one case, with the runs of ours that they are compared with.
@@ -154,9 +155,8 @@ impl CaseSubmissions {
         // the runs of ours that any code gives something of, in our order
         let places: Vec<Vec<usize>> =
             submissions.iter().map(|submission| places(submission, all.as_ref())).collect::<Result<_, _>>()?;
-        let mut chosen: Vec<usize> = places.iter().flatten().copied().collect();
-        chosen.sort_unstable();
-        chosen.dedup();
+        let chosen: BTreeSet<usize> = places.iter().flatten().copied().collect();
+        let chosen: Vec<usize> = chosen.into_iter().collect();
         let prepared = all.choose(&chosen);
         let entries = submissions
             .into_iter()

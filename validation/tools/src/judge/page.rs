@@ -8,6 +8,7 @@ use crate::page::{self, PageFigure};
 use crate::report::ReportError;
 use crate::result::pretty;
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Writes `index.html`, `metrics.json` and `figures/` into a folder, and JUnit's XML into a file where one is named.
@@ -105,14 +106,18 @@ pub(crate) fn other_limit(own: &Metric, foreign: &Metric) -> Option<String> {
     limit(foreign).filter(|other| Some(*other) != limit(own)).map(|other| other.in_words(four_digits))
 }
 
+/// Class of the style sheet, symbol and word of a verdict; none where nothing was given.
+pub(crate) fn mark(verdict: Option<Verdict>) -> [&'static str; 3] {
+    match verdict {
+        Some(Verdict::Pass) => ["pass", "✓", "holds"],
+        Some(Verdict::Fail) => ["fail", "✗", "fails"],
+        Some(Verdict::Observed) => ["observed", "○", "observed"],
+        None => ["observed", "–", "not given"],
+    }
+}
+
 fn cell(metric: Option<&Metric>) -> Value {
-    let verdict = metric.map(Metric::verdict);
-    let (class, symbol, text) = match verdict {
-        Some(Verdict::Pass) => ("pass", "✓", "holds"),
-        Some(Verdict::Fail) => ("fail", "✗", "fails"),
-        Some(Verdict::Observed) => ("observed", "○", "observed"),
-        None => ("observed", "–", "not given"),
-    };
+    let [class, symbol, text] = mark(metric.map(Metric::verdict));
     let reference = metric.and_then(|metric| metric.reference.as_ref()?.value);
     json!({
         "class": class,
@@ -134,9 +139,7 @@ fn quantities(judgement: &CodeComparison) -> Vec<Value> {
     let all: Vec<_> = std::iter::once(biases(case, &judgement.own.metrics))
         .chain(judgement.codes.iter().map(|judged| biases(case, given(judged))))
         .collect();
-    let mut names: Vec<String> = all.iter().flatten().map(|bias| bias.quantity.clone()).collect();
-    names.sort();
-    names.dedup();
+    let names: BTreeSet<String> = all.iter().flatten().map(|bias| bias.quantity.clone()).collect();
     let text = |biases: &[crate::report::scatter::QuantityBias], name: &str| {
         let bias = biases.iter().find(|bias| bias.quantity == name)?;
         let (lower, upper) = bias.found.interval;

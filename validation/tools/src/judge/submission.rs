@@ -22,7 +22,6 @@ pub struct Submission {
     #[serde(default = "quick")]
     pub tier: Tier,
     /// A case file with the parameters, beside this one: a scene of one's own.
-    #[serde(default)]
     pub base: Option<PathBuf>,
     /// Parameters that differ from the tier's, or from those of `base`, as in a case's file.
     #[serde(default)]
@@ -33,10 +32,8 @@ pub struct Submission {
     #[serde(default)]
     pub law: LawOrigin,
     /// Digest of the inputs that it was made from, as the export names it.
-    #[serde(default)]
     pub inputs: Option<String>,
     /// Digest of the gates that it was made for, as the export names it.
-    #[serde(default)]
     pub gates: Option<String>,
     /// Digests of the limits, separated by blanks: they count the limits that have moved.
     #[serde(default)]
@@ -75,7 +72,7 @@ pub struct Code {
 }
 
 /// Data of one run of the external code, each part optional.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ForeignRun {
     /// Keys of the case's run that it is, such as `material=lagree,aspect_ratio=1`; those that are the code's own business,
@@ -116,7 +113,6 @@ pub struct ParticleFiles {
     #[serde(default)]
     pub times: Vec<f64>,
     /// Length of a step `[s]` of a dump that counts steps.
-    #[serde(default)]
     pub time_step: Option<f64>,
     /// Assignment of the files' columns to quantities.
     pub columns: BTreeMap<String, toml::Value>,
@@ -220,14 +216,7 @@ impl ForeignRun {
     pub(super) fn on_coarser_mesh(&self) -> Self {
         let table = |coarse: &CoarseRun| Some(TableFile { file: coarse.profile.clone(), ..self.profile.clone()? });
         let profile = self.coarse.as_ref().and_then(table);
-        Self {
-            profile,
-            variant: self.variant.clone(),
-            numbers: BTreeMap::new(),
-            particles: None,
-            series: None,
-            coarse: None,
-        }
+        Self { profile, variant: self.variant.clone(), ..Self::default() }
     }
 }
 

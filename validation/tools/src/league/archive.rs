@@ -1,5 +1,6 @@
 //! An archive of a submission, in the format `ustar` of POSIX.1-1988, whose bytes follow from the files alone.
 
+use std::collections::BTreeSet;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -15,12 +16,10 @@ pub(super) fn archive(folder: &Path, named: &[PathBuf], name: &str) -> io::Resul
     let folder = folder.canonicalize()?;
     let above = |file: &PathBuf| file.components().take_while(|part| *part == Component::ParentDir).count();
     let root = folder.ancestors().nth(named.iter().map(above).max().unwrap_or(0)).unwrap_or(&folder);
-    let mut all = files(&folder)?;
+    let mut all: BTreeSet<PathBuf> = files(&folder)?.into_iter().collect();
     for file in named.iter().filter(|file| above(file) > 0) {
-        all.push(folder.join(file).canonicalize()?);
+        all.insert(folder.join(file).canonicalize()?);
     }
-    all.sort();
-    all.dedup();
     let mut bytes = Vec::new();
     for file in all {
         let below = file.strip_prefix(root).unwrap_or(&file).to_string_lossy().replace('\\', "/");
@@ -35,10 +34,10 @@ pub(super) fn archive(folder: &Path, named: &[PathBuf], name: &str) -> io::Resul
 }
 
 fn files(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let mut entries: Vec<PathBuf> =
-        std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<_>>()?;
-    entries.sort();
-    let below = entries.into_iter().map(|path| if path.is_dir() { files(&path) } else { Ok(vec![path]) });
+    let below = std::fs::read_dir(folder)?.map(|entry| {
+        let path = entry?.path();
+        if path.is_dir() { files(&path) } else { Ok(vec![path]) }
+    });
     Ok(below.collect::<io::Result<Vec<_>>>()?.concat())
 }
 

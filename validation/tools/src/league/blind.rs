@@ -10,6 +10,7 @@ use crate::output::FileError;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// Folder of the study in a league.
@@ -94,12 +95,10 @@ pub fn seeds(league: &Path) -> Result<(Vec<u64>, Vec<u64>), JudgeError> {
     }
     let digits = crate::store::hexadecimal(&hash.finalize());
     let seed = |k: usize| u64::from_str_radix(&digits[k * SEEDS.0..(k + 1) * SEEDS.0], 16).unwrap_or_default();
-    let mut run: Vec<u64> = rows::<Measured>(&folder.join("measured.csv"))?.into_iter().map(|row| row.seed).collect();
-    run.sort_unstable();
-    run.dedup();
+    let run: BTreeSet<u64> = rows::<Measured>(&folder.join("measured.csv"))?.into_iter().map(|row| row.seed).collect();
     let mut from_digest: Vec<u64> = (0..SEEDS.1).map(seed).collect();
     from_digest.sort_unstable();
-    Ok((run, from_digest))
+    Ok((run.into_iter().collect(), from_digest))
 }
 
 impl BlindComparison {

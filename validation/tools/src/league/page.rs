@@ -3,8 +3,8 @@
 use super::archive::archive;
 use super::blind::{self, BlindComparison};
 use super::{League, LeagueRow};
-use crate::judge::{ObservedOrder, Submission, other_limit};
-use crate::metric::{Metric, Verdict};
+use crate::judge::{ObservedOrder, Submission, mark, other_limit};
+use crate::metric::Metric;
 use crate::number::{four_digits, two_digits};
 use crate::page;
 use crate::report::ReportError;
@@ -122,11 +122,7 @@ fn entry(row: &LeagueRow, codes: &[usize]) -> Value {
 }
 
 fn cell(metric: &Metric, law: Value) -> Value {
-    let (class, symbol) = match metric.verdict() {
-        Verdict::Pass => ("pass", "✓"),
-        Verdict::Fail => ("fail", "✗"),
-        Verdict::Observed => ("observed", "○"),
-    };
+    let [class, symbol, _] = mark(Some(metric.verdict()));
     let reference = metric.reference.as_ref().and_then(|of| of.value).filter(|value| *value != 0.0);
     let off = reference.map(|reference| {
         let share = 100.0 * (metric.value / reference - 1.0);

@@ -17,7 +17,7 @@ pub struct Scope {
 }
 
 /// Results of a case with one mutation, or with none.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct MutantRun {
     /// Judged and observed numbers.
     pub metrics: Vec<Metric>,
@@ -65,7 +65,6 @@ pub fn run_trial(scope: &Scope, registry: Registry) -> Result<(Vec<CaseResult>, 
     let changes = Changes { file: None, settings: &scope.settings, ..Changes::default() };
     let prepared = registry.find(&scope.case)?.prepare(Tier::Quick, &changes)?;
     let results = execute(vec![prepared], &Store::open(StorePolicy::Bypass), &Silent)?;
-    let sighting = results.first().map(MutantRun::of);
-    let nothing = || MutantRun { metrics: Vec::new(), diverged: Vec::new(), wall_seconds: 0.0 };
-    Ok((results, sighting.unwrap_or_else(nothing)))
+    let sighting = results.first().map(MutantRun::of).unwrap_or_default();
+    Ok((results, sighting))
 }

@@ -107,12 +107,9 @@ fn first(entry: &SweepRun) -> Vec<String> {
 
 /// A case's metrics, one per row of panels, over the parameters that are numbers; and as a map where those are two.
 fn figures(manifest: &Manifest, records: &[(&SweepRun, EvaluationRecord)]) -> Vec<Figure> {
-    let mut cases: Vec<&str> = Vec::new();
-    for (entry, _) in records {
-        if !cases.contains(&entry.label.as_str()) {
-            cases.push(&entry.label);
-        }
-    }
+    let mut cases: Vec<&str> = records.iter().map(|(entry, _)| entry.label.as_str()).collect();
+    // the runs of a case follow each other
+    cases.dedup();
     cases.into_iter().flat_map(|case| pairs(manifest, case, records)).collect()
 }
 

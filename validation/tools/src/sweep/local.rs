@@ -6,6 +6,7 @@ use super::manifest::{Manifest, SweepRun};
 use crate::case::{CaseFile, Changes, Limits, Registry, Silent, share_out};
 use crate::evaluation::{self, EvaluationRecord};
 use crate::output::{FileError, Owner, write_whole};
+use crate::result::pretty;
 use crate::store::Store;
 
 /// Watches a sweep, for a progress bar. Called from several threads.
@@ -47,8 +48,7 @@ pub fn run_entry(
     if let Some(reason) = &record.failure {
         write_whole(&folder.join("failure.txt"), format!("{reason}\n").as_bytes()).map_err(unwritable)?;
     }
-    let metrics = serde_json::to_string_pretty(&record.metrics).map_err(|error| unwritable(error.into()))?;
-    write_whole(&folder.join("metrics.json"), format!("{metrics}\n").as_bytes()).map_err(unwritable)?;
+    write_whole(&folder.join("metrics.json"), pretty(&record.metrics).as_bytes()).map_err(unwritable)?;
     record.write(&folder.join("record.postcard")).map_err(unwritable)?;
     Ok(record)
 }

@@ -161,10 +161,6 @@ impl SweepPlan {
                 return Err(FieldError::new(&format!("cases[{index}].name"), request.label(), rule, remedy));
             }
         }
-        let most = match self.text.design {
-            Design::Spread(SpaceFillingDesign::Sobol { .. }) => MOST_SOBOL_POINTS,
-            _ => MOST_RUNS,
-        };
         match self.text.design {
             Design::Word(Word::Grid) => {
                 let levels = |parameter: &SweptParameter| {
@@ -178,9 +174,11 @@ impl SweepPlan {
                     || FieldError::new("parameters", "too many values", &rule, "take fewer values or levels");
                 product.map(|_| ()).ok_or_else(too_many)
             }
-            Design::Spread(
-                SpaceFillingDesign::LatinHypercube { points, .. } | SpaceFillingDesign::Sobol { points, .. },
-            ) => {
+            Design::Spread(design) => {
+                let (points, most) = match design {
+                    SpaceFillingDesign::LatinHypercube { points, .. } => (points, MOST_RUNS),
+                    SpaceFillingDesign::Sobol { points, .. } => (points, MOST_SOBOL_POINTS),
+                };
                 if (1..=most).contains(&points) {
                     return Ok(());
                 }

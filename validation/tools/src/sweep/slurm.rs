@@ -193,11 +193,8 @@ fn quoted(path: &Path) -> String {
 
 /// Rising numbers as Slurm writes them: `1-3,7`.
 fn ranges(numbers: &[usize]) -> String {
-    let mut sorted = numbers.to_vec();
-    sorted.sort_unstable();
-    sorted.dedup();
     let mut parts: Vec<(usize, usize)> = Vec::new();
-    for number in sorted {
+    for number in numbers.iter().copied().collect::<BTreeSet<_>>() {
         match parts.last_mut() {
             Some((_, last)) if *last + 1 == number => *last = number,
             _ => parts.push((number, number)),

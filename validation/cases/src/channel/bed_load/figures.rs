@@ -10,7 +10,7 @@ use super::runs::pair_law_name;
 use super::tiers::FITTED;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load::TransportFormula;
-use crate::shared::transport_panel;
+use crate::shared::{percent, transport_panel};
 use crate::statistics::{BlockProfile, FittedValue};
 use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 
@@ -42,10 +42,6 @@ fn stage_of(run: &BedLoadRun) -> Option<Stage> {
         BedLoadFormulation::Continuum(own) => Some(own.stage),
         _ => None,
     }
-}
-
-fn percent(slope: f64) -> String {
-    format!("{} %", (1e4 * slope).round() / 100.0)
 }
 
 /// Name of particles that are a grain each, in every legend.

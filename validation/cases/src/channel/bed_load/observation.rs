@@ -9,7 +9,7 @@ use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
 
 /// Water and grains of one run.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct BedLoadObservation {
     /// The water.
     pub channel: ChannelObservation,
@@ -67,13 +67,10 @@ impl BedLoadObserver {
             window: run.averaging_time,
             grains_lost: 0,
             observation: BedLoadObservation {
-                channel: ChannelObservation::default(),
-                transport: Vec::new(),
-                stream_velocity: Vec::new(),
                 carried: vec![vec![Carried::default(); BLOCKS]; bins],
                 sediment: profile,
                 length: channel.fluid.length(),
-                layer: None,
+                ..BedLoadObservation::default()
             },
         }
     }

@@ -2,10 +2,7 @@
 
 use super::ClearWaterRecord;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-
-fn label(slope: f64) -> String {
-    format!("{} %", (1e4 * slope).round() / 100.0)
-}
+use crate::shared::percent;
 
 pub(super) fn profiles(records: &[ClearWaterRecord]) -> Figure {
     let mut profile = Panel::new("", Axis::logarithmic("z′/z₀ [-]"), Axis::linear("u/u_* [-]"));
@@ -25,7 +22,7 @@ pub(super) fn profiles(records: &[ClearWaterRecord]) -> Figure {
         let (points, velocities) = (record.data.profile.points(), record.data.profile.velocities());
         let error: Vec<f64> = velocities.iter().map(|velocity| velocity.standard_error / scale).collect();
         let values = points.iter().map(|point| (distance(point.height), point.velocity / scale));
-        profile.points(&label(run.slope), slot, values).error.clone_from(&error);
+        profile.points(&percent(run.slope), slot, values).error.clone_from(&error);
         let deviation = |z: f64, velocity: f64| (z / law.depth, (velocity - law.velocity(z)) / scale);
         let deviations = points.iter().map(|point| deviation(point.height, point.velocity));
         residual.line_points("", slot, deviations).error = error;
@@ -50,7 +47,7 @@ pub(super) fn over_time(records: &[ClearWaterRecord]) -> Figure {
         let series = &data.series;
         longest = longest.max(record.simulated_time);
         let mean = law.mean_velocity();
-        velocity.line(&label(run.slope), slot, series.curve(&series.mean_velocity, mean));
+        velocity.line(&percent(run.slope), slot, series.curve(&series.mean_velocity, mean));
         shear.line("", slot, series.curve(&series.bed_shear, law.bed_shear_stress()));
         let marks = data.marks.iter().map(|mark| (mark.time, mark.mean_velocity / mean)).collect();
         intervals.push(Series::new("", Mark::Points, slot, marks));
@@ -61,7 +58,7 @@ pub(super) fn over_time(records: &[ClearWaterRecord]) -> Figure {
             let values = &record.data.series.mean_velocity;
             let share = |value: Option<&f64>| value.map_or(f64::NAN, |value| value / run.reference().mean_velocity());
             let (first, last) = (share(values.first()), share(values.last()));
-            format!(" At {} U/U_log is {first:.3} at first and {last:.3} in the end.", label(run.slope))
+            format!(" At {} U/U_log is {first:.3} at first and {last:.3} in the end.", percent(run.slope))
         };
         format!(
             "The run has a fixed end and no criterion of stationarity.{}",

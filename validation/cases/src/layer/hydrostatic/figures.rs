@@ -3,15 +3,11 @@
 use super::HydrostaticRecord;
 use super::parameters::HydrostaticRun;
 use crate::figure::{Axis, Figure, Panel};
+use crate::shared::distinct;
 use bagnold_solver::material::rheology::Rheology;
 
 pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Figure> {
-    let mut laws: Vec<Rheology> = Vec::new();
-    for (run, _) in records {
-        if !laws.contains(&run.law) {
-            laws.push(run.law);
-        }
-    }
+    let laws = distinct(records.iter().map(|(run, _)| run.law));
     let of_law = |law| records.iter().filter(move |(run, _)| run.law == law).collect::<Vec<_>>();
     let panels = laws.into_iter().map(|law| pressure(&of_law(law))).collect();
     let mut height = Panel::new("", Axis::linear("t [s]"), Axis::linear("height/H [-]"));

@@ -1,7 +1,7 @@
 //! The corner plot of the posterior: histograms of single parameters and samples of every pair.
 
 use super::super::result::{CalibrationResult, ParameterEstimate};
-use super::{axis, labelled};
+use super::axis;
 use crate::figure::{Axis, Figure, Panel};
 
 /// Bins of a histogram.
@@ -46,8 +46,7 @@ fn histogram(parameter: &ParameterEstimate, values: &[f64]) -> Panel {
     };
     let share = |count: usize| count as f64 / values.len() as f64;
     let steps = (0..BINS).flat_map(|bin| [(edge(bin), share(counts[bin])), (edge(bin + 1), share(counts[bin]))]);
-    let label = labelled(&parameter.name, &parameter.unit);
-    let mut panel = Panel::new("", axis(parameter.logarithmic, &label), Axis::linear("share of samples [-]"));
+    let mut panel = Panel::new("", axis(parameter), Axis::linear("share of samples [-]"));
     panel.line("posterior", 0, steps);
     panel.points("best", 1, [(parameter.best, 0.0)]);
     panel
@@ -55,8 +54,7 @@ fn histogram(parameter: &ParameterEstimate, values: &[f64]) -> Panel {
 
 fn pair(outcome: &CalibrationResult, first: usize, second: usize) -> Panel {
     let (x, y) = (&outcome.parameters[first], &outcome.parameters[second]);
-    let of = |parameter: &ParameterEstimate| axis(parameter.logarithmic, &labelled(&parameter.name, &parameter.unit));
-    let mut panel = Panel::new("", of(x), of(y));
+    let mut panel = Panel::new("", axis(x), axis(y));
     panel.points("posterior", 0, column(outcome, first).into_iter().zip(column(outcome, second)));
     panel.points("best", 1, [(x.best, y.best)]);
     panel

@@ -3,7 +3,7 @@
 mod corner;
 mod pairs;
 
-use super::result::{CalibrationResult, DatumComparison};
+use super::result::{CalibrationResult, DatumComparison, ParameterEstimate};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::inference::chi_squared_quantile;
 
@@ -28,12 +28,9 @@ pub(super) fn all(outcome: &CalibrationResult) -> Vec<Figure> {
     figures
 }
 
-pub(super) fn axis(logarithmic: bool, label: &str) -> Axis {
-    if logarithmic { Axis::logarithmic(label) } else { Axis::linear(label) }
-}
-
-pub(super) fn labelled(name: &str, unit: &str) -> String {
-    format!("{name} [{unit}]")
+pub(super) fn axis(parameter: &ParameterEstimate) -> Axis {
+    let label = format!("{} [{}]", parameter.name, parameter.unit);
+    if parameter.logarithmic { Axis::logarithmic(&label) } else { Axis::linear(&label) }
 }
 
 fn history(outcome: &CalibrationResult) -> Option<Figure> {
@@ -57,8 +54,7 @@ fn history(outcome: &CalibrationResult) -> Option<Figure> {
     first.line("best so far", 1, best);
     let mut panels = vec![first];
     for (k, parameter) in outcome.parameters.iter().enumerate() {
-        let label = labelled(&parameter.name, &parameter.unit);
-        let mut panel = Panel::new("", Axis::linear("evaluation [-]"), axis(parameter.logarithmic, &label));
+        let mut panel = Panel::new("", Axis::linear("evaluation [-]"), axis(parameter));
         let values = outcome.evaluations.iter().enumerate().map(|(n, e)| ((n + 1) as f64, e.values[k]));
         panel.points("", 0, values);
         if let Some(truth) = parameter.truth {
@@ -75,8 +71,7 @@ fn profiles(outcome: &CalibrationResult) -> Option<Figure> {
     let threshold = outcome.inflation * outcome.inflation * chi_squared_quantile(0.95, 1);
     let mut panels = Vec::new();
     for parameter in outcome.parameters.iter().filter(|parameter| parameter.profile.len() > 1) {
-        let label = labelled(&parameter.name, &parameter.unit);
-        let mut panel = Panel::new("", axis(parameter.logarithmic, &label), Axis::linear("χ² above its minimum [-]"));
+        let mut panel = Panel::new("", axis(parameter), Axis::linear("χ² above its minimum [-]"));
         let highest = 3.0 * threshold;
         let points: Vec<(f64, f64)> = parameter.profile.iter().copied().filter(|point| point.1 <= highest).collect();
         let ends = points.first().zip(points.last()).map(|(first, last)| (first.0, last.0)).unwrap_or_default();

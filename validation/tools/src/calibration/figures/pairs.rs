@@ -1,7 +1,7 @@
 //! A panel for every pair of parameters: values that agree with the data, on every branch, within the box of the search.
 
 use super::super::result::CalibrationResult;
-use super::{axis, labelled};
+use super::axis;
 use crate::figure::{Figure, Panel};
 
 /// The figure; none of fewer than two parameters or without a region.
@@ -20,8 +20,7 @@ pub(super) fn figure(outcome: &CalibrationResult) -> Option<Figure> {
 
 fn pair(outcome: &CalibrationResult, first: usize, second: usize) -> Panel {
     let (x, y) = (&outcome.parameters[first], &outcome.parameters[second]);
-    let [across, upwards] = [x, y].map(|p| axis(p.logarithmic, &labelled(&p.name, &p.unit)));
-    let mut panel = Panel::new("", across, upwards);
+    let mut panel = Panel::new("", axis(x), axis(y));
     let of = |values: &Vec<f64>| (values[first], values[second]);
     let ((left, right), (low, high)) = (x.bounds, y.bounds);
     panel.reference("bounds", [(left, low), (right, low), (right, high), (left, high), (left, low)]);

@@ -1,5 +1,8 @@
 //! Numbers of an array from text or bytes.
 
+use serde::Deserialize;
+use serde::de::value::StrDeserializer;
+
 /// Order of the bytes of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum ByteOrder {
@@ -7,8 +10,8 @@ pub(super) enum ByteOrder {
     BigEndian,
 }
 
-/// Type of the values of an array.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// Type of the values of an array, by its name in the XML formats.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 pub(super) enum Scalar {
     /// Eight values per byte, the first in the highest bit.
     Bit,
@@ -27,20 +30,7 @@ pub(super) enum Scalar {
 impl Scalar {
     /// Type by its name in the XML formats.
     pub(super) fn of_xml(name: &str) -> Option<Self> {
-        Some(match name {
-            "Bit" => Self::Bit,
-            "Int8" => Self::Int8,
-            "UInt8" => Self::UInt8,
-            "Int16" => Self::Int16,
-            "UInt16" => Self::UInt16,
-            "Int32" => Self::Int32,
-            "UInt32" => Self::UInt32,
-            "Int64" => Self::Int64,
-            "UInt64" => Self::UInt64,
-            "Float32" => Self::Float32,
-            "Float64" => Self::Float64,
-            _ => return None,
-        })
+        Self::deserialize(StrDeserializer::<serde::de::value::Error>::new(name)).ok()
     }
 
     /// Type by its name in the legacy format, which stores identifiers as 4 bytes.

@@ -95,8 +95,7 @@ impl<'file> Legacy<'file> {
             "LOOKUP_TABLE" => {
                 self.word()?;
                 let count = self.count()?;
-                let scalar = if self.is_binary { Scalar::UInt8 } else { Scalar::Float64 };
-                self.values(scalar, count, 4)?;
+                self.values(self.colour(), count, 4)?;
             }
             _ => {
                 let (count, at_cells) = owner.ok_or_else(|| unknown(keyword))?;
@@ -118,13 +117,8 @@ impl<'file> Legacy<'file> {
             _ => return Err(unknown(keyword)),
         };
         let name = self.array_name()?;
-        let components = if components == 0 { self.count()? } else { components };
-        if keyword == "COLOR_SCALARS" {
-            let scalar = if self.is_binary { Scalar::UInt8 } else { Scalar::Float64 };
-            return Ok((name, components, self.values(scalar, count, components)?));
-        }
-        let scalar = self.scalar()?;
-        let mut components = components;
+        let mut components = if components == 0 { self.count()? } else { components };
+        let scalar = if keyword == "COLOR_SCALARS" { self.colour() } else { self.scalar()? };
         if keyword == "SCALARS" {
             // the number of components may stand on the same line
             let end = self.rest.iter().position(|byte| *byte == b'\n').unwrap_or(self.rest.len());
@@ -199,6 +193,11 @@ impl<'file> Legacy<'file> {
     fn count(&mut self) -> Result<usize, Refusal> {
         let word = self.word()?;
         word.parse().map_err(|_| format!("with `{}` for a count", shortened(word)).into())
+    }
+
+    /// Type of the parts of a colour.
+    fn colour(&self) -> Scalar {
+        if self.is_binary { Scalar::UInt8 } else { Scalar::Float64 }
     }
 
     fn scalar(&mut self) -> Result<Scalar, Refusal> {

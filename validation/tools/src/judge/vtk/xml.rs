@@ -212,7 +212,12 @@ impl ArraySource<'_> {
                 inline = texts().collect();
                 EncodedArray::base64(inline.as_bytes())
             }
-            "appended" => self.appended_at(array)?,
+            "appended" => {
+                let appended = self.appended.ok_or("without the appended data of its arrays")?;
+                let offset = self::count(array, "offset")?.ok_or("with an appended array without `offset`")?;
+                let bytes = appended.bytes.get(offset..).ok_or("damaged (an array begins behind the end)")?;
+                if appended.is_raw { EncodedArray::Raw(bytes) } else { EncodedArray::base64(bytes) }
+            }
             other => return Err(of_array(format!("with the format `{other}`"))),
         };
         let expected = scalar.bytes_of(count).ok_or_else(endless)?;
@@ -226,14 +231,5 @@ impl ArraySource<'_> {
         let taken = before - stored.left();
         self.left = self.left.checked_sub(taken).ok_or("damaged (arrays share their bytes)")?;
         Ok(bytes)
-    }
-}
-
-impl<'file> ArraySource<'file> {
-    fn appended_at(&self, array: Node<'_, '_>) -> Result<EncodedArray<'file>, Refusal> {
-        let appended = self.appended.ok_or("without the appended data of its arrays")?;
-        let offset = count(array, "offset")?.ok_or("with an appended array without `offset`")?;
-        let bytes = appended.bytes.get(offset..).ok_or("damaged (an array begins behind the end)")?;
-        Ok(if appended.is_raw { EncodedArray::Raw(bytes) } else { EncodedArray::base64(bytes) })
     }
 }
