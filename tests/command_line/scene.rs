@@ -199,7 +199,7 @@ fn unlikely_units_and_speeds_and_gaps_are_warned_of_and_can_be_rejected() {
     place.run(&[&file, "--set", "gravity=[0.0, -9.81]", "--set", "duration=0.01", "--deny-warnings"]).code(0);
     let file = place.file("falls.toml", &falls_with("", 60_000.0));
     let told = String::from_utf8_lossy(&place.run(&[&file]).code(2).get_output().stderr).into_owned();
-    let all = "`bodies[0]` reaches 60000 m, but all else 0.45 m; coordinates of a map";
+    let all = "`bodies[0]` reaches 60000 m, but all else 0.45 m; subtract the corner of the map";
     assert!(told.contains(all) && told.contains("less demanding"), "{told}");
 }
 

@@ -3,6 +3,7 @@
 
 use super::error::ParameterError;
 use crate::input::{MOST_TRIANGLES, Triangle, number_in, packed, read_mesh};
+use crate::number::four_digits;
 use crate::output::caution;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::path::Path;
@@ -43,6 +44,11 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
         })?;
         let triangles: Vec<Triangle> =
             mesh.triangles.iter().map(|corners| corners.map(|at| placed.place(at))).collect();
+        let farthest = triangles.iter().flatten().flatten().fold(0.0_f64, |most, at| most.max(at.abs()));
+        if farthest > FARTHEST {
+            let rule = format!("within {FARTHEST:e} m of the origin, not {} m away", four_digits(farthest));
+            return Err(refused(&rule, "subtract the corner of the map from all coordinates in the file"));
+        }
         let (key, value) = match triangles.len() {
             0..=MOST_LISTED => ("triangles", Value::try_from(&triangles)),
             _ => ("packed", Ok(Value::String(packed(&triangles)))),
@@ -54,6 +60,9 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
     }
     Ok(())
 }
+
+/// Largest coordinate of a field in metres `[m]`.
+const FARTHEST: f64 = 1e5;
 
 /// Units of the coordinates of a mesh, and their length `[m]`.
 const UNITS: [(&str, f64); 4] = [("m", 1.0), ("cm", 0.01), ("mm", 0.001), ("in", 0.0254)];
@@ -158,6 +167,8 @@ mod tests {
         );
         let unit = read("[[walls]]\nmesh = \"a.stl\"\nunit = \"ft\"", &path).expect_err("no such unit");
         assert!(unit.contains("`walls[0].unit` is \"ft\", but must be one of"), "{unit}");
+        let map = read("[[walls]]\nmesh = \"a.stl\"\nscale = 500000", &path).expect_err("a map");
+        assert!(map.contains("must be within 1e5 m of the origin, not 500000 m away; subtract the corner"), "{map}");
         let own = "[[walls]]\nmesh = \"gone.stl\"\ntriangles = []";
         assert!(read(own, &path).is_ok(), "a wall that has triangles needs no file");
         assert_eq!(

@@ -37,7 +37,7 @@ const USUAL: &[Usual] = &[
         slip: |value| {
             (3.0..60.0)
                 .contains(&value)
-                .then(|| (libm::tan(value.to_radians()), "as an angle in degrees; `friction_angle` has degrees"))
+                .then(|| (libm::tan(value.to_radians()), "as an angle in degrees, which `friction_angle` takes,"))
         },
     },
     Usual {

@@ -70,7 +70,7 @@ impl MeshError {
         match self {
             Self::Unreadable(_) => "check the path, which begins at this file, and its permissions",
             Self::OtherKind(TERRAIN) => {
-                "make triangles of the grid, for example with GDAL and a mesh program, and write them as STL"
+                "divide each cell between four heights into two triangles by a script, and write them as STL"
             }
             Self::OtherKind(_) => "write the mesh as STL",
             Self::Malformed(_) | Self::Truncated { .. } => "write it anew from the program that made it",
@@ -216,7 +216,7 @@ mod tests {
         assert_eq!(refused(b"# Blender\nv 0 0 0\n"), "is an OBJ file or a table and not STL");
         assert_eq!(refused(b"<!DOCTYPE html>"), "is a page of HTML or XML and not STL");
         let grid = mesh_of(b"NCOLS 10\nNROWS 10\n".to_vec()).expect_err("a grid");
-        assert!(grid.remedy().starts_with("make triangles of the grid"), "{grid}");
+        assert!(grid.remedy().starts_with("divide each cell between four heights"), "{grid}");
         assert_eq!(mesh_of(TEXT.to_uppercase().into()).expect("capitals").left_out, 1);
         assert_eq!(refused(b"solid nothing\nendsolid nothing\n"), "has no triangle with an area (0 without)");
         assert_eq!(refused(TEXT.repeat(2).as_bytes()), "holds several solids");

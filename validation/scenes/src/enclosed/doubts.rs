@@ -35,11 +35,11 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         let short = (size > LARGE && gravity > 0.0 && self.duration < fall).then(|| {
             format!("`duration` is {} s, but a fall over its height takes {} s", self.duration, four_digits(fall))
         });
-        let or = many.as_ref().map_or("", |_| ", or your own `grain_diameter`");
+        let own = many.as_ref().map_or("", |_| "give your own `grain_diameter`, or ");
         let found: Vec<String> = many.into_iter().chain(short).collect();
         (!found.is_empty()).then(|| {
             format!(
-                "{}; its lengths are probably in millimetres: give all in metres, such as `spacing = {}`{or}",
+                "{}; {own}its lengths are probably in millimetres: give all in metres, such as `spacing = {}`",
                 found.join(", and "),
                 four_digits(self.spacing * 1e-3)
             )
@@ -54,7 +54,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         (*near > 0.0 && *far > FARTHEST * near).then(|| {
             let metres = far * 1e-3;
             let remedy = if metres > FARTHEST * near {
-                "coordinates of a map need its corner subtracted (`move` of a mesh)".to_owned()
+                "subtract the corner of the map from all coordinates".to_owned()
             } else {
                 format!("in millimetres it is {} m: give it in metres", four_digits(metres))
             };
@@ -133,7 +133,7 @@ mod tests {
         assert!(both.contains("214286 grains") && both.contains("a fall over its height takes 5.530 s"), "{both}");
         assert!(
             both.ends_with(
-                "probably in millimetres: give all in metres, such as `spacing = 0.0015`, or your own `grain_diameter`"
+                "give your own `grain_diameter`, or its lengths are probably in millimetres: give all in metres, such as `spacing = 0.0015`"
             ),
             "{both}"
         );
@@ -168,10 +168,7 @@ mod tests {
         let all = "reaches 900 m, but all else 1 m; in millimetres it is 0.9 m: give it in metres";
         assert!(far.ends_with(&format!("`sides.right` {all}")), "{far}");
         let map = doubts(|scene| scene.sides.right = DomainSide::Open(4.5e5));
-        assert!(
-            map.ends_with("all else 1 m; coordinates of a map need its corner subtracted (`move` of a mesh)"),
-            "{map}"
-        );
+        assert!(map.ends_with("all else 1 m; subtract the corner of the map from all coordinates"), "{map}");
         let body = |scene: &mut SceneParameters<Plane, 2>| {
             scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (200.0, 200.0), velocity: (0.0, 0.0) }];
         };

@@ -78,9 +78,7 @@ fn gauges<S: Dimension<D>, const D: usize>(
         }
         for (slot, column) in columns.iter().enumerate().filter(|(_, column)| column.axis == axis) {
             let values = series.values.get(slot).map_or(&[][..], Vec::as_slice);
-            let label =
-                if slot == 0 && columns.get(1).is_none_or(|other| other.axis != axis) { "" } else { &column.heading };
-            panel.line(label, slot, data.time.iter().copied().zip(values.iter().copied()));
+            panel.line(&column.heading, slot, data.time.iter().copied().zip(values.iter().copied()));
         }
         panel
     };

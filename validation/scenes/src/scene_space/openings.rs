@@ -62,7 +62,8 @@ impl Openings {
         let rings: Vec<String> = self.rings.iter().take(6).map(ring).collect();
         let more = self.rings.len().saturating_sub(rings.len());
         let more = if more > 0 { format!(", and {more} more") } else { String::new() };
-        (!rings.is_empty()).then(|| format!("{} openings: {}{more}", self.rings.len(), rings.join("; ")))
+        let noun = if self.rings.len() == 1 { "opening" } else { "openings" };
+        (!rings.is_empty()).then(|| format!("{} {noun}: {}{more}", self.rings.len(), rings.join("; ")))
     }
 }
 
@@ -81,7 +82,7 @@ mod tests {
         assert_eq!((hole.rings.len(), hole.rings[0].len(), hole.turned), (1, 3, 0));
         assert_eq!(
             hole.in_words().as_deref(),
-            Some("1 openings: 3 edges around (0.3333, 0.3333, 0.3333) m, probably a missing triangle")
+            Some("1 opening: 3 edges around (0.3333, 0.3333, 0.3333) m, probably a missing triangle")
         );
         assert_eq!(Openings::of(&[whole[0], whole[1], whole[2], [y, x, z]]).turned, 3);
         // two missing triangles that share an edge are one opening of four edges
