@@ -7,8 +7,10 @@ use super::setting::SceneInlet;
 use super::sides::SceneSides;
 use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::output::caution_about;
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::statistics::{Extrapolation, interpolated};
+use bagnold_number::four_digits;
 use bagnold_solver::weakly_compressible::numerics::{ViscositySwitch, ViscousStep};
 use bagnold_solver::weakly_compressible::terms::artificial_viscosity::shear_viscosity;
 
@@ -17,6 +19,8 @@ const MOST_UNSOLVED: f64 = 0.5;
 
 /// Largest difference of the mass that was fed from the integral of the rate, over a row `[-]`.
 const FARTHEST: f64 = 0.7;
+/// Least way of a front, in particle spacings, from which its return is said `[-]`.
+const FRONT_ROWS: f64 = 5.0;
 
 quantities! { shared pub(super)
     MASS_RESIDUAL: accounted("mass_residual", "%", "mass inside plus outflow minus initial mass minus inflow, over the total"),
@@ -128,6 +132,18 @@ fn of_run<S: Dimension<D>, const D: usize>(
         let last = first.last().copied().unwrap_or(f64::NAN);
         let metric = match series.measure {
             Measurand::Front(line) => {
+                let farthest = largest(first);
+                if last < 0.5 * farthest && farthest > FRONT_ROWS * parameters.spacing {
+                    let subject = format!("front `{}` of scene `{}`", series.gauge, parameters.name);
+                    let [far, near] = [farthest, last].map(four_digits);
+                    caution_about(
+                        &subject,
+                        &format!(
+                            "{subject} falls back from {far} to {near} m: what is behind it is thinner than `thickness`; \
+                             reduce that and the spacing, or start the line farther along"
+                        ),
+                    );
+                }
                 FRONT.of(&own, last).predicted(prediction::of_front(parameters, data, &line, first))
             }
             Measurand::Depth(depth) => {
