@@ -148,6 +148,22 @@ fn material_removed_by_walls_is_reported() {
     }
 }
 
+/// A front that all material has passed below is told, with what to change.
+#[test]
+fn a_front_that_falls_back_is_told() {
+    let place = Place::new();
+    let scene = "case = \"scene\"\nname = \"away\"\nspacing = 0.005\nduration = 0.2\ninterval = 0.01\n\
+        [sides]\nleft = \"none\"\nright = \"none\"\ntop = \"none\"\nbottom = { open = 0.0 }\n\
+        [[bodies]]\nshape = \"box\"\nlower = [0.0, 0.05]\nupper = [0.06, 0.08]\n\
+        [[gauges]]\nkind = \"front\"\nname = \"tip\"\nfrom = [0.0, 0.0]\nto = [0.2, 0.0]\nthickness = 0.01\n";
+    let file = place.file("away.toml", scene);
+    for (duration, is_told) in [("0.2", true), ("0.05", false)] {
+        let finished = place.run(&[&file, "--set", &format!("duration={duration}")]);
+        let told = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
+        assert_eq!(told.contains("front `tip` of scene `away` falls back from 0.06"), is_told, "{duration}: {told}");
+    }
+}
+
 /// A box of some height `[m]` that falls onto a floor, with more fields before it.
 fn falls_with(fields: &str, top: f64) -> String {
     format!(
