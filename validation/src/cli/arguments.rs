@@ -150,7 +150,7 @@ pub enum Command {
     Export(ExportArguments),
     /// Compare folders of earlier runs or reports.
     Compare(CompareArguments),
-    /// Write sample calibrations, scenes, studies and sweeps.
+    /// Write sample calibrations, scenes, studies and sweeps into a folder.
     Examples(ExamplesArguments),
     /// Write a crate with a user-defined law or case, ready to build.
     New(NewArguments),

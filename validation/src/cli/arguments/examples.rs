@@ -14,7 +14,7 @@ The folder receives calibrations/*.toml and studies/*.toml with their data, scen
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ExamplesArguments {
-    /// Folder to write.
+    /// Folder to write; what an earlier call wrote there is replaced.
     #[arg(long, value_name = "DIR", default_value = "examples")]
     pub out: PathBuf,
 }
