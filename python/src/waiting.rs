@@ -25,7 +25,8 @@ const PATIENCE: Duration = Duration::from_millis(20);
 /// What is warned of for the first time becomes a `UserWarning`.
 ///
 /// # Errors
-/// What the work says, as [`Refused`]; a warning that Python makes an error; an exception of a signal handler, such as `KeyboardInterrupt`, once the work has ended.
+/// What the work says, as [`Refused`]; a warning that Python makes an error; an exception of a signal handler, such as
+/// `KeyboardInterrupt`, once the work has ended.
 pub(crate) fn wait_for<T: Send, E: Display + Send>(
     py: Python<'_>,
     threads: Option<u16>,
