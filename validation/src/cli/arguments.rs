@@ -261,8 +261,10 @@ pub struct RunArguments {
   bagnold completions bash > ~/.local/share/bash-completion/completions/bagnold
   bagnold completions man > ~/.local/share/man/man1/bagnold.1
 
+A new shell completes, if it has the package bash-completion; else add this line to ~/.bashrc:
+  . ~/.local/share/bash-completion/completions/bagnold
 Zsh reads `_bagnold` in a folder of $fpath, fish reads ~/.config/fish/completions/bagnold.fish. `man bagnold` finds the page
-where ~/.local/bin is in the PATH, else `man -M ~/.local/share/man bagnold`.")]
+if ~/.local/bin is in the PATH.")]
 pub struct CompletionsArguments {
     /// Shell, or `man` for the manual page.
     #[arg(value_enum)]
