@@ -162,6 +162,9 @@ fn a_front_that_falls_back_is_told() {
         let told = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
         assert_eq!(told.contains("front `tip` of scene `away` falls back from 0.06"), is_told, "{duration}: {told}");
     }
+    // a panel alone would take the label of another curve of its colour
+    let table = std::fs::read_to_string(place.path("out/figures/gauges.csv")).expect("written");
+    assert!(table.contains(",line,front [m],"), "{table}");
 }
 
 /// A box of some height `[m]` that falls onto a floor, with more fields before it.
