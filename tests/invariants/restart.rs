@@ -200,8 +200,15 @@ fn a_state_from_before_the_start_is_refused() {
         damaged[place..place + 8].copy_from_slice(&time.to_le_bytes());
         let read: SavedSimulation<'_, 2> = postcard::from_bytes(&damaged).expect("read");
         let refused = Simulation::continued(scene.clone(), read).expect_err("a damaged clock");
-        assert!(refused.to_string().contains("0 clocks at or after the start"), "{time}: {refused}");
+        assert!(refused.to_string().contains(&format!("its time is {time} s, but must be")), "{time}: {refused}");
     }
+    let bed = || two_phases::bed([16, 16], 4, 2);
+    let saved = two_phases::simulation(bed()).save();
+    let mut later = serde_json::to_value(&saved).expect("written");
+    later["time"] = (-1.0).into();
+    let read: SavedIncompressible<2> = serde_json::from_value(later).expect("read");
+    let refused = IncompressibleSimulation::continued(bed(), read).expect_err("a damaged clock");
+    assert!(refused.to_string().contains("its time is -1 s, but must be"), "{refused}");
 }
 
 /// Interrupts a run after some steps, and remembers when it was shown what.

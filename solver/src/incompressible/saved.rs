@@ -133,6 +133,7 @@ impl IncompressibleSimulation<2> {
     /// # Errors
     /// A scene that breaks a rule, a state that is not one of this scene.
     pub fn continued(scene: IncompressibleScene<2>, saved: SavedIncompressible<2>) -> Result<Self, ContinueError> {
+        ContinueError::check_time(saved.time)?;
         let mut state = State::of(scene)?;
         state.restore(saved)?;
         Ok(Self { state })

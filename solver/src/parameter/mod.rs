@@ -35,6 +35,7 @@ mod shape;
 mod tests;
 
 pub use check::{Fault, first_fault, rule_in_words};
+pub use magnitude::LARGEST_LENGTH;
 pub use problem::{ParameterProblem, shortened};
 pub use rules::{
     Rule, above, at_least, between, each, entry, filled, inside, not_negative, positive, unique, up_to, within,

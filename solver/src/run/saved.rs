@@ -11,6 +11,16 @@ pub enum ContinueError {
     /// It is that of another scene.
     #[error(transparent)]
     Foreign(#[from] ForeignState),
+    /// Its clock shows a time that no run reaches, up to which it would be simulated for ever.
+    #[error("the saved state is damaged: its time is {0} s, but must be between 0 and the end of a run")]
+    Time(f64),
+}
+
+impl ContinueError {
+    /// Refuses a time `[s]` before the start, without end or that is no number.
+    pub(crate) fn check_time(time: f64) -> Result<(), Self> {
+        if (0.0..f64::INFINITY).contains(&time) { Ok(()) } else { Err(Self::Time(time)) }
+    }
 }
 
 /// A saved simulation that does not belong to the scene it is to be continued with.

@@ -81,11 +81,7 @@ impl<const D: usize> Simulation<D> {
         let begun = books.check_rows(&state.enclosure.inlets, state.particles.flow_count())?;
         let departed = books.outflow.particles() as usize;
         ForeignState::check("flow particles", flow.saturating_add(departed), begun)?;
-        ForeignState::check(
-            "clocks at or after the start",
-            usize::from((0.0..f64::INFINITY).contains(&saved.time)),
-            1,
-        )?;
+        ContinueError::check_time(saved.time)?;
         ForeignState::check("wall particles", particles.wall_count(), state.particles.wall_count())?;
         ForeignState::check("walls", walls.len(), state.walls.len())?;
         ForeignState::check("walls of segments", books.impulses.len(), facet_walls)?;

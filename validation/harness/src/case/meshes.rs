@@ -5,6 +5,7 @@ use super::error::ParameterError;
 use crate::input::{MOST_TRIANGLES, Triangle, number_in, packed, read_mesh};
 use crate::number::four_digits;
 use crate::output::caution;
+use bagnold_solver::parameter::LARGEST_LENGTH;
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::path::Path;
 use toml::{Table, Value};
@@ -45,8 +46,8 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
         let triangles: Vec<Triangle> =
             mesh.triangles.iter().map(|corners| corners.map(|at| placed.place(at))).collect();
         let farthest = triangles.iter().flatten().flatten().fold(0.0_f64, |most, at| most.max(at.abs()));
-        if farthest > FARTHEST {
-            let rule = format!("within {FARTHEST:e} m of the origin, not {} m away", four_digits(farthest));
+        if farthest > LARGEST_LENGTH {
+            let rule = format!("within {LARGEST_LENGTH:e} m of the origin, not {} m away", four_digits(farthest));
             return Err(refused(&rule, "subtract the corner of the map from all coordinates in the file"));
         }
         let (key, value) = match triangles.len() {
@@ -60,9 +61,6 @@ pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), Paramet
     }
     Ok(())
 }
-
-/// Largest coordinate of a field in metres `[m]`.
-const FARTHEST: f64 = 1e5;
 
 /// Units of the coordinates of a mesh, and their length `[m]`.
 const UNITS: [(&str, f64); 4] = [("m", 1.0), ("cm", 0.01), ("mm", 0.001), ("in", 0.0254)];

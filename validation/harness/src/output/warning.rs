@@ -15,10 +15,15 @@ pub fn caution(text: &str) {
 /// Warns of a subject once, whatever the text is: a scene is filled for each of its spacings and controls.
 pub fn caution_about(subject: &str, text: &str) {
     let mut cautions = CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner);
-    cautions.entry(subject.to_owned()).or_insert_with(|| {
+    let is_new = !cautions.contains_key(subject);
+    if is_new {
+        cautions.insert(subject.to_owned(), text.to_owned());
+    }
+    // whoever listens may warn too
+    drop(cautions);
+    if is_new {
         tracing::warn!("{text}");
-        text.to_owned()
-    });
+    }
 }
 
 /// The different warnings by [`caution`] in this process, by their subjects.

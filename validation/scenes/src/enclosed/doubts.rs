@@ -13,7 +13,7 @@ use bagnold_solver::vector::Vector;
 const LARGE: f64 = 10.0;
 /// Most grains across a scene that is not doubted: 50 m of sand.
 const MOST_GRAINS: f64 = 1e5;
-/// Farthest that one part of a scene reaches, over the farthest of all others `[-]`.
+/// Farthest that one part of a scene reaches, over the farthest of all others `[-]`: a slip by 1000 is seen of parts down to a thirtieth.
 const FARTHEST: f64 = 30.0;
 
 impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {

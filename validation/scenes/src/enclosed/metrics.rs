@@ -139,8 +139,8 @@ fn of_run<S: Dimension<D>, const D: usize>(
                     caution_about(
                         &subject,
                         &format!(
-                            "{subject} falls back from {far} to {near} m: what is behind it is thinner than `thickness`; \
-                             reduce that and the spacing, or start the line farther along"
+                            "{subject} falls back from {far} to {near} m: the layer is thinner than `thickness` there; \
+                             reduce `thickness` and `spacing`, or start the line farther along"
                         ),
                     );
                 }
