@@ -210,6 +210,9 @@ pub struct RunArguments {
     /// Change one parameter; may be repeated.
     #[arg(long = "set", value_name = "path=value")]
     pub settings: Vec<String>,
+    /// Run several values of a parameter in place of the runs of the tier; repeated, all combinations.
+    #[arg(long, value_name = "path=A,B,C")]
+    pub vary: Vec<String>,
     /// Start a scene from a state that another run has left, or from the last state of a folder of results.
     #[arg(long, value_name = "STATE")]
     pub from: Option<PathBuf>,

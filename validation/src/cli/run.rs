@@ -8,7 +8,7 @@ use super::places::CommittedValues;
 use super::profile::StageTimer;
 use super::publication::{Publication, ResultPublication};
 use super::simulation::{announce, introduce, reject_fast, simulate_showing};
-use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError};
+use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError, settings_to_vary};
 use crate::checkpoint::{Checkpoints, StoredState};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
@@ -62,7 +62,8 @@ pub(super) fn run(
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
     let start = command.from.as_deref().map(|given| start_setting(given, command, registry)).transpose()?;
-    let settings: Vec<String> = command.settings.iter().cloned().chain(start).collect();
+    let vary = settings_to_vary(&command.vary).map_err(ParameterError::from)?;
+    let settings: Vec<String> = command.settings.iter().cloned().chain(vary).chain(start).collect();
     let request = Request {
         target: &command.target,
         tier: command.tier,

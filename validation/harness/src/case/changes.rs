@@ -2,13 +2,12 @@
 
 use super::error::{ParameterError, SettingError};
 use super::estimate::Limits;
-use super::{fault, friction_angle, plausible};
+use super::{Parameters, fault, friction_angle, plausible};
 use crate::metric::Variant;
 use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
-use schemars::JsonSchema;
-use serde::{Serialize, de::DeserializeOwned};
+use serde::Serialize;
 use serde_json::Value as Schema;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -76,8 +75,9 @@ pub(super) fn table_of<P: Serialize>(parameters: &P) -> Table {
 /// Lays the changes over the defaults, checks each field along the schema, and types the result.
 pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError>
 where
-    P: Serialize + DeserializeOwned + JsonSchema + 'static,
+    P: Parameters,
 {
+    refuse_former(P::FORMER, changes)?;
     let schema = schema_of::<P>();
     let defaults = table_of(defaults);
     let mut table = defaults.clone();
@@ -100,6 +100,7 @@ where
     }
     // Together, so that a law and its parameters may come in any order.
     overlay(schema, &mut table, &settings);
+    P::set_for_all(&mut table, &leaves(&settings));
     // what a setting corrects is not warned of
     let of_file = changes.file.iter().flat_map(|(_, fields)| plausible::warnings(fields));
     let of_file = of_file.filter(|(path, _)| !is_set(changes.settings, path));
@@ -126,6 +127,27 @@ where
     }
 }
 
+/// Refuses lists of values that are runs of one flow now.
+fn refuse_former(former: &[(&str, &str)], changes: &Changes<'_>) -> Result<(), ParameterError> {
+    let refused = |old: &str, value: &str, file: Option<&Path>| {
+        let (_, now) = former.iter().find(|(own, _)| old.split('.').next() == Some(own))?;
+        let rule = format!("absent: a run has one value, `{now}`");
+        let remedy = format!("give several by `--vary {now}=A,B,C`, in a file by [[vary]] with path = \"{now}\"");
+        let error = ParameterError::field(old, value, &rule, &remedy);
+        Some(match file {
+            Some(file) => error.in_file(file),
+            None => error,
+        })
+    };
+    let of_file = changes.file.iter().flat_map(|(file, fields)| fields.iter().map(|field| (*file, field)));
+    let of_file = of_file.map(|(file, (path, value))| refused(path, &value.to_string(), Some(file)));
+    let set = changes.settings.iter().filter_map(|setting| parts(setting)).map(|(path, value)| refused(path, value, None));
+    match of_file.chain(set).flatten().next() {
+        Some(error) => Err(error),
+        None => Ok(()),
+    }
+}
+
 /// Field, value, rule and remedy of what the maker of a law says of a parameter, where it says all four.
 fn said(message: &str) -> Option<(&str, &str, &str, &str)> {
     let (field, rest) = message.strip_prefix('`')?.split_once("` is ")?;
@@ -135,7 +157,7 @@ fn said(message: &str) -> Option<(&str, &str, &str, &str)> {
 }
 
 /// A law that is neither the solver's nor one of the user's own: the schema leaves the names of the latter open.
-fn unknown_law(schema: &Schema, value: &Value, path: &str) -> Option<Fault> {
+pub(super) fn unknown_law(schema: &Schema, value: &Value, path: &str) -> Option<Fault> {
     let below = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
     match (Shape::of(schema), value) {
         (Shape::Tagged { tag, variants, open: true }, Value::Table(fields)) => {
@@ -222,7 +244,7 @@ fn parts(argument: &str) -> Option<(&str, &str)> {
 
 /// Lays `changes` over `table`: tables field by field, everything else whole; another choice of an enum replaces the
 /// table's, whose fields are not its own.
-fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
+pub(super) fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
     let shape = Shape::of(schema);
     let chosen = shape.chosen(&Value::Table(changes.clone())).or_else(|| shape.chosen(&Value::Table(table.clone())));
     let in_degrees = friction_angle::as_coefficient(chosen.and_then(|variant| variant.content), changes);
@@ -354,7 +376,7 @@ pub(super) fn leaves(table: &Table) -> Vec<String> {
 }
 
 /// All dotted paths of a table, parents first.
-fn paths(table: &Table) -> Vec<String> {
+pub(super) fn paths(table: &Table) -> Vec<String> {
     table
         .iter()
         .flat_map(|(key, value)| {

@@ -159,7 +159,7 @@ impl<C: Case> AnyCase for C {
 
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
         let defaults = C::Parameters::of_tier(tier);
-        let changes = changes.with_lists(C::STATED);
+        let changes = changes.with_lists(C::Parameters::STATED);
         let parameters = resolve(C::NAME, &defaults, &changes)?;
         let guard = Guard::new((C::NAME, tier), &changes, (&defaults, &parameters));
         let runs = guard.runs()?;

@@ -12,9 +12,11 @@ mod fault;
 mod features;
 mod file;
 mod finite;
+mod flow;
 mod foreign;
 mod friction_angle;
 mod guard;
+pub mod list;
 mod meshes;
 mod notes;
 mod output;
@@ -39,6 +41,8 @@ pub use estimate::{Estimate, Limits};
 pub use expectation::{speed_up, wall_time};
 pub use features::{FeatureOption, Features};
 pub use file::CaseFile;
+pub use flow::{Flow, RunList};
+pub use list::{ListOfRuns, NamedVariant, VariedParameter, settings_to_vary};
 pub use foreign::{
     ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,
     RunScales,
@@ -63,7 +67,9 @@ use serde::{Serialize, de::DeserializeOwned};
 use std::sync::OnceLock;
 
 /// Cost of a case.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, serde::Deserialize, JsonSchema, clap::ValueEnum)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, serde::Deserialize, JsonSchema, clap::ValueEnum,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Tier {
     /// Seconds to three minutes per case.
@@ -97,6 +103,10 @@ impl std::fmt::Display for Tier {
 pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send + Sync + 'static {
     /// One independent simulation.
     type Run: Run;
+    /// Fields of earlier files, each with the field that takes its place.
+    const FORMER: &'static [(&'static str, &'static str)] = &[];
+    /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
+    const STATED: &'static [&'static str] = &[];
 
     /// A tier's parameters.
     fn of_tier(tier: Tier) -> Self;
@@ -130,6 +140,8 @@ pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send +
     }
     /// The independent simulations that these parameters ask for, in report order.
     fn runs(&self) -> Vec<Self::Run>;
+    /// Makes the values at these paths those of all runs, whatever the list of runs says of them.
+    fn set_for_all(_: &mut toml::Table, _: &[String]) {}
 }
 
 /// One independent simulation of a case. Its serialised form is its identity in the store, so it
@@ -235,8 +247,6 @@ pub trait Case: Sync + 'static {
     /// Origin of the code of the case. Leave it as it is: no hash of sources covers a case of another crate, so its
     /// results are known by the program that computed them.
     const ORIGIN: CodeOrigin = CodeOrigin::ELSEWHERE;
-    /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
-    const STATED: &'static [&'static str] = &[];
     /// Data that the case accepts for a run from an external code, besides single numbers.
     const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema::NUMBERS;
     /// Typed parameters.

@@ -158,7 +158,7 @@ impl Store {
             return None;
         }
         let program = identity(origin)?;
-        let description = postcard::to_stdvec(run)
+        let description = serde_json::to_vec(run)
             .inspect_err(|error| {
                 tracing::warn!("{case}: a run cannot be stored, its description does not serialise: {error}")
             })

@@ -10,6 +10,7 @@ where
     Simulation<D>: Compiled<D>,
 {
     type Run = SceneRun<S, D>;
+    const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
 
     fn of_tier(tier: Tier) -> Self {
         S::of_tier(tier)

@@ -87,7 +87,6 @@ impl Case for UserScene {
         Observed only. All gauges.";
     type Parameters = PlaneParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Plane, 2>();
-    const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
 
     fn metrics(parameters: &PlaneParameters, records: &[PlaneSceneRecord]) -> Vec<Metric> {

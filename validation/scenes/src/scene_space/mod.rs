@@ -89,7 +89,6 @@ impl Case for SpaceScene {
         Observed only. All gauges.";
     type Parameters = SpaceParameters;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<Space, 3>();
-    const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
 
     fn metrics(parameters: &SpaceParameters, records: &[SpaceSceneRecord]) -> Vec<Metric> {

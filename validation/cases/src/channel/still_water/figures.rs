@@ -1,17 +1,17 @@
 //! The case's figures.
 
 use super::StillWaterRecord;
-use super::parameters::StillWaterRun;
+use super::flow::StillWaterFlow;
 use crate::figure::{Axis, Field, Figure, Panel};
 use crate::observation::{Frame, Outcome};
 
-fn label(run: &StillWaterRun) -> String {
-    let stabilisation = if run.unstabilised { ", not stabilised" } else { "" };
+fn label(run: &StillWaterFlow) -> String {
+    let stabilisation = if run.is_unstabilised() { ", not stabilised" } else { "" };
     format!("jitter {}{stabilisation}", run.jitter)
 }
 
 /// Height above the floor over the depth, and pressure over that of the floor, of every particle.
-fn pressures(run: &StillWaterRun, frame: &Frame) -> Vec<(f64, f64)> {
+fn pressures(run: &StillWaterFlow, frame: &Frame) -> Vec<(f64, f64)> {
     let depth = run.water.depth;
     let scale = run.water.density * run.water.gravity * depth;
     frame.position.iter().zip(frame.scalar("pressure")).map(|(x, p)| (x[1] / depth, p / scale)).collect()
@@ -20,7 +20,7 @@ fn pressures(run: &StillWaterRun, frame: &Frame) -> Vec<(f64, f64)> {
 pub(super) fn pressure(records: &[StillWaterRecord]) -> Figure {
     let mut profile = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("p/(ρ g h) [-]"));
     let mut error = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("p/(ρ g h) − (1 − z/h) [%]"));
-    for (slot, (run, record)) in records.iter().filter(|(run, _)| !run.unstabilised).enumerate() {
+    for (slot, (run, record)) in records.iter().filter(|(run, _)| !run.is_unstabilised()).enumerate() {
         let points = record.frames.last().map(|frame| pressures(run, frame)).unwrap_or_default();
         let errors = points.iter().map(|&(z, p)| (z, 100.0 * (p - (1.0 - z))));
         error.points("", slot, errors);
@@ -44,7 +44,7 @@ pub(super) fn rest(records: &[StillWaterRecord]) -> Figure {
         let series = &record.data.series;
         let name = label(run);
         // its height has no bound and would hide that of the others
-        if !run.unstabilised {
+        if !run.is_unstabilised() {
             height.line(&name, slot, series.curve(&series.relative_height, 1.0));
         }
         speed.line(&name, slot, series.curve(&series.rms_vertical_velocity, 1.0));
@@ -65,10 +65,10 @@ pub(super) fn rest(records: &[StillWaterRecord]) -> Figure {
 
 /// The last state of a run with and without stabilisation.
 pub(super) fn states(records: &[StillWaterRecord]) -> Option<Figure> {
-    let (unstabilised, failed) = records.iter().find(|(run, _)| run.unstabilised)?;
-    let (stabilised, held) = records.iter().find(|(run, _)| !run.unstabilised && run.jitter == unstabilised.jitter)?;
+    let (unstabilised, failed) = records.iter().find(|(run, _)| run.is_unstabilised())?;
+    let (stabilised, held) = records.iter().find(|(run, _)| !run.is_unstabilised() && run.jitter == unstabilised.jitter)?;
     let millimetres = |length: f64| 1e3 * length;
-    let panel = |run: &StillWaterRun, frame: &Frame, ending: &str| {
+    let panel = |run: &StillWaterFlow, frame: &Frame, ending: &str| {
         let title = format!("{}, {:.2} s{ending}", label(run), frame.time);
         let mut panel = Panel::new(&title, Axis::linear("x [mm]"), Axis::linear("z [mm]"));
         panel.y.limits = Some((0.0, millimetres(2.5 * run.water.depth)));

@@ -20,7 +20,7 @@ const SPRAY: f64 = 1.2;
 
 pub(super) fn all(records: &[StillWaterRecord]) -> Vec<Metric> {
     let (failed, held): (Vec<&StillWaterRecord>, Vec<&StillWaterRecord>) =
-        records.iter().partition(|(run, _)| run.unstabilised);
+        records.iter().partition(|(run, _)| run.is_unstabilised());
     held.into_iter().flat_map(stabilised).chain(failed.into_iter().map(blow_up)).collect()
 }
 

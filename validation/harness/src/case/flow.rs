@@ -1,0 +1,230 @@
+//! A case as one flow: its parameters are one simulation, and a list says which of them are run.
+
+use super::changes::{overlay, table_of, unknown_law};
+use super::fault;
+use super::list::{ListOfRuns, ListedChange};
+use super::{ParameterError, Parameters, Run, Tier};
+use crate::input::FieldError;
+use bagnold_solver::parameter::{Fault, first_fault, schema_of};
+use schemars::JsonSchema;
+use serde::de::{DeserializeOwned, Error};
+use serde::{Deserialize, Deserializer, Serialize};
+use toml::{Table, Value};
+
+/// One simulation with all of its parameters, each declared once: a field with its doc comment, unit and range.
+/// `Default` is the flow that a case runs where nothing else is given. The top-level names `case`, `tier`, `vary` and
+/// `variants` are taken by the file format.
+pub trait Flow: Run + Default + PartialEq + DeserializeOwned + JsonSchema + 'static {
+    /// Text of `runs/CASE.toml`: the flows of each tier. Empty for the default flow alone.
+    const RUNS: &'static str = "";
+    /// Fields of earlier files, each with the field that takes its place.
+    const FORMER: &'static [(&'static str, &'static str)] = &[];
+
+    /// The rules between fields; called once every field is in its own range.
+    ///
+    /// # Errors
+    /// The first field that breaks a rule, by its dotted TOML path.
+    fn check(&self) -> Result<(), ParameterError> {
+        Ok(())
+    }
+    /// Warnings of values that are possible but unlikely; asked of a flow that holds.
+    fn doubts(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+/// The file of the flows of each tier.
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TiersFile {
+    #[serde(default)]
+    set: Table,
+    #[serde(default)]
+    paper: Table,
+    #[serde(default)]
+    fine: Table,
+    #[serde(default)]
+    variants: Vec<super::NamedVariant>,
+    #[serde(default)]
+    vary: Vec<super::VariedParameter>,
+}
+
+/// A flow, the list of its runs, and these runs.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct RunList<F> {
+    /// The values of all runs that have no others.
+    #[serde(flatten)]
+    pub base: F,
+    /// The list.
+    #[serde(flatten)]
+    pub list: ListOfRuns,
+    /// The runs.
+    #[serde(skip)]
+    flows: Vec<F>,
+}
+
+impl<F: Flow> RunList<F> {
+    /// The runs of a list over base values.
+    ///
+    /// # Errors
+    /// The first place in the list that breaks a rule.
+    pub fn new(base: F, list: ListOfRuns) -> Result<Self, ParameterError> {
+        list.check()?;
+        let table = table_of(&base);
+        let mut flows: Vec<F> = Vec::new();
+        for change in list.changes() {
+            let flow = changed(&table, &change)?;
+            // a value that is set for all runs can leave several of them equal
+            if !flows.contains(&flow) {
+                flows.push(flow);
+            }
+        }
+        Ok(Self { base, list, flows })
+    }
+
+    /// The runs.
+    #[must_use]
+    pub fn flows(&self) -> &[F] {
+        &self.flows
+    }
+}
+
+/// A flow with the values of one run.
+fn changed<F: Flow>(base: &Table, change: &ListedChange) -> Result<F, ParameterError> {
+    let schema = schema_of::<F>();
+    let mut changes = Table::new();
+    for (_, path, value) in &change.values {
+        lay_at(&mut changes, path, value);
+    }
+    let mut table = base.clone();
+    overlay(schema, &mut table, &changes);
+    let value = Value::Table(table);
+    if let Some(fault) = first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
+        return Err(placed(fault, base, change));
+    }
+    value.try_into().map_err(|error: toml::de::Error| {
+        let place = change.values.first().map_or("variants", |(place, ..)| place);
+        ParameterError::field(place, change.variant.to_string(), error.message(), "change the values of this run")
+    })
+}
+
+/// A fault in a run, by the place in the list that gives the value.
+fn placed(fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
+    let path = fault.path().to_owned();
+    let gives = |own: &str| own == path || path.starts_with(&format!("{own}.")) || own.starts_with(&format!("{path}."));
+    let given = change.values.iter().rev().find(|(_, own, value)| {
+        gives(own) || value.is_table() && path.starts_with(own.as_str())
+    });
+    let Some((place, own, value)) = given else {
+        return fault::in_parameters(fault, "CASE", &super::changes::paths(base));
+    };
+    match fault {
+        Fault::Unknown { known, .. } => {
+            let known = [known, super::changes::paths(base)];
+            let nearest = fault::nearest_path(&path, &[&known[0], &known[1]]);
+            let remedy = nearest.map_or_else(
+                || "`bagnold show CASE` prints all fields".to_owned(),
+                |nearest| format!("did you mean `{nearest}`?"),
+            );
+            let field = if place.starts_with("vary") || place.contains("].vary") { "path" } else { path.as_str() };
+            FieldError::new(&format!("{place}.{field}"), format!("\"{path}\""), "a field of the flow", &remedy).into()
+        }
+        fault => match fault::in_parameters(fault, "CASE", &super::changes::paths(base)) {
+            ParameterError::Field(error) => {
+                let text = error.value.clone();
+                let shown = if own == &path { value.to_string() } else { text };
+                FieldError::new(&format!("{place}.{path}"), shown, &error.rule, &error.remedy).into()
+            }
+            other => other,
+        },
+    }
+}
+
+/// Puts a value at a dotted path of a table.
+fn lay_at(table: &mut Table, path: &str, value: &Value) {
+    match path.split_once('.') {
+        Some((first, rest)) => {
+            let inner = table.entry(first).or_insert_with(|| Value::Table(Table::new()));
+            if !inner.is_table() {
+                *inner = Value::Table(Table::new());
+            }
+            if let Value::Table(inner) = inner {
+                lay_at(inner, rest, value);
+            }
+        }
+        None => match (table.get_mut(path), value) {
+            (Some(Value::Table(inner)), Value::Table(changes)) => {
+                changes.iter().for_each(|(key, value)| lay_at(inner, key, value));
+            }
+            _ => {
+                table.insert(path.to_owned(), value.clone());
+            }
+        },
+    }
+}
+
+impl<'de, F: Flow> Deserialize<'de> for RunList<F> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut table = Table::deserialize(deserializer)?;
+        let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.remove(key)?)));
+        let list: ListOfRuns = Value::Table(parts.collect()).try_into().map_err(D::Error::custom)?;
+        let base: F = Value::Table(table).try_into().map_err(|error: toml::de::Error| D::Error::custom(error.message()))?;
+        Self::new(base, list).map_err(D::Error::custom)
+    }
+}
+
+impl<F: Flow> Parameters for RunList<F> {
+    type Run = F;
+    const FORMER: &'static [(&'static str, &'static str)] = F::FORMER;
+    const STATED: &'static [&'static str] = &["variants", "vary"];
+
+    fn of_tier(tier: Tier) -> Self {
+        let file: TiersFile = toml::from_str(F::RUNS).expect("a case's list of runs is TOML: a test reads it");
+        let mut changes = file.set;
+        for (lowest, values) in [(Tier::Paper, &file.paper), (Tier::Fine, &file.fine)] {
+            if lowest <= tier {
+                values.iter().for_each(|(path, value)| lay_at(&mut changes, path, value));
+            }
+        }
+        let values = changes.into_iter().map(|(path, value)| ("set".to_owned(), path, value)).collect();
+        let change = ListedChange { variant: crate::metric::Variant::default(), values };
+        let base = changed(&table_of(&F::default()), &change).unwrap_or_else(|error| panic!("{tier}: {error}"));
+        let list = ListOfRuns { variants: file.variants, vary: file.vary }.of_tier(tier);
+        Self::new(base, list).unwrap_or_else(|error| panic!("{tier}: {error}"))
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        Ok(self.list.check_single_tier()?)
+    }
+
+    fn check_runs(&self, runs: &[&F]) -> Result<(), ParameterError> {
+        runs.iter().try_for_each(|flow| flow.check())
+    }
+
+    fn doubts(&self) -> Vec<String> {
+        let mut doubts: Vec<String> = Vec::new();
+        for doubt in self.flows.iter().flat_map(Flow::doubts) {
+            if !doubts.contains(&doubt) {
+                doubts.push(doubt);
+            }
+        }
+        doubts
+    }
+
+    fn runs(&self) -> Vec<F> {
+        self.flows.clone()
+    }
+
+    fn set_for_all(table: &mut Table, paths: &[String]) {
+        let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.get(key)?.clone())));
+        let Ok(mut list) = Value::Table(parts.collect()).try_into::<ListOfRuns>() else { return };
+        paths.iter().for_each(|path| list.forget(path));
+        let list = table_of(&list);
+        for key in ["variants", "vary"] {
+            match list.get(key) {
+                Some(value) => table.insert(key.to_owned(), value.clone()),
+                None => table.remove(key),
+            };
+        }
+    }
+}

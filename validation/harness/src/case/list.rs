@@ -1,0 +1,295 @@
+//! Lists of runs: one flow with the values of named variants, and of parameters that take several.
+//!
+//! A list says which runs there are, in the same keys wherever one stands: the tiers of a case (`cases/runs/CASE.toml`), a case
+//! file, a study, and `--vary` on the command line. Variants come in their order, each with all combinations of the varied values.
+//!
+//! ```toml
+//! [[variants]]
+//! name = "steep"
+//! tier = "paper"                                             # at this tier and the ones above it
+//! set = { slope_angle = 34.0 }
+//! vary = [{ path = "resolution", values = [10, 20], paper = [10, 20, 40] }]
+//!
+//! [paper]                                                    # values of all runs at this tier and above
+//! columns = 40
+//! ```
+
+use super::Tier;
+use crate::input::{FieldError, check_name};
+use crate::metric::{Value as VariantValue, Variant};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
+
+/// More runs than this are a slip of the pen.
+const MOST_RUNS: usize = 1000;
+
+/// For the schema: fields of any name and type.
+pub type Fields = std::collections::BTreeMap<String, serde_json::Value>;
+
+/// Named changes of the base values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NamedVariant {
+    /// Name of the variant.
+    pub name: String,
+    /// Lowest tier at which it is run; the quick one, if it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tier: Option<Tier>,
+    /// Values by the dotted paths of parameters, in their units.
+    #[serde(default, skip_serializing_if = "Table::is_empty")]
+    #[schemars(with = "Fields")]
+    pub set: Table,
+    /// Parameters of this variant that take several values.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vary: Vec<VariedParameter>,
+}
+
+/// A parameter that takes several values.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "struct Varied")]
+pub struct VariedParameter {
+    /// Dotted path of the parameter.
+    pub path: String,
+    /// Name of the parameter in variants of a study; the last key of the path, if it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Values of the parameter in its unit, each once.
+    #[schemars(with = "Vec<serde_json::Value>")]
+    pub values: Vec<Value>,
+    /// Values at the paper tier and above.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<Vec<serde_json::Value>>")]
+    pub paper: Option<Vec<Value>>,
+    /// Values at the fine tier.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<Vec<serde_json::Value>>")]
+    pub fine: Option<Vec<Value>>,
+}
+
+impl VariedParameter {
+    /// Label of the parameter in variants.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        self.name.as_deref().unwrap_or_else(|| self.path.rsplit('.').next().unwrap_or_default())
+    }
+
+    /// The parameter with the values of a tier alone.
+    #[must_use]
+    pub fn of_tier(self, tier: Tier) -> Self {
+        let values = match tier {
+            Tier::Quick => None,
+            Tier::Paper => self.paper,
+            Tier::Fine => self.fine.or(self.paper),
+        };
+        Self { values: values.unwrap_or(self.values), paper: None, fine: None, ..self }
+    }
+}
+
+/// The variants and varied parameters of a list.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ListOfRuns {
+    /// Named changes of the base values.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<NamedVariant>,
+    /// Parameters that take several values, each with each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub vary: Vec<VariedParameter>,
+}
+
+/// One set of changes: the variant and the `path, value` pairs that make it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ListedChange {
+    /// Name: of the named variant, then of the varied values.
+    pub variant: Variant,
+    /// Place in the file of each value, for errors, with its dotted path.
+    pub values: Vec<(String, String, Value)>,
+}
+
+impl ListOfRuns {
+    /// The list of a tier: its variants, and its values of varied parameters.
+    #[must_use]
+    pub fn of_tier(mut self, tier: Tier) -> Self {
+        let of_tier = |vary: Vec<VariedParameter>| vary.into_iter().map(|varied| varied.of_tier(tier)).collect();
+        self.variants.retain(|named| named.tier.is_none_or(|lowest| lowest <= tier));
+        for named in &mut self.variants {
+            named.tier = None;
+            named.vary = of_tier(std::mem::take(&mut named.vary));
+        }
+        Self { vary: of_tier(self.vary), ..self }
+    }
+
+    /// Refuses values for tiers: a list that is run has one.
+    ///
+    /// # Errors
+    /// The first key that names a tier.
+    pub fn check_single_tier(&self) -> Result<(), FieldError> {
+        let wrong = |field: String| {
+            let rule = "absent: the list is of one tier";
+            Err(FieldError::new(&field, "given", rule, "give the values of this tier, and another file for another one"))
+        };
+        for (place, varied) in self.varied() {
+            if varied.paper.is_some() || varied.fine.is_some() {
+                return wrong(format!("{place}.{}", if varied.paper.is_some() { "paper" } else { "fine" }));
+            }
+        }
+        match self.variants.iter().position(|named| named.tier.is_some()) {
+            Some(place) => wrong(format!("variants[{place}].tier")),
+            None => Ok(()),
+        }
+    }
+
+    /// All varied parameters with their places.
+    fn varied(&self) -> impl Iterator<Item = (String, &VariedParameter)> {
+        let own = self.vary.iter().enumerate().map(|(place, varied)| (format!("vary[{place}]"), varied));
+        own.chain(self.variants.iter().enumerate().flat_map(|(variant, named)| {
+            let below = move |place: usize| format!("variants[{variant}].vary[{place}]");
+            named.vary.iter().enumerate().map(move |(place, varied)| (below(place), varied))
+        }))
+    }
+
+    /// Refuses names and values that are given twice, parameters that are varied without a value, and lists of too many runs.
+    ///
+    /// # Errors
+    /// The first place that breaks a rule.
+    pub fn check(&self) -> Result<(), FieldError> {
+        let product = |vary: &[VariedParameter], start: usize| {
+            vary.iter().map(|varied| varied.values.len()).fold(start, usize::saturating_mul)
+        };
+        let variants = self.variants.iter().map(|named| product(&named.vary, 1)).fold(0, usize::saturating_add);
+        let count = product(&self.vary, if self.variants.is_empty() { 1 } else { variants });
+        if count > MOST_RUNS {
+            let rule = format!("at most {MOST_RUNS} runs");
+            let remedy = "take fewer values; `bagnold sweep` has no such limit";
+            return Err(FieldError::new("vary", format!("{count} combinations"), &rule, remedy));
+        }
+        for (place, named) in self.variants.iter().enumerate() {
+            let field = format!("variants[{place}].name");
+            check_name(&field, &named.name)?;
+            if self.variants[..place].iter().any(|other| other.name == named.name) {
+                return Err(FieldError::new(&field, &named.name, "unique", "give each a name of its own"));
+            }
+            check_vary(&format!("variants[{place}]."), &named.vary, &self.vary)?;
+        }
+        check_vary("", &self.vary, &[])
+    }
+
+    /// All sets of changes, in the order of the list: one without changes for a list without entries.
+    #[must_use]
+    pub fn changes(&self) -> Vec<ListedChange> {
+        let unnamed = [NamedVariant { name: String::new(), tier: None, set: Table::new(), vary: Vec::new() }];
+        let variants = if self.variants.is_empty() { &unnamed[..] } else { &self.variants };
+        variants.iter().enumerate().flat_map(|(place, named)| self.changes_of(place, named)).collect()
+    }
+
+    fn changes_of(&self, place: usize, named: &NamedVariant) -> Vec<ListedChange> {
+        let variant =
+            if named.name.is_empty() { Variant::default() } else { Variant::of("variant", named.name.as_str()) };
+        let set = format!("variants[{place}].set");
+        let values = named.set.iter().map(|(path, value)| (set.clone(), path.clone(), value.clone())).collect();
+        let own = named.vary.iter().enumerate();
+        let own = own.map(|(index, varied)| (format!("variants[{place}].vary[{index}]"), varied));
+        let common = self.vary.iter().enumerate().map(|(index, varied)| (format!("vary[{index}]"), varied));
+        let mut all = vec![ListedChange { variant, values }];
+        for (field, varied) in own.chain(common) {
+            let with = |changed: &ListedChange, value: &Value| {
+                let mut next = changed.clone();
+                next.values.push((field.clone(), varied.path.clone(), value.clone()));
+                next.variant = next.variant.and(varied.label(), in_variant(value).unwrap_or_else(|| "-".into()));
+                next
+            };
+            all = all.iter().flat_map(|changed| varied.values.iter().map(|value| with(changed, value))).collect();
+        }
+        all
+    }
+
+    /// Leaves out what the list says of a parameter: every run has another value of it.
+    pub fn forget(&mut self, path: &str) {
+        let is_it = |other: &str| {
+            let within = |inner: &str, outer: &str| {
+                inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+            };
+            within(path, other) || within(other, path)
+        };
+        self.vary.retain(|varied| !is_it(&varied.path));
+        for named in &mut self.variants {
+            named.vary.retain(|varied| !is_it(&varied.path));
+            forget_below(&mut named.set, "", &is_it);
+        }
+    }
+}
+
+fn forget_below(table: &mut Table, above: &str, is_it: &dyn Fn(&str) -> bool) {
+    table.retain(|key, value| {
+        let path = if above.is_empty() { key.to_owned() } else { format!("{above}.{key}") };
+        match value {
+            Value::Table(inner) => {
+                forget_below(inner, &path, is_it);
+                !inner.is_empty()
+            }
+            _ => !is_it(&path),
+        }
+    });
+}
+
+fn check_vary(above: &str, vary: &[VariedParameter], beside: &[VariedParameter]) -> Result<(), FieldError> {
+    for (place, varied) in vary.iter().enumerate() {
+        let field = format!("{above}vary[{place}]");
+        check_name(&format!("{field}.name"), varied.label())?;
+        let twin = |other: &VariedParameter| other.label() == varied.label() || other.path == varied.path;
+        if varied.label() == "variant" || vary[..place].iter().chain(beside).any(twin) {
+            let remedy = "vary each parameter once, under a `name` of its own; \"variant\" is that of [[variants]]";
+            return Err(FieldError::new(&format!("{field}.name"), varied.label(), "unique", remedy));
+        }
+        if varied.values.is_empty() {
+            let remedy = "list the values, such as [0.01, 0.005]";
+            return Err(FieldError::new(&format!("{field}.values"), "empty", "at least one value", remedy));
+        }
+        if let Some(place) = (0..varied.values.len()).find(|&index| varied.values[..index].contains(&varied.values[index])) {
+            let remedy = "list every value once: equal ones are the same run";
+            return Err(FieldError::new(&format!("{field}.values[{place}]"), &varied.values[place], "unique", remedy));
+        }
+    }
+    Ok(())
+}
+
+/// A value as a variant has it: numbers and words.
+#[must_use]
+pub fn in_variant(value: &Value) -> Option<VariantValue> {
+    match value {
+        Value::Float(number) if number.is_finite() => Some((*number).into()),
+        Value::Integer(whole) => Some((*whole as f64).into()),
+        Value::Boolean(is_so) => Some(is_so.to_string().into()),
+        Value::String(word) => Some(word.replace(['=', ',', '_', ' '], "-").into()),
+        _ => None,
+    }
+}
+
+/// The settings that replace the list of runs by values of the command line, each `FIELD=A,B,C`; a list in brackets is TOML.
+///
+/// # Errors
+/// An argument of another form.
+pub fn settings_to_vary(arguments: &[String]) -> Result<Vec<String>, FieldError> {
+    if arguments.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut vary = Vec::new();
+    for argument in arguments {
+        let parts = argument.split_once('=').map(|(path, values)| (path.trim(), values.trim()));
+        let Some((path, values)) = parts.filter(|(path, values)| !path.is_empty() && !values.is_empty()) else {
+            let remedy = "such as --vary resolution=10,20";
+            return Err(FieldError::new("--vary", argument, "FIELD=A,B,C", remedy));
+        };
+        let text = if values.starts_with('[') { values.to_owned() } else { format!("[{values}]") };
+        let list = toml::from_str::<Table>(&format!("values = {text}")).ok().and_then(|mut table| table.remove("values"));
+        let words = || values.split(',').map(|word| Value::String(word.trim().to_owned())).collect();
+        let values = match list {
+            Some(Value::Array(values)) => values,
+            _ => words(),
+        };
+        vary.push(VariedParameter { path: path.to_owned(), name: None, values, paper: None, fine: None });
+    }
+    check_vary("--", &vary, &[])?;
+    let list = Value::try_from(vary).map_err(|error| FieldError::new("--vary", error, "values of TOML", "change it"))?;
+    Ok(vec!["variants=[]".to_owned(), format!("vary={list}")])
+}
