@@ -46,12 +46,6 @@ impl Water {
         }
     }
 
-    /// The same with half the spacing and half the time step, over a longer period.
-    pub(crate) fn finer(self) -> Self {
-        let numerics = ProjectionNumerics { time_step: 1.25e-4, ..self.numerics };
-        Self { resolution: 46, columns: 40, numerics, ..self }
-    }
-
     /// The rules between its fields.
     pub(crate) fn check(&self) -> Result<(), ParameterError> {
         rules::channel_columns("columns", self.columns, &self.numerics)?;

@@ -141,7 +141,8 @@ fn refuse_former(former: &[(&str, &str)], changes: &Changes<'_>) -> Result<(), P
     };
     let of_file = changes.file.iter().flat_map(|(file, fields)| fields.iter().map(|field| (*file, field)));
     let of_file = of_file.map(|(file, (path, value))| refused(path, &value.to_string(), Some(file)));
-    let set = changes.settings.iter().filter_map(|setting| parts(setting)).map(|(path, value)| refused(path, value, None));
+    let set =
+        changes.settings.iter().filter_map(|setting| parts(setting)).map(|(path, value)| refused(path, value, None));
     match of_file.chain(set).flatten().next() {
         Some(error) => Err(error),
         None => Ok(()),

@@ -112,9 +112,11 @@ fn changed<F: Flow>(base: &Table, change: &ListedChange) -> Result<F, ParameterE
 fn placed(fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
     let path = fault.path().to_owned();
     let gives = |own: &str| own == path || path.starts_with(&format!("{own}.")) || own.starts_with(&format!("{path}."));
-    let given = change.values.iter().rev().find(|(_, own, value)| {
-        gives(own) || value.is_table() && path.starts_with(own.as_str())
-    });
+    let given = change
+        .values
+        .iter()
+        .rev()
+        .find(|(_, own, value)| gives(own) || value.is_table() && path.starts_with(own.as_str()));
     let Some((place, own, value)) = given else {
         return fault::in_parameters(fault, "CASE", &super::changes::paths(base));
     };
@@ -168,7 +170,8 @@ impl<'de, F: Flow> Deserialize<'de> for RunList<F> {
         let mut table = Table::deserialize(deserializer)?;
         let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.remove(key)?)));
         let list: ListOfRuns = Value::Table(parts.collect()).try_into().map_err(D::Error::custom)?;
-        let base: F = Value::Table(table).try_into().map_err(|error: toml::de::Error| D::Error::custom(error.message()))?;
+        let base: F =
+            Value::Table(table).try_into().map_err(|error: toml::de::Error| D::Error::custom(error.message()))?;
         Self::new(base, list).map_err(D::Error::custom)
     }
 }

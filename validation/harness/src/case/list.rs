@@ -126,7 +126,12 @@ impl ListOfRuns {
     pub fn check_single_tier(&self) -> Result<(), FieldError> {
         let wrong = |field: String| {
             let rule = "absent: the list is of one tier";
-            Err(FieldError::new(&field, "given", rule, "give the values of this tier, and another file for another one"))
+            Err(FieldError::new(
+                &field,
+                "given",
+                rule,
+                "give the values of this tier, and another file for another one",
+            ))
         };
         for (place, varied) in self.varied() {
             if varied.paper.is_some() || varied.fine.is_some() {
@@ -245,7 +250,9 @@ fn check_vary(above: &str, vary: &[VariedParameter], beside: &[VariedParameter])
             let remedy = "list the values, such as [0.01, 0.005]";
             return Err(FieldError::new(&format!("{field}.values"), "empty", "at least one value", remedy));
         }
-        if let Some(place) = (0..varied.values.len()).find(|&index| varied.values[..index].contains(&varied.values[index])) {
+        if let Some(place) =
+            (0..varied.values.len()).find(|&index| varied.values[..index].contains(&varied.values[index]))
+        {
             let remedy = "list every value once: equal ones are the same run";
             return Err(FieldError::new(&format!("{field}.values[{place}]"), &varied.values[place], "unique", remedy));
         }
@@ -281,7 +288,8 @@ pub fn settings_to_vary(arguments: &[String]) -> Result<Vec<String>, FieldError>
             return Err(FieldError::new("--vary", argument, "FIELD=A,B,C", remedy));
         };
         let text = if values.starts_with('[') { values.to_owned() } else { format!("[{values}]") };
-        let list = toml::from_str::<Table>(&format!("values = {text}")).ok().and_then(|mut table| table.remove("values"));
+        let list =
+            toml::from_str::<Table>(&format!("values = {text}")).ok().and_then(|mut table| table.remove("values"));
         let words = || values.split(',').map(|word| Value::String(word.trim().to_owned())).collect();
         let values = match list {
             Some(Value::Array(values)) => values,
@@ -290,6 +298,7 @@ pub fn settings_to_vary(arguments: &[String]) -> Result<Vec<String>, FieldError>
         vary.push(VariedParameter { path: path.to_owned(), name: None, values, paper: None, fine: None });
     }
     check_vary("--", &vary, &[])?;
-    let list = Value::try_from(vary).map_err(|error| FieldError::new("--vary", error, "values of TOML", "change it"))?;
+    let list =
+        Value::try_from(vary).map_err(|error| FieldError::new("--vary", error, "values of TOML", "change it"))?;
     Ok(vec!["variants=[]".to_owned(), format!("vary={list}")])
 }

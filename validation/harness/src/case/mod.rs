@@ -42,11 +42,11 @@ pub use expectation::{speed_up, wall_time};
 pub use features::{FeatureOption, Features};
 pub use file::CaseFile;
 pub use flow::{Flow, RunList};
-pub use list::{ListOfRuns, NamedVariant, VariedParameter, settings_to_vary};
 pub use foreign::{
     ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,
     RunScales,
 };
+pub use list::{ListOfRuns, NamedVariant, VariedParameter, settings_to_vary};
 pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
 pub use registry::Registry;
 pub(crate) use request::only;

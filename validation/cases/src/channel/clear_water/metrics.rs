@@ -1,7 +1,7 @@
 //! How the runs are judged.
 
 use super::ClearWaterRecord;
-use super::parameters::Period;
+use super::flow::Period;
 use crate::case::Run;
 use crate::channel::{self, ProfilePoint};
 use crate::metric::{Confidence, Limit, Metric, Origin, quantities};
@@ -39,9 +39,9 @@ const COMPARED: (f64, f64) = (0.1, 0.9);
 pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     let (variant, data, law) = (run.variant(), &record.data, run.reference());
     let mut metrics = vec![channel::particles_lost(&variant, record), channel::momentum_residual(&variant, record)];
-    let stationary = matches!(run.flow.period, Period::Stationary { .. });
+    let stationary = matches!(run.period, Period::Stationary { .. });
     metrics.extend(channel::iterations(&variant, data, if stationary { [None; 2] } else { [Some(1.0), Some(2.93)] }));
-    if let Period::Stationary { at_most, .. } = run.flow.period {
+    if let Period::Stationary { at_most, .. } = run.period {
         let source = "depth mean changes by less than the tolerance over U/(2 g i), times in a row";
         let limit = Limit::AtMost(at_most * law.adjustment_time());
         let since = STATIONARY_AFTER.of(&variant, data.stationary_since.unwrap_or(f64::NAN));
@@ -53,7 +53,7 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
         );
     }
     // a flow that started with the law is to keep it; one that started slower is judged once it is stationary
-    let judged = |limit: Limit| (stationary || run.flow.start_share == 1.0).then_some(limit);
+    let judged = |limit: Limit| (stationary || run.start_share == 1.0).then_some(limit);
     let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
     let known = |metric: Metric, moved: f64| {
         let standard = 0.5 * moved / run.water.resolution as f64;

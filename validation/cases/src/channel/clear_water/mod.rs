@@ -1,13 +1,13 @@
 //! Turbulent flow of clear water over a fixed rough bed against the logarithmic law.
 
 mod figures;
+mod flow;
 mod laws;
 mod metrics;
-mod parameters;
 
-pub use parameters::{ClearWaterParameters, ClearWaterRun, Period, RoughBedFlow};
+pub use flow::{ClearWaterFlow, Period};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
 use crate::channel;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -19,7 +19,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct ClearWater;
 
-type ClearWaterRecord = RecordOf<ClearWaterParameters>;
+type ClearWaterRecord = RecordOf<RunList<ClearWaterFlow>>;
 
 impl Case for ClearWater {
     const NAME: &'static str = "clear-water";
@@ -36,25 +36,25 @@ impl Case for ClearWater {
         Observed only. Pressure, depth and the drift of the depth-averaged velocity. Velocities of a run that starts \
         apart from the law and does not become stationary.";
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
-    type Parameters = ClearWaterParameters;
+    type Parameters = RunList<ClearWaterFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Metric> {
+    fn metrics(_: &RunList<ClearWaterFlow>, records: &[ClearWaterRecord]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).chain(laws::metrics()).collect()
     }
 
-    fn figures(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Figure> {
+    fn figures(_: &RunList<ClearWaterFlow>, records: &[ClearWaterRecord]) -> Vec<Figure> {
         vec![figures::profiles(records), figures::over_time(records)]
     }
 
     fn from_external(
-        _: &ClearWaterRun,
+        _: &ClearWaterFlow,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {
         channel::foreign::observe(given).map(Some)
     }
 
-    fn tables(_: &ClearWaterParameters, records: &[ClearWaterRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<ClearWaterFlow>, records: &[ClearWaterRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

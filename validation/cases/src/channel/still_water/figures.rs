@@ -66,7 +66,8 @@ pub(super) fn rest(records: &[StillWaterRecord]) -> Figure {
 /// The last state of a run with and without stabilisation.
 pub(super) fn states(records: &[StillWaterRecord]) -> Option<Figure> {
     let (unstabilised, failed) = records.iter().find(|(run, _)| run.is_unstabilised())?;
-    let (stabilised, held) = records.iter().find(|(run, _)| !run.is_unstabilised() && run.jitter == unstabilised.jitter)?;
+    let (stabilised, held) =
+        records.iter().find(|(run, _)| !run.is_unstabilised() && run.jitter == unstabilised.jitter)?;
     let millimetres = |length: f64| 1e3 * length;
     let panel = |run: &StillWaterFlow, frame: &Frame, ending: &str| {
         let title = format!("{}, {:.2} s{ending}", label(run), frame.time);

@@ -30,13 +30,7 @@ pub struct StillWaterFlow {
 
 impl Default for StillWaterFlow {
     fn default() -> Self {
-        Self {
-            water: Water::of_rows(23),
-            kinematic_viscosity: 1e-6,
-            jitter: 0.1,
-            duration: 5.0,
-            averaging_time: 1.0,
-        }
+        Self { water: Water::of_rows(23), kinematic_viscosity: 1e-6, jitter: 0.1, duration: 5.0, averaging_time: 1.0 }
     }
 }
 

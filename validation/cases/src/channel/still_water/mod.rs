@@ -1,8 +1,8 @@
 //! Incompressible water at rest: height, vertical velocity, pressure.
 
 mod figures;
-mod metrics;
 mod flow;
+mod metrics;
 
 pub use flow::StillWaterFlow;
 

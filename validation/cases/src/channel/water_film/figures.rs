@@ -1,8 +1,8 @@
 //! The case's figures.
 
 use super::WaterFilmRecord;
+use super::flow::WaterFilmFlow;
 use super::metrics::{FilmDepth, convergence_errors, depth_of};
-use super::parameters::WaterFilmRun;
 use crate::figure::{Axis, Figure, Panel};
 
 pub(super) fn all(records: &[WaterFilmRecord]) -> Vec<Figure> {
@@ -25,8 +25,8 @@ const CONVERGENCE: &str = "Relative L2 error of the velocity profile on the latt
      density than the relaxed one that the reference concentration belongs to, and the velocity goes with the square of \
      the depth. Against the film of the particles' own depth what remains is the wall and the rows at the surface.";
 
-fn label(run: &WaterFilmRun) -> String {
-    format!("{} rows, {}", run.water.resolution, run.particles.name())
+fn label(run: &WaterFilmFlow) -> String {
+    format!("{} rows, {}", run.water.resolution, run.arrangement.name())
 }
 
 fn profiles(records: &[WaterFilmRecord]) -> Figure {
@@ -34,7 +34,7 @@ fn profiles(records: &[WaterFilmRecord]) -> Figure {
     let mut error = Panel::new("", Axis::linear("z/h [-]"), Axis::linear("(u − u exact)/u(h) [%]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         let film = run.exact(run.water.depth);
-        let (depth, scale) = (run.water.depth, run.film.surface_velocity);
+        let (depth, scale) = (run.water.depth, run.surface_velocity);
         if slot == 0 {
             let exact = (0..=100).map(|k| f64::from(k) / 100.0).map(|z| (z, film.velocity(z * depth) / scale));
             velocity.reference("exact", exact);

@@ -1,7 +1,7 @@
 //! How the runs are judged.
 
 use super::WaterFilmRecord;
-use super::parameters::WaterFilmRun;
+use super::flow::WaterFilmFlow;
 use crate::case::Run;
 use crate::channel::{self, ChannelObservation, ProfilePoint, Water};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
@@ -65,24 +65,24 @@ fn of_run((run, record): &WaterFilmRecord) -> Vec<Metric> {
             .gated_by(limit, "0.8 % at 20 rows, from the lattice and from displaced particles"),
         error(VELOCITY_L2_OWN_DEPTH, FilmDepth::Own),
         channel::height_change(&variant, data, "mean height h/2; the velocity goes with the square of the depth"),
-        channel::bed_shear(&variant, data, density * gravity * depth * run.film.slope),
+        channel::bed_shear(&variant, data, density * gravity * depth * run.slope),
         LONGEST_WAVE
             .of(&variant, data.longest_wave)
             .exactly(0.0, "nothing tells one place along the film from another")
             .gated_by(
-                (run.particles == Arrangement::Lattice).then_some(Limit::AtMost(1e-4)),
+                (run.arrangement == Arrangement::Lattice).then_some(Limit::AtMost(1e-4)),
                 "the solve of the velocities ends at a residual of 1e-6 and meets particles in an order: that leaves 1e-5, and \
                  particles that start displaced 4e-3",
             )
             .with_snapshot_tolerance(0.5, 1e-5),
     ];
-    let short = run.water.resolution == 20 && run.film.relaxation_times <= 2.0;
+    let short = run.water.resolution == 20 && run.relaxation_times <= 2.0;
     metrics.extend(channel::iterations(&variant, data, if short { [Some(1.0), Some(1.24)] } else { [None; 2] }));
     metrics
 }
 
 /// Depth h `[m]` that a run is compared at.
-pub(super) fn depth_of(run: &WaterFilmRun, data: &ChannelObservation, depth: FilmDepth) -> f64 {
+pub(super) fn depth_of(run: &WaterFilmFlow, data: &ChannelObservation, depth: FilmDepth) -> f64 {
     let heights = data.series.within(&data.series.relative_height, data.window);
     match depth {
         FilmDepth::Nominal => run.water.depth,
@@ -91,7 +91,7 @@ pub(super) fn depth_of(run: &WaterFilmRun, data: &ChannelObservation, depth: Fil
 }
 
 /// Relative L2 of the velocity over the samples of all bins `[-]`.
-fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: FilmDepth) -> FittedValue {
+fn velocity_l2(run: &WaterFilmFlow, data: &ChannelObservation, depth: FilmDepth) -> FittedValue {
     let film = run.exact(depth_of(run, data, depth));
     data.profile.estimate(|points: &[ProfilePoint]| {
         let (error, scale) = points.iter().fold((0.0, 0.0), |(error, scale), point| {
@@ -106,7 +106,7 @@ fn velocity_l2(run: &WaterFilmRun, data: &ChannelObservation, depth: FilmDepth) 
 pub(super) fn convergence_errors(records: &[WaterFilmRecord], depth: FilmDepth) -> Vec<(f64, f64)> {
     let mut errors: Vec<(f64, f64)> = records
         .iter()
-        .filter(|(run, _)| run.particles == Arrangement::Lattice)
+        .filter(|(run, _)| run.arrangement == Arrangement::Lattice)
         .map(|(run, record)| (run.water.resolution as f64, 100.0 * velocity_l2(run, &record.data, depth).value))
         .collect();
     errors.sort_by(|a, b| a.0.total_cmp(&b.0));

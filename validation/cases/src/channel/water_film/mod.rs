@@ -1,12 +1,12 @@
 //! A laminar film of incompressible water against the exact parabola.
 
 mod figures;
+mod flow;
 mod metrics;
-mod parameters;
 
-pub use parameters::{FilmFlow, WaterFilmParameters, WaterFilmRun};
+pub use flow::WaterFilmFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
 use crate::channel;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -18,7 +18,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct WaterFilm;
 
-type WaterFilmRecord = RecordOf<WaterFilmParameters>;
+type WaterFilmRecord = RecordOf<RunList<WaterFilmFlow>>;
 
 impl Case for WaterFilm {
     const NAME: &'static str = "water-film";
@@ -35,25 +35,25 @@ impl Case for WaterFilm {
         Observed only. Bed friction, change of depth, and the profile against the film of the depth that the \
         particles take.";
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
-    type Parameters = WaterFilmParameters;
+    type Parameters = RunList<WaterFilmFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &WaterFilmParameters, records: &[WaterFilmRecord]) -> Vec<Metric> {
+    fn metrics(_: &RunList<WaterFilmFlow>, records: &[WaterFilmRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &WaterFilmParameters, records: &[WaterFilmRecord]) -> Vec<Figure> {
+    fn figures(_: &RunList<WaterFilmFlow>, records: &[WaterFilmRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
     fn from_external(
-        _: &WaterFilmRun,
+        _: &WaterFilmFlow,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {
         channel::foreign::observe(given).map(Some)
     }
 
-    fn tables(_: &WaterFilmParameters, records: &[WaterFilmRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<WaterFilmFlow>, records: &[WaterFilmRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

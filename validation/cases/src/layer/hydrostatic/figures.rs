@@ -1,14 +1,14 @@
 //! The case's figures.
 
 use super::HydrostaticRecord;
-use super::parameters::HydrostaticRun;
+use super::flow::HydrostaticFlow;
 use crate::figure::{Axis, Figure, Panel};
 use crate::shared::distinct;
 use bagnold_solver::material::rheology::Rheology;
 
 pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Figure> {
-    let laws = distinct(records.iter().map(|(run, _)| run.law));
-    let of_law = |law| records.iter().filter(move |(run, _)| run.law == law).collect::<Vec<_>>();
+    let laws = distinct(records.iter().map(|(run, _)| run.material));
+    let of_law = |law| records.iter().filter(move |(run, _)| run.material == law).collect::<Vec<_>>();
     let panels = laws.into_iter().map(|law| pressure(&of_law(law))).collect();
     let mut height = Panel::new("", Axis::linear("t [s]"), Axis::linear("height/H [-]"));
     let mut speed = Panel::new("", Axis::linear("t [s]"), Axis::logarithmic("rms speed [m/s]"));
@@ -26,8 +26,8 @@ pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Figure> {
     vec![Figure::new("pressure", pressures, panels).in_columns(2), Figure::new("rest", rest, vec![height, speed])]
 }
 
-fn label(run: &HydrostaticRun) -> String {
-    let material = match run.law {
+fn label(run: &HydrostaticFlow) -> String {
+    let material = match run.material {
         Rheology::Newtonian(_) => "Newtonian",
         Rheology::MuI(_) => "μ(I)",
         other => other.name(),
@@ -39,11 +39,11 @@ fn label(run: &HydrostaticRun) -> String {
 fn pressure(records: &[&HydrostaticRecord]) -> Panel {
     let (run, _) = records[0];
     let height = run.layer.layer_height;
-    let scale = run.density * run.layer.gravity * height;
+    let scale = run.density() * run.layer.gravity * height;
     let mut panel = Panel::new("", Axis::linear("y/H [-]"), Axis::linear("p/(ρ0 g H) [-]"));
     let exact = || (0..=50).map(|k| f64::from(k) / 50.0).map(|y| (y, run.pressure(y * height) / scale));
-    if run.law.is_plastic() {
-        let mu = run.law.contact_friction();
+    if run.material.is_plastic() {
+        let mu = run.material.contact_friction();
         panel.band("passive to active state", exact().map(|(y, p)| (y, p / (1.0 + mu), p / (1.0 - mu))));
     }
     for (slot, (run, record)) in records.iter().rev().enumerate() {

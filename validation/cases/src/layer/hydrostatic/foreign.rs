@@ -1,7 +1,7 @@
 //! A layer at rest as another code gives it: its profile and its history.
 
+use super::flow::HydrostaticFlow;
 use super::metrics::{ACOUSTIC_BREATHING, HEIGHT_DRIFT, NORMAL_STRESS_L2, PRESSURE_L2, RMS_SPEED};
-use super::parameters::HydrostaticRun;
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 use crate::layer::{LayerObservation, TimeSeries, foreign};
@@ -31,7 +31,7 @@ pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 /// # Errors
 /// None yet: columns that are missing make what needs them unmeasured.
 pub(super) fn observe(
-    run: &HydrostaticRun,
+    run: &HydrostaticFlow,
     given: &ExternalData,
 ) -> Result<ExternalObservation<LayerObservation>, FieldError> {
     let mut measured = Vec::new();
@@ -61,12 +61,11 @@ pub(super) fn observe(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{NamedColumns, Parameters, Tier};
-    use crate::layer::hydrostatic::HydrostaticParameters;
+    use crate::case::NamedColumns;
 
     #[test]
     fn the_exact_pressure_has_no_error_and_what_is_not_given_is_not_measured() {
-        let run = HydrostaticParameters::of_tier(Tier::Quick).runs().remove(0);
+        let run = HydrostaticFlow::default();
         let height: Vec<f64> = (0..20).map(|k| (f64::from(k) + 0.5) / 20.0 * run.height()).collect();
         let pressure = height.iter().map(|&y| run.pressure(y)).collect();
         let profile: NamedColumns = [("height".to_owned(), height), ("pressure".to_owned(), pressure)].into();
@@ -79,7 +78,7 @@ mod tests {
 
     #[test]
     fn a_history_of_heights_gives_drift_and_breathing() {
-        let run = HydrostaticParameters::of_tier(Tier::Quick).runs().remove(0);
+        let run = HydrostaticFlow::default();
         let series: NamedColumns = [("time", vec![0.0, 1.0, 2.0]), ("mean_height", vec![0.5, 0.5, 0.5])]
             .map(|(name, values)| (name.to_owned(), values))
             .into();

@@ -1,7 +1,7 @@
 //! How the runs are judged.
 
 use super::HydrostaticRecord;
-use super::parameters::HydrostaticRun;
+use super::flow::HydrostaticFlow;
 use crate::case::Run;
 use crate::layer::{self, TimeSeries};
 use crate::metric::{Confidence, Limit, Metric, quantities};
@@ -36,7 +36,7 @@ pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Metric> {
         records.iter().partition(|(run, _)| run.is_coupled());
     let mut metrics: Vec<Metric> = coupled.iter().flat_map(|record| at_rest(record)).collect();
     for record in uncoupled {
-        let partner = coupled.iter().find(|(other, _)| other.law == record.0.law);
+        let partner = coupled.iter().find(|(other, _)| other.material == record.0.material);
         metrics.extend(without_coupling(record, partner.copied()));
     }
     metrics
@@ -109,7 +109,7 @@ fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
 ///
 /// The displaced particles settle by a part of a per cent at once, which leaves the layer breathing at its acoustic
 /// frequency c/4H for a long time, as it would in an inviscid liquid: the mean over many periods is what is at rest.
-fn profile_l2(run: &HydrostaticRun, heights: &[f64], values: &[f64]) -> f64 {
+fn profile_l2(run: &HydrostaticFlow, heights: &[f64], values: &[f64]) -> f64 {
     let filled = heights.iter().zip(values).filter(|(y, _)| y.is_finite());
     relative_l2(filled.map(|(y, pressure)| (*pressure, run.pressure(*y))))
 }

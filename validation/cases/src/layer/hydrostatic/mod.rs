@@ -2,14 +2,14 @@
 
 mod elasticity;
 mod figures;
+mod flow;
 mod foreign;
 mod kernel;
 mod metrics;
-mod parameters;
 
-pub use parameters::{HydrostaticParameters, HydrostaticRun};
+pub use flow::HydrostaticFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::layer::{self, LayerObservation};
@@ -21,7 +21,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct Hydrostatic;
 
-type HydrostaticRecord = RecordOf<HydrostaticParameters>;
+type HydrostaticRecord = RecordOf<RunList<HydrostaticFlow>>;
 
 impl Case for Hydrostatic {
     const NAME: &'static str = "hydrostatic";
@@ -35,28 +35,29 @@ impl Case for Hydrostatic {
         active and the passive state. The run without coupling must be noisy, which shows that the measure can fail.\n\n\
         Observed only. Extremes of the pressure p of grains that carry their stress; velocities at rest.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
-    type Parameters = HydrostaticParameters;
+    type Parameters = RunList<HydrostaticFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(parameters: &HydrostaticParameters, records: &[HydrostaticRecord]) -> Vec<Metric> {
+    fn metrics(_: &RunList<HydrostaticFlow>, records: &[HydrostaticRecord]) -> Vec<Metric> {
         let mut metrics = metrics::all(records);
-        metrics.extend(kernel::all(&parameters.layer.numerics));
-        metrics.extend(elasticity::all(&parameters.grains));
+        metrics.extend(records.first().into_iter().flat_map(|(run, _)| kernel::all(&run.layer.numerics)));
+        let grains = records.iter().map(|(run, _)| &run.material).find(|material| material.is_plastic());
+        metrics.extend(grains.into_iter().flat_map(elasticity::all));
         metrics
     }
 
-    fn figures(_: &HydrostaticParameters, records: &[HydrostaticRecord]) -> Vec<Figure> {
+    fn figures(_: &RunList<HydrostaticFlow>, records: &[HydrostaticRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
     fn from_external(
-        run: &HydrostaticRun,
+        run: &HydrostaticFlow,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
         foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &HydrostaticParameters, records: &[HydrostaticRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<HydrostaticFlow>, records: &[HydrostaticRecord]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }

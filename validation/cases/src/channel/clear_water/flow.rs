@@ -1,6 +1,6 @@
-//! Parameters, tiers and runs.
+//! The flow: clear water over a rough bed.
 
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier, cost};
+use crate::case::{Flow, ParameterError, Progress, Run, cost};
 use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, TurbulenceClosure, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -8,7 +8,7 @@ use crate::reference::water::{RoughChannel, roughness_ratio};
 use crate::setup::rules;
 use bagnold_solver::incompressible::Bed;
 use bagnold_solver::material::turbulence::{MixingLengthShape, RoughWall};
-use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
+use bagnold_solver::parameter::{between, not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -40,9 +40,15 @@ pub enum Period {
     },
 }
 
-/// The flow over its bed, and how long it is watched.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct RoughBedFlow {
+/// Water that flows over its bed, and how long it is watched.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ClearWaterFlow {
+    /// The water.
+    #[serde(flatten)]
+    pub water: Water,
+    /// Slope i of the bed, a tangent `[-]`; 0.03 is 3 %.
+    #[schemars(transform = rules::driving_slope())]
+    pub slope: f64,
     /// Kinematic viscosity `[m²/s]`.
     #[schemars(transform = positive("give it in m²/s; water has 1e-6"))]
     pub kinematic_viscosity: f64,
@@ -64,54 +70,28 @@ pub struct RoughBedFlow {
     pub period: Period,
 }
 
-/// Parameters of the case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ClearWaterParameters {
-    /// The water.
-    #[serde(flatten)]
-    pub water: Water,
-    /// Slopes i of the bed, tangents, one run each `[-]`; 0.03 is 3 %.
-    #[schemars(transform = each(rules::driving_slope()))]
-    #[schemars(transform = unique("name every slope once"))]
-    #[schemars(transform = filled("at least one slope", "3 % is 0.03"))]
-    pub slopes: Vec<f64>,
-    /// The flow.
-    #[serde(flatten)]
-    pub flow: RoughBedFlow,
-}
-
-impl Parameters for ClearWaterParameters {
-    type Run = ClearWaterRun;
-
-    fn of_tier(tier: Tier) -> Self {
-        let quick = Self {
+impl Default for ClearWaterFlow {
+    fn default() -> Self {
+        Self {
             water: Water::of_rows(23),
-            slopes: vec![0.03],
-            flow: RoughBedFlow {
-                kinematic_viscosity: 1e-6,
-                sand_roughness: 5e-3,
-                origin_offset: 6e-4,
-                turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
-                jitter: 0.1,
-                start_share: 1.0,
-                period: Period::Fixed { duration: 3.0, averaging_time: 1.0 },
-            },
-        };
-        let period = Period::Stationary { tolerance: 0.005, checks: 3, at_most: 25.0, averaging_times: 8.0 };
-        let paper = Self {
-            water: Water { columns: 20, ..quick.water },
-            slopes: vec![0.02, 0.03, 0.05],
-            flow: RoughBedFlow { start_share: 0.8, period, ..quick.flow },
-        };
-        match tier {
-            Tier::Quick => quick,
-            Tier::Paper => paper,
-            Tier::Fine => Self { water: paper.water.finer(), ..paper },
+            slope: 0.03,
+            kinematic_viscosity: 1e-6,
+            sand_roughness: 5e-3,
+            origin_offset: 6e-4,
+            turbulence: TurbulenceClosure::MixingLength { shape: MixingLengthShape::Parabolic },
+            jitter: 0.1,
+            start_share: 1.0,
+            period: Period::Fixed { duration: 3.0, averaging_time: 1.0 },
         }
     }
+}
+
+impl Flow for ClearWaterFlow {
+    const RUNS: &'static str = include_str!("../../../runs/clear-water.toml");
+    const FORMER: &'static [(&'static str, &'static str)] = &[("slopes", "slope")];
 
     fn check(&self) -> Result<(), ParameterError> {
-        let Self { water, flow: RoughBedFlow { origin_offset, sand_roughness, period, .. }, .. } = *self;
+        let Self { water, origin_offset, sand_roughness, period, .. } = *self;
         rules::between("origin_offset", origin_offset, 0.0, 0.1 * water.depth, "a fraction of a grain diameter")?;
         let first_row = 0.5 * water.depth / water.resolution as f64 + origin_offset;
         let remedy = "the logarithmic law begins at k_s/30, which must lie below the first row of particles";
@@ -128,25 +108,9 @@ impl Parameters for ClearWaterParameters {
         }
         water.check()
     }
-
-    fn runs(&self) -> Vec<ClearWaterRun> {
-        let Self { water, flow, .. } = *self;
-        self.slopes.iter().map(|&slope| ClearWaterRun { slope, water, flow }).collect()
-    }
 }
 
-/// One simulation.
-#[derive(Debug, Clone, Serialize)]
-pub struct ClearWaterRun {
-    /// Slope i `[-]`.
-    pub slope: f64,
-    /// The water.
-    pub water: Water,
-    /// The flow.
-    pub flow: RoughBedFlow,
-}
-
-impl Run for ClearWaterRun {
+impl Run for ClearWaterFlow {
     type Observation = ChannelObservation;
 
     fn variant(&self) -> Variant {
@@ -166,18 +130,18 @@ impl Run for ClearWaterRun {
     }
 
     fn trajectory(&self) -> Option<Self> {
-        let Period::Fixed { averaging_time, .. } = self.flow.period else { return None };
+        let Period::Fixed { averaging_time, .. } = self.period else { return None };
         let period = Period::Fixed { duration: 0.0, averaging_time };
-        Some(Self { flow: RoughBedFlow { period, ..self.flow }, ..self.clone() })
+        Some(Self { period, ..self.clone() })
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let law = self.reference();
-        self.channel(&|z| self.flow.start_share * law.velocity(z)).run(progress)
+        self.channel(&|z| self.start_share * law.velocity(z)).run(progress)
     }
 }
 
-impl ClearWaterRun {
+impl ClearWaterFlow {
     /// The flow that it is compared with.
     #[must_use]
     pub fn reference(&self) -> RoughChannel {
@@ -186,15 +150,14 @@ impl ClearWaterRun {
             slope: self.slope,
             gravity: self.water.gravity,
             density: self.water.density,
-            sand_roughness: self.flow.sand_roughness,
-            origin_offset: self.flow.origin_offset,
+            sand_roughness: self.sand_roughness,
+            origin_offset: self.origin_offset,
         }
     }
 
     fn channel<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
         let time = self.reference().adjustment_time();
-        let RoughBedFlow { kinematic_viscosity, sand_roughness, origin_offset, turbulence, jitter, period, .. } =
-            self.flow;
+        let Self { slope, kinematic_viscosity, sand_roughness, origin_offset, turbulence, jitter, period, .. } = *self;
         let (until, window) = match period {
             Period::Fixed { duration, averaging_time } => (AveragingWindowEnd::Time(duration), averaging_time),
             Period::Stationary { tolerance, checks, at_most, averaging_times } => {
@@ -202,7 +165,7 @@ impl ClearWaterRun {
             }
         };
         Channel {
-            slope: self.slope,
+            slope,
             kinematic_viscosity,
             turbulence: turbulence.over(self.water.depth, origin_offset),
             bed: Bed::Rough { level: 0.0, origin_offset, law: RoughWall { sand_roughness } },

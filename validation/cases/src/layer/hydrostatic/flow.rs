@@ -1,0 +1,148 @@
+//! The flow: a layer at rest.
+
+use crate::case::{Flow, ParameterError, Progress, Run};
+use crate::layer::{Layer, LayerObservation, PeriodicLayer};
+use crate::metric::Variant;
+use crate::observation::Recorded;
+use crate::reference::grains::GLASS_BEADS;
+use crate::setup::{Bulk, rules};
+use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::parameter::between;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A layer at rest. Its numerics say whether density and pressure are coupled.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct HydrostaticFlow {
+    /// The layer.
+    #[serde(flatten)]
+    pub layer: PeriodicLayer,
+    /// Simulated time `[s]`.
+    #[schemars(transform = between(2.2, 1e4, "drift is measured over 0.4 s about 1 s and about 2 s"))]
+    pub duration: f64,
+    /// Density of the layer.
+    #[serde(flatten)]
+    pub bulk: Bulk,
+    /// Material.
+    pub material: Rheology,
+}
+
+impl Default for HydrostaticFlow {
+    fn default() -> Self {
+        Self {
+            layer: PeriodicLayer::settled(0.1, 20, 12),
+            duration: 2.25,
+            bulk: Bulk::of_grains(GLASS_BEADS.solid_fraction),
+            material: Rheology::MuI(GLASS_BEADS.law),
+        }
+    }
+}
+
+impl Flow for HydrostaticFlow {
+    const RUNS: &'static str = include_str!("../../../runs/hydrostatic.toml");
+    const FORMER: &'static [(&'static str, &'static str)] =
+        &[("liquid", "material"), ("grains", "material"), ("liquid_density", "bulk_density")];
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.layer.check()?;
+        rules::material("material", &self.material)?;
+        rules::viscous_step("numerics", &self.layer.numerics, &self.material)?;
+        self.bulk.check(&self.material)
+    }
+}
+
+impl Run for HydrostaticFlow {
+    type Observation = LayerObservation;
+
+    fn variant(&self) -> Variant {
+        Variant::of("material", self.material.name().replace('-', "_"))
+            .and("density_coupling", self.layer.numerics.density_coupling)
+            .and("resolution", self.layer.resolution)
+    }
+
+    fn particles(&self) -> f64 {
+        self.layer.particles()
+    }
+
+    fn particle_steps(&self) -> f64 {
+        self.layer().expected_steps() * self.layer.particles()
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
+        self.layer().run(progress)
+    }
+}
+
+impl HydrostaticFlow {
+    fn layer(&self) -> Layer<'static> {
+        let layer = self.layer.of(self.material, self.density(), 0.0);
+        Layer { duration: self.duration, window: 0.5, interval: 5e-3, frames: 3, ..layer }
+    }
+
+    /// Density in bulk `[kg/m³]`.
+    #[must_use]
+    pub fn density(&self) -> f64 {
+        self.bulk.density(&self.material)
+    }
+
+    /// Whether density and pressure are coupled by (27).
+    #[must_use]
+    pub fn is_coupled(&self) -> bool {
+        self.layer.numerics.density_coupling > 0.0
+    }
+
+    /// Least and most of the pressure over the weight above that grains can rest with, 1/(1 ± μ_s): passive and active
+    /// state `[-]`; none for a material whose pressure alone carries the weight.
+    #[must_use]
+    pub fn states_of_rest(&self) -> Option<(f64, f64)> {
+        let friction = self.material.contact_friction();
+        self.material.is_plastic().then_some((1.0 / (1.0 + friction), 1.0 / (1.0 - friction)))
+    }
+
+    /// ρ0 g H² times the length of the layer `[J/m]`.
+    #[must_use]
+    pub fn energy_scale(&self) -> f64 {
+        let layer = self.layer();
+        let PeriodicLayer { layer_height, gravity, columns, .. } = layer.layer;
+        layer.reference_density * gravity * layer_height.powi(2) * columns as f64 * layer.spacing()
+    }
+
+    /// Height of the layer `[m]`.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        self.layer.layer_height
+    }
+
+    /// Exact pressure `[Pa]` at a height `[m]`.
+    #[must_use]
+    pub fn pressure(&self, y: f64) -> f64 {
+        self.layer().hydrostatic_pressure(y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bagnold_solver::material::rheology::Bingham;
+
+    #[test]
+    fn the_law_decides_what_the_bulk_density_comes_from() {
+        let mut flow = HydrostaticFlow::default();
+        assert_eq!(flow.density(), GLASS_BEADS.solid_fraction * 2500.0);
+        flow.material =
+            Rheology::Bingham(Bingham { yield_stress: 1.0, plastic_viscosity: 1.0, regularisation_rate: 1.0 });
+        let message = flow.check().expect_err("no density").to_string();
+        assert_eq!(
+            message,
+            "`bulk_density` is 0, but must be positive with the law \"bingham\"; the law has no grain density: give that of \
+             the bulk in kg/m³, such as 1500"
+        );
+        flow.bulk.bulk_density = 1500.0;
+        assert!(flow.check().is_ok());
+        let name = flow.variant().get("material").map(ToString::to_string);
+        assert_eq!(name.as_deref(), Some("bingham"));
+        flow.material = Rheology::MuI(GLASS_BEADS.law);
+        let message = flow.check().expect_err("two densities").to_string();
+        assert!(message.starts_with("`bulk_density` is 1500, but must be 0 with the law \"mu-i\"; "), "{message}");
+    }
+}
