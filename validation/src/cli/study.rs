@@ -71,6 +71,7 @@ pub(super) fn run(
 /// Options that mean one case.
 fn refuse_what_cases_take(command: &RunArguments) -> Result<(), ParameterError> {
     let options = [
+        ("--vary", !command.vary.is_empty(), "change the [[vary]] values in a copy of the file"),
         ("--only", !command.only.is_empty(), "delete other `[[variants]]` or `[[vary]]` values in a copy of the file"),
         ("--overlay", !command.overlay.is_empty(), "name the file by `compare` in a check"),
         ("--output-every", command.output_every.is_some(), "run the case that the study is based on"),

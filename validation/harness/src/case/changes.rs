@@ -77,7 +77,7 @@ pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Res
 where
     P: Parameters,
 {
-    refuse_former(P::FORMER, changes)?;
+    refuse_former(P::field_now, changes)?;
     let schema = schema_of::<P>();
     let defaults = table_of(defaults);
     let mut table = defaults.clone();
@@ -128,9 +128,9 @@ where
 }
 
 /// Refuses lists of values that are runs of one flow now.
-fn refuse_former(former: &[(&str, &str)], changes: &Changes<'_>) -> Result<(), ParameterError> {
+fn refuse_former(now: fn(&str) -> Option<String>, changes: &Changes<'_>) -> Result<(), ParameterError> {
     let refused = |old: &str, value: &str, file: Option<&Path>| {
-        let (_, now) = former.iter().find(|(own, _)| old.split('.').next() == Some(own))?;
+        let now = now(old.split('.').next()?)?;
         let rule = format!("absent: a run has one value, `{now}`");
         let remedy = format!("give several by `--vary {now}=A,B,C`, in a file by [[vary]] with path = \"{now}\"");
         let error = ParameterError::field(old, value, &rule, &remedy);

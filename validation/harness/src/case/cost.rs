@@ -12,3 +12,42 @@ pub const IMPLICIT_STEP: f64 = 3.0;
 
 /// Of the incompressible model `[s]`.
 pub const INCOMPRESSIBLE: f64 = 1.5e-6;
+
+/// Resources that a run is expected to take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunCost {
+    /// Particles, or cells, that it holds at once `[-]`: what its memory is estimated from. 0, if nothing is known.
+    pub particles: f64,
+    /// Particle-steps, for scheduling the longest first and for the progress bar `[-]`.
+    pub particle_steps: f64,
+    /// Time of a particle-step on one core `[s]`.
+    pub seconds_per_particle_step: f64,
+    /// Memory that a particle takes while the run goes on `[bytes]`.
+    pub bytes_per_particle: f64,
+    /// Time of one core before the first step `[s]`.
+    pub preparation_seconds: f64,
+}
+
+impl RunCost {
+    /// A run of the weakly compressible model in the plane, of so many particles and steps.
+    #[must_use]
+    pub fn weakly_compressible(particles: f64, steps: f64) -> Self {
+        Self {
+            particles,
+            particle_steps: particles * steps,
+            seconds_per_particle_step: WEAKLY_COMPRESSIBLE,
+            bytes_per_particle: BYTES_WHILE_RUNNING,
+            preparation_seconds: 0.0,
+        }
+    }
+
+    /// A run of the incompressible model, of so many particles and steps.
+    #[must_use]
+    pub fn incompressible(particles: f64, steps: f64) -> Self {
+        Self { seconds_per_particle_step: INCOMPRESSIBLE, ..Self::weakly_compressible(particles, steps) }
+    }
+}
+
+/// Memory per particle during its run: state, neighbours, pair weights, solves `[bytes]`. Still water of 160 000 particles
+/// takes some 2.3 kB each.
+const BYTES_WHILE_RUNNING: f64 = 3e3;

@@ -278,7 +278,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     }
 
     fn particle_steps(&self, run: usize) -> f64 {
-        self.slots[run].0.particle_steps()
+        self.slots[run].0.cost().particle_steps
     }
 
     fn nominal_seconds(&self, run: usize) -> f64 {

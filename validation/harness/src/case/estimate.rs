@@ -3,10 +3,6 @@
 use super::Run;
 use std::fmt;
 
-/// Memory per particle during its run: state, neighbours, pair weights, solves `[bytes]`. Still water of 160 000 particles
-/// takes some 2.3 kB each.
-pub(super) const BYTES_WHILE_RUNNING: f64 = 3e3;
-
 /// Memory of a particle in the snapshots of a run that is done `[bytes]`.
 const BYTES_KEPT: f64 = 700.0;
 
@@ -40,15 +36,15 @@ pub struct Estimate {
 impl Estimate {
     /// Of one run.
     pub(super) fn of(run: &impl Run) -> Self {
-        let (particles, particle_steps) = (run.particles(), run.particle_steps());
-        let running = particles * run.bytes_per_particle();
+        let cost = run.cost();
+        let running = cost.particles * cost.bytes_per_particle;
         Self {
             runs: 1,
             running,
             all_running: running,
-            all_particles: particles,
-            particle_steps,
-            core_seconds: particle_steps * run.seconds_per_particle_step() + run.preparation_seconds(),
+            all_particles: cost.particles,
+            particle_steps: cost.particle_steps,
+            core_seconds: cost.particle_steps * cost.seconds_per_particle_step + cost.preparation_seconds,
         }
     }
 

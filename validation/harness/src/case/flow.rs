@@ -2,13 +2,14 @@
 
 use super::changes::{overlay, table_of, unknown_law};
 use super::fault;
-use super::list::{ListOfRuns, ListedChange};
+use super::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
 use super::{ParameterError, Parameters, Run, Tier};
 use crate::input::FieldError;
 use bagnold_solver::parameter::{Fault, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeMap;
 use toml::{Table, Value};
 
 /// One simulation with all of its parameters, each declared once: a field with its doc comment, unit and range.
@@ -17,8 +18,6 @@ use toml::{Table, Value};
 pub trait Flow: Run + Default + PartialEq + DeserializeOwned + JsonSchema + 'static {
     /// Text of `runs/CASE.toml`: the flows of each tier. Empty for the default flow alone.
     const RUNS: &'static str = "";
-    /// Fields of earlier files, each with the field that takes its place.
-    const FORMER: &'static [(&'static str, &'static str)] = &[];
 
     /// The rules between fields; called once every field is in its own range.
     ///
@@ -44,9 +43,18 @@ struct TiersFile {
     #[serde(default)]
     fine: Table,
     #[serde(default)]
-    variants: Vec<super::NamedVariant>,
+    variants: Vec<NamedVariant>,
     #[serde(default)]
-    vary: Vec<super::VariedParameter>,
+    vary: Vec<VariedParameter>,
+    /// Fields of earlier files, each with the field that takes its place.
+    #[serde(default)]
+    former: BTreeMap<String, String>,
+}
+
+impl TiersFile {
+    fn of<F: Flow>() -> Self {
+        toml::from_str(F::RUNS).unwrap_or_else(|error| panic!("a case's list of runs is TOML: {error}"))
+    }
 }
 
 /// A flow, the list of its runs, and these runs.
@@ -178,11 +186,10 @@ impl<'de, F: Flow> Deserialize<'de> for RunList<F> {
 
 impl<F: Flow> Parameters for RunList<F> {
     type Run = F;
-    const FORMER: &'static [(&'static str, &'static str)] = F::FORMER;
     const STATED: &'static [&'static str] = &["variants", "vary"];
 
     fn of_tier(tier: Tier) -> Self {
-        let file: TiersFile = toml::from_str(F::RUNS).expect("a case's list of runs is TOML: a test reads it");
+        let file = TiersFile::of::<F>();
         let mut changes = file.set;
         for (lowest, values) in [(Tier::Paper, &file.paper), (Tier::Fine, &file.fine)] {
             if lowest <= tier {
@@ -216,6 +223,10 @@ impl<F: Flow> Parameters for RunList<F> {
 
     fn runs(&self) -> Vec<F> {
         self.flows.clone()
+    }
+
+    fn field_now(former: &str) -> Option<String> {
+        TiersFile::of::<F>().former.remove(former)
     }
 
     fn set_for_all(table: &mut Table, paths: &[String]) {

@@ -106,6 +106,13 @@ pub struct ListedChange {
     pub values: Vec<(String, String, Value)>,
 }
 
+impl ListedChange {
+    /// Its values as settings `path=value`.
+    pub fn settings(&self) -> impl Iterator<Item = String> {
+        self.values.iter().map(|(_, path, value)| format!("{path}={value}"))
+    }
+}
+
 impl ListOfRuns {
     /// The list of a tier: its variants, and its values of varied parameters.
     #[must_use]

@@ -35,6 +35,7 @@ mod tables;
 pub use changes::Changes;
 pub use changes::{table_of_settings, twice_given};
 pub use conditions::{Condition, Conditions};
+pub use cost::RunCost;
 pub use erased::{AnyCase, PreparedCase};
 pub use error::{ParameterError, SettingError};
 pub use estimate::{Estimate, Limits};
@@ -103,8 +104,6 @@ impl std::fmt::Display for Tier {
 pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send + Sync + 'static {
     /// One independent simulation.
     type Run: Run;
-    /// Fields of earlier files, each with the field that takes its place.
-    const FORMER: &'static [(&'static str, &'static str)] = &[];
     /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
     const STATED: &'static [&'static str] = &[];
 
@@ -140,6 +139,10 @@ pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send +
     }
     /// The independent simulations that these parameters ask for, in report order.
     fn runs(&self) -> Vec<Self::Run>;
+    /// The field that takes the place of one of earlier files.
+    fn field_now(_: &str) -> Option<String> {
+        None
+    }
     /// Makes the values at these paths those of all runs, whatever the list of runs says of them.
     fn set_for_all(_: &mut toml::Table, _: &[String]) {}
 }
@@ -162,10 +165,6 @@ pub trait Run: Serialize + Clone + Send + Sync {
     fn particles(&self) -> f64 {
         0.0
     }
-    /// Memory that one of them takes while the run goes on `[bytes]`.
-    fn bytes_per_particle(&self) -> f64 {
-        estimate::BYTES_WHILE_RUNNING
-    }
     /// Time of a particle-step on one core `[s]`, for estimates: that of the weakly compressible model, unless a case tells.
     fn seconds_per_particle_step(&self) -> f64 {
         cost::WEAKLY_COMPRESSIBLE
@@ -173,6 +172,15 @@ pub trait Run: Serialize + Clone + Send + Sync {
     /// Time of one core before the first step `[s]`: nothing, unless a case tells.
     fn preparation_seconds(&self) -> f64 {
         0.0
+    }
+    /// Expected resources.
+    fn cost(&self) -> RunCost {
+        RunCost {
+            particle_steps: self.particle_steps(),
+            seconds_per_particle_step: self.seconds_per_particle_step(),
+            preparation_seconds: self.preparation_seconds(),
+            ..RunCost::weakly_compressible(self.particles(), 0.0)
+        }
     }
     /// The regime of the flow that it leaves behind; nothing, unless a case tells.
     fn regime(&self, _: &Self::Observation) -> FlowRegime {

@@ -2,18 +2,16 @@
 
 use super::control::{self, ControlText};
 use super::drawn::{FigureText, NamesOfStudy};
-use crate::case::Tier;
+use crate::case::list::{Fields, in_variant};
+use crate::case::{ListOfRuns, NamedVariant, Tier, VariedParameter};
 use crate::figure::is_file_name;
 use crate::input::{FieldError, check_name, check_text};
-use crate::metric::{Confidence, Value as VariantValue, Variant};
+use crate::metric::{Confidence, Variant};
 use bagnold_solver::parameter::positive;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use toml::{Table, Value};
-
-/// More runs than this are a slip of the pen.
-const MOST_VARIANTS: usize = 1000;
 
 /// The file, field by field.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -58,48 +56,6 @@ pub(super) struct StudyText {
     /// Figures of checks over the variants.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) figures: Vec<FigureText>,
-}
-
-/// For the schema: fields of any name and type.
-type Fields = std::collections::BTreeMap<String, serde_json::Value>;
-
-/// For the schema: what a varied parameter may be.
-#[derive(JsonSchema)]
-#[serde(untagged)]
-#[expect(dead_code, reason = "only its schema is used")]
-enum Scalar {
-    Number(f64),
-    Word(String),
-    Switch(bool),
-}
-
-/// Named changes of the base values.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct NamedVariant {
-    /// Name of the variant.
-    pub(super) name: String,
-    /// Lowest tier at which a canonical study runs it; the quick one, if it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) tier: Option<Tier>,
-    /// Values by the dotted paths of parameters, in their units.
-    #[serde(default)]
-    #[schemars(with = "Fields")]
-    pub(super) set: Table,
-}
-
-/// A parameter that takes several values.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, expecting = "struct Varied")]
-pub(super) struct VariedParameter {
-    /// Dotted path of the parameter.
-    pub(super) path: String,
-    /// Name of the parameter in variants; the last key of the path, if it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) name: Option<String>,
-    /// Values of the parameter in its unit: numbers or words, each once.
-    #[schemars(with = "Vec<Scalar>")]
-    pub(super) values: Vec<Value>,
 }
 
 /// A check: what is measured, and what it is judged by. It has one of `metric`, `value`, `compare` and `order_of`, and at most one limit.
@@ -227,20 +183,6 @@ impl CheckText {
     }
 }
 
-impl VariedParameter {
-    /// Label of the parameter in variants.
-    pub(super) fn label(&self) -> &str {
-        self.name.as_deref().unwrap_or_else(|| self.path.rsplit('.').next().unwrap_or_default())
-    }
-}
-
-/// One set of changes: the variant and the `path=value` settings that make it.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ChangedSettings {
-    pub(super) variant: Variant,
-    pub(super) settings: Vec<String>,
-}
-
 impl StudyText {
     /// Refuses what no case would see.
     pub(super) fn check(&self) -> Result<(), FieldError> {
@@ -288,88 +230,26 @@ impl StudyText {
         let judged: Vec<&str> =
             self.checks.iter().filter(|check| check.has_limit()).map(|check| check.name.as_str()).collect();
         control::check(&self.controls, &judged)?;
-        self.check_variants()
+        let list = self.list();
+        list.check()?;
+        let lists = self.vary.iter().enumerate().flat_map(|(place, varied)| {
+            varied
+                .values
+                .iter()
+                .enumerate()
+                .map(move |(number, value)| (format!("vary[{place}].values[{number}]"), value))
+        });
+        match lists.into_iter().find(|(_, value)| in_variant(value).is_none()) {
+            Some((field, value)) => {
+                let remedy = "give tables and lists in [[variants]], where they have names";
+                Err(FieldError::new(&field, value, "a finite number or a word", remedy))
+            }
+            None => Ok(()),
+        }
     }
 
-    fn check_variants(&self) -> Result<(), FieldError> {
-        let counts = self.vary.iter().map(|varied| varied.values.len().max(1));
-        let product = counts.fold(self.variants.len().max(1), usize::saturating_mul);
-        if product > MOST_VARIANTS {
-            let rule = format!("at most {MOST_VARIANTS} variants");
-            return Err(FieldError::new(
-                "vary",
-                product,
-                &rule,
-                "take fewer values; `bagnold sweep` has no such limit",
-            ));
-        }
-        for (place, named) in self.variants.iter().enumerate() {
-            let field = format!("variants[{place}].name");
-            check_name(&field, &named.name)?;
-            if self.variants[..place].iter().any(|other| other.name == named.name) {
-                return Err(FieldError::new(&field, &named.name, "unique", "give each a name of its own"));
-            }
-        }
-        for (place, varied) in self.vary.iter().enumerate() {
-            let field = format!("vary[{place}]");
-            check_name(&format!("{field}.name"), varied.label())?;
-            if varied.label() == "variant" || self.vary[..place].iter().any(|other| other.label() == varied.label()) {
-                let remedy = "give each a `name` of its own; \"variant\" is that of [[variants]]";
-                return Err(FieldError::new(&format!("{field}.name"), varied.label(), "unique", remedy));
-            }
-            if varied.values.is_empty() {
-                let remedy = "list the values, such as [0.01, 0.005]";
-                return Err(FieldError::new(&format!("{field}.values"), "empty", "at least one value", remedy));
-            }
-            let mut seen: Vec<VariantValue> = Vec::new();
-            for (number, value) in varied.values.iter().enumerate() {
-                let field = format!("{field}.values[{number}]");
-                let named = in_variant(value).ok_or_else(|| {
-                    let remedy = "give tables and lists in [[variants]], where they have names";
-                    FieldError::new(&field, value, "a finite number or a word", remedy)
-                })?;
-                if seen.contains(&named) {
-                    let remedy = "list every value once: equal ones are the same run";
-                    return Err(FieldError::new(&field, value, "unique", remedy));
-                }
-                seen.push(named);
-            }
-        }
-        Ok(())
-    }
-
-    /// All sets of changes, in the file's order.
-    pub(super) fn changes(&self) -> Vec<ChangedSettings> {
-        let setting = |path: &str, value: &Value| format!("{path}={value}");
-        let named = |named: &NamedVariant| ChangedSettings {
-            variant: Variant::of("variant", named.name.as_str()),
-            settings: named.set.iter().map(|(path, value)| setting(path, value)).collect(),
-        };
-        let mut all = if self.variants.is_empty() {
-            vec![ChangedSettings { variant: Variant::default(), settings: Vec::new() }]
-        } else {
-            self.variants.iter().map(named).collect()
-        };
-        for varied in &self.vary {
-            let with = |changed: &ChangedSettings, value: &Value| {
-                let mut next = changed.clone();
-                next.settings.push(setting(&varied.path, value));
-                next.variant = next.variant.and(varied.label(), in_variant(value).unwrap_or_else(|| "-".into()));
-                next
-            };
-            all = all.iter().flat_map(|changed| varied.values.iter().map(move |value| with(changed, value))).collect();
-        }
-        all
-    }
-}
-
-/// A value as a variant has it: numbers and words.
-fn in_variant(value: &Value) -> Option<VariantValue> {
-    match value {
-        Value::Float(number) if number.is_finite() => Some((*number).into()),
-        Value::Integer(whole) => Some((*whole as f64).into()),
-        Value::Boolean(is_so) => Some(is_so.to_string().into()),
-        Value::String(word) => Some(word.replace(['=', ',', '_', ' '], "-").into()),
-        _ => None,
+    /// The list of its runs.
+    pub(super) fn list(&self) -> ListOfRuns {
+        ListOfRuns { variants: self.variants.clone(), vary: self.vary.clone() }
     }
 }

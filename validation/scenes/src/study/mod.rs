@@ -39,6 +39,7 @@ pub use canonical::canonical;
 pub use schema::schema;
 pub use suite::{Suite, is_study};
 
+use crate::case::list::ListedChange;
 use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
 use crate::evaluation::{PlanError, parse_plan};
 use crate::figure::Figure;
@@ -47,7 +48,7 @@ use crate::measured::Measurements;
 use crate::metric::{Metric, Variant};
 use crate::output::FileError;
 use check::{CheckedQuantity, StudyCheck};
-use file::{ChangedSettings, StudyText};
+use file::StudyText;
 use reading::{Reading, joined};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -60,7 +61,7 @@ pub struct Study {
     text: StudyText,
     base: CaseFile,
     checks: Vec<StudyCheck>,
-    changes: Vec<ChangedSettings>,
+    changes: Vec<ListedChange>,
 }
 
 impl Study {
@@ -110,7 +111,7 @@ impl Study {
                     return Err(within(FieldError::new("order_of", of, "the name of an earlier check", remedy)).into());
                 }
                 let is_varied =
-                    |varied: &file::VariedParameter| varied.label() == in_parameter && varied.values.len() > 1;
+                    |varied: &crate::case::VariedParameter| varied.label() == in_parameter && varied.values.len() > 1;
                 if !text.vary.iter().any(is_varied) {
                     let rule = "the name of a parameter that [[vary]] gives several values";
                     return Err(
@@ -120,7 +121,7 @@ impl Study {
             }
             checks.push(check);
         }
-        let changes = text.changes();
+        let changes = text.list().changes();
         let mut files = BTreeMap::new();
         for changed in &changes {
             if let Some(twin) = files.insert(changed.variant.file_name(), &changed.variant) {
@@ -154,14 +155,10 @@ impl Study {
         study
     }
 
-    /// The study at a tier: the quick one leaves out the variants of higher tiers, and their checks.
+    /// The study with the runs of a tier, and without the checks of other ones.
     fn with_variants_of(mut self, tier: Tier) -> Self {
-        let dearer = self.text.variants.iter().filter(|named| named.tier.is_some_and(|lowest| lowest != Tier::Quick));
-        let dearer: Vec<Variant> = dearer.map(|named| Variant::of("variant", named.name.as_str())).collect();
-        if tier == Tier::Quick {
-            self.changes.retain(|changed| !dearer.iter().any(|own| changed.variant.includes(own)));
-            self.drop_checks_without_runs();
-        }
+        self.changes = self.text.list().of_tier(tier).changes();
+        self.drop_checks_without_runs();
         self
     }
 
@@ -205,14 +202,14 @@ impl Study {
     ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
         let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
         let base = self.of_tier(tier.unwrap_or(self.tier())).base;
-        let prepare = |changed: &ChangedSettings, settings: &[String]| {
-            let settings: Vec<String> = changed.settings.iter().chain(settings).cloned().collect();
+        let prepare = |changed: &ListedChange, settings: &[String]| {
+            let settings: Vec<String> = changed.settings().chain(settings.iter().cloned()).collect();
             let file = Some((base.path.as_path(), base.fields.clone()));
             let changes = Changes { file, settings: &settings, limits, only: &[] };
             case.prepare(tier.unwrap_or(self.tier()), &changes)
         };
         // what the file says is refused by its place there, what the command line says by its field
-        let refused = |changed: &ChangedSettings, error: ParameterError| match prepare(changed, &[]) {
+        let refused = |changed: &ListedChange, error: ParameterError| match prepare(changed, &[]) {
             Ok(_) => PlanError::Parameter(error),
             Err(error) => PlanError::of(error, &self.file),
         };

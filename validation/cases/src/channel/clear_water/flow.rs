@@ -1,6 +1,6 @@
 //! The flow: clear water over a rough bed.
 
-use crate::case::{Flow, ParameterError, Progress, Run, cost};
+use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
 use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, TurbulenceClosure, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -88,7 +88,6 @@ impl Default for ClearWaterFlow {
 
 impl Flow for ClearWaterFlow {
     const RUNS: &'static str = include_str!("../../../runs/clear-water.toml");
-    const FORMER: &'static [(&'static str, &'static str)] = &[("slopes", "slope")];
 
     fn check(&self) -> Result<(), ParameterError> {
         let Self { water, origin_offset, sand_roughness, period, .. } = *self;
@@ -117,16 +116,8 @@ impl Run for ClearWaterFlow {
         Variant::of("slope", self.slope).and("resolution", self.water.resolution)
     }
 
-    fn particles(&self) -> f64 {
-        self.water.particles()
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::INCOMPRESSIBLE
-    }
-
-    fn particle_steps(&self) -> f64 {
-        self.channel(&|_| 0.0).expected_steps() * self.water.particles()
+    fn cost(&self) -> RunCost {
+        RunCost::incompressible(self.water.particles(), self.channel(&|_| 0.0).expected_steps())
     }
 
     fn trajectory(&self) -> Option<Self> {

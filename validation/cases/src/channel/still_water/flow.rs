@@ -1,6 +1,6 @@
 //! The flow: a column of water at rest.
 
-use crate::case::{Flow, ParameterError, Progress, Run, cost};
+use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
 use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -36,8 +36,6 @@ impl Default for StillWaterFlow {
 
 impl Flow for StillWaterFlow {
     const RUNS: &'static str = include_str!("../../../runs/still-water.toml");
-    const FORMER: &'static [(&'static str, &'static str)] =
-        &[("jitters", "jitter"), ("unstabilised_jitters", "jitter"), ("unstabilised_duration", "duration")];
 
     fn check(&self) -> Result<(), ParameterError> {
         let longest = 0.5 * self.duration;
@@ -55,16 +53,8 @@ impl Run for StillWaterFlow {
             .and("resolution", self.water.resolution)
     }
 
-    fn particles(&self) -> f64 {
-        self.water.particles()
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::INCOMPRESSIBLE
-    }
-
-    fn particle_steps(&self) -> f64 {
-        self.channel().expected_steps() * self.water.particles()
+    fn cost(&self) -> RunCost {
+        RunCost::incompressible(self.water.particles(), self.channel().expected_steps())
     }
 
     fn trajectory(&self) -> Option<Self> {

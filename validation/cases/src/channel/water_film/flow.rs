@@ -1,6 +1,6 @@
 //! The flow: a laminar film on a slope.
 
-use crate::case::{Flow, ParameterError, Progress, Run, cost};
+use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
 use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -54,8 +54,6 @@ impl Default for WaterFilmFlow {
 
 impl Flow for WaterFilmFlow {
     const RUNS: &'static str = include_str!("../../../runs/water-film.toml");
-    const FORMER: &'static [(&'static str, &'static str)] =
-        &[("arrangements", "arrangement"), ("convergence_resolutions", "resolution")];
 
     fn check(&self) -> Result<(), ParameterError> {
         let longest = 0.5 * self.relaxation_times;
@@ -71,16 +69,8 @@ impl Run for WaterFilmFlow {
         Variant::of("particles", self.arrangement.name()).and("resolution", self.water.resolution)
     }
 
-    fn particles(&self) -> f64 {
-        self.water.particles()
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        cost::INCOMPRESSIBLE
-    }
-
-    fn particle_steps(&self) -> f64 {
-        self.channel(&|_| 0.0).expected_steps() * self.water.particles()
+    fn cost(&self) -> RunCost {
+        RunCost::incompressible(self.water.particles(), self.channel(&|_| 0.0).expected_steps())
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {

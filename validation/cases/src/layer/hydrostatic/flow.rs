@@ -1,6 +1,6 @@
 //! The flow: a layer at rest.
 
-use crate::case::{Flow, ParameterError, Progress, Run};
+use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
 use crate::layer::{Layer, LayerObservation, PeriodicLayer};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -40,8 +40,6 @@ impl Default for HydrostaticFlow {
 
 impl Flow for HydrostaticFlow {
     const RUNS: &'static str = include_str!("../../../runs/hydrostatic.toml");
-    const FORMER: &'static [(&'static str, &'static str)] =
-        &[("liquid", "material"), ("grains", "material"), ("liquid_density", "bulk_density")];
 
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
@@ -60,12 +58,8 @@ impl Run for HydrostaticFlow {
             .and("resolution", self.layer.resolution)
     }
 
-    fn particles(&self) -> f64 {
-        self.layer.particles()
-    }
-
-    fn particle_steps(&self) -> f64 {
-        self.layer().expected_steps() * self.layer.particles()
+    fn cost(&self) -> RunCost {
+        RunCost::weakly_compressible(self.layer.particles(), self.layer().expected_steps())
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
