@@ -1,14 +1,12 @@
 //! The case's figures.
 
-use super::CollapseRecord;
-use super::bands;
-use super::column::{ColumnPurpose, ColumnRun, Geometry, PICTURES};
-use super::deposit::Collapse;
-use super::flow_metrics::{self, energies, stations};
-use super::material::{ExperimentGrains, Material};
-use super::other_codes::Beside;
-use super::{convergence, measured, scaling, stress_updates, velocity_profile, wedge};
+use super::interior::{self, energies, stations, velocity_profile, wedge};
+use super::metrics::{convergence, measured, scaling, stress_updates};
 use crate::case::Run;
+use crate::collapse::column::PICTURES;
+use crate::collapse::metrics::bands;
+use crate::collapse::metrics::other_codes::Beside;
+use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material};
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::metric::{Confidence, Limit};
 use crate::observation::energy;
@@ -289,7 +287,7 @@ fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Fig
 
 fn wedges(records: &[&CollapseRecord]) -> Figure {
     let panels = records.iter().filter_map(|(run, record)| {
-        let wedge = flow_metrics::wedge(run, &record.frames)?;
+        let wedge = interior::wedge_of(run, &record.frames)?;
         Some(wedge::panel(&label(run), run, record.frames.last()?, &wedge))
     });
     Figure::new(

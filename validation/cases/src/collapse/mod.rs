@@ -1,52 +1,21 @@
 //! Dry grains that collapse: columns on a horizontal bed, which the planar and the round case share, and a reservoir on a
 //! slope, which incline-collapse and flow-thickness share.
 
-mod bands;
-mod block;
-mod camera;
 mod column;
-mod convergence;
-mod deposit;
-pub(super) mod figures;
-mod flow_metrics;
-pub(super) mod foreign;
-mod foreign_heap;
-pub(super) mod foreign_slope;
-pub(super) mod fronts;
+mod external;
+mod figures;
+mod heap;
 pub mod incline;
-mod incline_parameters;
-mod known;
-mod material;
-mod measured;
+mod interior;
 pub(super) mod metrics;
-mod other_codes;
-mod other_numerics;
-mod pile;
 pub mod planar;
-pub(super) mod quantities;
-mod release;
-mod reservoir;
 pub mod round;
-mod scaling;
 mod slope;
-mod statements;
-mod stress_updates;
-mod toe;
-mod velocity_profile;
-mod watch;
-mod wedge;
 
 pub(crate) use column::TALLEST_FINE;
-pub use column::{ColumnPurpose, ColumnRun, Geometry};
-pub use deposit::{BIN_WIDTH, Collapse};
-pub use fronts::{FRONT_THICKNESS, Fronts};
-pub use incline_parameters::InclineCollapseParameters;
-pub use material::{Alteration, ExperimentGrains, Material};
-pub use release::Release;
-pub use reservoir::Reservoir;
-pub use slope::{SlopeCollapse, SlopeRun};
-
-pub(super) use velocity_profile::{Station, linear_misfit_ratio};
+pub use column::{Alteration, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material, Release};
+pub use heap::{BIN_WIDTH, Collapse, FRONT_THICKNESS, Fronts};
+pub use slope::{InclineCollapseParameters, Reservoir, SlopeCollapse, SlopeRun};
 
 use crate::case::{ParameterError, Run};
 use crate::observation::Recorded;

@@ -2,7 +2,7 @@
 
 use super::InclineCollapseRecord;
 use super::metrics::MARGIN;
-use crate::collapse::other_codes::Beside;
+use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
 use crate::evidence::shipped_table;
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};

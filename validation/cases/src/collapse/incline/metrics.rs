@@ -3,14 +3,15 @@
 use super::InclineCollapseRecord;
 use super::inside::Inside;
 use crate::case::Run;
-use crate::collapse::fronts::with_resolution;
-use crate::collapse::metrics::{at_rest, conservation};
-use crate::collapse::other_codes::Beside;
-use crate::collapse::quantities::{
+use crate::collapse::heap::with_resolution;
+use crate::collapse::interior::{Station, linear_misfit_ratio};
+use crate::collapse::metrics::other_codes::Beside;
+use crate::collapse::metrics::quantities::{
     DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, KINETIC_ENERGY, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL,
     PARTICLES_LOST, REST_TIME,
 };
-use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun, Station, linear_misfit_ratio};
+use crate::collapse::metrics::{at_rest, conservation};
+use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{SLOPE_EXPERIMENT, slope_run_out};

@@ -35,7 +35,7 @@ impl Case for InclineCollapse {
         Observed only. Profiles of viscosity and shear over the depth. Run-outs above the friction angle, where the \
         local μ(I) law has no deposit and the flow thins as long as the channel lasts. The fit under any other law \
         than μ(I); the wall contact friction then replaces μ_s.";
-    const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign_slope::EXTERNAL_SCHEMA;
+    const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::slope::EXTERNAL_SCHEMA;
     type Parameters = InclineCollapseParameters;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
@@ -55,7 +55,7 @@ impl Case for InclineCollapse {
         run: &SlopeRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<SlopeCollapse>>, FieldError> {
-        collapse::foreign_slope::observe(run, given).map(Some)
+        collapse::external::slope::observe(run, given).map(Some)
     }
 
     fn tables(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Table> {

@@ -35,9 +35,9 @@ impl Case for ColumnPlanar {
         over time against other codes; the shape of a pile of bars against measurements; balances.\n\n\
         Observed only. The undisturbed core, the failure surface and the profile of the flowing layer. The published \
         laws under any other law than μ(I): their coefficients depend on the material, their exponents much less.";
-    const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign::EXTERNAL_SCHEMA;
+    const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::column::EXTERNAL_SCHEMA;
     type Parameters = ColumnPlanarParameters;
-    const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = collapse::metrics::quantities::QUANTITIES;
 
     fn metrics(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Metric> {
         collapse::metrics::all(records)
@@ -55,7 +55,7 @@ impl Case for ColumnPlanar {
         run: &ColumnRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
-        collapse::foreign::observe(run, given).map(Some)
+        collapse::external::column::observe(run, given).map(Some)
     }
 
     fn tables(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Table> {

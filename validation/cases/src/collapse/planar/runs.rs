@@ -1,7 +1,7 @@
 //! The columns that the case asks for, in report order.
 
 use super::parameters::{ColumnPlanarParameters, PlanarColumns, SHOWN};
-use crate::collapse::flow_metrics::PROFILE_TIME;
+use crate::collapse::interior::PROFILE_TIME;
 use crate::collapse::{Alteration, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material, Release};
 use crate::reference::grains::LAGREE_GRAINS;
 use bagnold_solver::material::rheology::{MuI, Rheology};

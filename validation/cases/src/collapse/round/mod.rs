@@ -30,9 +30,9 @@ impl Case for ColumnRound {
         against another code; balances.\n\n\
         Observed only. The height law of the same source, which is unverified. The published laws under any other \
         law than μ(I).";
-    const EXTERNAL_SCHEMA: ExternalSchema = collapse::foreign::EXTERNAL_SCHEMA;
+    const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::column::EXTERNAL_SCHEMA;
     type Parameters = ColumnRoundParameters;
-    const QUANTITIES: &'static [Quantity] = collapse::quantities::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = collapse::metrics::quantities::QUANTITIES;
 
     fn metrics(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Metric> {
         collapse::metrics::all(records)
@@ -50,7 +50,7 @@ impl Case for ColumnRound {
         run: &ColumnRun,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
-        collapse::foreign::observe(run, given).map(Some)
+        collapse::external::column::observe(run, given).map(Some)
     }
 
     fn tables(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Table> {

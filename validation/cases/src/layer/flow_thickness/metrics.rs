@@ -7,7 +7,7 @@ use super::{
 };
 use crate::case::Run;
 use crate::collapse::metrics::conservation;
-use crate::collapse::quantities::{MOMENTUM_RESIDUAL, PARTICLES_LOST};
+use crate::collapse::metrics::quantities::{MOMENTUM_RESIDUAL, PARTICLES_LOST};
 use crate::layer::LayerObservation;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant, quantities};
 use crate::reference::collapse::RoughIncline;

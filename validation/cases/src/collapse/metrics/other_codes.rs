@@ -2,12 +2,8 @@
 //! not.
 
 use super::bands::{SAME_LAW, band};
-use super::column::{ColumnRun, Geometry};
-use super::deposit::Collapse;
-use super::material::Material;
 use super::quantities::{FRONT, KINETIC_ENERGY};
-use super::reservoir::Reservoir;
-use super::slope::SlopeRun;
+use crate::collapse::{Collapse, ColumnRun, Geometry, Material, Reservoir, SlopeRun};
 use crate::figure::Panel;
 use crate::metric::{Limit, Metric, MetricKind, Origin, Quantity, Variant};
 use crate::reference::collapse::{AT_REST, CodeQuantity, OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
@@ -24,27 +20,27 @@ const CENTROID_REASON: &str =
     "7.7 %, twice the standard deviation of a method beside the mean of two others (√1.5 times 3.15 %)";
 
 /// Time at which columns are compared, over √(h_0/g) `[-]`: later the other codes are known less well, earlier laws differ by less.
-pub(super) const MID_COLLAPSE: f64 = 2.0;
+pub(crate) const MID_COLLAPSE: f64 = 2.0;
 /// Half width of the columns in the tables `[m]`: with the grains' diameter it sets their inertial number.
 const HALF_WIDTH: f64 = 0.1;
 /// Speed of the gate `[m/s]`, height and length of the reservoir in the table `[m]`.
 const RELEASE: (f64, f64, f64) = (1.3, 0.14, 0.2);
 
 /// A collapse that a table has, with the scales of its times and energies.
-pub(super) struct Beside<'a> {
+pub(crate) struct Beside<'a> {
     codes: &'a OtherCodes,
     /// Aspect ratio `[-]` or slope `[°]`, as the table has it.
     flow: f64,
     /// √(h_0/g) `[s]`.
-    pub(super) time_scale: f64,
+    pub(crate) time_scale: f64,
     /// ½ M g h_0, in the unit of the energies.
-    pub(super) energy_scale: f64,
+    pub(crate) energy_scale: f64,
     collapse: &'a Collapse,
 }
 
 impl<'a> Beside<'a> {
     /// A column of Lagrée's grains and of the tables' width; none of others.
-    pub(super) fn of_column(run: &ColumnRun, collapse: &'a Collapse) -> Option<Self> {
+    pub(crate) fn of_column(run: &ColumnRun, collapse: &'a Collapse) -> Option<Self> {
         let codes = match run.geometry {
             Geometry::Planar => &*PLANAR_CODES,
             Geometry::Round => &*ROUND_CODES,
@@ -61,7 +57,7 @@ impl<'a> Beside<'a> {
     }
 
     /// Glass beads behind gate and in the reservoir of the table; none of others.
-    pub(super) fn of_slope(run: &SlopeRun, collapse: &'a Collapse) -> Option<Self> {
+    pub(crate) fn of_slope(run: &SlopeRun, collapse: &'a Collapse) -> Option<Self> {
         let Reservoir { initial_height, reservoir_length, gravity, .. } = run.reservoir;
         let is_of_them = (run.gate_speed, initial_height, reservoir_length) == RELEASE
             && run.regularisation_rate.is_none()
@@ -82,7 +78,7 @@ impl<'a> Beside<'a> {
     }
 
     /// Kinetic energy and front at a time over √(h_0/g), beside those of the codes that tell them.
-    pub(super) fn metrics(&self, variant: &Variant, time: f64) -> Vec<Metric> {
+    pub(crate) fn metrics(&self, variant: &Variant, time: f64) -> Vec<Metric> {
         let variant = Variant::of("free_fall_times", time).followed_by(variant);
         let beside = |quantity: Quantity, values: &[f64], scale: f64, of_codes: CodeQuantity, start: f64| {
             let (mean, uncertainty) = self.codes.at(self.flow, of_codes, time)?;
@@ -104,7 +100,7 @@ impl<'a> Beside<'a> {
     }
 
     /// A run-out of the deposit beside that of the codes; as it is where none tells it.
-    pub(super) fn deposit(&self, metric: Metric, of_codes: CodeQuantity) -> Metric {
+    pub(crate) fn deposit(&self, metric: Metric, of_codes: CodeQuantity) -> Metric {
         let Some((mean, uncertainty)) = self.codes.at(self.flow, of_codes, AT_REST) else { return metric };
         let (share, reason) = match of_codes {
             CodeQuantity::CentroidAtRest => (SAME_CENTROID, CENTROID_REASON),
@@ -118,7 +114,7 @@ impl<'a> Beside<'a> {
     }
 
     /// The codes' points in a panel over t/√(h_0/g), each changed by a linear function; an error bar is twice the code's uncertainty.
-    pub(super) fn draw(
+    pub(crate) fn draw(
         &self,
         panel: &mut Panel,
         quantity: CodeQuantity,

@@ -14,7 +14,7 @@ pub const BIN_WIDTH: f64 = 0.1;
 /// Points a horizontal direction over which a particle's volume is spread, in the plane and in space.
 const SUB_POINTS: [usize; 2] = [8, 4];
 /// Kinetic over released potential energy below which a deposit rests `[-]`.
-pub(super) const AT_REST: f64 = 5e-7;
+pub(crate) const AT_REST: f64 = 5e-7;
 /// Time series and final deposit; lengths over the half width r_0, times in `[s]`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Collapse {
@@ -53,7 +53,7 @@ pub struct Collapse {
 /// Measures snapshots of one column: half a planar one in two dimensions, a quarter of a round one in three. The
 /// vertical axis is the second one; radii are distances from the symmetry plane or axis.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(super) struct Surveyor {
+pub(crate) struct Surveyor {
     /// Half width r_0 `[m]`.
     pub half_width: f64,
     /// Particle spacing `[m]`.
@@ -68,7 +68,7 @@ pub(super) struct Surveyor {
 
 impl Surveyor {
     /// Adds a point to the time series and gives the thickness, both over r_0.
-    pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
+    pub(crate) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
         let thickness = self.thickness(snapshot);
         let fronts = self.fronts(snapshot, &thickness);
         let (mut kinetic, mut potential) = (0.0, 0.0);
@@ -106,7 +106,7 @@ impl Surveyor {
 
     /// Measures the deposit and ends the survey.
     #[must_use]
-    pub(super) fn finish<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
+    pub(crate) fn finish<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
         let r = self.half_width;
         self.collapse.deposit = self.thickness(end);
         self.collapse.deposit_fronts = Some(self.fronts(end, &self.collapse.deposit));
@@ -138,7 +138,7 @@ impl Surveyor {
     }
 
     /// The fronts beyond the thickest bin of a thickness over r_0.
-    pub(super) fn fronts<const D: usize>(&self, snapshot: &Snapshot<D>, thickness: &[(f64, f64)]) -> Fronts {
+    pub(crate) fn fronts<const D: usize>(&self, snapshot: &Snapshot<D>, thickness: &[(f64, f64)]) -> Fronts {
         let r = self.half_width;
         let thickest = thickness.iter().copied().fold((0.5 * BIN_WIDTH, 0.0), |a, b| if b.1 > a.1 { b } else { a });
         let start = (thickest.0 - 0.5 * BIN_WIDTH).max(0.0) * r;
@@ -148,7 +148,7 @@ impl Surveyor {
     /// (x, ΣV over the bin's width or quarter ring), both over r_0. A particle's volume is spread evenly over a spacing
     /// to either side, mirrored at the symmetry planes: counted at points, bins of two spacings would jump by whole
     /// particles.
-    pub(super) fn thickness<const D: usize>(&self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
+    pub(crate) fn thickness<const D: usize>(&self, snapshot: &Snapshot<D>) -> Vec<(f64, f64)> {
         let r = self.half_width;
         let width = BIN_WIDTH * r;
         let bins = (self.bed_end / width).ceil() as usize;
@@ -190,13 +190,13 @@ impl Surveyor {
 }
 
 /// Distance from the symmetry plane or axis.
-pub(super) fn radius<const D: usize>(position: &Vector<D>) -> f64 {
+pub(crate) fn radius<const D: usize>(position: &Vector<D>) -> f64 {
     if D == 2 { position[0] } else { (position[0] * position[0] + position[2] * position[2]).sqrt() }
 }
 
 impl Collapse {
     /// Largest root mean square of the speed over the collapse `[m/s]`, of a mass in the energies' unit.
-    pub(super) fn fastest(&self, mass: f64) -> f64 {
+    pub(crate) fn fastest(&self, mass: f64) -> f64 {
         (2.0 * self.kinetic_energy.iter().copied().fold(0.0, f64::max) / mass).sqrt()
     }
 
@@ -232,7 +232,7 @@ impl Collapse {
     }
 
     /// The deposit's bins up to the last that holds grains.
-    pub(super) fn drawn(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+    pub(crate) fn drawn(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let end = self.deposit.iter().rposition(|bin| bin.1 > 0.0).map_or(0, |last| last + 1);
         self.deposit[..end].iter().copied()
     }

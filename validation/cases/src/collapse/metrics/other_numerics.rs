@@ -1,12 +1,10 @@
 //! Columns of the sand with other numerics beside the same ones as they are: with an eddy viscosity, and without the coupling of density
 //! and pressure (27), whose pressure then oscillates.
 
-use super::CollapseRecord;
 use super::bands;
-use super::column::ColumnPurpose;
-use super::deposit::Collapse;
 use super::quantities::{EDDY_CHANGE, EDDY_GAIN, FINAL_HEIGHT, PRESSURE_NOISE_RATIO, RUN_OUT, VELOCITY_NOISE_RATIO};
 use crate::case::Run;
+use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose};
 use crate::metric::{Confidence, Metric, Variant};
 use crate::observation::Frame;
 

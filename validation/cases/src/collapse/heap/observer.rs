@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// What is seen of a run.
 #[derive(Debug, Serialize, Deserialize)]
-pub(super) struct CollapseObserver {
+pub(crate) struct CollapseObserver {
     /// Measures every snapshot.
     surveyor: Surveyor,
     /// Takes the frames of the animation.
@@ -18,20 +18,20 @@ pub(super) struct CollapseObserver {
     /// Time before which no heap has come to rest `[s]`.
     earliest_rest: f64,
     /// The pictures.
-    pub(super) frames: Vec<Frame>,
+    pub(crate) frames: Vec<Frame>,
     /// How many of the times have passed.
     passed: usize,
 }
 
 impl CollapseObserver {
     /// Has seen nothing; takes a frame of the animation every `frame_interval` `[s]`.
-    pub(super) fn new(surveyor: Surveyor, frame_interval: f64, times: Vec<f64>, earliest_rest: f64) -> Self {
+    pub(crate) fn new(surveyor: Surveyor, frame_interval: f64, times: Vec<f64>, earliest_rest: f64) -> Self {
         let camera = Camera::new(frame_interval, surveyor.spacing);
         Self { surveyor, camera, times, earliest_rest, frames: Vec::new(), passed: 0 }
     }
 
     /// Sees a snapshot; gives the thickness over r_0, bin by bin, and whether the heap rests.
-    pub(super) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> (Vec<(f64, f64)>, bool) {
+    pub(crate) fn observe<const D: usize>(&mut self, snapshot: &Snapshot<D>) -> (Vec<(f64, f64)>, bool) {
         let thickness = self.surveyor.observe(snapshot);
         let r = self.surveyor.half_width;
         let front = self.surveyor.collapse.front.last().copied().unwrap_or(0.0);
@@ -46,12 +46,12 @@ impl CollapseObserver {
     }
 
     /// What was measured and taken.
-    pub(super) fn finish<const D: usize>(self, end: &Snapshot<D>) -> Collapse {
+    pub(crate) fn finish<const D: usize>(self, end: &Snapshot<D>) -> Collapse {
         Collapse { motion: self.camera.motion, ..self.surveyor.finish(end) }
     }
 
     /// The same with a last frame of the deposit.
-    pub(super) fn finish_with_deposit<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
+    pub(crate) fn finish_with_deposit<const D: usize>(mut self, end: &Snapshot<D>) -> Collapse {
         let r = self.surveyor.half_width;
         let collapse = self.surveyor.finish(end);
         let surface = collapse.deposit.iter().map(|(x, h)| (x * r, h * r));

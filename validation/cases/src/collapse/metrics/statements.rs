@@ -1,12 +1,10 @@
 //! What the collapse paper says of single columns at single times: fast grains that come to rest, a top that falls as it is, and a
 //! flow like a plug at the foot.
 
-use super::column::{ColumnRun, Geometry};
-use super::deposit::{BIN_WIDTH, Collapse};
-use super::material::Material;
 use super::quantities::{FAST_UPSTREAM_RATIO, FOOT_VELOCITY_RATIO, TOP_DISTORTION};
-use super::velocity_profile::Station;
 use crate::case::Run;
+use crate::collapse::interior::Station;
+use crate::collapse::{BIN_WIDTH, Collapse, ColumnRun, Geometry, Material};
 use crate::metric::{Confidence, Metric};
 use crate::observation::{Frame, Recorded};
 

@@ -1,20 +1,20 @@
-//! How the columns are judged.
+//! How collapses are judged: limits with their reasons, and the quantities that they stand for.
 
-use super::CollapseRecord;
-use super::bands::{self, AcceptanceBand};
-use super::column::{ColumnPurpose, ColumnRun, Geometry};
-use super::convergence::{numerical_uncertainty, relative_spread};
-use super::deposit::Collapse;
-use super::known::{ColumnUncertainty, EnsembleSpread, with_uncertainty};
-use super::material::Material;
-use super::measured;
-use super::other_codes::{Beside, MID_COLLAPSE};
-use super::pile::pile_of;
-use super::quantities::{
-    DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
-    RUN_OUT, STOPPING_TIME,
-};
+pub(crate) mod bands;
+pub(crate) mod convergence;
+mod interior;
+pub(crate) mod measured;
+pub(crate) mod other_codes;
+mod other_numerics;
+pub(crate) mod quantities;
+pub(crate) mod scaling;
+mod statements;
+pub(crate) mod stress_updates;
+mod uncertainty;
+
 use crate::case::Run;
+use crate::collapse::column::pile_of;
+use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, Geometry, Material};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Quantity, Variant};
 use crate::reference::collapse::{
@@ -23,6 +23,14 @@ use crate::reference::collapse::{
 use crate::setup::energy_ledger::{self, EnergyScale};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bands::AcceptanceBand;
+use convergence::{numerical_uncertainty, relative_spread};
+use other_codes::{Beside, MID_COLLAPSE};
+use quantities::{
+    DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
+    RUN_OUT, STOPPING_TIME,
+};
+use uncertainty::{ColumnUncertainty, EnsembleSpread, with_uncertainty};
 
 /// Aspect ratios about that of the paper's cone `[-]`.
 const CONES: std::ops::RangeInclusive<f64> = 2.0..=3.5;
@@ -80,18 +88,18 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
                 round.push((run.initial_height(), ratio.clone()));
                 metrics.push(ratio);
             }
-            metrics.extend(super::flow_metrics::of_run(column, records));
-            metrics.extend(super::statements::of_run(run, record));
+            metrics.extend(interior::of_run(column, records));
+            metrics.extend(statements::of_run(run, record));
         } else {
             metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics, energy_scale(run)));
         }
     }
     let ratios: Vec<(f64, &Metric)> = round.iter().map(|(ratio, metric)| (*ratio, metric)).collect();
     metrics.extend(measured::of_round_columns(&ratios));
-    metrics.extend(super::convergence::metrics(records));
-    metrics.extend(super::stress_updates::metrics(records));
-    metrics.extend(super::other_numerics::metrics(records));
-    metrics.extend(super::scaling::metrics(records));
+    metrics.extend(convergence::metrics(records));
+    metrics.extend(stress_updates::metrics(records));
+    metrics.extend(other_numerics::metrics(records));
+    metrics.extend(scaling::metrics(records));
     metrics
 }
 

@@ -1,15 +1,12 @@
 //! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
 
-use super::CollapseRecord;
 use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
-use super::column::{ColumnPurpose, ColumnRun};
-use super::deposit::Collapse;
-use super::fronts::with_resolution;
-use super::material::Material;
 use super::quantities::{
     ENSEMBLE_MEAN, ENSEMBLE_RUN_OUT, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, FINAL_HEIGHT, GRID_CONVERGENCE_INDEX,
     HOURGLASS_SPREAD, OBSERVED_ORDER, RUN_OUT,
 };
+use crate::collapse::heap::with_resolution;
+use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, Material};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Origin, Variant};
 use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
@@ -113,7 +110,7 @@ impl<'a> ConvergenceStudy<'a> {
     }
 }
 
-pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
+pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for study in ConvergenceStudy::all(records, ColumnPurpose::Convergence) {
         for (quantity, measure, largest) in MEASURED {
@@ -220,7 +217,7 @@ fn finest(means: &[Mean]) -> Option<GridConvergence> {
 }
 
 /// Relative standard uncertainty of a measure from the spacing where a study of the run's column has its resolution `[-]`.
-pub(super) fn numerical_uncertainty(
+pub(crate) fn numerical_uncertainty(
     records: &[CollapseRecord],
     run: &ColumnRun,
     measure: fn(&Collapse) -> f64,
@@ -240,7 +237,7 @@ fn uncertainty_at(means: &[Mean], resolution: usize) -> Option<f64> {
 }
 
 /// Largest relative standard deviation of a measure over an ensemble of [`ENSEMBLE`] seeds or more `[-]`; 0 without one.
-pub(super) fn relative_spread(records: &[CollapseRecord], measure: fn(&Collapse) -> f64) -> f64 {
+pub(crate) fn relative_spread(records: &[CollapseRecord], measure: fn(&Collapse) -> f64) -> f64 {
     let studies = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
     let ensembles = studies.iter().flat_map(|study| study.means(measure)).filter(|mean| mean.runs >= ENSEMBLE);
     let spread = |mean: Mean| mean.standard_error * (mean.runs as f64).sqrt() / mean.value.abs();
@@ -248,7 +245,7 @@ pub(super) fn relative_spread(records: &[CollapseRecord], measure: fn(&Collapse)
 }
 
 /// Figures of the studies that were made.
-pub(super) fn figures(records: &[CollapseRecord]) -> Vec<Figure> {
+pub(crate) fn figures(records: &[CollapseRecord]) -> Vec<Figure> {
     let mut resolution = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
     // an ensemble at one resolution says nothing of convergence
     resolution.retain(|study| study.means(|collapse| collapse.centroid).len() > 1);

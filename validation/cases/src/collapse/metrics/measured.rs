@@ -1,16 +1,13 @@
 //! Columns beside points that experimenters measured: the final surface of a pile of aluminium bars, and run-outs of round columns.
 
-use super::CollapseRecord;
-use super::column::{ColumnRun, Geometry};
-use super::deposit::Collapse;
-use super::flow_metrics;
-use super::fronts::FRONT_THICKNESS;
-use super::known::{ColumnUncertainty, with_uncertainty};
-use super::pile::{pile_of, with_friction};
 use super::quantities::{
     FAILURE_LINE_DISTANCE, FINAL_HEIGHT, MEDIAN_RUN_OUT_RATIO, RUN_OUT, RUN_OUT_RATIO, SURFACE_DISTANCE,
 };
+use super::uncertainty::{ColumnUncertainty, with_uncertainty};
 use crate::case::Run;
+use crate::collapse::column::{pile_of, with_friction};
+use crate::collapse::interior;
+use crate::collapse::{Collapse, CollapseRecord, ColumnRun, FRONT_THICKNESS, Geometry};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Limit, Metric, Origin, Value, Variant};
 use crate::observation::Recorded;
@@ -98,7 +95,7 @@ pub(super) fn of_pile(
             )
             .gated_by(judged(Limit::AtMost(PILE_SURFACE)), "5 % of the initial height, a row of twenty"),
     ];
-    if let Some(wedge) = flow_metrics::wedge(run, &record.frames) {
+    if let Some(wedge) = interior::wedge_of(run, &record.frames) {
         let rows: Vec<(f64, f64)> = wedge.boundary.iter().map(|&(x, y)| (y, x)).collect();
         let off = |&(x, y): &(f64, f64)| {
             interpolated(&rows, y, (Extrapolation::EndValue, Extrapolation::EndValue))
@@ -109,7 +106,7 @@ pub(super) fn of_pile(
         let distance = of(FAILURE_LINE_DISTANCE.of(&variant, 100.0 * mean.sqrt() / r), 0.0);
         metrics.push(with_friction(distance, records, run, |(other, seen)| {
             let theirs: Vec<(f64, f64)> =
-                flow_metrics::wedge(other, &seen.frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect();
+                interior::wedge_of(other, &seen.frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect();
             let at =
                 |rows: &[(f64, f64)], y: f64| interpolated(rows, y, (Extrapolation::EndValue, Extrapolation::EndValue));
             let squares = pile.failure.iter().map(|&(_, y)| Some((at(&theirs, y)? - at(&rows, y)?).powi(2)));
@@ -169,7 +166,7 @@ pub(super) fn of_round_columns(ratios: &[(f64, &Metric)]) -> Option<Metric> {
 }
 
 /// The pile's surface and line of failure beside the measured ones.
-pub(super) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
+pub(crate) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
     let piles: Vec<(&ColumnRun, &Recorded<Collapse>, &MeasuredPile)> =
         records.iter().filter_map(|(run, record)| Some((run, record, pile_of(run)?))).collect();
     let (_, _, pile) = *piles.first()?;
@@ -191,7 +188,7 @@ pub(super) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
         );
         let deposit = record.data.drawn().map(|(x, thickness)| (r * x, r * thickness));
         surface.line(&label, slot + 1, deposit);
-        if let Some(wedge) = flow_metrics::wedge(run, &record.frames) {
+        if let Some(wedge) = interior::wedge_of(run, &record.frames) {
             failure.line("", slot + 1, centimetres(&wedge.boundary));
         }
     }

@@ -1,8 +1,8 @@
 //! The pile of aluminium bars that was measured, among the columns.
 
-use super::CollapseRecord;
-use super::column::{ColumnPurpose, ColumnRun, Geometry};
 use super::material::{Alteration, ExperimentGrains};
+use super::run::{ColumnPurpose, ColumnRun, Geometry};
+use crate::collapse::CollapseRecord;
 use crate::metric::{Metric, Origin};
 use crate::reference::collapse::{ALUMINIUM_BAR_PILE, MeasuredPile};
 use crate::statistics::common_slope;
@@ -11,7 +11,7 @@ const RATE: &str = "friction at a rate (distance to the pile whose friction rise
 const FRICTION: &str = "meaning of the friction angle (distance to the pile whose friction is the sine of the measured angle instead of the tangent, over √3)";
 
 /// The measured pile that a column is, if it is one.
-pub(super) fn pile_of(run: &ColumnRun) -> Option<&'static MeasuredPile> {
+pub(crate) fn pile_of(run: &ColumnRun) -> Option<&'static MeasuredPile> {
     let pile = &*ALUMINIUM_BAR_PILE;
     let same = |own: f64, measured: f64| (own / measured - 1.0).abs() < 1e-9;
     let is_it = (run.geometry, run.material.grains) == (Geometry::Planar, ExperimentGrains::Bars)
@@ -22,7 +22,7 @@ pub(super) fn pile_of(run: &ColumnRun) -> Option<&'static MeasuredPile> {
 }
 
 /// Slope of the measured line of failure `[°]` and its standard error.
-pub(super) fn failure_angle(pile: &MeasuredPile) -> Option<(f64, f64)> {
+pub(crate) fn failure_angle(pile: &MeasuredPile) -> Option<(f64, f64)> {
     let fit = common_slope(std::slice::from_ref(&pile.failure))?;
     let error = fit.standard_error / (1.0 + fit.value * fit.value);
     Some((libm::atan(-fit.value).to_degrees(), error.to_degrees()))
@@ -30,7 +30,7 @@ pub(super) fn failure_angle(pile: &MeasuredPile) -> Option<(f64, f64)> {
 
 /// A metric with what it moves by if the pile's friction has another meaning or rises with the rate, as standard uncertainties: the pile
 /// stands at one end of each even spread.
-pub(super) fn with_friction(
+pub(crate) fn with_friction(
     metric: Metric,
     records: &[CollapseRecord],
     run: &ColumnRun,

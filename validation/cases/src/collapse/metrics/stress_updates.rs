@@ -1,10 +1,8 @@
 //! Return mapping and regularised viscosity side by side.
 
-use super::CollapseRecord;
-use super::column::ColumnPurpose;
-use super::deposit::Collapse;
 use super::quantities::{EXPLICIT_STEPS, FINAL_HEIGHT, REGULARISED_DIFFERENCE, RUN_OUT};
 use crate::case::Run;
+use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose};
 use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::metric::{Metric, Variant};
 
@@ -13,7 +11,7 @@ fn regularised(records: &[CollapseRecord]) -> impl Iterator<Item = &CollapseReco
     records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Regularised)
 }
 
-pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
+pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
     regularised(records).flat_map(|record| of_regularised(record, record.0.partner(records))).collect()
 }
 
@@ -43,7 +41,7 @@ fn of_regularised((run, record): &CollapseRecord, partner: Option<&CollapseRecor
     metrics
 }
 
-pub(super) fn figure(records: &[CollapseRecord]) -> Option<Figure> {
+pub(crate) fn figure(records: &[CollapseRecord]) -> Option<Figure> {
     let pairs: Vec<(&CollapseRecord, &CollapseRecord)> =
         regularised(records).filter_map(|record| Some((record, record.0.partner(records)?))).collect();
     if pairs.is_empty() {

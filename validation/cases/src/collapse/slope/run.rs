@@ -1,12 +1,10 @@
 //! A reservoir of grains behind a gate on an incline: its scene and its run.
 
-use super::block::{GrainBlock, STIFFNESS};
-use super::deposit::AT_REST;
-use super::deposit::{Collapse, Surveyor};
 use super::reservoir::Reservoir;
-use super::watch::CollapseObserver;
 use crate::case::recording::{self, Ending, ObservedRun, SimulationStage};
 use crate::case::{ParameterError, Progress, Run, RunScales};
+use crate::collapse::Collapse;
+use crate::collapse::heap::{AT_REST, CollapseObserver, GrainBlock, STIFFNESS, Surveyor};
 use crate::metric::{FlowRegime, Value, Variant};
 use crate::observation::Recorded;
 use crate::setup::{Lattice, acoustic_step};
@@ -19,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
 /// Time before which no reservoir has emptied `[s]`.
-pub(super) const EARLIEST_REST: f64 = 0.4;
+pub(crate) const EARLIEST_REST: f64 = 0.4;
 /// Interval of the time series `[s]`.
 const INTERVAL: f64 = 0.02;
 /// Times of the pictures `[s]`; the last state follows.
@@ -133,7 +131,7 @@ impl Run for SlopeRun {
 
 impl SlopeRun {
     /// What measures it.
-    pub(super) fn surveyor(&self) -> Surveyor {
+    pub(crate) fn surveyor(&self) -> Surveyor {
         Surveyor {
             half_width: self.reservoir.reservoir_length,
             spacing: self.spacing(),
@@ -227,7 +225,7 @@ impl SlopeCollapse {
     /// Thickness over r_0 at a place x/r_0 over time `[-]`, linear between the centres of two bins.
     #[must_use]
     pub fn thickness_at(&self, place: f64) -> Vec<f64> {
-        let position = place / super::BIN_WIDTH - 0.5;
+        let position = place / crate::collapse::BIN_WIDTH - 0.5;
         let bin = position.max(0.0) as usize;
         let share = position - bin as f64;
         let value = |profile: &Vec<f64>| {

@@ -1,7 +1,7 @@
 //! Collapses on a slope: what `incline-collapse` judges and `flow-thickness` begins with.
 
 use super::reservoir::Reservoir;
-use super::slope::SlopeRun;
+use super::run::SlopeRun;
 use crate::case::{ParameterError, Parameters, Tier};
 use crate::reference::grains::GLASS_BEADS;
 use crate::setup::{Bulk, rules};

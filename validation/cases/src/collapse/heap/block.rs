@@ -11,33 +11,33 @@ use bagnold_solver::weakly_compressible::walls::Wall;
 use bagnold_solver::weakly_compressible::walls::wall::fill;
 
 /// Bulk modulus over ρ0 g h_0 `[-]`.
-pub(super) const STIFFNESS: f64 = 50.0;
+pub(crate) const STIFFNESS: f64 = 50.0;
 
 /// What the grains of a block have in common.
-pub(super) struct GrainBlock<const D: usize> {
+pub(crate) struct GrainBlock<const D: usize> {
     /// Particle spacing `[m]`.
-    pub(super) spacing: f64,
+    pub(crate) spacing: f64,
     /// Height of its surface `[m]`, along the second axis.
-    pub(super) height: f64,
+    pub(crate) height: f64,
     /// Gravity `[m/s²]`.
-    pub(super) gravity: Vector<D>,
+    pub(crate) gravity: Vector<D>,
     /// Density in bulk `[kg/m³]`.
-    pub(super) density: f64,
+    pub(crate) density: f64,
     /// Bulk modulus `[Pa]`.
-    pub(super) bulk_modulus: f64,
+    pub(crate) bulk_modulus: f64,
     /// Law that is simulated.
-    pub(super) rheology: Rheology,
+    pub(crate) rheology: Rheology,
     /// Largest random displacement of a particle along each axis, in spacings `[-]`.
-    pub(super) jitter: f64,
+    pub(crate) jitter: f64,
     /// Seed of the displacements.
-    pub(super) seed: u64,
+    pub(crate) seed: u64,
     /// Numerics.
-    pub(super) numerics: Numerics,
+    pub(crate) numerics: Numerics,
 }
 
 impl<const D: usize> GrainBlock<D> {
     /// The block at its lattice sites on a bed that ends at `bed_end` `[m]` along all horizontal axes.
-    pub(super) fn scene(&self, sites: impl Iterator<Item = Vector<D>>, domain: Domain<D>, bed_end: f64) -> Scene<D> {
+    pub(crate) fn scene(&self, sites: impl Iterator<Item = Vector<D>>, domain: Domain<D>, bed_end: f64) -> Scene<D> {
         let equation_of_state =
             EquationOfState { reference_density: self.density, bulk_modulus: self.bulk_modulus, tension: Tension::Cut };
         let bed = Wall::still(1, 0.0, 1.0);

@@ -1,18 +1,18 @@
 //! A column as another code gives it: the same measurements, taken by the same surveyor.
 
-use super::column::{ColumnRun, EARLIEST_REST, Geometry};
-use super::deposit::Collapse;
-use super::flow_metrics::PROFILE_TIME;
-use super::foreign_heap::{Room, SPEEDS, Start, snapshot};
-use super::other_codes::MID_COLLAPSE;
-use super::quantities::{
+use super::heap::{Room, SPEEDS, Start, snapshot};
+use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema, ParticleFrame};
+use crate::collapse::column::EARLIEST_REST;
+use crate::collapse::interior::PROFILE_TIME;
+use crate::collapse::metrics::other_codes::MID_COLLAPSE;
+use crate::collapse::metrics::quantities::{
     BREAK_POINT, DEPOSIT_SLOPE_ANGLE, ENERGY_GAIN, FAILURE_LINE_DISTANCE, FAILURE_SURFACE_ANGLE, FAST_UPSTREAM_RATIO,
     FASTEST_HEIGHT, FINAL_HEIGHT, FLANK_R_SQUARED, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
     FOOT_VELOCITY_RATIO, FRONT, KINETIC_ENERGY, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL, PARTICLES_LOST, QUANTITIES,
     REST_TIME, RUN_OUT, SCALING_EXPONENT, STOPPING_TIME, SURFACE_DISTANCE, TAIL_DECAY_LENGTH_OVER_DIAMETER,
     TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR, TOP_DISTORTION, UNDISTURBED_SHARE,
 };
-use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema, ParticleFrame};
+use crate::collapse::{Collapse, ColumnRun, Geometry};
 use crate::input::FieldError;
 use crate::metric::Quantity;
 use crate::setup::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};

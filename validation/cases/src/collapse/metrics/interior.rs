@@ -1,21 +1,15 @@
 //! Inside a collapse: energies, velocity over depth, and what stays in its place.
 
-use super::CollapseRecord;
-use super::column::{ColumnPurpose, ColumnRun, Geometry};
-use super::deposit::{BIN_WIDTH, Collapse};
-use super::material::ExperimentGrains;
-use super::pile::{failure_angle, pile_of, with_friction};
 use super::quantities::{
     ENERGY_GAIN, ENSEMBLE_FLOWING_LAYER_R_SQUARED, FAILURE_SURFACE_ANGLE, FASTEST_HEIGHT, FLOWING_LAYER_R_SQUARED,
     FLOWING_LAYER_SHEAR_RATE, LINEAR_MISFIT_RATIO, TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING,
     TAIL_DECAY_LENGTH_STANDARD_ERROR, UNDISTURBED_SHARE,
 };
-use super::velocity_profile::{Station, decay_length, linear_misfit_ratio};
-use super::wedge::Wedge;
 use crate::case::Run;
+use crate::collapse::column::{failure_angle, pile_of, with_friction};
+use crate::collapse::interior::{decay_length, energies, linear_misfit_ratio, stations, wedge_of};
+use crate::collapse::{CollapseRecord, ColumnPurpose, ColumnRun, ExperimentGrains};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity};
-use crate::observation::energy::Energies;
-use crate::observation::{Frame, Recorded};
 use crate::statistics::Mean;
 
 /// What the collapse paper says of its velocity profiles.
@@ -28,34 +22,6 @@ const LINEAR_REASON: &str =
 const AT_THE_SURFACE: &str = "statement of the collapse paper: the velocity is largest at the free surface";
 /// Aspect ratio up to which a column is shallow, and part of it has to stay where it was `[-]`.
 const SHALLOW: f64 = 1.0;
-/// Time of the velocity profiles over √(h_0/g) `[-]`: in mid-collapse.
-pub(super) const PROFILE_TIME: f64 = 1.5;
-
-/// Energies of a run.
-pub(super) fn energies(collapse: &Collapse) -> Energies<'_> {
-    Energies { time: &collapse.time, kinetic: &collapse.kinetic_energy, potential: &collapse.potential_energy }
-}
-
-/// Velocity profiles in mid-collapse: inside the initial column, at its edge, and halfway from there to the front.
-pub(super) fn stations(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Station> {
-    // a ring is no bin along x
-    let time = PROFILE_TIME * run.time_scale();
-    let Some(frame) = Frame::nearest(&record.frames, time).filter(|_| run.geometry == Geometry::Planar) else {
-        return Vec::new();
-    };
-    let data = &record.data;
-    let at = (0..data.time.len()).min_by(|&a, &b| (data.time[a] - time).abs().total_cmp(&(data.time[b] - time).abs()));
-    let front = at.map_or(1.0, |index| data.front[index]);
-    let r = run.half_width;
-    let station = |x: f64| Station::of(frame, x * r, BIN_WIDTH * r, run.spacing());
-    [0.75, 1.0, 0.5 * (1.0 + front)].map(station).to_vec()
-}
-
-/// The undisturbed part of a deposit.
-pub(super) fn wedge(run: &ColumnRun, frames: &[Frame]) -> Option<Wedge> {
-    let (start, end) = (frames.first()?, frames.last()?);
-    Some(Wedge::between(start, end, run.half_width, run.spacing()))
-}
 
 /// Whether a column is one of the grains that the statements of the collapse paper are judged by.
 fn is_of_paper(run: &ColumnRun) -> bool {
@@ -122,7 +88,7 @@ pub(super) fn of_run((run, record): &CollapseRecord, records: &[CollapseRecord])
         metrics.push(observed(TAIL_DECAY_LENGTH_OVER_SPACING, decay.value / spacing));
         metrics.push(observed(TAIL_DECAY_LENGTH_STANDARD_ERROR, decay.standard_error / spacing));
     }
-    if let Some(wedge) = wedge(run, &record.frames) {
+    if let Some(wedge) = wedge_of(run, &record.frames) {
         metrics.push(observed(UNDISTURBED_SHARE, 100.0 * wedge.undisturbed));
         // of a shallow column no surface is an answer too
         if let Some(angle) = wedge.angle().or((run.aspect_ratio <= SHALLOW).then_some(f64::NAN)) {
@@ -135,7 +101,7 @@ pub(super) fn of_run((run, record): &CollapseRecord, records: &[CollapseRecord])
                     "standard error of the line through the measured points",
                 );
                 metrics.push(with_friction(metric, records, run, |(other, seen)| {
-                    self::wedge(other, &seen.frames)?.angle().zip(wedge.angle()).map(|(other, own)| other - own)
+                    wedge_of(other, &seen.frames)?.angle().zip(wedge.angle()).map(|(other, own)| other - own)
                 }));
                 return metrics;
             }

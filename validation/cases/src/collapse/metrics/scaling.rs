@@ -1,12 +1,9 @@
 //! How run-out and height of tall columns grow with the aspect ratio: fitted power laws and where they begin.
 
-use super::CollapseRecord;
-use super::column::{ColumnPurpose, Geometry};
-use super::deposit::Collapse;
-use super::material::{Alteration, ExperimentGrains, Material};
 use super::quantities::{
     BREAK_POINT, FINAL_HEIGHT, RUN_OUT, SCALING_COEFFICIENT, SCALING_CONFIDENCE, SCALING_EXPONENT,
 };
+use crate::collapse::{Alteration, Collapse, CollapseRecord, ColumnPurpose, ExperimentGrains, Geometry, Material};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
 use crate::statistics::{Exponent, power_law, student_quantile};
@@ -40,13 +37,13 @@ const FAMILIES: [Family; 3] = [
 
 /// A power law through the tall columns of a material.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scaling {
+pub(crate) struct Scaling {
     /// The fit.
-    pub(super) law: Exponent,
+    pub(crate) law: Exponent,
     /// Half width of the exponent's 95 % interval `[-]`.
-    pub(super) half_width: f64,
+    pub(crate) half_width: f64,
     /// Aspect ratios between which it was fitted `[-]`.
-    pub(super) range: (f64, f64),
+    pub(crate) range: (f64, f64),
 }
 
 /// The planar columns of a material that the laws are compared with, between two aspect ratios.
@@ -59,7 +56,7 @@ fn columns<'a>(records: &[&'a CollapseRecord], material: Material, from: f64, to
 }
 
 /// The fit of a quantity; none for fewer than four tall columns.
-pub(super) fn fit(records: &[&CollapseRecord], material: Material, quantity: fn(&Collapse) -> f64) -> Option<Scaling> {
+pub(crate) fn fit(records: &[&CollapseRecord], material: Material, quantity: fn(&Collapse) -> f64) -> Option<Scaling> {
     let smallest = FAMILIES.iter().find(|family| family.0 == material)?.1;
     let tall = columns(records, material, smallest, f64::INFINITY);
     let points: Vec<(f64, f64)> =
@@ -96,7 +93,7 @@ fn against_lube(metric: Metric) -> Metric {
     metric.against(Some(0.5 * (shallow.to + tall.from)), &source, lube.confidence)
 }
 
-pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
+pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
     let records: Vec<&CollapseRecord> = records.iter().collect();
     let mut metrics = Vec::new();
     for (material, smallest, run_out_gate, height_gate) in FAMILIES {

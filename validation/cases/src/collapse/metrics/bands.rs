@@ -2,23 +2,22 @@
 //! over seeds and of the spacing belongs to the metric as its uncertainty and moves no limit, so that a limit is the same
 //! whichever runs were made, and a law's own value lies within its band.
 
-use super::column::{ColumnRun, Geometry};
-use super::material::{ExperimentGrains, Material};
+use crate::collapse::{ColumnRun, ExperimentGrains, Geometry, Material};
 use crate::metric::Limit;
 use crate::reference::collapse::{CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
 /// The band of a relative `tolerance` around a value.
-pub(super) fn band(expected: f64, tolerance: f64) -> Limit {
+pub(crate) fn band(expected: f64, tolerance: f64) -> Limit {
     Limit::Within((1.0 - tolerance) * expected, (1.0 + tolerance) * expected)
 }
 
 /// How far the run-out of Lagrée's grains may lie from his own law `[-]`, and why.
-pub(super) const SAME_LAW: f64 = 0.15;
-pub(super) const SAME_LAW_REASON: &str = "the same material law solved by another method, within 15 %: its fit is printed with two \
+pub(crate) const SAME_LAW: f64 = 0.15;
+pub(crate) const SAME_LAW_REASON: &str = "the same material law solved by another method, within 15 %: its fit is printed with two \
     digits, and its source tells no thickness at which the front is read";
 
 /// How far results may lie from an experiment's law that tells no scatter of its points, at most `[-]`.
-pub(super) const WIDEST: f64 = 0.15;
+pub(crate) const WIDEST: f64 = 0.15;
 
 /// Largest distance of results from Lube's law, relative `[-]`: as far as Lajeunesse's does, at least `least` over it and [`WIDEST`] at most.
 fn apart(laws: &[CollapseLaw], a: f64, least: f64) -> Option<f64> {
@@ -29,7 +28,7 @@ fn apart(laws: &[CollapseLaw], a: f64, least: f64) -> Option<f64> {
 }
 
 /// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
-pub(super) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
+pub(crate) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static CollapseLaw) {
     let (laws, author) = match run.geometry {
         Geometry::Planar if run.material.grains == ExperimentGrains::Lagree => {
             (&*PLANAR_COLLAPSE, CollapseLawSource::Lagree)
@@ -41,10 +40,10 @@ pub(super) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static Collap
 }
 
 /// Where a result must lie, and why there.
-pub(super) type AcceptanceBand = Option<(Limit, &'static str)>;
+pub(crate) type AcceptanceBand = Option<(Limit, &'static str)>;
 
 /// Band of the run-out of published grains; none of a coarse column whose seeds are judged together.
-pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw, has_seeds: bool) -> AcceptanceBand {
+pub(crate) fn run_out(run: &ColumnRun, law: &CollapseLaw, has_seeds: bool) -> AcceptanceBand {
     let a = run.initial_height();
     if !run.has_published_law() {
         return None;
@@ -68,7 +67,7 @@ pub(super) fn run_out(run: &ColumnRun, law: &CollapseLaw, has_seeds: bool) -> Ac
 }
 
 /// Where the height of published grains must lie.
-pub(super) fn height(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
+pub(crate) fn height(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
     let a = run.initial_height();
     let expected = law.value(a).filter(|_| run.has_published_law())?;
     let is_round = run.geometry == Geometry::Round;
@@ -91,9 +90,8 @@ pub(super) fn height(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
 
 #[cfg(test)]
 mod tests {
-    use super::super::column::ColumnPurpose;
-    use super::super::release::Release;
     use super::*;
+    use crate::collapse::{ColumnPurpose, Release};
     use crate::reference::grains::{GLASS_BEADS, LAGREE_GRAINS, TABLE_2_SAND};
     use bagnold_solver::material::rheology::Rheology;
     use bagnold_solver::weakly_compressible::numerics::Numerics;

@@ -1,6 +1,6 @@
 //! What a column's results are known to.
 
-use super::fronts::with_resolution;
+use crate::collapse::heap::with_resolution;
 use crate::metric::{Metric, Origin};
 
 /// Relative standard deviation of results over the seeds of an ensemble `[-]`: what a single run leaves open.

@@ -1,14 +1,11 @@
 //! One column: its scene and its run.
 
-use super::CollapseRecord;
-use super::block::{GrainBlock, STIFFNESS};
-use super::deposit::AT_REST;
-use super::deposit::{Collapse, Surveyor, radius};
 use super::material::Material;
 use super::release::Release;
-use super::watch::CollapseObserver;
 use crate::case::recording::{self, Ending, ObservedRun, SimulationStage};
 use crate::case::{ParameterError, Progress, Run, RunScales, cost};
+use crate::collapse::heap::{AT_REST, CollapseObserver, GrainBlock, STIFFNESS, Surveyor, radius};
+use crate::collapse::{Collapse, CollapseRecord};
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::Recorded;
 use crate::setup::acoustic_step;
@@ -21,11 +18,11 @@ use serde::Serialize;
 use std::ops::ControlFlow;
 
 /// Time over √(h_0/g) before which no column has fallen `[-]`.
-pub(super) const EARLIEST_REST: f64 = 2.0;
+pub(crate) const EARLIEST_REST: f64 = 2.0;
 /// Points of the time series over √(h_0/g).
 const POINTS: f64 = 40.0;
 /// Pictures over the collapse, at these times over √(h_0/g) `[-]`; the deposit follows.
-pub(super) const PICTURES: [f64; 4] = [0.0, 0.75, 1.5, 2.5];
+pub(crate) const PICTURES: [f64; 4] = [0.0, 0.75, 1.5, 2.5];
 /// Time between the frames of the animation over √(h_0/g) `[-]`.
 const FRAME_INTERVAL: f64 = 0.1;
 /// Aspect ratio above which planar columns have a resolution of their own `[-]`.
@@ -188,7 +185,7 @@ impl ColumnRun {
     }
 
     /// Whether only exponents are fitted to it: a tall column of the paper's sand that is too coarse for a law.
-    pub(super) fn is_for_exponents(&self) -> bool {
+    pub(crate) fn is_for_exponents(&self) -> bool {
         self.material == Material::SAND
             && self.geometry == Geometry::Planar
             && self.aspect_ratio > TALLEST_FINE
@@ -222,7 +219,7 @@ impl ColumnRun {
     }
 
     /// The run of this column by return mapping and the default numerics, with which one of another purpose is compared.
-    pub(super) fn partner<'a>(&self, records: &'a [CollapseRecord]) -> Option<&'a CollapseRecord> {
+    pub(crate) fn partner<'a>(&self, records: &'a [CollapseRecord]) -> Option<&'a CollapseRecord> {
         records.iter().find(|(other, _)| {
             other.purpose == ColumnPurpose::Law
                 && (other.material, other.aspect_ratio, other.resolution)
@@ -283,7 +280,7 @@ impl ColumnRun {
     }
 
     /// Has measured nothing of it yet.
-    pub(super) fn surveyor(&self) -> Surveyor {
+    pub(crate) fn surveyor(&self) -> Surveyor {
         Surveyor {
             half_width: self.half_width,
             spacing: self.spacing(),

@@ -1,7 +1,7 @@
 //! A heap as another code gives it → snapshots: whether it is the heap of the case, at its start and later.
 
-use super::deposit::radius;
 use crate::case::ParticleFrame;
+use crate::collapse::heap::radius;
 use crate::input::FieldError;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;

@@ -14,7 +14,7 @@ pub const FRONT_THICKNESS: f64 = 0.02;
 /// A thickness that one row of particles has from 20 over the half width on `[-]`: the front at it, by thickness in bins, leaves out
 /// what creeps on beyond and repeats to four digits when particles are displaced by 1e-10 of a spacing, so that the time of the stop
 /// is told by it.
-pub(super) const ROW_THICKNESS: f64 = 0.05;
+pub(crate) const ROW_THICKNESS: f64 = 0.05;
 /// Share of a row to which the thickness at a front is known, as a standard uncertainty `[-]`: within two fifths of a row lies
 /// what runs with 20, 40 and 80 particles over r_0 differ by from what they approach (0.05, 0.3 and 0.4 rows at a = 0.5;
 /// 0.1, 0.2 and 0.2 at 1; 0.2 and 0.2 at 3), taken as evenly spread.

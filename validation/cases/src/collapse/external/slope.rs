@@ -1,10 +1,10 @@
 //! A collapse on a slope as another code gives it.
 
-use super::deposit::Collapse;
-use super::foreign_heap::{Room, snapshot};
-use super::quantities::{DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, PARTICLES_LOST, REST_TIME};
-use super::slope::{EARLIEST_REST, SlopeCollapse, SlopeRun};
+use super::heap::{Room, snapshot};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
+use crate::collapse::metrics::quantities::{DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, PARTICLES_LOST, REST_TIME};
+use crate::collapse::slope::EARLIEST_REST;
+use crate::collapse::{Collapse, SlopeCollapse, SlopeRun};
 use crate::input::FieldError;
 
 /// What a run on a slope may yield.
