@@ -8,6 +8,7 @@ mod dependencies;
 mod documents;
 mod examples;
 mod imports;
+mod limits;
 mod literals;
 mod mutations;
 mod order;

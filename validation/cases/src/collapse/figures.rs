@@ -8,7 +8,7 @@ use crate::collapse::metrics::bands;
 use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material};
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
-use crate::metric::{Confidence, Limit};
+use crate::metric::Confidence;
 use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
@@ -90,12 +90,9 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
             panel.draw("measured", Mark::OpenPoints, 13, measured.points.iter().copied()).error = bars;
             panel.draw("measured, doubtful", Mark::OpenPoints, 9, measured.doubtful.iter().copied());
         }
-        let gate = |run: &ColumnRun| {
-            let (run_out_law, height_law) = bands::laws_of(run);
-            if legend { bands::run_out(run, run_out_law, false) } else { bands::height(run, height_law) }
-        };
+        let gate = |run: &ColumnRun| if legend { bands::run_out(run, false) } else { bands::height(run) };
         for (run, _) in records {
-            if let Some((Limit::Within(low, high), _)) = gate(run) {
+            if let Some(((low, high), _)) = gate(run) {
                 let entry = if legend && panel.bands.is_empty() { "where a result must lie" } else { "" };
                 panel.band(entry, [0.93, 1.07].map(|part| (part * run.initial_height(), low, high)));
             }
@@ -103,7 +100,8 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
         let kinds = distinct(records.iter().map(|(run, _)| (run.material, run.resolution)));
         for (slot, (material, resolution)) in kinds.into_iter().enumerate() {
             let own = || records.iter().filter(|(run, _)| (run.material, run.resolution) == (material, resolution));
-            let holds = |run: &ColumnRun, value: f64| gate(run).is_none_or(|(limit, _)| limit.holds(value));
+            let holds =
+                |run: &ColumnRun, value: f64| gate(run).is_none_or(|((low, high), _)| (low..=high).contains(&value));
             let title = own().next().map_or(String::new(), |(run, _)| run.material.title_with(&run.law));
             // short, so that two stand on a line of the legend
             let title = title.replace(" of Table 2", "").replace("grains of ", "").replace(" et al.", "");

@@ -5,11 +5,13 @@ pub mod film;
 pub mod flow_thickness;
 pub(crate) mod foreign;
 pub mod hydrostatic;
+mod metrics;
 mod periodic;
 mod preparation;
 mod probe;
 mod tables;
 
+pub(crate) use metrics::{PARTICLES_LOST, particles_lost};
 pub use periodic::PeriodicLayer;
 pub use preparation::Preparation;
 pub(crate) use preparation::{raised, settled};
@@ -18,7 +20,6 @@ pub use tables::tables_of_runs;
 
 use crate::case::recording::{self, Ending, ObservedRun, SimulationStage, StartState};
 use crate::case::{ParameterError, Progress, cost};
-use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::observation::{Frame, Recorded};
 use crate::setup::{Lattice, displaced_flow, hydrostatic_pressure, wall_rows};
 use bagnold_solver::domain::{AxisBoundary, Domain};
@@ -262,18 +263,4 @@ impl Layer<'_> {
         let ending = Ending { criterion, may_diverge: self.may_diverge, frames, ..ending };
         Ok(ending.record(&simulation, |_| probe.finish()))
     }
-}
-
-quantities! {
-    shared pub(crate)
-    PARTICLES_LOST: accounted("particles_lost", "-", "particles that ended below the bed or far above the layer"),
-}
-
-/// The number of particles that ended below the bed or far above the layer, gated at 0.
-#[must_use]
-pub fn particles_lost(variant: &Variant, record: &Recorded<LayerObservation>) -> Metric {
-    PARTICLES_LOST
-        .of(variant, record.data.particles_lost as f64)
-        .exactly(0.0, "no particle passes a wall")
-        .gated(Limit::AtMost(0.0), "a particle below the bed is lost mass")
 }

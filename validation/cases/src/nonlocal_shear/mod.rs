@@ -3,14 +3,11 @@
 mod channel;
 mod figures;
 mod flow;
-mod heap;
 mod heap_figure;
 mod marks;
 mod metrics;
 mod parameters;
 mod probe;
-mod profile;
-mod quantities;
 mod run;
 
 pub use channel::{Channel, ChannelGrains, Motion, STIFFNESS, UpperBoundary};
@@ -46,7 +43,7 @@ impl Case for NonlocalShearFlows {
         chute, and the traction on the plate. The heap also runs under the local law, whose profile is exact.\n\n\
         Observed only. Velocities at the surface and in the plug, and the decay length deep in the bed.";
     type Parameters = NonlocalShearParameters;
-    const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &NonlocalShearParameters, records: &[NonlocalShearRecord]) -> Vec<Metric> {
         metrics::all(records)

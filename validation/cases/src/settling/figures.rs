@@ -1,12 +1,13 @@
 //! The case's figures.
 
 use super::formulation::GrainFormulation;
+use super::metrics::beads::{LAWS, sinking};
 use super::probe::{SettlingObservation, SettlingSeries};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use super::{SettlingRecord, drag_curves};
 use crate::figure::{Axis, Figure, Panel};
-use crate::reference::settling::{GrainForm, richardson_zaki_exponent};
+use crate::reference::settling::{GrainForm, SETTLING_BEADS, richardson_zaki_exponent};
 use crate::shared::distinct;
 use bagnold_solver::material::drag::DragLaw;
 
@@ -15,6 +16,9 @@ const FORMULATIONS: [GrainFormulation; 2] = [GrainFormulation::Paper, GrainFormu
 
 /// The formulation of suspensions.
 const CONTINUUM: &str = "continuum";
+
+/// Half of a pixel of the images `[m]`.
+const HALF_PIXEL: f64 = 0.39e-3;
 
 /// Densest suspension drawn `[-]`.
 const DENSEST: f64 = 0.6;
@@ -29,7 +33,7 @@ pub(super) fn all(records: &[SettlingRecord]) -> Vec<Figure> {
     if !suspensions.is_empty() {
         figures.push(hindered(&suspensions));
     }
-    figures.extend([super::beads::figure(), drag_curves::drag_coefficients(), drag_curves::hindrance()]);
+    figures.extend([beads(), drag_curves::drag_coefficients(), drag_curves::hindrance()]);
     figures
 }
 
@@ -152,5 +156,34 @@ fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
          of the balance (lines) for every law. Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above. \
          Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged.",
         vec![slip, sinking],
+    )
+}
+
+/// Both interfaces over time, with every law.
+fn beads() -> Figure {
+    let beads = &*SETTLING_BEADS;
+    let mut panel = Panel::new("", Axis::linear("t [min]"), Axis::linear("height [mm]").between(0.0, 60.0));
+    let scaled = |points: &[(f64, f64)]| points.iter().map(|(t, z)| (t / 60.0, 1e3 * z)).collect::<Vec<_>>();
+    let bars = vec![1e3 * HALF_PIXEL; beads.upper.len()];
+    panel.points("measured upper interface", 6, scaled(&beads.upper)).error.clone_from(&bars);
+    panel.points("measured deposit", 7, scaled(&beads.deposit)).error = bars;
+    for law in LAWS {
+        let Some((velocity, _)) = sinking(beads, law) else { continue };
+        let (top, bottom) = (beads.upper[0].1, beads.deposit[0].1);
+        let rise = beads.rise_under(velocity);
+        let meet = (top - bottom) / (velocity + rise);
+        panel.line(
+            drag_curves::label(law),
+            drag_curves::slot(law),
+            scaled(&[(0.0, top), (meet, top - velocity * meet)]),
+        );
+        panel.line("", drag_curves::slot(law), scaled(&[(0.0, bottom), (meet, bottom + rise * meet)]));
+    }
+    Figure::new(
+        "beads",
+        "Polystyrene beads that settle in silicone oil, half of the space filled: measured heights of their upper interface and of their \
+         deposit, with half a pixel, and what the drag laws of dense suspensions say until both meet, from the measured fractions. The \
+         beads had begun to settle before time 0; below the suspension they were denser already.",
+        vec![panel],
     )
 }

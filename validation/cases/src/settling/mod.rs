@@ -1,16 +1,13 @@
 //! Settling grains: the drag laws, a grain alone and a uniform suspension against the roots of their balances.
 
-mod beads;
 mod drag_curves;
 mod experiment;
 mod figures;
 mod formulation;
 mod grain;
-mod laws;
 mod metrics;
 mod parameters;
 mod probe;
-mod quantities;
 mod runs;
 mod suspension;
 mod tiers;
@@ -55,7 +52,7 @@ impl Case for Settling {
         pair drag. The scatter of grain velocities: two phases with one pressure are ill-posed at short waves, and \
         the drag kernel (two or three spacings wide) suppresses this for the duration of the run only.";
     type Parameters = SettlingParameters;
-    const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Metric> {
         metrics::all(records)

@@ -1,10 +1,11 @@
 //! Code that cases of several families share.
 
 mod arrangement;
-pub(crate) mod printed_laws;
+mod metrics;
 pub(crate) mod transport_panel;
 
 pub(crate) use arrangement::Arrangement;
+pub(crate) use metrics::printed_laws;
 
 /// Values in the order in which they come, each once.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {

@@ -320,7 +320,7 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
         let rates: Vec<(f64, FittedValue)> = records
             .iter()
             .filter(|(run, _)| belongs(run))
-            .map(|(run, record)| (run.stream().shields_number(), record.data.channel.average(&record.data.transport)))
+            .map(|(run, record)| (run.stream().shields_number(), record.data.mean_transport()))
             .filter(|(_, rate)| rate.value > 0.0)
             .collect();
         let errors = rates.iter().map(|(_, rate)| rate.standard_error / rate.value);

@@ -2,8 +2,8 @@
 
 use super::BedLoadRecord;
 use super::run::GrainKind;
-use crate::metric::Variant;
 use crate::reference::bed_load::TransportFormula;
+use crate::statistics::mean;
 
 /// A fit and its prediction.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,8 +100,7 @@ fn surfaces(records: &[BedLoadRecord]) -> Vec<TransportSurface> {
     let mut points = Vec::new();
     for (run, record) in records {
         if let Some(GrainKind::Fit(law)) = run.formulation.kind() {
-            let transport = record.data.transport_in_window();
-            let mean = transport.iter().sum::<f64>() / transport.len() as f64;
+            let mean = mean(&record.data.channel.series.within(&record.data.transport, record.data.channel.window));
             let shields = run.stream().shields_number();
             points.push((run.slope, shields, law, libm::log(mean.max(1e-9))));
         }
@@ -136,11 +135,6 @@ fn surfaces(records: &[BedLoadRecord]) -> Vec<TransportSurface> {
         })
     };
     slopes.iter().filter_map(surface).collect()
-}
-
-/// Name of a fit among the metrics.
-pub(super) fn variant(held: &HeldOut) -> Variant {
-    Variant::of("held_out_slope", held.slope)
 }
 
 #[cfg(test)]

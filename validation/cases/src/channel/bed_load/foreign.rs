@@ -1,7 +1,7 @@
 //! Bed load as another code gives it: profiles of water and grains, and the history of the transport.
 
+use super::metrics as quantity;
 use super::observation::{BedLoadObservation, Carried};
-use super::quantities as quantity;
 use super::run::{BedLoadFormulation, BedLoadRun};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::channel::{self, BlockProfile, ProfilePoint};
@@ -121,7 +121,7 @@ pub(super) fn observe(
 
 #[cfg(test)]
 mod tests {
-    use super::super::judgement;
+    use super::super::metrics;
     use super::super::parameters::BedLoadParameters;
     use super::super::runs::runs;
     use super::*;
@@ -163,7 +163,7 @@ mod tests {
         let given = ExternalData { profile, series, ..ExternalData::default() };
         let seen = observe(&run, &given).expect("complete");
         let record = given.record(seen.observation);
-        let found = judgement::all(&[(run, record)]);
+        let found = metrics::all(&[(run, record)]);
         let value = |name: &str| found.iter().find(|metric| metric.name == name).unwrap_or_else(|| panic!("{name}"));
         assert!((value("transport_ratio").value - 1.0).abs() < 1e-12);
         assert!(value("fluid_velocity_rms").value < 1e-12 && value("grain_velocity_rms").value < 1e-12);

@@ -5,16 +5,13 @@ mod continuum;
 mod figures;
 mod fit;
 mod foreign;
-mod judgement;
 mod metrics;
 mod observation;
 mod parameters;
 mod profiles;
-mod quantities;
 mod run;
 mod runs;
 mod scenes;
-mod statements;
 mod tiers;
 
 pub use observation::BedLoadObservation;
@@ -52,10 +49,10 @@ impl Case for BedLoad {
         still depend on their start.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Parameters = BedLoadParameters;
-    const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Metric> {
-        judgement::all(records)
+        metrics::all(records)
     }
 
     fn figures(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Figure> {

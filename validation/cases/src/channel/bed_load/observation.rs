@@ -3,7 +3,7 @@
 use super::run::BedLoadRun;
 use crate::channel::{BlockProfile, Channel, ChannelObservation, ProfilePoint};
 use crate::reference::one_dimension::bed_load::LayerState;
-use crate::statistics::BLOCKS;
+use crate::statistics::{BLOCKS, FittedValue};
 use bagnold_solver::incompressible::IncompressibleSimulation;
 use bagnold_solver::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -115,10 +115,9 @@ impl BedLoadObserver {
 }
 
 impl BedLoadObservation {
-    /// q* within the averaging window `[-]`.
-    #[must_use]
-    pub fn transport_in_window(&self) -> Vec<f64> {
-        self.channel.series.within(&self.transport, self.channel.window)
+    /// Mean of q* over the averaging window, with its statistical error `[-]`.
+    pub(super) fn mean_transport(&self) -> FittedValue {
+        self.channel.average(&self.transport)
     }
 
     /// Drag per volume over height: (z `[m]`, `[N/m³]`).

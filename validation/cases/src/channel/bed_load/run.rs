@@ -1,6 +1,7 @@
 //! One run: its formulation and what it depends on.
 
 use super::parameters::{Continuum, GrainParticles, Materials, Stage};
+use crate::reference::bed_load::TransportFormula;
 use crate::reference::one_dimension::bed_load::Stream;
 use bagnold_solver::incompressible::PairLaw;
 use bagnold_solver::material::rheology::CoulombBingham;
@@ -104,6 +105,11 @@ impl BedLoadRun {
             _ => false,
         };
         is_alike && self.slope == other.slope && self.duration == other.duration && self.start() != other.start()
+    }
+
+    /// q* of Wong & Parker's formula at the run's Shields number `[-]`.
+    pub(super) fn formula_transport(&self) -> f64 {
+        TransportFormula::WongParker.transport(self.stream().shields_number())
     }
 
     /// The stream of the 1-D layer.

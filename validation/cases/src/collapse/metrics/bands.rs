@@ -6,9 +6,15 @@ use crate::collapse::{ColumnRun, ExperimentGrains, Geometry, Material};
 use crate::metric::Limit;
 use crate::reference::collapse::{CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
-/// The band of a relative `tolerance` around a value.
-pub(crate) fn band(expected: f64, tolerance: f64) -> Limit {
-    Limit::Within((1.0 - tolerance) * expected, (1.0 + tolerance) * expected)
+/// The ends of the band of a relative `tolerance` around a value.
+fn around(expected: f64, tolerance: f64) -> (f64, f64) {
+    ((1.0 - tolerance) * expected, (1.0 + tolerance) * expected)
+}
+
+/// The band of a relative `tolerance` around a value as a limit.
+pub(super) fn band(expected: f64, tolerance: f64) -> Limit {
+    let (lower, upper) = around(expected, tolerance);
+    Limit::Within(lower, upper)
 }
 
 /// How far the run-out of Lagrée's grains may lie from his own law `[-]`, and why.
@@ -39,36 +45,36 @@ pub(crate) fn laws_of(run: &ColumnRun) -> (&'static CollapseLaw, &'static Collap
     (author.law(&laws.run_out), author.law(&laws.height))
 }
 
-/// Where a result must lie, and why there.
-pub(crate) type AcceptanceBand = Option<(Limit, &'static str)>;
+/// Between which values a result must lie, and why there.
+pub(crate) type AcceptanceBand = Option<((f64, f64), &'static str)>;
 
 /// Band of the run-out of published grains; none of a coarse column whose seeds are judged together.
-pub(crate) fn run_out(run: &ColumnRun, law: &CollapseLaw, has_seeds: bool) -> AcceptanceBand {
-    let a = run.initial_height();
+pub(crate) fn run_out(run: &ColumnRun, has_seeds: bool) -> AcceptanceBand {
+    let (law, a) = (laws_of(run).0, run.initial_height());
     if !run.has_published_law() {
         return None;
     }
     match (run.geometry, run.material) {
         (Geometry::Round, Material::SAND) if run.is_resolved() => Some((
-            band(law.value(a)?, WIDEST),
+            around(law.value(a)?, WIDEST),
             "within 15 % of Lube's law for round columns: it tells no scatter of its points, no second experiment is at hand, and 15 % is the \
              widest band of planar columns",
         )),
         (Geometry::Planar, Material::SAND) if run.resolution >= 20 => Some((
-            band(law.value(a)?, apart(&PLANAR_COLLAPSE.run_out, a, run.spacing() / run.half_width)?),
+            around(law.value(a)?, apart(&PLANAR_COLLAPSE.run_out, a, run.spacing() / run.half_width)?),
             "as far from Lube's law as Lajeunesse's lies, 15 % at most: neither tells how far its points lie from its law",
         )),
         // coarse columns scatter by 3 % from seed to seed
         (Geometry::Planar, Material::LAGREE) if run.resolution >= 40 || (run.resolution >= 20 && !has_seeds) => {
-            Some((band(law.value(a)?, SAME_LAW), SAME_LAW_REASON))
+            Some((around(law.value(a)?, SAME_LAW), SAME_LAW_REASON))
         }
         _ => None,
     }
 }
 
 /// Where the height of published grains must lie.
-pub(crate) fn height(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
-    let a = run.initial_height();
+pub(crate) fn height(run: &ColumnRun) -> AcceptanceBand {
+    let (law, a) = (laws_of(run).1, run.initial_height());
     let expected = law.value(a).filter(|_| run.has_published_law())?;
     let is_round = run.geometry == Geometry::Round;
     let (tolerance, reason) = match (run.material, a) {
@@ -85,7 +91,7 @@ pub(crate) fn height(run: &ColumnRun, law: &CollapseLaw) -> AcceptanceBand {
         ),
         _ => return None,
     };
-    Some((band(expected, tolerance), reason))
+    Some((around(expected, tolerance), reason))
 }
 
 #[cfg(test)]
@@ -131,9 +137,10 @@ mod tests {
         for run in columns() {
             let a = run.initial_height();
             let (run_out_law, height_law) = laws_of(&run);
-            let gates = [(run_out(&run, run_out_law, false), run_out_law), (height(&run, height_law), height_law)];
+            let gates = [(run_out(&run, false), run_out_law), (height(&run), height_law)];
             for (gate, law) in gates {
-                let (Some((limit, _)), Some(value)) = (gate, law.value(a)) else { continue };
+                let (Some(((low, high), _)), Some(value)) = (gate, law.value(a)) else { continue };
+                let limit = Limit::Within(low, high);
                 assert!(limit.holds(value), "{}, a = {a}: {value} is outside of {limit:?}", law.source);
                 for wrong in [0.8 * value, 1.2 * value] {
                     assert!(!limit.holds(wrong), "{}, a = {a}: {wrong} is within {limit:?}", law.source);
@@ -149,7 +156,7 @@ mod tests {
     fn the_band_of_the_sand_is_centred_on_lubes_law() {
         for run in columns().iter().filter(|run| run.geometry == Geometry::Planar && run.material == Material::SAND) {
             let (law, _) = laws_of(run);
-            let Some((Limit::Within(low, high), _)) = run_out(run, law, false) else { continue };
+            let Some(((low, high), _)) = run_out(run, false) else { continue };
             let value = law.value(run.initial_height()).expect("it gates");
             assert!((0.5 * (low + high) / value - 1.0).abs() < 1e-12, "{low} to {high} about {value}");
         }

@@ -3,7 +3,7 @@
 use super::quantities::{
     FAILURE_LINE_DISTANCE, FINAL_HEIGHT, MEDIAN_RUN_OUT_RATIO, RUN_OUT, RUN_OUT_RATIO, SURFACE_DISTANCE,
 };
-use super::uncertainty::{ColumnUncertainty, with_uncertainty};
+use super::uncertainty::Known;
 use crate::case::Run;
 use crate::collapse::column::{pile_of, with_friction};
 use crate::collapse::interior;
@@ -47,7 +47,7 @@ pub(super) fn of_pile(
     records: &[CollapseRecord],
     (run, record): &CollapseRecord,
     pile: &MeasuredPile,
-    known: ColumnUncertainty,
+    known: [Known; 2],
 ) -> Vec<Metric> {
     let (variant, collapse) = (run.variant(), &record.data);
     let judged = |limit: Limit| (run.material.is_published() && run.has_published_law()).then_some(limit);
@@ -59,15 +59,9 @@ pub(super) fn of_pile(
         metric.against(Some(value), &pile.source, pile.confidence).with_snapshot_tolerance(1e-3, 1e-3)
     };
     let own = collapse.run_out();
-    let of_run_out = with_uncertainty(
-        of(RUN_OUT.of(&variant, own), run_out),
-        known.run_out,
-        collapse.front_uncertainty(),
-        known.spread.run_out,
-    );
+    let of_run_out = known[0].of(of(RUN_OUT.of(&variant, own), run_out), collapse.front_uncertainty());
     let tall = collapse.final_height();
-    let of_height =
-        with_uncertainty(of(FINAL_HEIGHT.of(&variant, tall), height), known.height, None, known.spread.height);
+    let of_height = known[1].of(of(FINAL_HEIGHT.of(&variant, tall), height), None);
     let distance = over_surface(pile, |x, measured| thickness(collapse, x) - measured);
     let moved = |(_, other): &CollapseRecord| {
         Some(over_surface(pile, |x, _| thickness(&other.data, x) - thickness(collapse, x)))
@@ -118,7 +112,7 @@ pub(super) fn of_pile(
 }
 
 /// The run-out of a round column over the measured one of its aspect ratio; none where none was measured.
-pub(super) fn of_round_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty) -> Option<Metric> {
+pub(super) fn of_round_column(run: &ColumnRun, collapse: &Collapse, known: Known) -> Option<Metric> {
     let measured = &*ROUND_COLUMN_RUN_OUTS;
     let expected = measured.at(run.initial_height()).filter(|_| run.geometry == Geometry::Round)?;
     let ratio = RUN_OUT_RATIO
@@ -127,7 +121,8 @@ pub(super) fn of_round_column(run: &ColumnRun, collapse: &Collapse, known: Colum
         .with_snapshot_tolerance(1e-3, 1e-3);
     let row = collapse.front_uncertainty().map(|front| front / expected);
     Some(
-        with_uncertainty(ratio, known.run_out, row, known.spread.run_out)
+        known
+            .of(ratio, row)
             .known_to(
                 Origin::Experiment,
                 Some(measured.scatter),
@@ -143,7 +138,7 @@ pub(super) fn of_round_column(run: &ColumnRun, collapse: &Collapse, known: Colum
 }
 
 /// The median over the round columns.
-pub(super) fn of_round_columns(ratios: &[(f64, &Metric)]) -> Option<Metric> {
+pub(super) fn of_round_columns(ratios: &[(f64, Metric)]) -> Option<Metric> {
     let mut values: Vec<f64> = ratios.iter().map(|(_, metric)| metric.value).collect();
     values.sort_by(f64::total_cmp);
     let middle = (values.len() >= FEWEST).then(|| 0.5 * (values[(values.len() - 1) / 2] + values[values.len() / 2]))?;

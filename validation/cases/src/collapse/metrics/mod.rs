@@ -30,7 +30,7 @@ use quantities::{
     DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
     RUN_OUT, STOPPING_TIME,
 };
-use uncertainty::{ColumnUncertainty, EnsembleSpread, with_uncertainty};
+use uncertainty::Known;
 
 /// Aspect ratios about that of the paper's cone `[-]`.
 const CONES: std::ops::RangeInclusive<f64> = 2.0..=3.5;
@@ -38,63 +38,46 @@ const CONES: std::ops::RangeInclusive<f64> = 2.0..=3.5;
 const BENT_FLANK: f64 = 0.973;
 
 pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
+    let measures: [fn(&Collapse) -> f64; 2] = [Collapse::run_out, Collapse::final_height];
+    let spreads = measures.map(|measure| relative_spread(records, measure));
     let mut metrics = Vec::new();
-    let spread = EnsembleSpread {
-        run_out: relative_spread(records, Collapse::run_out),
-        height: relative_spread(records, Collapse::final_height),
-    };
-    let mut round = Vec::new();
+    let mut ratios = Vec::new();
     for column in records {
         let (run, record) = column;
-        let beside = Beside::of_column(run, &record.data).filter(|_| run.purpose == ColumnPurpose::Law);
-        if let Some(beside) = beside {
+        let is_law = run.purpose == ColumnPurpose::Law;
+        if let Some(beside) = Beside::of_column(run, &record.data).filter(|_| is_law) {
             metrics.extend(beside.metrics(&run.variant(), MID_COLLAPSE));
         }
+        let conservation =
+            conservation(&run.variant(), &record.data, &run.release.numerics, energy_scale(run.initial_height()));
+        metrics.extend(conservation);
         // no experiment has round columns of these grains
-        let is_compared = (run.geometry, run.material) != (Geometry::Round, Material::LAGREE);
-        if run.purpose == ColumnPurpose::Law && is_compared {
-            let numerical = |measure| numerical_uncertainty(records, run, measure);
-            let known = ColumnUncertainty {
-                run_out: numerical(Collapse::run_out),
-                height: numerical(Collapse::final_height),
-                spread,
-            };
-            let is_seed = |(other, _): &CollapseRecord| {
-                other.purpose == ColumnPurpose::Convergence
-                    && (other.material, other.aspect_ratio) == (run.material, run.aspect_ratio)
-            };
-            let mut own = of_column(run, &record.data, known, records.iter().any(is_seed));
-            // columns that only exponents are fitted to are too coarse for more
-            if run.is_for_exponents() {
-                let observed = |metric: Metric| Metric { reference: None, gate: None, ..metric };
-                let is_compared = |metric: &Metric| metric.kind == MetricKind::Validation;
-                own = own
-                    .into_iter()
-                    .map(|metric| if is_compared(&metric) { observed(metric) } else { metric })
-                    .collect();
-            }
-            match pile_of(run).filter(|_| !run.is_of_own_grains()) {
-                Some(pile) => {
-                    // points of its own experiment stand in the place of other experiments' laws
-                    let replaced = [RUN_OUT.name, FINAL_HEIGHT.name];
-                    let is_by_law =
-                        |metric: &Metric| replaced.contains(&metric.name.as_str()) && metric.variant == run.variant();
-                    metrics.extend(own.into_iter().filter(|metric| !is_by_law(metric)));
-                    metrics.extend(measured::of_pile(records, column, pile, known));
-                }
-                None => metrics.extend(own),
-            }
-            if let Some(ratio) = measured::of_round_column(run, &record.data, known) {
-                round.push((run.initial_height(), ratio.clone()));
-                metrics.push(ratio);
-            }
-            metrics.extend(interior::of_run(column, records));
-            metrics.extend(statements::of_run(run, record));
-        } else {
-            metrics.extend(conservation(&run.variant(), &record.data, &run.release.numerics, energy_scale(run)));
+        if !is_law || (run.geometry, run.material) == (Geometry::Round, Material::LAGREE) {
+            continue;
         }
+        let known = [0, 1].map(|result| Known {
+            study: numerical_uncertainty(records, run, measures[result]),
+            spread: spreads[result],
+        });
+        // points of its own experiment stand in the place of other experiments' laws
+        let pile = pile_of(run).filter(|_| !run.is_of_own_grains());
+        let laws = pile.is_none().then(|| against_laws(run, &record.data, known, has_seeds(records, run)));
+        let mut own: Vec<Metric> = laws.into_iter().flatten().chain(of_column(run, &record.data)).collect();
+        // columns that only exponents are fitted to are too coarse for more
+        if run.is_for_exponents() {
+            for metric in own.iter_mut().filter(|metric| metric.kind == MetricKind::Validation) {
+                (metric.reference, metric.gate) = (None, None);
+            }
+        }
+        metrics.extend(own);
+        metrics.extend(pile.into_iter().flat_map(|pile| measured::of_pile(records, column, pile, known)));
+        if let Some(ratio) = measured::of_round_column(run, &record.data, known[0]) {
+            ratios.push((run.initial_height(), ratio.clone()));
+            metrics.push(ratio);
+        }
+        metrics.extend(interior::of_run(column, records));
+        metrics.extend(statements::of_run(run, record));
     }
-    let ratios: Vec<(f64, &Metric)> = round.iter().map(|(ratio, metric)| (*ratio, metric)).collect();
     metrics.extend(measured::of_round_columns(&ratios));
     metrics.extend(convergence::metrics(records));
     metrics.extend(stress_updates::metrics(records));
@@ -103,9 +86,17 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
     metrics
 }
 
+/// Whether further seeds of a column are judged together.
+fn has_seeds(records: &[CollapseRecord], run: &ColumnRun) -> bool {
+    records.iter().any(|(other, _)| {
+        other.purpose == ColumnPurpose::Convergence
+            && (other.material, other.aspect_ratio) == (run.material, run.aspect_ratio)
+    })
+}
+
 /// Scale of the energy's balance: the taller a column is, the more falls within a step.
-fn energy_scale(run: &ColumnRun) -> EnergyScale {
-    if run.initial_height() <= 3.0 { EnergyScale::Fall } else { EnergyScale::Work }
+fn energy_scale(aspect_ratio: f64) -> EnergyScale {
+    if aspect_ratio <= 3.0 { EnergyScale::Fall } else { EnergyScale::Work }
 }
 
 /// Nothing is lost: no particle and, where the numerics keep account of it, no momentum.
@@ -168,66 +159,54 @@ pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, lo
         )
 }
 
-fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty, has_seeds: bool) -> Vec<Metric> {
-    let spread = known.spread;
+/// Where the true value of a user's own grains lies, by how far those of published ones were off.
+fn predicted(run: &ColumnRun, collapse: &Collapse, quantities: &[&str], value: f64) -> Option<PredictionInterval> {
+    let regime = run.is_of_own_grains().then(|| run.regime(collapse))?;
+    ValidationSet::shipped().predict(quantities, regime, value)
+}
+
+/// Run-out and height against the laws of experiments and other codes.
+fn against_laws(run: &ColumnRun, collapse: &Collapse, known: [Known; 2], has_seeds: bool) -> [Metric; 2] {
     let (variant, a) = (run.variant(), run.initial_height());
-    let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
-    let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw, band: AcceptanceBand| {
+    let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw, laws: &[CollapseLaw], band: AcceptanceBand| {
+        let metric = quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
+        if run.is_of_own_grains() {
+            // beside all laws, gaps included, and before all else
+            let beside: Vec<String> = laws.iter().map(|law| law.in_words(a)).collect();
+            let source = format!(
+                "{}. None of them judges it: each holds for the grains of its own experiment or simulation, and these have another law",
+                beside.join("; ")
+            );
+            let quantities: &[&str] = if quantity.name == RUN_OUT.name { &WAY_OF_FRONT } else { &[FINAL_HEIGHT.name] };
+            let interval = predicted(run, collapse, quantities, value)
+                .map(|interval| PredictionInterval { unit_length: Some(run.half_width), ..interval });
+            return metric.against(None, &source, Confidence::Medium).predicted(interval).leading();
+        }
         // in a gap between its branches a law judges nothing, and says so
         let source = if law.value(a).is_some() { law.source.clone() } else { law.in_words(a) };
-        let metric = observed(quantity, value).against(law.value(a), &source, law.confidence);
-        metric.gated_by(band.map(|band| band.0), band.map_or("", |band| band.1))
+        let (limit, reason) = band.map_or((None, ""), |((low, high), reason)| (Some(Limit::Within(low, high)), reason));
+        metric.against(law.value(a), &source, law.confidence).gated_by(limit, reason)
     };
     let (run_out_law, height_law) = bands::laws_of(run);
     let laws = if run.geometry == Geometry::Planar { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
-    // where the true value of a user's own grains lies, by how far those of published ones were off
-    let predicted = |quantities: &[&str], value: f64| {
-        let own = run.is_of_own_grains().then(|| run.regime(collapse));
-        own.and_then(|regime| ValidationSet::shipped().predict(quantities, regime, value))
-    };
-    // beside all laws, gaps included, and before all else
-    let of_own_grains = |metric: Metric, laws: &[CollapseLaw]| {
-        if !run.is_of_own_grains() {
-            return metric;
-        }
-        let beside: Vec<String> = laws.iter().map(|law| law.in_words(a)).collect();
-        let source = format!(
-            "{}. None of them judges it: each holds for the grains of its own experiment or simulation, and these have another law",
-            beside.join("; ")
-        );
-        let quantities: &[&str] = if metric.name == RUN_OUT.name { &WAY_OF_FRONT } else { &[FINAL_HEIGHT.name] };
-        let interval = predicted(quantities, metric.value)
-            .map(|interval| PredictionInterval { unit_length: Some(run.half_width), ..interval });
-        Metric { gate: None, ..metric.against(None, &source, Confidence::Medium) }.predicted(interval).leading()
-    };
+    let run_out = by_law(RUN_OUT, collapse.run_out(), run_out_law, &laws.run_out, bands::run_out(run, has_seeds));
+    let height = by_law(FINAL_HEIGHT, collapse.final_height(), height_law, &laws.height, bands::height(run));
+    [known[0].of(run_out, collapse.front_uncertainty()), known[1].of(height, None)]
+}
+
+/// Stop, rest and shape of the heap.
+fn of_column(run: &ColumnRun, collapse: &Collapse) -> Vec<Metric> {
+    let (variant, a) = (run.variant(), run.initial_height());
+    let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
     let (duration, source, confidence) = &*COLLAPSE_DURATION;
     let stopping_time = collapse.stopping_time() / run.time_scale();
     let of_sand = run.material == Material::SAND && run.has_published_law();
     let slope = observed(DEPOSIT_SLOPE_ANGLE, collapse.slope_angle());
     let friction = run.law.contact_friction();
     let steepest = libm::atan(friction).to_degrees();
-    let mut metrics = conservation(&variant, collapse, &run.release.numerics, energy_scale(run));
-    metrics.extend([
-        with_uncertainty(
-            of_own_grains(
-                by_law(RUN_OUT, collapse.run_out(), run_out_law, bands::run_out(run, run_out_law, has_seeds)),
-                &laws.run_out,
-            ),
-            known.run_out,
-            collapse.front_uncertainty(),
-            spread.run_out,
-        ),
-        with_uncertainty(
-            of_own_grains(
-                by_law(FINAL_HEIGHT, collapse.final_height(), height_law, bands::height(run, height_law)),
-                &laws.height,
-            ),
-            known.height,
-            None,
-            spread.height,
-        ),
+    let mut metrics = vec![
         observed(STOPPING_TIME, stopping_time)
-            .predicted(predicted(&[STOPPING_TIME.name], stopping_time))
+            .predicted(predicted(run, collapse, &[STOPPING_TIME.name], stopping_time))
             .against(
                 Some(*duration),
                 &format!("about {duration} √(h_0/g), {source}; 99 % of the front's way here"),
@@ -263,7 +242,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty, has
                 (a <= 5.0).then_some(Limit::Within(-10.0, 10.0)),
                 "the project's aim: within 10 % up to a = 5, or particles stand above the heap",
             ),
-    ]);
+    ];
     let (x96, x99) = collapse.quantiles;
     let others = [
         ("centroid", collapse.centroid, Some(CodeQuantity::CentroidAtRest)),
@@ -274,9 +253,9 @@ fn of_column(run: &ColumnRun, collapse: &Collapse, known: ColumnUncertainty, has
     metrics.extend(others.map(|(quantity, value, of_codes)| {
         let variant = Variant::of("quantity", quantity).followed_by(&variant);
         let metric = RUN_OUT.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
-        match (&codes, of_codes) {
-            (Some(codes), Some(of_codes)) => codes.deposit(metric, of_codes),
-            _ => metric,
+        match codes.as_ref().zip(of_codes) {
+            Some((codes, of_codes)) => codes.deposit(metric, of_codes),
+            None => metric,
         }
     }));
     metrics

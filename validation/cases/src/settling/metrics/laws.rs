@@ -2,7 +2,7 @@
 //! of suspensions computed outside of the program. The runs are judged by roots of the same functions that drove them,
 //! so that they cannot tell a wrong law from a right one.
 
-use super::quantities::{DRAG_CURVE_ERROR, LAW_SLIP_ERROR};
+use super::{DRAG_CURVE_ERROR, LAW_SLIP_ERROR};
 use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::reference::settling::{HINDERED_SLIPS, STANDARD_DRAG, SettlingGrains};
 use bagnold_solver::material::drag::DragLaw;

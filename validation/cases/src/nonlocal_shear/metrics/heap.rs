@@ -1,17 +1,7 @@
 //! How heaps between side walls are judged.
 
-use super::NonlocalShearRecord;
-use super::flow::{ExactShear, RheologyChoice, ShearFlow};
-use super::probe::ShearObservation;
-use super::profile::{length_metric, tail, velocity_l2, velocity_misfit};
-use super::quantities::{
-    COARSE, DECAY_LENGTH, DEEP_TAIL, EXACT, FLOWING_DEPTH, OBSERVED_ORDER, STRAIGHT, SURFACE_VELOCITY_ERROR, TAIL,
-    TAIL_STRAIGHTNESS,
-};
-use super::run::ShearRun;
-use crate::case::Run;
-use crate::metric::{Limit, Metric, Variant};
-use crate::statistics::Regression;
+use super::*;
+use crate::nonlocal_shear::flow::RheologyChoice;
 
 /// Velocity at the depth that a heap counts as flowing down to, over that of its surface `[-]`.
 const STILL: f64 = 0.01;
@@ -29,35 +19,22 @@ pub(super) fn metrics(
     let surface = |rows: &[(f64, f64)]| rows.last().map_or(f64::NAN, |row| row.1);
     let found = SURFACE_VELOCITY_ERROR.of(&run.variant(), 100.0 * (surface(&rows) / surface(&expected) - 1.0));
     let (mut metrics, reference) = match cooperation {
-        RheologyChoice::Nonlocal => (decay(run, seen, exact, &expected), EXACT),
+        RheologyChoice::Nonlocal => (creep(run, seen, exact), EXACT),
         RheologyChoice::Local => (depth(run, seen, exact, &expected), EXACT_LOCAL),
     };
     metrics.push(found.exactly(0.0, reference).with_snapshot_tolerance(0.1, 1e-1));
     metrics
 }
 
-/// How the velocity of grains that flow together decays below the depth at which the local law is at rest.
-fn decay(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, expected: &[(f64, f64)]) -> Vec<Metric> {
-    let (variant, diameter, rows) = (run.variant(), run.grains.law.grain_diameter, seen.velocities());
-    let line = |depths, rows: &[(f64, f64)]| tail(run, exact, depths, rows.iter().copied());
-    let length = |line: Option<Regression>| line.map_or(f64::NAN, |line| -1.0 / (line.slope * diameter));
-    let straightness = |line: Option<Regression>| line.map_or(f64::NAN, |line| line.r_squared);
-    let lengths = [TAIL, DEEP_TAIL].into_iter().map(|depths| {
-        let variant = Variant::of("from", depths.0).and("to", depths.1).followed_by(&variant);
-        length_metric(DECAY_LENGTH.of(&variant, length(line(depths, &rows))), length(line(depths, expected)), run)
-    });
-    let straight = TAIL_STRAIGHTNESS
-        .of(&variant, straightness(line(TAIL, &rows)))
-        .exactly(straightness(line(TAIL, expected)), EXACT)
-        .gated(Limit::AtLeast(STRAIGHT.0), STRAIGHT.1)
-        .with_snapshot_tolerance(1e-3, 0.0);
-    let allowed = 2.0 * COARSE / run.particles_per_diameter as f64;
-    let velocity = velocity_l2(run, seen, exact).gated(
-        Limit::AtMost(allowed),
+/// Decay and velocity of grains that flow together.
+fn creep(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
+    let mut metrics = decay(run, seen, exact);
+    metrics.push(velocity_l2(run, seen, exact).gated(
+        Limit::AtMost(2.0 * COARSE / run.particles_per_diameter as f64),
         "2 % where two particles are as long as a grain and half of it with twice as many, as below a plate: the flowing layer is thicker, but what flows \
          between a surface without fluidity and walls that hold it goes with its depth to a higher power",
-    );
-    lengths.chain([straight, velocity]).collect()
+    ));
+    metrics
 }
 
 /// Depth down to which rows, from below, flow `[m]`.

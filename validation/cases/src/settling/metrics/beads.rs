@@ -1,24 +1,19 @@
 //! The drag laws of dense suspensions beside beads whose settling was measured. The runs of the case meet the roots of these laws
 //! within hundredths of a per cent, so that what a law says here is what particles with it do.
 
-use super::drag_curves::{label, slot};
-use super::quantities::{DEPOSIT_RISE_OVER_MEASURED, SINKING_OVER_MEASURED};
-use crate::figure::{Axis, Figure, Panel};
+use super::{DEPOSIT_RISE_OVER_MEASURED, SINKING_OVER_MEASURED};
 use crate::metric::{Limit, Metric, Origin, Variant};
 use crate::reference::settling::{SETTLING_BEADS, SettlingBeads, SettlingGrains};
 use bagnold_solver::material::drag::DragLaw;
 
 /// The laws that speak of dense suspensions.
-const LAWS: [DragLaw; 4] = [DragLaw::WenYu, DragLaw::Ergun, DragLaw::Gidaspow, DragLaw::DiFelice];
-/// Factor by which a law may be off `[-]`.
-const FACTOR: f64 = 2.0;
-/// Half of a pixel of the images `[m]`.
-const HALF_PIXEL: f64 = 0.39e-3;
+pub(in crate::settling) const LAWS: [DragLaw; 4] =
+    [DragLaw::WenYu, DragLaw::Ergun, DragLaw::Gidaspow, DragLaw::DiFelice];
 
 const PRINTED: &str = "half of the last printed digit that is no trailing zero, evenly spread; how the sizes of the beads differ is not told";
 
 /// Velocity at which a law lets the beads sink `[m/s]`, and its relative uncertainty from the fraction `[-]`.
-fn sinking(beads: &SettlingBeads, law: DragLaw) -> Option<(f64, f64)> {
+pub(in crate::settling) fn sinking(beads: &SettlingBeads, law: DragLaw) -> Option<(f64, f64)> {
     let phi = beads.suspension;
     let at = |fraction: f64| beads.grains.hindered_velocity(law, fraction);
     let own = at(phi.value)?;
@@ -35,7 +30,7 @@ fn by_numbers(beads: &SettlingBeads, law: DragLaw, own: f64) -> Vec<(&'static st
     beads.ends.iter().filter_map(effect).collect()
 }
 
-pub(super) fn metrics() -> Vec<Metric> {
+pub(super) fn all() -> Vec<Metric> {
     let beads = &*SETTLING_BEADS;
     let of_law = |&law: &DragLaw| -> Option<[Metric; 2]> {
         let (velocity, by_fraction) = sinking(beads, law)?;
@@ -53,7 +48,7 @@ pub(super) fn metrics() -> Vec<Metric> {
             metric
                 .against(Some(1.0), &beads.source, beads.confidence)
                 .gated(
-                    Limit::Within(1.0 / FACTOR, FACTOR),
+                    Limit::Within(0.5, 2.0),
                     "a factor of two: at half the space filled the laws themselves, each fitted to experiments of its own, differ by nearly as much",
                 )
                 .with_snapshot_tolerance(1e-6, 0.0)
@@ -87,31 +82,6 @@ pub(super) fn metrics() -> Vec<Metric> {
     LAWS.iter().filter_map(of_law).flatten().collect()
 }
 
-/// Both interfaces over time, with every law.
-pub(super) fn figure() -> Figure {
-    let beads = &*SETTLING_BEADS;
-    let mut panel = Panel::new("", Axis::linear("t [min]"), Axis::linear("height [mm]").between(0.0, 60.0));
-    let scaled = |points: &[(f64, f64)]| points.iter().map(|(t, z)| (t / 60.0, 1e3 * z)).collect::<Vec<_>>();
-    let bars = vec![1e3 * HALF_PIXEL; beads.upper.len()];
-    panel.points("measured upper interface", 6, scaled(&beads.upper)).error.clone_from(&bars);
-    panel.points("measured deposit", 7, scaled(&beads.deposit)).error = bars;
-    for law in LAWS {
-        let Some((velocity, _)) = sinking(beads, law) else { continue };
-        let (top, bottom) = (beads.upper[0].1, beads.deposit[0].1);
-        let rise = beads.rise_under(velocity);
-        let meet = (top - bottom) / (velocity + rise);
-        panel.line(label(law), slot(law), scaled(&[(0.0, top), (meet, top - velocity * meet)]));
-        panel.line("", slot(law), scaled(&[(0.0, bottom), (meet, bottom + rise * meet)]));
-    }
-    Figure::new(
-        "beads",
-        "Polystyrene beads that settle in silicone oil, half of the space filled: measured heights of their upper interface and of their \
-         deposit, with half a pixel, and what the drag laws of dense suspensions say until both meet, from the measured fractions. The \
-         beads had begun to settle before time 0; below the suspension they were denser already.",
-        vec![panel],
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,7 +96,7 @@ mod tests {
         let by_hand = (1.0 - phi).powi(3) * weight / (150.0 * phi * grains.kinematic_viscosity * grains.fluid_density);
         let (own, _) = sinking(beads, DragLaw::Ergun).expect("in range");
         assert!((own / by_hand - 1.0).abs() < 1e-3, "{own} for {by_hand}");
-        assert_eq!(metrics().len(), 2 * LAWS.len());
+        assert_eq!(all().len(), 2 * LAWS.len());
         // in this regime the velocity goes with d², Δρ, and 1/(ν ρ_f): ±5 µm of 290, ±5 kg/m³ of 100, half of the last digit of ν
         let numbers = by_numbers(beads, DragLaw::Ergun, own);
         let expected = [10.0 / 290.0, 0.05, 0.05 + 5.0 / 950.0, 5e-9 / 2.105e-5].map(|half| half / 3.0_f64.sqrt());

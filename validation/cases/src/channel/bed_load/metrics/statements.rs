@@ -1,89 +1,70 @@
 //! `stabilised` against what Kazemi et al. state of the flow, and against the transport formula on the slope held out.
 
-use super::BedLoadRecord;
-use super::metrics::{balances, common, grains, has_forgotten};
-use super::observation::BedLoadObservation;
-use super::parameters::GrainParticles;
-use super::profiles::{self, LAYERS};
-use super::quantities::{
-    DRAG_TOP_RATIO, LAYER_BORDER, LAYER_SLOPE, LAYER_SLOPE_RATIO, NEAR_BED_DEFICIT, NUMBER_OF_LAYERS, OUTER_DEFICIT,
-    RELATIVE_DEFICIT, SEMI_LOG_SLOPE, SHEARED_FROM, SHEARED_THICKNESS_GROWTH, SHEARED_UP_TO, TRANSPORT_GROWTH,
-    TRANSPORT_RATIO,
-};
-use super::run::{BedLoadRun, GrainKind};
-use super::tiers::FITTED;
-use crate::case::Run;
-use crate::channel::{self, ProfilePoint};
-use crate::metric::{Confidence, Limit, Metric, MetricKind, Quantity, Value, Variant};
-use crate::observation::Recorded;
-use crate::reference::bed_load::{LAYER_STATEMENTS, MEASURED_BAND, TransportFormula};
+use super::*;
+use crate::channel::ProfilePoint;
+use crate::channel::bed_load::parameters::GrainParticles;
+use crate::channel::bed_load::profiles::LAYERS;
+use crate::channel::bed_load::tiers::FITTED;
+use crate::metric::{MetricKind, Value};
+use crate::reference::bed_load::LAYER_STATEMENTS;
 use crate::statistics::{FittedValue, Segmented};
 use bagnold_solver::material::rheology::Rheology;
 
-/// A slope `[-]` that the paper makes statements of.
-struct Stated {
-    slope: f64,
-}
+/// The gentler slope that the paper makes statements of, whose profile and transport are judged `[-]`.
+const GENTLE: f64 = 0.03;
+/// The steeper one, with more transport and a thicker sheared layer `[-]`.
+const STEEP: f64 = 0.05;
 
-/// The gentler slope, whose profile and transport are judged.
-const GENTLE: Stated = Stated { slope: 0.03 };
-/// The steeper slope, with more transport and a thicker sheared layer.
-const STEEP: Stated = Stated { slope: 0.05 };
-
-impl Stated {
-    /// Whether a run is of this slope.
-    fn is_of(&self, run: &BedLoadRun) -> bool {
-        (run.slope / self.slope - 1.0).abs() < 1e-9
-    }
+/// Whether a run is of the default numerics on a slope `[-]`.
+fn is_stabilised(run: &BedLoadRun, slope: f64) -> bool {
+    run.formulation.kind() == Some(GrainKind::Stabilised) && (run.slope / slope - 1.0).abs() < 1e-9
 }
 
 /// Says that nothing is judged by the paper's statements, for want of a run of their slope.
 pub(super) fn say_what_is_missing(records: &[BedLoadRecord]) {
-    let runs = || records.iter().map(|(run, _)| run);
-    let of_the_recipe = || runs().filter(|run| run.formulation.kind() == Some(GrainKind::Stabilised));
-    if of_the_recipe().next().is_some() && !of_the_recipe().any(|run| GENTLE.is_of(run)) {
+    let mut stabilised =
+        records.iter().filter(|(run, _)| run.formulation.kind() == Some(GrainKind::Stabilised)).peekable();
+    if stabilised.peek().is_some() && !stabilised.any(|(run, _)| is_stabilised(run, GENTLE)) {
         tracing::warn!(
-            "no run of `stabilised` has the slope {} that the paper's statements are of: its profile and transport are \
-             observed, but not judged",
-            GENTLE.slope
+            "no run of `stabilised` has the slope {GENTLE} that the paper's statements are of: its profile and transport are \
+             observed, but not judged"
         );
     }
 }
 
-pub(super) fn stabilised(
-    metrics: &mut Vec<Metric>,
-    records: &[BedLoadRecord],
-    run: &BedLoadRun,
-    record: &Recorded<BedLoadObservation>,
-    bed: &GrainParticles,
-) {
-    let (variant, data) = (run.variant(), &record.data);
-    balances(metrics, run, record);
+/// Metrics of a run of one particle a grain by the default numerics.
+pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord, bed: &GrainParticles) -> Vec<Metric> {
+    let (run, Recorded { data, .. }) = record;
+    let variant = run.variant();
     let forgotten = has_forgotten(records, run);
-    common(metrics, run, record, forgotten);
-    let judged = forgotten && GENTLE.is_of(run);
-    let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
-    // of the fitted slopes the transport says nothing
-    if judged && bed.material == Rheology::CoulombBingham(FITTED) {
-        let formula = TransportFormula::WongParker;
-        let reference = formula.transport(run.stream().shields_number());
-        let ratio = observed(TRANSPORT_RATIO, data.channel.average(&data.transport), 1.0 / reference);
-        let reason = "yield stress and viscosity are fitted to the two other slopes";
-        let metric = ratio.against(Some(1.0), formula.name(), formula.confidence()).of_kind(MetricKind::Validation);
-        metrics.push(metric.gated(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1), reason));
-    }
+    let judged = forgotten && is_stabilised(run, GENTLE);
     let gate = |limit: Limit| judged.then_some(limit);
-    let profile = &data.channel.profile;
-    for (lower, upper) in LAYERS {
-        let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
-        let named = variant.clone().and("height", 1e3 * lower..=1e3 * upper);
-        let slope = channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0);
-        metrics.push(slope.exactly(1.0, "u_*/κ, fitted to u over ln(z + z_0)"));
-    }
+    let observed = |quantity, estimate, factor| channel::observed(quantity, &variant, estimate, factor);
     let stated = |metric: Metric, value: Option<f64>, statement: &str| {
         metric.against(value, &format!("statement of the paper: {statement}"), Confidence::Medium)
     };
-    layers(metrics, run, record);
+    let mut metrics = balances(record);
+    metrics.extend(common(record, forgotten));
+    // of the fitted slopes the transport says nothing
+    if judged && bed.material == Rheology::CoulombBingham(FITTED) {
+        let formula = TransportFormula::WongParker;
+        metrics.push(
+            observed(TRANSPORT_RATIO, data.mean_transport(), 1.0 / run.formula_transport())
+                .against(Some(1.0), formula.name(), formula.confidence())
+                .of_kind(MetricKind::Validation)
+                .gated(
+                    Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1),
+                    "yield stress and viscosity are fitted to the two other slopes",
+                ),
+        );
+    }
+    let profile = &data.channel.profile;
+    metrics.extend(LAYERS.map(|(lower, upper)| {
+        let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
+        let named = variant.clone().and("height", 1e3 * lower..=1e3 * upper);
+        channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0).exactly(1.0, "u_*/κ, fitted to u over ln(z + z_0)")
+    }));
+    metrics.extend(layers(run, data));
     let is_at_rest =
         |(other, _): &&BedLoadRecord| other.formulation.kind() == Some(GrainKind::AtRest) && other.slope == run.slope;
     if let Some((_, rest)) = records.iter().find(is_at_rest) {
@@ -120,21 +101,22 @@ pub(super) fn stabilised(
     let below = profile.estimate(|points| profiles::sheared_borders(run, points).0);
     metrics.extend([observed(SHEARED_UP_TO, above, 1e3), observed(SHEARED_FROM, below, 1e3)]);
     // particles of grains are too few for a curvature
-    grains(metrics, run, data, false);
+    metrics.extend(grains(run, data, false));
     let ratio = DRAG_TOP_RATIO.of(&variant, profiles::drag_top_ratio(&data.drag_profile()));
     metrics.push(stated(ratio, None, "less drag on the topmost grains than below").with_snapshot_tolerance(0.1, 0.0));
+    metrics
 }
 
 /// The layers that a segmented regression finds, with the errors of their slopes and borders. Their number judges nothing: lines are
 /// added as long as the information criterion gains by them, and on a mean profile, whose misfit is a curve and no noise, it finds
 /// three whatever the slope.
-fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoadObservation>) {
+fn layers(run: &BedLoadRun, data: &BedLoadObservation) -> Vec<Metric> {
     let variant = run.variant();
-    let profile = &record.data.channel.profile;
+    let profile = &data.channel.profile;
     let count = profiles::number_of_layers(run, &profile.points());
     // of 2 % the paper says nothing
     let published = LAYER_STATEMENTS.iter().find(|statement| statement.slope == run.slope);
-    metrics.push(
+    let mut metrics = vec![
         NUMBER_OF_LAYERS
             .of(&variant, count as f64)
             .against(
@@ -144,7 +126,7 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
             )
             // a break more or less is no drift of the flow
             .with_snapshot_tolerance(0.0, 1.0),
-    );
+    ];
     let scale = run.clear_water().semi_logarithmic_slope() / run.clear_water().friction_velocity();
     for layer in 0..count {
         let of = |read: &dyn Fn(&Segmented) -> f64| {
@@ -158,48 +140,32 @@ fn layers(metrics: &mut Vec<Metric>, run: &BedLoadRun, record: &Recorded<BedLoad
             metrics.push(channel::observed(LAYER_BORDER, &named, border, 1.0 / run.materials.grain_diameter));
         }
     }
+    metrics
 }
 
 /// More transport and a thicker sheared layer at 5 % than at 3 %, of flows that have forgotten their start.
-pub(super) fn growth(metrics: &mut Vec<Metric>, records: &[BedLoadRecord]) {
-    let pair = |is_own: &dyn Fn(&BedLoadRun) -> bool| {
-        let of = |stated: Stated| records.iter().find(|(run, _)| stated.is_of(run) && is_own(run));
-        of(GENTLE).zip(of(STEEP))
+pub(super) fn growth(records: &[BedLoadRecord]) -> Vec<Metric> {
+    let of = |slope| records.iter().find(|(run, _)| is_stabilised(run, slope) && has_forgotten(records, run));
+    let Some(((low, gentle), (high, steep))) = of(GENTLE).zip(of(STEEP)) else { return Vec::new() };
+    let variant = Variant::of("formulation", "stabilised").and("slope", Value::list([low.slope, high.slope]));
+    let grown = |quantity: Quantity, value: f64, expected: Option<f64>| {
+        quantity
+            .of(&variant, value)
+            .against(expected, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
+            .with_snapshot_tolerance(0.05, 0.0)
     };
-    let stabilised =
-        |run: &BedLoadRun| run.formulation.kind() == Some(GrainKind::Stabilised) && has_forgotten(records, run);
-    if let Some((gentle, steep)) = pair(&stabilised) {
-        metrics.push(transport_growth(gentle, steep));
-        // the thickness of one row of grains is the grains', whatever the slope
-        metrics.push(thickness_growth("stabilised", gentle, steep));
-    }
-}
-
-/// Variant and reference of a growth from one slope to the other.
-fn grown(quantity: Quantity, formulation: &str, slopes: [f64; 2], value: f64, expected: Option<f64>) -> Metric {
-    let variant = Variant::of("formulation", formulation).and("slope", Value::list(slopes));
-    quantity
-        .of(&variant, value)
-        .against(expected, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
-        .with_snapshot_tolerance(0.05, 0.0)
-}
-
-fn thickness_growth(formulation: &str, (low, gentle): &BedLoadRecord, (high, steep): &BedLoadRecord) -> Metric {
-    let thickness = |run: &BedLoadRun, record: &Recorded<BedLoadObservation>| {
-        let (lower, upper) = profiles::sheared_borders(run, &record.data.channel.profile.points());
+    let thickness = |run: &BedLoadRun, data: &BedLoadObservation| {
+        let (lower, upper) = profiles::sheared_borders(run, &data.channel.profile.points());
         upper - lower
     };
-    let growth = thickness(high, steep) / thickness(low, gentle);
-    grown(SHEARED_THICKNESS_GROWTH, formulation, [low.slope, high.slope], growth, None)
-}
-
-fn transport_growth((low_run, low): &BedLoadRecord, (high_run, high): &BedLoadRecord) -> Metric {
-    let transport = |record: &Recorded<BedLoadObservation>| record.data.channel.average(&record.data.transport).value;
-    let formula = |run: &BedLoadRun| TransportFormula::WongParker.transport(run.stream().shields_number());
-    let expected = formula(high_run) / formula(low_run);
-    let growth = transport(high) / transport(low);
-    grown(TRANSPORT_GROWTH, "stabilised", [low_run.slope, high_run.slope], growth, Some(expected)).gated(
-        Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
-        "a factor of two about the growth of the formula, by which measured rates scatter",
-    )
+    let expected = high.formula_transport() / low.formula_transport();
+    let transport = steep.data.mean_transport().value / gentle.data.mean_transport().value;
+    vec![
+        grown(TRANSPORT_GROWTH, transport, Some(expected)).gated(
+            Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
+            "a factor of two about the growth of the formula, by which measured rates scatter",
+        ),
+        // the thickness of one row of grains is the grains', whatever the slope
+        grown(SHEARED_THICKNESS_GROWTH, thickness(high, &steep.data) / thickness(low, &gentle.data), None),
+    ]
 }

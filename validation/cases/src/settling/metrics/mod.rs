@@ -1,17 +1,41 @@
 //! How the runs are judged.
 
+pub(super) mod beads;
+mod laws;
+
 use super::SettlingRecord;
 use super::grain::GrainRun;
 use super::probe::{SettlingObservation, SettlingSeries};
-use super::quantities::{
-    MOMENTUM_ERROR, ROOT_MEAN_SQUARE_SLIP_ERROR, SINKING_ERROR, SINKING_OVER_RICHARDSON_ZAKI, SLIP_ERROR,
-    SLIP_OF_MEANS_ERROR, TERMINAL_VELOCITY_ERROR, UNEVENNESS,
-};
 use super::runs::SettlingRun;
 use super::suspension::SuspensionRun;
 use crate::case::Run;
-use crate::metric::{Limit, Metric, Quantity, Variant};
+use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::settling::{richardson_zaki_confidence, richardson_zaki_exponent};
+
+quantities! {
+    []
+    TERMINAL_VELOCITY_ERROR:
+        verified("terminal_velocity_error", "%", "slip velocity that enters the drag, over the exact slip of a single grain, minus 1"),
+    SLIP_OF_MEANS_ERROR: verified("slip_of_means_error", "%", "|⟨u_f⟩ − u_s| over the exact slip, minus 1"),
+    ROOT_MEAN_SQUARE_SLIP_ERROR:
+        verified("root_mean_square_slip_error", "%", "√⟨|u_f − u_s|²⟩ over the exact slip, minus 1"),
+    SLIP_ERROR: verified("slip_error", "%", "slip of a suspension over the exact slip, minus 1"),
+    SINKING_ERROR: verified("sinking_error", "%", "settling velocity of a suspension over the exact one, minus 1"),
+    SINKING_OVER_RICHARDSON_ZAKI:
+        validated("sinking_over_richardson_zaki", "-", "settling velocity of a suspension over that of Richardson & Zaki"),
+    SINKING_OVER_MEASURED:
+        validated("sinking_over_measured", "-", "settling velocity of a dense suspension of beads by a drag law, over the measured velocity"),
+    DEPOSIT_RISE_OVER_MEASURED:
+        validated("deposit_rise_over_measured", "-", "rise velocity of the deposit of these beads by a drag law, over the measured velocity"),
+    UNEVENNESS: verified("unevenness", "%", "scatter of the grains' velocities over the slip"),
+    DRAG_CURVE_ERROR: validated(
+        "drag_curve_error", "%", "largest deviation of a law's drag of one sphere from the standard drag curve",
+    ),
+    LAW_SLIP_ERROR:
+        verified("law_slip_error", "%", "largest deviation of a law's slip from that of the printed law"),
+    MOMENTUM_ERROR:
+        accounted("momentum_error", "-", "momentum imbalance of a step, over the weight of the grains"),
+}
 
 const ALONE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ½ for the planar form (30)";
 const SPHERE: &str = "root of (ρ_s − ρ_f) g = c C_d ρ_f u²/d, c = ¾ for a sphere";
@@ -23,7 +47,7 @@ pub(super) fn all(records: &[SettlingRecord]) -> Vec<Metric> {
         SettlingRun::Grain(own) => alone(own, &run.variant(), &record.data),
         SettlingRun::Suspension(own) => together(own, &run.variant(), &record.data),
     };
-    records.iter().flat_map(judged).chain(super::laws::all()).chain(super::beads::metrics()).collect()
+    records.iter().flat_map(judged).chain(laws::all()).chain(beads::all()).collect()
 }
 
 /// Mean of an array over its reference less one `[%]`, observed; its own error is what it may drift by.

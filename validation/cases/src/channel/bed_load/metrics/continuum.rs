@@ -1,0 +1,100 @@
+//! Grains as volume fractions against the 1-D layer of the same closures.
+
+use super::*;
+use crate::channel::bed_load::parameters::Stage;
+use crate::channel::bed_load::run::ContinuumRun;
+
+/// Averaging time from which on a run beside the 1-D layer is judged whether it still changes or not `[s]`.
+const JUDGED_FROM: f64 = 1.5;
+/// Shortest averaging time of a flow that is judged because it no longer changes `[s]`.
+const SHORTEST: f64 = 0.5;
+/// Largest change of the stream's velocity over U/(2 g i) of such a flow `[-]`.
+const STEADY: f64 = 0.02;
+
+/// Spacing below which the transport of dilating grains is judged more closely `[m]`.
+const FINE: f64 = 6e-4;
+
+/// Whether a run in the layer's water is compared with the layer: it was watched for long, or it does not change.
+fn is_settled(run: &BedLoadRun, data: &BedLoadObservation) -> bool {
+    run.averaging_time >= JUDGED_FROM || (run.averaging_time >= SHORTEST && drift(run, data).abs() <= STEADY)
+}
+
+/// Metrics of a run of grains as volume fractions.
+pub(super) fn of(record: &BedLoadRecord, own: &ContinuumRun, forgotten: bool) -> Vec<Metric> {
+    let (run, Recorded { data, .. }) = record;
+    let (stage, variant) = (own.stage, run.variant());
+    let Some(layer) = &data.layer else { return Vec::new() };
+    let mut metrics = vec![channel::particles_lost(&variant, &record.1.clone().map(|data| data.channel))];
+    metrics.extend(common(record, forgotten));
+    metrics.push(
+        channel::MOMENTUM_RESIDUAL
+            .of(&variant, data.channel.momentum.residual())
+            .exactly(
+                0.0,
+                "change of momentum = gravity − what held grains and floor take; particles that cross a gradient of φ \
+                 change the share of their mass that counts",
+            )
+            .gated(
+                Limit::Within(-0.01, 0.01),
+                "drag and pressure move momentum between water and grains only; a hundredth for particles that cross a gradient of φ",
+            )
+            .with_snapshot_tolerance(0.1, 1e-3),
+    );
+    let source = "the 1-D layer of the same closures; the water starts at `start` times its velocity";
+    let judged = own.is_judged() && (forgotten || (own.start == 1.0 && is_settled(run, data)));
+    let gate = |limit: Limit| judged.then_some(limit);
+    let observed =
+        |quantity, estimate, exact| channel::observed(quantity, &variant, estimate, 1.0).exactly(exact, source);
+    let profile = &data.channel.profile;
+    let (most, reason) = match stage {
+        Stage::Dilating => {
+            (0.1, "a profile shifted by a twelfth of a spacing of 1 mm, as columns have it at all spacings")
+        }
+        Stage::Porous | Stage::Frozen => {
+            (0.25, "a profile shifted by a fifth of a spacing of 1 mm where it is steepest, 1.4 u_* a mm")
+        }
+    };
+    let rms = profile.estimate(|points| profiles::fluid_rms(run, points, layer));
+    let mean = profile.estimate(|points| profiles::fluid_mean(run, points, layer));
+    metrics.extend([
+        observed(FLUID_VELOCITY_RMS, rms, 0.0).gated_by(gate(Limit::AtMost(most)), reason),
+        observed(FLUID_VELOCITY_MEAN, mean, 1.0)
+            .gated_by(gate(Limit::Within(0.97, 1.03)), "the same shift over a depth mean of 10 u_*"),
+    ]);
+    if stage == Stage::Porous {
+        return metrics;
+    }
+    let dilating = stage == Stage::Dilating;
+    let rms = data.sediment.estimate(|points| profiles::grain_rms(run, points, layer));
+    let force = profiles::drag_ratio(&data.drag_profile(), layer);
+    metrics.extend([
+        observed(GRAIN_VELOCITY_RMS, rms, 0.0).gated_by(
+            gate(Limit::AtMost(0.2)).filter(|_| !dilating),
+            "the grains' profile, 0.7 u_* a mm, shifted by a third of a spacing of 1 mm",
+        ),
+        DRAG_RATIO.of(&variant, force).exactly(1.0, source).with_snapshot_tolerance(0.0, 0.02).gated_by(
+            gate(Limit::Within(0.95, 1.05)).filter(|_| dilating),
+            "grains take over the stress of the water whatever their profile is; a twentieth for bins that the bed's top cuts",
+        ),
+    ]);
+    let rate = data.mean_transport();
+    if dilating && forgotten {
+        let expected = run.formula_transport();
+        metrics.push(by_formula(channel::observed(PREDICTED_TRANSPORT, &variant, rate, 1.0), run).gated(
+            Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
+            "nine tenths of the runs that Meyer-Peter & Müller measured from τ* = 0.1 on lie there; no parameter is fitted to it",
+        ));
+    }
+    let (within, reason) = match stage {
+        Stage::Dilating if own.spacing < FINE => (0.08, "half of what a spacing of 1 mm is given"),
+        Stage::Dilating => (0.15, "the layer that moves is a few spacings thick, at 2 % one or two"),
+        Stage::Porous | Stage::Frozen => (0.1, "the grains' profile shifted by a third of a spacing of 1 mm"),
+    };
+    metrics.push(
+        channel::observed(TRANSPORT_RATIO, &variant, rate, 1.0 / layer.transport())
+            .exactly(1.0, source)
+            .gated_by(gate(Limit::Within(1.0 - within, 1.0 + within)), reason),
+    );
+    metrics.extend(grains(run, data, forgotten && dilating));
+    metrics
+}

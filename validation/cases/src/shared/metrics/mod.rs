@@ -1,0 +1,3 @@
+//! Metrics that cases of several families share, with their limits.
+
+pub(crate) mod printed_laws;
