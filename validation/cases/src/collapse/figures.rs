@@ -4,8 +4,8 @@ use super::interior::{self, energies, stations, velocity_profile, wedge};
 use super::metrics::{convergence, measured, scaling, stress_updates};
 use crate::case::Run;
 use crate::collapse::column::PICTURES;
-use crate::collapse::metrics::bands;
 use crate::collapse::metrics::other_codes::Beside;
+use crate::collapse::metrics::{Measure, bands};
 use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material};
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::metric::Confidence;
@@ -68,7 +68,7 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
     let sources: Vec<&CollapseLaw> = PLANAR_COLLAPSE.run_out.iter().chain([round_run_out]).collect();
     let measured = &*ROUND_COLUMN_RUN_OUTS;
     let mut fits = 0;
-    let mut panel = |label: &str, laws: &[&CollapseLaw], measure: fn(&Collapse) -> f64, legend: bool| {
+    let mut panel = |label: &str, laws: &[&CollapseLaw], measure: Measure, legend: bool| {
         let mut panel = Panel::new("", Axis::logarithmic("h0/r0 [-]"), Axis::logarithmic(label));
         for law in laws {
             let known = sources.iter().position(|other| other.source.split(',').next() == law.source.split(',').next());
@@ -310,26 +310,36 @@ fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
         frames.iter().flat_map(|frame| values(frame)).fold(0.0, f64::max).max(f64::MIN_POSITIVE)
     };
     let (fastest, deepest) = (largest(Frame::speeds), largest(Frame::pressures));
-    let mut panels = Vec::new();
-    for frame in frames {
-        for (values, label, limit) in [(frame.speeds(), "|v| [m/s]", fastest), (frame.pressures(), "p [kPa]", deepest)]
-        {
-            let quantity = label.split(" [").next().unwrap_or_default();
-            let title = format!("t = {:.2} √(h0/g), {quantity}", frame.time / run.time_scale());
+    let panels = frames.into_iter().flat_map(|frame| {
+        let time = format!("{:.2} √(h0/g)", frame.time / run.time_scale());
+        let drawn = [(frame.speeds(), "|v| [m/s]", (0.0, fastest)), (frame.pressures(), "p [kPa]", (0.0, deepest))];
+        drawn.map(|drawn| {
             let x = Axis::linear("x/r0 [-]").between(0.0, far);
-            let mut panel = Panel::new(&title, x, Axis::linear("y/r0 [-]").between(0.0, high));
-            let seen: Vec<usize> =
-                (0..frame.position.len()).filter(|&index| frame.position[index][2] < run.spacing()).collect();
-            let points = seen.iter().map(|&index| (frame.position[index][0] / r, frame.position[index][1] / r));
-            let values = seen.iter().map(|&index| values[index]);
-            panel.field = Some(Field::new(label, run.spacing() / r, (0.0, limit), points, values));
-            panels.push(panel);
-        }
-    }
+            field_panel(frame, &time, [x, Axis::linear("y/r0 [-]").between(0.0, high)], (r, run.spacing()), drawn)
+        })
+    });
     Figure::new(
         &format!("pictures-{}", stem(run)),
         &format!("{}: speed (left) and pressure (right) through the collapse and in the deposit.", label(run)),
-        panels,
+        panels.collect(),
     )
     .in_columns(2)
+}
+
+/// What is drawn of a picture: values, label, limits.
+pub(crate) type DrawnField = (Vec<f64>, &'static str, (f64, f64));
+
+/// Particles of a picture in the colours of a field, of a round heap the slice beside a symmetry plane, in a unit of length `[m]`.
+pub(crate) fn field_panel(
+    frame: &Frame,
+    time: &str,
+    [x, y]: [Axis; 2],
+    (unit, spacing): (f64, f64),
+    (values, label, limits): DrawnField,
+) -> Panel {
+    let mut panel = Panel::new(&format!("t = {time}, {}", label.split(" [").next().unwrap_or_default()), x, y);
+    let seen = || frame.position.iter().zip(&values).filter(|(x, _)| x[2] < spacing);
+    let points = seen().map(|(x, _)| (x[0] / unit, x[1] / unit));
+    panel.field = Some(Field::new(label, spacing / unit, limits, points, seen().map(|(_, value)| *value)));
+    panel
 }

@@ -1,12 +1,46 @@
 //! The case's figures.
 
 use super::NonlocalShearRecord;
-use super::flow::ShearFlow;
-use super::heap_figure as heap;
-use super::marks::{LEAST, LEAST_OF_ERRORS, LOCAL, NONLOCAL, label, shown, thinned};
+use super::flow::{ExactShear, RheologyChoice, ShearFlow};
 use super::metrics::plug_velocity;
 use super::run::ShearRun;
 use crate::figure::{Axis, Figure, Panel};
+
+/// Least velocity that a logarithmic axis shows, over its largest `[-]`: three decades of a tail.
+const LEAST: f64 = 1e-3;
+/// Least velocity whose relative error is drawn, over that of the plate `[-]`: rows that are nearly at rest keep the unevenness of the start.
+const LEAST_OF_ERRORS: f64 = 1e-2;
+
+const NONLOCAL: &str = "nonlocal law, without particles";
+const LOCAL: &str = "local law under the same stresses";
+
+fn label(run: &ShearRun) -> String {
+    match run.particles_per_diameter {
+        1 => "1 particle per diameter".to_owned(),
+        count => format!("{count} particles per diameter"),
+    }
+}
+
+/// Points that an axis from a least value on can show.
+fn shown(points: impl IntoIterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, f64)> {
+    points.into_iter().filter(|(_, value)| *value >= least).collect()
+}
+
+/// One row per diameter, which leaves the curve behind them to be seen.
+fn thinned(run: &ShearRun, rows: Vec<(f64, f64)>) -> impl Iterator<Item = (f64, f64)> {
+    rows.into_iter().skip(run.particles_per_diameter / 2).step_by(run.particles_per_diameter)
+}
+
+/// √(g D) `[m/s]`.
+fn speed(run: &ShearRun) -> f64 {
+    (run.gravity * run.grains.law.grain_diameter).sqrt()
+}
+
+/// The solution without particles over its distance from where it flows fastest, in units of diameters and √(g D).
+fn solution<'a>(run: &ShearRun, exact: &'a ExactShear) -> impl Iterator<Item = (f64, f64)> + use<'a> {
+    let (diameter, scale) = (run.grains.law.grain_diameter, speed(run));
+    exact.profile.distances.iter().zip(&exact.profile.velocities).map(move |(y, u)| (y / diameter, u / scale))
+}
 
 pub(super) fn all(records: &[NonlocalShearRecord]) -> Vec<Figure> {
     let flows = |kind: fn(&ShearFlow) -> bool| -> Vec<&NonlocalShearRecord> {
@@ -18,52 +52,103 @@ pub(super) fn all(records: &[NonlocalShearRecord]) -> Vec<Figure> {
     let drawn = [
         (!beds.is_empty()).then(|| dragged_bed(&beds)),
         (!chutes.is_empty()).then(|| chute(&chutes)),
-        (!heaps.is_empty()).then(|| heap::drawn(&heaps)),
+        (!heaps.is_empty()).then(|| heap(&heaps)),
     ];
     drawn.into_iter().flatten().collect()
 }
 
+/// Velocity over the depth on a logarithmic axis, and its error where it is fast enough.
+struct OverDepth {
+    velocity: Panel,
+    error: Panel,
+    /// Largest velocity over √(g D) `[-]`.
+    largest: f64,
+}
+
+impl OverDepth {
+    fn new(below: &str, largest: f64) -> Self {
+        let depth = || Axis::linear(&format!("depth below the {below}/D [-]"));
+        let velocity = Axis::logarithmic("u/√(g D) [-]").between(LEAST * largest, 2.0 * largest);
+        Self {
+            velocity: Panel::new("", depth(), velocity),
+            error: Panel::new("", depth(), Axis::linear("u/u exact − 1 [%]")),
+            largest,
+        }
+    }
+
+    /// The points that the logarithmic axis can show.
+    fn shown(&self, points: impl IntoIterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+        shown(points, LEAST * self.largest)
+    }
+
+    /// Draws the rows of a run.
+    fn draw(&mut self, (run, record): &NonlocalShearRecord, exact: &ExactShear, slot: usize, name: &str) {
+        let (diameter, scale) = (run.grains.law.grain_diameter, speed(run));
+        let depth = |y: f64| run.flow.distance(y) / diameter;
+        let rows = record.data.velocities();
+        let few = self.shown(thinned(run, rows.clone()).map(|(y, u)| (depth(y), u / scale)));
+        self.velocity.points(name, slot, few);
+        let least = LEAST_OF_ERRORS * self.largest;
+        let inside = rows.iter().filter(|(y, u)| (*u).min(exact.velocity(*y)) / scale >= least);
+        self.error.line_points("", slot, inside.map(|&(y, u)| (depth(y), 100.0 * (u / exact.velocity(y) - 1.0))));
+    }
+}
+
 fn dragged_bed(records: &[&NonlocalShearRecord]) -> Figure {
-    let speed = |run: &ShearRun| (run.gravity * run.grains.law.grain_diameter).sqrt();
     let largest = records.iter().map(|(run, _)| match run.flow {
         ShearFlow::DraggedBed { plate_velocity, .. } => plate_velocity / speed(run),
         ShearFlow::Chute { .. } | ShearFlow::Heap { .. } => 0.0,
     });
-    let largest = largest.fold(0.0, f64::max);
-    let least = LEAST * largest;
-    let mut velocity = Panel::new(
-        "",
-        Axis::linear("depth below the plate/D [-]"),
-        Axis::logarithmic("u/√(g D) [-]").between(least, 2.0 * largest),
-    );
-    let mut error = Panel::new("", Axis::linear("depth below the plate/D [-]"), Axis::linear("u/u exact − 1 [%]"));
-    for (slot, (run, record)) in records.iter().enumerate() {
-        let Some(exact) = run.exact(&record.data) else { continue };
-        let (diameter, scale) = (run.grains.law.grain_diameter, speed(run));
-        let depth = |y: f64| run.flow.distance(y) / diameter;
+    let mut drawn = OverDepth::new("plate", largest.fold(0.0, f64::max));
+    for (slot, record) in records.iter().enumerate() {
+        let (run, diameter) = (&record.0, record.0.grains.law.grain_diameter);
+        let Some(exact) = run.exact(&record.1.data) else { continue };
         if slot == 0 {
-            let profile = &exact.profile;
-            let points = profile.distances.iter().zip(&profile.velocities).map(|(y, u)| (y / diameter, u / scale));
-            velocity.reference(NONLOCAL, shown(points, least));
-            velocity.line(
-                LOCAL,
-                records.len(),
-                shown(exact.local().iter().map(|(y, u)| (y / diameter, u / scale)), least),
-            );
-            error.reference("", [(0.0, 0.0), (exact.yield_distance() / diameter + 4.0, 0.0)]);
+            let local = exact.local().into_iter().map(|(y, u)| (y / diameter, u / speed(run)));
+            let (nonlocal, local) = (drawn.shown(solution(run, &exact)), drawn.shown(local));
+            drawn.velocity.reference(NONLOCAL, nonlocal);
+            drawn.velocity.line(LOCAL, records.len(), local);
+            drawn.error.reference("", [(0.0, 0.0), (exact.yield_distance() / diameter + 4.0, 0.0)]);
         }
-        let rows = record.data.velocities();
-        let few = thinned(run, record.data.velocities());
-        velocity.points(&label(run), slot, shown(few.map(|(y, u)| (depth(y), u / scale)), least));
-        let inside = rows.iter().filter(|(_, u)| u / scale >= LEAST_OF_ERRORS * largest);
-        error.line_points("", slot, inside.map(|&(y, u)| (depth(y), 100.0 * (u / exact.velocity(y) - 1.0))));
+        drawn.draw(record, &exact, slot, &label(run));
     }
     Figure::new(
         "dragged-bed",
         "Velocity over the depth below a plate that drags grains under gravity, on a logarithmic axis. The local law comes to rest at the depth \
          at which τ/p falls to μ_s; under the nonlocal law the bed creeps below it, by an exponential whose length is that of the \
          fluidity. Particles against the solution without them at their own pressure, and the difference where the velocity is a hundredth of the plate's at least.",
-        vec![velocity, error],
+        vec![drawn.velocity, drawn.error],
+    )
+}
+
+/// Velocities over the depth below the surface, of grains that flow together and of those that do not.
+fn heap(records: &[&NonlocalShearRecord]) -> Figure {
+    let exact: Vec<Option<ExactShear>> = records.iter().map(|(run, record)| run.exact(&record.data)).collect();
+    let fastest =
+        records.iter().zip(&exact).filter_map(|((run, _), exact)| Some(exact.as_ref()?.profile.fastest / speed(run)));
+    let mut drawn = OverDepth::new("surface", fastest.fold(0.0, f64::max));
+    let mut curves: Vec<RheologyChoice> = Vec::new();
+    for (slot, (record, exact)) in records.iter().zip(&exact).enumerate() {
+        let run = &record.0;
+        let (Some(exact), ShearFlow::Heap { cooperation, .. }) = (exact, run.flow) else { continue };
+        if !curves.contains(&cooperation) {
+            curves.push(cooperation);
+            let points = drawn.shown(solution(run, exact));
+            match cooperation {
+                RheologyChoice::Nonlocal => drawn.velocity.reference(NONLOCAL, points),
+                RheologyChoice::Local => drawn.velocity.line("local law, without particles", records.len(), points),
+            };
+        }
+        let law = if cooperation == RheologyChoice::Nonlocal { "nonlocal law" } else { "local law" };
+        drawn.draw(record, exact, slot, &format!("{law}, {}", label(run)));
+    }
+    Figure::new(
+        "heap",
+        "Velocity over the depth below the surface of a heap between side walls, on a logarithmic axis, of grains that flow together (nonlocal law) and \
+         of grains that do not (local law). The friction of the side walls grows as the weight, so that τ/p falls with the depth; where it is μ_s the \
+         local law ends at rest, and below it the nonlocal law creeps. Particles against the solutions without them, and the difference where the velocity \
+         is a hundredth of the fastest at least.",
+        vec![drawn.velocity, drawn.error],
     )
 }
 
@@ -78,7 +163,7 @@ fn chute(records: &[&NonlocalShearRecord]) -> Figure {
         let Some(exact) = run.exact(&record.data) else { continue };
         let ShearFlow::Chute { half_width, .. } = run.flow else { continue };
         let diameter = run.grains.law.grain_diameter;
-        let scale = (run.gravity * diameter).sqrt();
+        let scale = speed(run);
         let place = |distance: f64| (half_width - distance) / diameter;
         if slot == 0 {
             let profile = &exact.profile;

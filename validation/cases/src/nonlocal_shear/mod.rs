@@ -3,8 +3,6 @@
 mod channel;
 mod figures;
 mod flow;
-mod heap_figure;
-mod marks;
 mod metrics;
 mod parameters;
 mod probe;

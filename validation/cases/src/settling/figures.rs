@@ -8,7 +8,7 @@ use super::suspension::SuspensionRun;
 use super::{SettlingRecord, drag_curves};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::settling::{GrainForm, SETTLING_BEADS, richardson_zaki_exponent};
-use crate::shared::distinct;
+use crate::shared::{ascending, distinct, range};
 use bagnold_solver::material::drag::DragLaw;
 
 /// The formulations that single grains have, in the order of their panels.
@@ -50,9 +50,7 @@ fn approach(records: &[SettlingRecord]) -> Figure {
         SettlingRun::Grain(run) => format!("one grain, {}", run.formulation.name()),
         SettlingRun::Suspension(run) => format!("suspension, φ = {}", run.solid_fraction),
     };
-    let mut fractions: Vec<f64> = suspensions(records).map(|(run, _)| run.solid_fraction).collect();
-    fractions.sort_by(f64::total_cmp);
-    fractions.dedup();
+    let fractions = ascending(suspensions(records).map(|(run, _)| run.solid_fraction));
     let titles = FORMULATIONS.map(|formulation| format!("one grain, {}", formulation.name())).into_iter();
     let titles = titles.chain(fractions.into_iter().map(|fraction| format!("suspension, φ = {fraction}")));
     let mut named: Vec<DragLaw> = Vec::new();
@@ -100,8 +98,7 @@ fn alone<'a>(records: &'a [SettlingRecord]) -> Vec<(&'static str, f64, &'a Settl
 
 fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("root of the balance [m/s]"), Axis::linear("error of the slip [%]"));
-    let roots = || records.iter().map(|&(_, root, _)| root);
-    let (low, high) = (roots().fold(f64::INFINITY, f64::min), roots().fold(0.0, f64::max));
+    let (low, high) = range(records.iter().map(|&(_, root, _)| root));
     let (low, high) = (low - 0.05 * high, 1.05 * high);
     panel.band("gate, 1 %", [(low, -1.0, 1.0), (high, -1.0, 1.0)]);
     for (slot, name) in FORMULATIONS.map(GrainFormulation::name).into_iter().chain([CONTINUUM]).enumerate() {

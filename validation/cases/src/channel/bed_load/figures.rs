@@ -10,15 +10,13 @@ use super::runs::pair_law_name;
 use super::tiers::FITTED;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load::TransportFormula;
-use crate::shared::{percent, transport_panel};
+use crate::shared::{ascending, percent, transport_panel};
 use crate::statistics::{BlockProfile, FittedValue};
 use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 
 pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
     let mut figures = Vec::new();
-    let mut slopes: Vec<f64> = records.iter().map(|(run, _)| run.slope).collect();
-    slopes.sort_by(f64::total_cmp);
-    slopes.dedup();
+    let mut slopes = ascending(records.iter().map(|(run, _)| run.slope));
     slopes.retain(|slope| beside_paper(records, *slope).next().is_some());
     if !slopes.is_empty() {
         figures.push(water(records, &slopes));

@@ -3,6 +3,7 @@
 use super::BedLoadRecord;
 use super::run::GrainKind;
 use crate::reference::bed_load::TransportFormula;
+use crate::shared::ascending;
 use crate::statistics::mean;
 
 /// A fit and its prediction.
@@ -105,15 +106,9 @@ fn surfaces(records: &[BedLoadRecord]) -> Vec<TransportSurface> {
             points.push((run.slope, shields, law, libm::log(mean.max(1e-9))));
         }
     }
-    let distinct = |values: Vec<f64>| {
-        let mut values = values;
-        values.sort_by(f64::total_cmp);
-        values.dedup();
-        values
-    };
-    let yields = distinct(points.iter().map(|point| point.2.yield_stress).collect());
-    let viscosities = distinct(points.iter().map(|point| point.2.plastic_viscosity).collect());
-    let slopes = distinct(points.iter().map(|point| point.0).collect());
+    let yields = ascending(points.iter().map(|point| point.2.yield_stress));
+    let viscosities = ascending(points.iter().map(|point| point.2.plastic_viscosity));
+    let slopes = ascending(points.iter().map(|point| point.0));
     if yields.len() < 2 || viscosities.len() < 2 {
         return Vec::new();
     }

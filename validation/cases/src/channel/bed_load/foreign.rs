@@ -1,11 +1,12 @@
 //! Bed load as another code gives it: profiles of water and grains, and the history of the transport.
 
-use super::metrics as quantity;
+use super::metrics::*;
 use super::observation::{BedLoadObservation, Carried};
 use super::run::{BedLoadFormulation, BedLoadRun};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::channel::{self, BlockProfile, ProfilePoint};
 use crate::input::FieldError;
+use crate::metric::Quantity;
 use crate::statistics::BLOCKS;
 
 /// What a run may yield.
@@ -42,36 +43,20 @@ pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 };
 
 /// Metrics that the water's profile suffices for.
-const OF_WATER: [&str; 13] = [
-    quantity::FLUID_VELOCITY_RMS.name,
-    quantity::FLUID_VELOCITY_MEAN.name,
-    quantity::SEMI_LOG_SLOPE.name,
-    quantity::LAYER_SLOPE_RATIO.name,
-    quantity::NUMBER_OF_LAYERS.name,
-    quantity::LAYER_SLOPE.name,
-    quantity::LAYER_BORDER.name,
-    quantity::NEAR_BED_DEFICIT.name,
-    quantity::OUTER_DEFICIT.name,
-    quantity::RELATIVE_DEFICIT.name,
-    quantity::SHEARED_UP_TO.name,
-    quantity::SHEARED_FROM.name,
-    quantity::SHEARED_THICKNESS_GROWTH.name,
+const OF_WATER: [&[Quantity]; 3] = [
+    &[FLUID_VELOCITY_RMS, FLUID_VELOCITY_MEAN, NEAR_BED_DEFICIT, OUTER_DEFICIT, RELATIVE_DEFICIT],
+    &[SEMI_LOG_SLOPE, LAYER_SLOPE_RATIO, NUMBER_OF_LAYERS, LAYER_SLOPE, LAYER_BORDER],
+    &[SHEARED_UP_TO, SHEARED_FROM, SHEARED_THICKNESS_GROWTH],
 ];
 /// Metrics that the grains' profile suffices for.
-const OF_GRAINS: [&str; 5] = [
-    quantity::GRAIN_VELOCITY_RMS.name,
-    quantity::DECAY_LENGTH.name,
-    quantity::MOVES_ABOVE.name,
-    quantity::GRAIN_CURVATURE_ABOVE.name,
-    quantity::GRAIN_CURVATURE_BELOW.name,
-];
+const OF_GRAINS: [&[Quantity]; 2] =
+    [&[GRAIN_VELOCITY_RMS, DECAY_LENGTH, MOVES_ABOVE], &[GRAIN_CURVATURE_ABOVE, GRAIN_CURVATURE_BELOW]];
 /// Metrics that the history of the transport suffices for.
-const OF_TRANSPORT: [&str; 4] = [
-    quantity::TRANSPORT.name,
-    quantity::PREDICTED_TRANSPORT.name,
-    quantity::TRANSPORT_RATIO.name,
-    quantity::TRANSPORT_GROWTH.name,
-];
+const OF_TRANSPORT: [&[Quantity]; 1] = [&[TRANSPORT, PREDICTED_TRANSPORT, TRANSPORT_RATIO, TRANSPORT_GROWTH]];
+
+fn names(groups: &[&[Quantity]]) -> impl Iterator<Item = &'static str> {
+    groups.concat().into_iter().map(|quantity| quantity.name)
+}
 
 /// The observation from what another code gives.
 ///
@@ -89,17 +74,17 @@ pub(super) fn observe(
     let moving = height.iter().zip(velocity).filter(|(_, velocity)| velocity.is_finite());
     let sediment = BlockProfile::known(moving.map(point));
     if !height.is_empty() && !given.profile("velocity").is_empty() {
-        measured.extend(OF_WATER);
+        measured.extend(names(&OF_WATER));
     }
     if !sediment.sums.is_empty() {
-        measured.extend(OF_GRAINS);
+        measured.extend(names(&OF_GRAINS));
     }
     let unit = run.stream().transport_unit();
     if !given.series("transport").is_empty() {
-        measured.extend(OF_TRANSPORT);
+        measured.extend(names(&OF_TRANSPORT));
     }
     if !given.series("mean_velocity").is_empty() {
-        measured.extend([quantity::STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
+        measured.extend([STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
     }
     let layer = match &run.formulation {
         BedLoadFormulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {
@@ -179,6 +164,6 @@ mod tests {
             .map(|(name, values)| (name.to_owned(), values))
             .into();
         let seen = observe(&dilating(), &ExternalData { series, ..ExternalData::default() }).expect("complete");
-        assert_eq!(seen.measured, OF_TRANSPORT);
+        assert_eq!(seen.measured, names(&OF_TRANSPORT).collect::<Vec<_>>());
     }
 }

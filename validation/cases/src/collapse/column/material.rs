@@ -33,6 +33,18 @@ pub enum Alteration {
     LimitingFriction(f64),
 }
 
+impl Alteration {
+    /// Name in variants, symbol in legends, and value.
+    fn named(self) -> (&'static str, &'static str, f64) {
+        match self {
+            Self::ReferenceInertia(value) => ("inertia", "I_0", value),
+            Self::GrainDiameter(value) => ("diameter", "D", value),
+            Self::Friction(value) => ("friction", "μ", value),
+            Self::LimitingFriction(value) => ("limiting_friction", "μ_2", value),
+        }
+    }
+}
+
 /// Grains as published, or with one property altered.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Material {
@@ -117,12 +129,9 @@ impl Material {
             (ExperimentGrains::Bars, true) => "aluminium bars",
             (other, false) => other.name(),
         };
-        match self.alteration {
+        match self.alteration.map(Alteration::named) {
             None => grains.to_owned(),
-            Some(Alteration::ReferenceInertia(value)) => format!("{grains}, I_0 = {value}"),
-            Some(Alteration::GrainDiameter(value)) => format!("{grains}, D = {value}"),
-            Some(Alteration::Friction(value)) => format!("{grains}, μ = {value}"),
-            Some(Alteration::LimitingFriction(value)) => format!("{grains}, μ_2 = {value}"),
+            Some((_, symbol, value)) => format!("{grains}, {symbol} = {value}"),
         }
     }
 }
@@ -131,12 +140,9 @@ impl Material {
 impl fmt::Display for Material {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.grains.name())?;
-        match self.alteration {
+        match self.alteration.map(Alteration::named) {
             None => Ok(()),
-            Some(Alteration::ReferenceInertia(value)) => write!(formatter, "_inertia_{value}"),
-            Some(Alteration::GrainDiameter(value)) => write!(formatter, "_diameter_{value}"),
-            Some(Alteration::Friction(value)) => write!(formatter, "_friction_{value}"),
-            Some(Alteration::LimitingFriction(value)) => write!(formatter, "_limiting_friction_{value}"),
+            Some((name, _, value)) => write!(formatter, "_{name}_{value}"),
         }
     }
 }

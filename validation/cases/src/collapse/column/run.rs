@@ -136,7 +136,9 @@ impl Run for ColumnRun {
     }
 
     fn particles(&self) -> f64 {
-        Self::particles(self)
+        let n = self.resolution as f64;
+        let section = if self.geometry == Geometry::Planar { n } else { std::f64::consts::FRAC_PI_4 * n * n };
+        section * self.rows() as f64
     }
 
     fn seconds_per_particle_step(&self) -> f64 {
@@ -147,7 +149,8 @@ impl Run for ColumnRun {
     }
 
     fn particle_steps(&self) -> f64 {
-        let step = acoustic_step(&self.release.numerics, self.spacing(), self.sound_speed());
+        let sound_speed = (self.bulk_modulus() / self.bulk_density).sqrt();
+        let step = acoustic_step(&self.release.numerics, self.spacing(), sound_speed);
         // most columns rest well before their time is up
         let expected = 5.0_f64.min(self.release.duration) * self.time_scale() / step;
         expected * self.particles()
@@ -218,6 +221,12 @@ impl ColumnRun {
         matches!(self.law, Rheology::MuI(_)) && !self.material.is_own(&self.law)
     }
 
+    /// Whether its grains are published ones without a change.
+    #[must_use]
+    pub fn is_published(&self) -> bool {
+        self.material.is_published() && self.has_published_law()
+    }
+
     /// The run of this column by return mapping and the default numerics, with which one of another purpose is compared.
     pub(crate) fn partner<'a>(&self, records: &'a [CollapseRecord]) -> Option<&'a CollapseRecord> {
         records.iter().find(|(other, _)| {
@@ -231,14 +240,6 @@ impl ColumnRun {
     #[must_use]
     pub fn is_of_own_grains(&self) -> bool {
         self.regularisation_rate.is_none() && self.material.is_own(&self.law)
-    }
-
-    /// Particles, about.
-    #[must_use]
-    pub fn particles(&self) -> f64 {
-        let n = self.resolution as f64;
-        let section = if self.geometry == Geometry::Planar { n } else { std::f64::consts::FRAC_PI_4 * n * n };
-        section * self.rows() as f64
     }
 
     /// Times of all pictures but the deposit's `[s]`.
@@ -263,10 +264,6 @@ impl ColumnRun {
     /// K = 50 ρ0 g h_0 `[Pa]`.
     fn bulk_modulus(&self) -> f64 {
         STIFFNESS * self.bulk_density * self.release.gravity * self.initial_height() * self.half_width
-    }
-
-    fn sound_speed(&self) -> f64 {
-        (self.bulk_modulus() / self.bulk_density).sqrt()
     }
 
     /// End of the bed `[m]`: well beyond the longest published run-out.

@@ -5,13 +5,7 @@ use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSch
 use crate::collapse::column::EARLIEST_REST;
 use crate::collapse::interior::PROFILE_TIME;
 use crate::collapse::metrics::other_codes::MID_COLLAPSE;
-use crate::collapse::metrics::quantities::{
-    BREAK_POINT, DEPOSIT_SLOPE_ANGLE, ENERGY_GAIN, FAILURE_LINE_DISTANCE, FAILURE_SURFACE_ANGLE, FAST_UPSTREAM_RATIO,
-    FASTEST_HEIGHT, FINAL_HEIGHT, FLANK_R_SQUARED, FLOWING_LAYER_R_SQUARED, FLOWING_LAYER_SHEAR_RATE,
-    FOOT_VELOCITY_RATIO, FRONT, KINETIC_ENERGY, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL, PARTICLES_LOST, QUANTITIES,
-    REST_TIME, RUN_OUT, SCALING_EXPONENT, STOPPING_TIME, SURFACE_DISTANCE, TAIL_DECAY_LENGTH_OVER_DIAMETER,
-    TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR, TOP_DISTORTION, UNDISTURBED_SHARE,
-};
+use crate::collapse::metrics::quantities::*;
 use crate::collapse::{Collapse, ColumnRun, Geometry};
 use crate::input::FieldError;
 use crate::metric::Quantity;
@@ -69,14 +63,15 @@ pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 };
 
 /// Metrics that the profile of a deposit suffices for.
-const OF_PROFILE: [&str; 7] = [
-    RUN_OUT.name,
-    FINAL_HEIGHT.name,
-    DEPOSIT_SLOPE_ANGLE.name,
-    FLANK_R_SQUARED.name,
-    SURFACE_DISTANCE.name,
-    SCALING_EXPONENT.name,
-    BREAK_POINT.name,
+const OF_PROFILE: [&[Quantity]; 2] = [
+    &[RUN_OUT, FINAL_HEIGHT, DEPOSIT_SLOPE_ANGLE, FLANK_R_SQUARED],
+    &[SURFACE_DISTANCE, SCALING_EXPONENT, BREAK_POINT],
+];
+/// Metrics of the velocities in mid-collapse.
+const OF_MOTION: [&[Quantity]; 3] = [
+    &[KINETIC_ENERGY, ENERGY_GAIN, FOOT_VELOCITY_RATIO],
+    &[FLOWING_LAYER_SHEAR_RATE, FLOWING_LAYER_R_SQUARED, FASTEST_HEIGHT, LINEAR_MISFIT_RATIO],
+    &[TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING, TAIL_DECAY_LENGTH_STANDARD_ERROR],
 ];
 /// Share of the mass that may slide on alone when a heap rests `[-]`.
 const STRAY: f64 = 0.005;
@@ -143,7 +138,7 @@ fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
             let moment: f64 = x.iter().zip(&weights).map(|(x, weight)| x * weight).sum();
             collapse.centroid = moment / (weights.iter().sum::<f64>() * r);
         }
-        measured.extend(OF_PROFILE);
+        measured.extend(OF_PROFILE.concat().iter().map(|own| own.name));
     }
     let time = given.series("time");
     if !time.is_empty() {
@@ -204,21 +199,9 @@ fn told<const D: usize>(
     let rests = collapse.rest_time().is_finite();
     // a run that was ended early does not say that it never rests
     let is_long = times.last().is_some_and(|end| *end >= run.release.duration);
-    let of_motion = [
-        KINETIC_ENERGY,
-        ENERGY_GAIN,
-        FLOWING_LAYER_SHEAR_RATE,
-        FLOWING_LAYER_R_SQUARED,
-        FASTEST_HEIGHT,
-        LINEAR_MISFIT_RATIO,
-        TAIL_DECAY_LENGTH_OVER_DIAMETER,
-        TAIL_DECAY_LENGTH_OVER_SPACING,
-        TAIL_DECAY_LENGTH_STANDARD_ERROR,
-        FOOT_VELOCITY_RATIO,
-    ];
     let lacks: [(bool, &[Quantity]); 6] = [
         (true, &[ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WORK, MOMENTUM_RESIDUAL]),
-        (!(moves && from_start && is_seen(PROFILE_TIME)), &of_motion),
+        (!(moves && from_start && is_seen(PROFILE_TIME)), &OF_MOTION.concat()),
         (!(from_start && is_seen(MID_COLLAPSE)), &[FRONT, KINETIC_ENERGY]),
         (
             !follows,

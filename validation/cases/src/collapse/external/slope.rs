@@ -2,7 +2,7 @@
 
 use super::heap::{Room, snapshot};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
-use crate::collapse::metrics::quantities::{DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, PARTICLES_LOST, REST_TIME};
+use crate::collapse::metrics::quantities::*;
 use crate::collapse::slope::EARLIEST_REST;
 use crate::collapse::{Collapse, SlopeCollapse, SlopeRun};
 use crate::input::FieldError;

@@ -200,6 +200,12 @@ impl Collapse {
         (2.0 * self.kinetic_energy.iter().copied().fold(0.0, f64::max) / mass).sqrt()
     }
 
+    /// Index of the observation nearest to a time `[s]`; none without observations.
+    pub(crate) fn nearest(&self, time: f64) -> Option<usize> {
+        let off = |index: usize| (self.time[index] - time).abs();
+        (0..self.time.len()).min_by(|&a, &b| off(a).total_cmp(&off(b)))
+    }
+
     /// Front x_f/r_0 of the deposit `[-]`: of its particles, else where its profile falls below [`FRONT_THICKNESS`], else the
     /// last of the series.
     #[must_use]

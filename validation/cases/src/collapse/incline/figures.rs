@@ -2,10 +2,11 @@
 
 use super::InclineCollapseRecord;
 use super::metrics::MARGIN;
+use crate::collapse::figures::{DrawnField, field_panel};
 use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
 use crate::evidence::shipped_table;
-use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
+use crate::figure::{Animation, Axis, Figure, Mark, Panel};
 use crate::observation::pictures::{View, animation};
 use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{CodeQuantity, RoughIncline, SLOPE_EXPERIMENT, slope_run_out};
@@ -170,9 +171,6 @@ const FIRST_FIELD: f64 = 0.1;
 /// Decades of shear rates that the colours span.
 const SHEAR_RATES: (f64, f64) = (-1.0, 2.0);
 
-/// What is drawn of a picture: values, label, limits.
-type DrawnField = (Vec<f64>, &'static str, (f64, f64));
-
 /// Velocity along the slope and shear rate in time: the paper's figure 4 and what it says beside figure 5.
 fn velocities((run, record): &InclineCollapseRecord) -> Figure {
     let along = |frame: &Frame| -> Vec<f64> { frame.vector("velocity").iter().map(|v| v[0]).collect() };
@@ -180,7 +178,7 @@ fn velocities((run, record): &InclineCollapseRecord) -> Figure {
     let caption = "velocity along the slope, and shear rate on a logarithmic scale; colours end where the scale does.";
     fields("velocities", caption, run, record, |frame| {
         let decades = frame.scalar("shear_rate").iter().map(|rate| libm::log10(rate.max(1e-3))).collect();
-        vec![(along(frame), "u_x [m/s]", (0.0, fastest)), (decades, "log10 |γ̇| [1/s]", SHEAR_RATES)]
+        [(along(frame), "u_x [m/s]", (0.0, fastest)), (decades, "log10 |γ̇| [1/s]", SHEAR_RATES)]
     })
 }
 
@@ -191,7 +189,7 @@ fn viscosities((run, record): &InclineCollapseRecord) -> Figure {
     fields("fields", caption, run, record, |frame| {
         let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();
-        vec![(viscosity, "η [Pa·s]", PAPER_SCALE), (decades, "log10 η [Pa·s]", (-1.0, 4.0))]
+        [(viscosity, "η [Pa·s]", PAPER_SCALE), (decades, "log10 η [Pa·s]", (-1.0, 4.0))]
     })
 }
 
@@ -205,20 +203,14 @@ fn fields(
     caption: &str,
     run: &SlopeRun,
     record: &Recorded<SlopeCollapse>,
-    drawn: impl Fn(&Frame) -> Vec<DrawnField>,
+    drawn: impl Fn(&Frame) -> [DrawnField; 2],
 ) -> Figure {
     let high = run.reservoir.initial_height;
     let far = fields_of(record).flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
-    let mut panels = Vec::new();
-    for frame in fields_of(record) {
-        for (values, label, limits) in drawn(frame) {
-            let title = format!("t = {:.2} s, {}", frame.time, label.split(" [").next().unwrap_or_default());
-            let (x, y) = (Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high));
-            let mut panel = Panel::new(&title, x, y);
-            let points = frame.position.iter().map(|x| (x[0], x[1]));
-            panel.field = Some(Field::new(label, run.spacing(), limits, points, values));
-            panels.push(panel);
-        }
-    }
-    Figure::new(&format!("{name}-{}", stem(run)), &format!("{}: {caption}", label(run)), panels).in_columns(1)
+    let panels = fields_of(record).flat_map(|frame| {
+        let axes = || [Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high)];
+        let panel = |field| field_panel(frame, &format!("{:.2} s", frame.time), axes(), (1.0, run.spacing()), field);
+        drawn(frame).map(panel)
+    });
+    Figure::new(&format!("{name}-{}", stem(run)), &format!("{}: {caption}", label(run)), panels.collect()).in_columns(1)
 }

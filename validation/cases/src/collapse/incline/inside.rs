@@ -38,8 +38,7 @@ impl Inside {
     /// Of the picture at a time `[s]`; `None` where none was taken then.
     pub(super) fn at(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Option<Self> {
         let frame = Frame::nearest(&record.frames, time).filter(|frame| (frame.time - time).abs() <= NEAR)?;
-        let times = &record.data.collapse.time;
-        let index = (0..times.len()).min_by(|&a, &b| (times[a] - time).abs().total_cmp(&(times[b] - time).abs()))?;
+        let index = record.data.collapse.nearest(time)?;
         let (unit, front) = (run.reservoir.reservoir_length, record.data.collapse.front[index]);
         let thickness: Vec<f64> = record.data.thickness[index].iter().map(|thickness| thickness * unit).collect();
         Self::of(frame, &thickness, BIN_WIDTH * unit, (front * unit, BEHIND_FRONT * unit))

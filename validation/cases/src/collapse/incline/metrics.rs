@@ -6,16 +6,14 @@ use crate::case::Run;
 use crate::collapse::heap::with_resolution;
 use crate::collapse::interior::{Station, linear_misfit_ratio};
 use crate::collapse::metrics::other_codes::Beside;
-use crate::collapse::metrics::quantities::{
-    DEPOSIT_SLOPE_ANGLE, FRONT, FRONT_DISPLACEMENT, KINETIC_ENERGY, LINEAR_MISFIT_RATIO, MOMENTUM_RESIDUAL,
-    PARTICLES_LOST, REST_TIME,
-};
+use crate::collapse::metrics::quantities::*;
 use crate::collapse::metrics::{at_rest, conservation};
-use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
+use crate::collapse::{BIN_WIDTH, Collapse, SlopeCollapse, SlopeRun};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{SLOPE_EXPERIMENT, slope_run_out};
 use crate::setup::energy_ledger::{self, EnergyScale};
+use crate::shared::range;
 use crate::statistics::mean;
 
 quantities! {
@@ -82,12 +80,10 @@ pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
             ),
         ]);
     }
-    for time in FRONT_TIMES {
-        if let Some(index) = data.time.iter().position(|&t| t >= time) {
-            let variant = Variant::of("time", time).followed_by(&variant);
-            metrics.push(observed(FRONT, &variant, data.front[index]));
-        }
-    }
+    metrics.extend(FRONT_TIMES.into_iter().filter_map(|time| {
+        let variant = Variant::of("time", time).followed_by(&variant);
+        Some(observed(FRONT, &variant, front_at(data, time)?))
+    }));
     if let Some(beside) = Beside::of_slope(run, data) {
         metrics.extend(beside.metrics(&variant, WELL_DOWN_THE_SLOPE));
     }
@@ -106,8 +102,7 @@ fn is_of_the_figures(run: &SlopeRun) -> bool {
 /// come two stations' widths.
 fn stations(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Vec<Station> {
     let (unit, data) = (run.reservoir.reservoir_length, &record.data.collapse);
-    let Some(frame) = Frame::nearest(&record.frames, time) else { return Vec::new() };
-    let Some(front) = data.time.iter().position(|&t| t >= time).map(|index| data.front[index]) else {
+    let (Some(frame), Some(front)) = (Frame::nearest(&record.frames, time), front_at(data, time)) else {
         return Vec::new();
     };
     if front - 1.0 < 2.0 * BIN_WIDTH {
@@ -115,6 +110,11 @@ fn stations(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Vec<
     }
     let at = |part: f64| Station::of(frame, (1.0 + part * (front - 1.0)) * unit, BIN_WIDTH * unit, run.spacing());
     [0.25, 0.5, 0.75].map(at).to_vec()
+}
+
+/// Front over r_0 at the first observation from a time on `[s]`.
+fn front_at(data: &Collapse, time: f64) -> Option<f64> {
+    data.time.iter().position(|&t| t >= time).map(|index| data.front[index])
 }
 
 /// Mean over the depth `[m/s]`.
@@ -128,43 +128,44 @@ fn of_fields(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Opt
     let variant = Variant::of("time", time).followed_by(&run.variant());
     let is_judged = run.is_resolved() && run.law.is_plastic();
     let of = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-2, 1e-2);
-    let mut metrics = vec![
-        of(FASTEST_DEPTH, inside.fastest_depth)
-            .against(None, "statement: from 0.11 s on the largest velocity is near the surface, in a shallow region", Confidence::Medium)
-            .gated_by(
-                (is_judged && time >= EARLIEST_STATED).then_some(Limit::AtMost(NEAR_SURFACE)),
-                "near the surface means in the upper third of the local thickness, and grains that are as fast at every depth have 1/2; \
-                 the gate of the paper has cleared the grains at 0.108 s",
-            ),
-    ];
-    let rises = "statement: the viscosity grows with the distance from the free surface, mainly through the pressure";
-    if let Some(correlation) = inside.viscosity_and_depth {
-        metrics.push(of(VISCOSITY_AND_DEPTH, correlation).against(None, rises, Confidence::Medium).gated_by(
-            is_judged.then_some(Limit::AtLeast(0.5)),
+    let gate = |limit: Limit| is_judged.then_some(limit);
+    let stated = |quantity: Quantity, value: f64, statement: &str| {
+        of(quantity, value).against(None, &format!("statement: {statement}"), Confidence::Medium)
+    };
+    let near_surface = "from 0.11 s on the largest velocity is near the surface, in a shallow region";
+    let mut metrics = vec![stated(FASTEST_DEPTH, inside.fastest_depth, near_surface).gated_by(
+        gate(Limit::AtMost(NEAR_SURFACE)).filter(|_| time >= EARLIEST_STATED),
+        "near the surface means in the upper third of the local thickness, and grains that are as fast at every depth have 1/2; \
+         the gate of the paper has cleared the grains at 0.108 s",
+    )];
+    metrics.extend(inside.viscosity_and_depth.map(|correlation| {
+        let rises = "the viscosity grows with the distance from the free surface, mainly through the pressure";
+        stated(VISCOSITY_AND_DEPTH, correlation, rises).gated_by(
+            gate(Limit::AtLeast(0.5)),
             "grows with depth: 1 is a viscosity that rises all the way down, 0 one without order; half of it at least",
-        ));
-    }
-    if let (Some(pressure), Some(rate)) = (inside.viscosity_and_pressure, inside.viscosity_and_shear_rate) {
-        let looks = "statement: the field of the viscosity looks like that of the pressure and hides the effect of the strain rate";
-        metrics.push(
-            of(VISCOSITY_LIKE_PRESSURE, pressure.abs() - rate.abs()).against(None, looks, Confidence::Medium).gated_by(
-                is_judged.then_some(Limit::AtLeast(0.0)),
-                "it goes with the pressure more than with the rate",
-            ),
-        );
-    }
+        )
+    }));
+    let correlations = inside.viscosity_and_pressure.zip(inside.viscosity_and_shear_rate);
+    metrics.extend(correlations.map(|(pressure, rate)| {
+        let looks =
+            "the field of the viscosity looks like that of the pressure and hides the effect of the strain rate";
+        stated(VISCOSITY_LIKE_PRESSURE, pressure.abs() - rate.abs(), looks)
+            .gated_by(gate(Limit::AtLeast(0.0)), "it goes with the pressure more than with the rate")
+    }));
     let (surface, bed) = inside.surface_and_bed_viscosity;
-    metrics.extend(surface.map(|viscosity| of(SURFACE_VISCOSITY, viscosity)));
-    metrics.extend(bed.map(|viscosity| of(BED_VISCOSITY, viscosity)));
-    metrics.push(of(SHEARED_DEPTH, inside.sheared_depth));
-    metrics.extend(inside.inertia_contrast.map(|contrast| of(INERTIA_CONTRAST, contrast)));
+    let observed = [
+        (SURFACE_VISCOSITY, surface),
+        (BED_VISCOSITY, bed),
+        (SHEARED_DEPTH, Some(inside.sheared_depth)),
+        (INERTIA_CONTRAST, inside.inertia_contrast),
+    ];
+    metrics.extend(observed.into_iter().filter_map(|(quantity, value)| Some(of(quantity, value?))));
     let stations = stations(time, run, record);
     if let [_, middle, _] = stations.as_slice()
         && let Some(ratio) = linear_misfit_ratio(middle, run.spacing())
     {
         metrics.push(of(LINEAR_MISFIT_RATIO, ratio));
-        let means: Vec<f64> = stations.iter().map(mean_velocity).collect();
-        let (least, most) = means.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &mean| (a.min(mean), b.max(mean)));
+        let (least, most) = range(stations.iter().map(mean_velocity));
         metrics.push(of(UNIFORMITY, least / most));
     }
     metrics.extend(inside.front_viscosity.map(|viscosity| {

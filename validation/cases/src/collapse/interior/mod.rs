@@ -25,9 +25,7 @@ pub(crate) fn stations(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Stat
     let Some(frame) = Frame::nearest(&record.frames, time).filter(|_| run.geometry == Geometry::Planar) else {
         return Vec::new();
     };
-    let data = &record.data;
-    let at = (0..data.time.len()).min_by(|&a, &b| (data.time[a] - time).abs().total_cmp(&(data.time[b] - time).abs()));
-    let front = at.map_or(1.0, |index| data.front[index]);
+    let front = record.data.nearest(time).map_or(1.0, |index| record.data.front[index]);
     let r = run.half_width;
     let station = |x: f64| Station::of(frame, x * r, BIN_WIDTH * r, run.spacing());
     [0.75, 1.0, 0.5 * (1.0 + front)].map(station).to_vec()

@@ -1,24 +1,24 @@
 //! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
 
 use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
-use super::quantities::{
-    ENSEMBLE_MEAN, ENSEMBLE_RUN_OUT, ENSEMBLE_SPREAD, ENSEMBLE_STANDARD_ERROR, FINAL_HEIGHT, GRID_CONVERGENCE_INDEX,
-    HOURGLASS_SPREAD, OBSERVED_ORDER, RUN_OUT,
-};
+use super::quantities::*;
+use super::{Measure, RESULTS};
 use crate::collapse::heap::with_resolution;
 use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, Material};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Origin, Variant};
 use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
+use crate::shared::{distinct, range};
 use crate::statistics::{GridConvergence, Mean, grid_convergence, mean};
+use std::collections::BTreeMap;
 
-/// Name, measure and largest index `[-]` of what must converge.
-type ConvergingMeasure = (&'static str, fn(&Collapse) -> f64, f64);
-
+/// Purposes of the runs of an ensemble: a run that stands for itself is one of it.
+const ENSEMBLES: [ColumnPurpose; 2] = [ColumnPurpose::Law, ColumnPurpose::Convergence];
 /// Fewest seeds whose scatter counts as a spread.
 const ENSEMBLE: usize = 5;
 
-const MEASURED: [ConvergingMeasure; 3] = [
+/// Name, measure and largest index `[-]` of what must converge.
+const MEASURED: [(&str, Measure, f64); 3] = [
     ("centroid", |collapse| collapse.centroid, 0.03),
     (RUN_OUT.name, Collapse::run_out, 0.08),
     ("front_at_0.05_r0", Collapse::run_out_of_rows, 0.08),
@@ -35,14 +35,9 @@ struct ConvergenceStudy<'a> {
 impl<'a> ConvergenceStudy<'a> {
     /// The columns that have runs of a purpose, in their order.
     fn all(records: &'a [CollapseRecord], purpose: ColumnPurpose) -> Vec<Self> {
-        let mut found: Vec<Self> = Vec::new();
-        for (run, _) in records.iter().filter(|(run, _)| run.purpose == purpose) {
-            let (material, aspect_ratio) = (run.material, run.aspect_ratio);
-            if !found.iter().any(|other| (other.material, other.aspect_ratio) == (material, aspect_ratio)) {
-                found.push(Self { material, aspect_ratio, records });
-            }
-        }
-        found
+        let studied = records.iter().map(|(run, _)| run).filter(|run| run.purpose == purpose);
+        let columns = distinct(studied.map(|run| (run.material, run.aspect_ratio))).into_iter();
+        columns.map(|(material, aspect_ratio)| Self { material, aspect_ratio, records }).collect()
     }
 
     /// Whether its grains are the published ones.
@@ -60,42 +55,36 @@ impl<'a> ConvergenceStudy<'a> {
     }
 
     /// Its runs of some purposes by return mapping, resolution by resolution.
-    fn by_resolution(&self, purposes: &[ColumnPurpose]) -> Vec<(usize, Vec<&'a CollapseRecord>)> {
+    fn by_resolution(&self, purposes: &[ColumnPurpose]) -> BTreeMap<usize, Vec<&'a CollapseRecord>> {
         let is_own = |(run, _): &&CollapseRecord| {
             let is_column = run.material == self.material && run.aspect_ratio == self.aspect_ratio;
             is_column && run.regularisation_rate.is_none() && purposes.contains(&run.purpose)
         };
-        let own: Vec<&CollapseRecord> = self.records.iter().filter(is_own).collect();
-        let mut resolutions: Vec<usize> = own.iter().map(|(run, _)| run.resolution).collect();
-        resolutions.sort_unstable();
-        resolutions.dedup();
-        let of = |rows| own.iter().copied().filter(|(run, _)| run.resolution == rows).collect();
-        resolutions.into_iter().map(|rows| (rows, of(rows))).collect()
+        let mut found = BTreeMap::<usize, Vec<&CollapseRecord>>::new();
+        for record in self.records.iter().filter(is_own) {
+            found.entry(record.0.resolution).or_default().push(record);
+        }
+        found
     }
 
-    /// Means over the seeds, resolution by resolution. A run that stands for itself is one of its ensemble.
-    fn means(&self, measure: fn(&Collapse) -> f64) -> Vec<Mean> {
-        let runs = self.by_resolution(&[ColumnPurpose::Law, ColumnPurpose::Convergence]).into_iter();
-        let values =
-            |runs: Vec<&CollapseRecord>| runs.iter().map(|(_, record)| measure(&record.data)).collect::<Vec<_>>();
-        runs.filter_map(|(resolution, runs)| Mean::of(resolution, &values(runs))).collect()
-    }
-
-    /// Relative standard uncertainty of a measure from the spacing at a resolution of the study `[-]`.
-    fn numerical_uncertainty(&self, resolution: usize, measure: fn(&Collapse) -> f64) -> Option<f64> {
-        uncertainty_at(&self.means(measure), resolution)
+    /// Means over the seeds, resolution by resolution.
+    fn means(&self, measure: Measure) -> Vec<Mean> {
+        let of = |(resolution, runs): (usize, Vec<&CollapseRecord>)| {
+            let values: Vec<f64> = runs.iter().map(|(_, record)| measure(&record.data)).collect();
+            Mean::of(resolution, &values)
+        };
+        self.by_resolution(&ENSEMBLES).into_iter().filter_map(of).collect()
     }
 
     /// What a share of a row makes of the run-out at a resolution, over r_0 `[-]`: the largest of the seeds.
     fn row(&self, resolution: usize) -> Option<f64> {
-        let runs = self.by_resolution(&[ColumnPurpose::Law, ColumnPurpose::Convergence]);
-        let (_, own) = runs.into_iter().find(|(rows, _)| *rows == resolution)?;
-        own.iter().filter_map(|(_, record)| record.data.front_uncertainty()).reduce(f64::max)
+        let runs = self.by_resolution(&ENSEMBLES).remove(&resolution)?;
+        runs.iter().filter_map(|(_, record)| record.data.front_uncertainty()).reduce(f64::max)
     }
 
     /// Resolutions at which the hourglass coefficient was varied, with (coefficient, mean over the seeds) in ascending
     /// order.
-    fn hourglasses(&self, measure: fn(&Collapse) -> f64) -> Vec<(usize, Vec<(f64, f64)>)> {
+    fn hourglasses(&self, measure: Measure) -> Vec<(usize, Vec<(f64, f64)>)> {
         let point = |(run, record): &CollapseRecord| (run.release.numerics.hourglass, measure(&record.data));
         let sorted = |(resolution, runs): (usize, Vec<&CollapseRecord>)| {
             let mut points: Vec<(f64, f64)> = runs.into_iter().map(point).collect();
@@ -121,8 +110,7 @@ pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
             metrics.extend(of_ensembles(variant, &means, largest));
         }
     }
-    let spreads = [(RUN_OUT.name, Collapse::run_out as fn(&_) -> _), (FINAL_HEIGHT.name, Collapse::final_height)];
-    for (quantity, measure) in spreads {
+    for (quantity, measure) in RESULTS {
         let spread = relative_spread(records, measure);
         if spread > 0.0 {
             let source = "largest relative standard deviation over the seeds of the initial displacements: a part of the \
@@ -147,7 +135,7 @@ fn against_law(study: &ConvergenceStudy<'_>, variant: &Variant, mean: &Mean) -> 
     let limit = expected.map(|expected| band(expected, SAME_LAW));
     let metric = with_resolution(
         metric,
-        study.numerical_uncertainty(mean.resolution, Collapse::run_out),
+        uncertainty_at(&study.means(Collapse::run_out), mean.resolution),
         study.row(mean.resolution),
     );
     metric
@@ -158,10 +146,10 @@ fn against_law(study: &ConvergenceStudy<'_>, variant: &Variant, mean: &Mean) -> 
 }
 
 /// How far the choice of the hourglass coefficient moves a result, resolution by resolution.
-fn hourglass_spreads(study: &ConvergenceStudy<'_>, quantity: &str, measure: fn(&Collapse) -> f64) -> Vec<Metric> {
+fn hourglass_spreads(study: &ConvergenceStudy<'_>, quantity: &str, measure: Measure) -> Vec<Metric> {
     let spread = |(resolution, points): (usize, Vec<(f64, f64)>)| {
         let values: Vec<f64> = points.into_iter().map(|point| point.1).collect();
-        let (least, most) = values.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), &v| (a.min(v), b.max(v)));
+        let (least, most) = range(values.iter().copied());
         let variant = study.name(Variant::of("quantity", quantity)).and("resolution", resolution);
         let metric = HOURGLASS_SPREAD.of(&variant, 100.0 * (most - least) / mean(&values));
         let (limit, reason) = match (quantity, resolution) {
@@ -217,13 +205,9 @@ fn finest(means: &[Mean]) -> Option<GridConvergence> {
 }
 
 /// Relative standard uncertainty of a measure from the spacing where a study of the run's column has its resolution `[-]`.
-pub(crate) fn numerical_uncertainty(
-    records: &[CollapseRecord],
-    run: &ColumnRun,
-    measure: fn(&Collapse) -> f64,
-) -> Option<f64> {
+pub(crate) fn numerical_uncertainty(records: &[CollapseRecord], run: &ColumnRun, measure: Measure) -> Option<f64> {
     let study = ConvergenceStudy { material: run.material, aspect_ratio: run.aspect_ratio, records };
-    study.numerical_uncertainty(run.resolution, measure)
+    uncertainty_at(&study.means(measure), run.resolution)
 }
 
 /// The same from the means of a study: at the finest resolution half of the index, at a coarser one also its distance from
@@ -237,7 +221,7 @@ fn uncertainty_at(means: &[Mean], resolution: usize) -> Option<f64> {
 }
 
 /// Largest relative standard deviation of a measure over an ensemble of [`ENSEMBLE`] seeds or more `[-]`; 0 without one.
-pub(crate) fn relative_spread(records: &[CollapseRecord], measure: fn(&Collapse) -> f64) -> f64 {
+pub(crate) fn relative_spread(records: &[CollapseRecord], measure: Measure) -> f64 {
     let studies = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
     let ensembles = studies.iter().flat_map(|study| study.means(measure)).filter(|mean| mean.runs >= ENSEMBLE);
     let spread = |mean: Mean| mean.standard_error * (mean.runs as f64).sqrt() / mean.value.abs();

@@ -1,10 +1,6 @@
 //! Inside a collapse: energies, velocity over depth, and what stays in its place.
 
-use super::quantities::{
-    ENERGY_GAIN, ENSEMBLE_FLOWING_LAYER_R_SQUARED, FAILURE_SURFACE_ANGLE, FASTEST_HEIGHT, FLOWING_LAYER_R_SQUARED,
-    FLOWING_LAYER_SHEAR_RATE, LINEAR_MISFIT_RATIO, TAIL_DECAY_LENGTH_OVER_DIAMETER, TAIL_DECAY_LENGTH_OVER_SPACING,
-    TAIL_DECAY_LENGTH_STANDARD_ERROR, UNDISTURBED_SHARE,
-};
+use super::quantities::*;
 use crate::case::Run;
 use crate::collapse::column::{failure_angle, pile_of, with_friction};
 use crate::collapse::interior::{decay_length, energies, linear_misfit_ratio, stations, wedge_of};
@@ -25,7 +21,7 @@ const SHALLOW: f64 = 1.0;
 
 /// Whether a column is one of the grains that the statements of the collapse paper are judged by.
 fn is_of_paper(run: &ColumnRun) -> bool {
-    run.material.is_published() && run.has_published_law() && run.material.grains != ExperimentGrains::Bars
+    run.is_published() && run.material.grains != ExperimentGrains::Bars
 }
 
 /// Share of the variance of the velocity over the flowing layer at the column's edge that a line explains, of a run `[-]`.
@@ -57,60 +53,58 @@ pub(super) fn of_run((run, record): &CollapseRecord, records: &[CollapseRecord])
             )
             .with_snapshot_tolerance(1e-3, 1e-3),
     ];
-    let stations = stations(run, record);
+    let (stations, spacing) = (stations(run, record), run.spacing());
+    let linear =
+        |quantity: Quantity, value: f64| observed(quantity, value).against(None, LINEAR_LAYER, Confidence::Medium);
     if let Some(shear) = stations.get(1).and_then(|edge| edge.shear) {
-        metrics.push(observed(FLOWING_LAYER_SHEAR_RATE, shear.slope));
-        let mut values = r_squared_of_seeds(run, records);
-        values.insert(0, shear.r_squared);
-        let judged = is_of_paper(run).then_some(Limit::AtLeast(LINEAR));
+        let values: Vec<f64> = [shear.r_squared].into_iter().chain(r_squared_of_seeds(run, records)).collect();
         let over_seeds = Mean::of(run.resolution, &values).filter(|mean| mean.runs > 1);
-        let linear =
-            |quantity: Quantity, value: f64| observed(quantity, value).against(None, LINEAR_LAYER, Confidence::Medium);
-        let own = linear(FLOWING_LAYER_R_SQUARED, shear.r_squared);
-        metrics.push(own.gated_by(judged.filter(|_| over_seeds.is_none()), LINEAR_REASON));
+        let judged = is_of_paper(run).then_some(Limit::AtLeast(LINEAR));
+        metrics.extend([
+            observed(FLOWING_LAYER_SHEAR_RATE, shear.slope),
+            linear(FLOWING_LAYER_R_SQUARED, shear.r_squared)
+                .gated_by(judged.filter(|_| over_seeds.is_none()), LINEAR_REASON),
+        ]);
         metrics.extend(over_seeds.map(|mean| {
             linear(ENSEMBLE_FLOWING_LAYER_R_SQUARED, mean.value)
                 .known_to(Origin::Repeat, Some(mean.standard_error), "standard error of the mean over the seeds")
                 .gated_by(judged, LINEAR_REASON)
         }));
     }
-    if let Some(height) = stations.get(1).and_then(|edge| edge.fastest_height(run.spacing())) {
-        metrics.push(observed(FASTEST_HEIGHT, height).against(Some(1.0), AT_THE_SURFACE, Confidence::Medium));
-    }
-    if let Some(ratio) = stations.get(1).and_then(|edge| linear_misfit_ratio(edge, run.spacing())) {
-        metrics.push(observed(LINEAR_MISFIT_RATIO, ratio).against(Some(1.0), LINEAR_LAYER, Confidence::Medium));
+    if let Some(edge) = stations.get(1) {
+        let stated = |quantity: Quantity, value: Option<f64>, statement: &str| {
+            Some(observed(quantity, value?).against(Some(1.0), statement, Confidence::Medium))
+        };
+        metrics.extend(stated(FASTEST_HEIGHT, edge.fastest_height(spacing), AT_THE_SURFACE));
+        metrics.extend(stated(LINEAR_MISFIT_RATIO, linear_misfit_ratio(edge, spacing), LINEAR_LAYER));
     }
     if let Some(decay) = decay_length(&stations) {
-        let spacing = run.spacing();
-        if let Some(diameter) = run.law.grain_diameter() {
-            metrics.push(observed(TAIL_DECAY_LENGTH_OVER_DIAMETER, decay.value / diameter));
-        }
+        let over_diameter = |diameter: f64| observed(TAIL_DECAY_LENGTH_OVER_DIAMETER, decay.value / diameter);
+        metrics.extend(run.law.grain_diameter().map(over_diameter));
         metrics.push(observed(TAIL_DECAY_LENGTH_OVER_SPACING, decay.value / spacing));
         metrics.push(observed(TAIL_DECAY_LENGTH_STANDARD_ERROR, decay.standard_error / spacing));
     }
-    if let Some(wedge) = wedge_of(run, &record.frames) {
-        metrics.push(observed(UNDISTURBED_SHARE, 100.0 * wedge.undisturbed));
-        // of a shallow column no surface is an answer too
-        if let Some(angle) = wedge.angle().or((run.aspect_ratio <= SHALLOW).then_some(f64::NAN)) {
+    let Some(wedge) = wedge_of(run, &record.frames) else { return metrics };
+    metrics.push(observed(UNDISTURBED_SHARE, 100.0 * wedge.undisturbed));
+    // of a shallow column no surface is an answer too
+    let angle = wedge.angle().or((run.aspect_ratio <= SHALLOW).then_some(f64::NAN));
+    metrics.extend(angle.map(|angle| {
+        let metric = observed(FAILURE_SURFACE_ANGLE, angle);
+        let measured = pile_of(run).and_then(|pile| Some((pile, failure_angle(pile)?)));
+        let Some((pile, (angle, error))) = measured else {
             let active = 45.0 + 0.5 * libm::atan(run.law.contact_friction()).to_degrees();
-            let metric = observed(FAILURE_SURFACE_ANGLE, angle);
-            if let Some((pile, (angle, error))) = pile_of(run).and_then(|pile| Some((pile, failure_angle(pile)?))) {
-                let metric = metric.against(Some(angle), &pile.source, pile.confidence).known_to(
-                    Origin::Digitisation,
-                    Some(error),
-                    "standard error of the line through the measured points",
-                );
-                metrics.push(with_friction(metric, records, run, |(other, seen)| {
-                    wedge_of(other, &seen.frames)?.angle().zip(wedge.angle()).map(|(other, own)| other - own)
-                }));
-                return metrics;
-            }
-            metrics.push(metric.against(
-                Some(active),
-                "Coulomb's active failure plane, 45° + ½ arctan μ_s",
-                Confidence::Unverified,
-            ));
-        }
-    }
+            let source = "Coulomb's active failure plane, 45° + ½ arctan μ_s";
+            return metric.against(Some(active), source, Confidence::Unverified);
+        };
+        let source = "standard error of the line through the measured points";
+        let metric = metric.against(Some(angle), &pile.source, pile.confidence).known_to(
+            Origin::Digitisation,
+            Some(error),
+            source,
+        );
+        with_friction(metric, records, run, |(other, seen)| {
+            wedge_of(other, &seen.frames)?.angle().zip(wedge.angle()).map(|(other, own)| other - own)
+        })
+    }));
     metrics
 }

@@ -1,16 +1,15 @@
 //! Columns beside points that experimenters measured: the final surface of a pile of aluminium bars, and run-outs of round columns.
 
-use super::quantities::{
-    FAILURE_LINE_DISTANCE, FINAL_HEIGHT, MEDIAN_RUN_OUT_RATIO, RUN_OUT, RUN_OUT_RATIO, SURFACE_DISTANCE,
-};
+use super::bands::band;
+use super::quantities::*;
 use super::uncertainty::Known;
 use crate::case::Run;
 use crate::collapse::column::{pile_of, with_friction};
-use crate::collapse::interior;
+use crate::collapse::interior::wedge_of;
 use crate::collapse::{Collapse, CollapseRecord, ColumnRun, FRONT_THICKNESS, Geometry};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Limit, Metric, Origin, Value, Variant};
-use crate::observation::Recorded;
+use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{MeasuredPile, ROUND_COLUMN_RUN_OUTS};
 use crate::statistics::{Extrapolation, interpolated};
 
@@ -32,7 +31,12 @@ const AREA: &str = "the area under the points is that much larger than the pile'
 
 /// Thickness of a deposit at a distance from the wall, both over r_0; its innermost bin's at the wall.
 fn thickness(collapse: &Collapse, place: f64) -> f64 {
-    interpolated(&collapse.deposit, place, (Extrapolation::EndValue, Extrapolation::EndValue)).unwrap_or(f64::NAN)
+    at(&collapse.deposit, place).unwrap_or(f64::NAN)
+}
+
+/// Value of points at a place, at their ends beyond them; none without points.
+fn at(points: &[(f64, f64)], place: f64) -> Option<f64> {
+    interpolated(points, place, (Extrapolation::EndValue, Extrapolation::EndValue))
 }
 
 /// Root mean square of what a function gives at the places of the measured surface, over the initial height `[%]`.
@@ -50,8 +54,7 @@ pub(super) fn of_pile(
     known: [Known; 2],
 ) -> Vec<Metric> {
     let (variant, collapse) = (run.variant(), &record.data);
-    let judged = |limit: Limit| (run.material.is_published() && run.has_published_law()).then_some(limit);
-    let band = |value: f64, width: f64| Limit::Within((1.0 - width) * value, (1.0 + width) * value);
+    let judged = |limit: Limit| run.is_published().then_some(limit);
     let r = pile.length;
     let run_out = pile.front(FRONT_THICKNESS * r) / r - 1.0;
     let height = pile.surface.first().map_or(f64::NAN, |point| point.1 / r);
@@ -89,25 +92,22 @@ pub(super) fn of_pile(
             )
             .gated_by(judged(Limit::AtMost(PILE_SURFACE)), "5 % of the initial height, a row of twenty"),
     ];
-    if let Some(wedge) = interior::wedge_of(run, &record.frames) {
-        let rows: Vec<(f64, f64)> = wedge.boundary.iter().map(|&(x, y)| (y, x)).collect();
-        let off = |&(x, y): &(f64, f64)| {
-            interpolated(&rows, y, (Extrapolation::EndValue, Extrapolation::EndValue))
-                .map_or(f64::NAN, |own| (own - x).powi(2))
-        };
-        let mean = pile.failure.iter().map(off).sum::<f64>() / pile.failure.len() as f64;
+    let lengths = |run: &ColumnRun, frames: &[Frame]| {
+        Some(wedge_of(run, frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect::<Vec<(f64, f64)>>())
+    };
+    let over_line = |difference: &dyn Fn(f64, f64) -> Option<f64>| {
+        let squares = pile.failure.iter().map(|&(x, y)| Some(difference(x, y)?.powi(2)));
+        let sum: f64 = squares.sum::<Option<f64>>()?;
+        Some(100.0 * (sum / pile.failure.len() as f64).sqrt() / r)
+    };
+    metrics.extend(lengths(run, &record.frames).map(|own| {
         // how their line was defined is not stated, and ours is by a displacement of a spacing
-        let distance = of(FAILURE_LINE_DISTANCE.of(&variant, 100.0 * mean.sqrt() / r), 0.0);
-        metrics.push(with_friction(distance, records, run, |(other, seen)| {
-            let theirs: Vec<(f64, f64)> =
-                interior::wedge_of(other, &seen.frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect();
-            let at =
-                |rows: &[(f64, f64)], y: f64| interpolated(rows, y, (Extrapolation::EndValue, Extrapolation::EndValue));
-            let squares = pile.failure.iter().map(|&(_, y)| Some((at(&theirs, y)? - at(&rows, y)?).powi(2)));
-            let sum: f64 = squares.sum::<Option<f64>>()?;
-            Some(100.0 * (sum / pile.failure.len() as f64).sqrt() / r)
-        }));
-    }
+        let distance = over_line(&|x, y| Some(at(&own, y)? - x)).unwrap_or(f64::NAN);
+        with_friction(of(FAILURE_LINE_DISTANCE.of(&variant, distance), 0.0), records, run, |(other, seen)| {
+            let theirs = lengths(other, &seen.frames)?;
+            over_line(&|_, y| Some(at(&theirs, y)? - at(&own, y)?))
+        })
+    }));
     metrics
 }
 
@@ -129,7 +129,7 @@ pub(super) fn of_round_column(run: &ColumnRun, collapse: &Collapse, known: Known
                 "relative scatter of the measured points about the line through their neighbours, whatever it comes from",
             )
             .gated_by(
-                (run.is_resolved() && run.material.is_published() && run.has_published_law())
+                (run.is_resolved() && run.is_published())
                     .then_some(Limit::Within(1.0 - ROUND, 1.0 + ROUND)),
                 "the project's aim for round columns, 20 %, here about the measured points: their grains are not named, and those of Lube's \
                  experiments changed the run-out by less",
@@ -183,7 +183,7 @@ pub(crate) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
         );
         let deposit = record.data.drawn().map(|(x, thickness)| (r * x, r * thickness));
         surface.line(&label, slot + 1, deposit);
-        if let Some(wedge) = interior::wedge_of(run, &record.frames) {
+        if let Some(wedge) = wedge_of(run, &record.frames) {
             failure.line("", slot + 1, centimetres(&wedge.boundary));
         }
     }
@@ -214,9 +214,7 @@ mod tests {
     fn the_measured_surface_is_no_distance_from_itself_and_a_lifted_one_is() {
         let pile = &*ALUMINIUM_BAR_PILE;
         let points: Vec<(f64, f64)> = pile.surface.iter().map(|(x, y)| (x / pile.length, y / pile.length)).collect();
-        let same = |x: f64| {
-            interpolated(&points, x, (Extrapolation::EndValue, Extrapolation::EndValue)).expect("ends are given")
-        };
+        let same = |x: f64| at(&points, x).expect("ends are given");
         let distance = |own: &Collapse| over_surface(pile, |x, measured| thickness(own, x) - measured);
         assert!(distance(&collapse(same)) < 0.1);
         // 1 cm of 10 cm

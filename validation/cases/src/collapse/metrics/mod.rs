@@ -26,20 +26,20 @@ use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
 use bands::AcceptanceBand;
 use convergence::{numerical_uncertainty, relative_spread};
 use other_codes::{Beside, MID_COLLAPSE};
-use quantities::{
-    DEPOSIT_SLOPE_ANGLE, FINAL_HEIGHT, FLANK_R_SQUARED, HEIGHT_BY_TOP, MOMENTUM_RESIDUAL, PARTICLES_LOST, REST_TIME,
-    RUN_OUT, STOPPING_TIME,
-};
+use quantities::*;
 use uncertainty::Known;
 
+/// A number that a deposit has.
+pub(crate) type Measure = fn(&Collapse) -> f64;
+/// The results that published laws are about, by name.
+const RESULTS: [(&str, Measure); 2] = [(RUN_OUT.name, Collapse::run_out), (FINAL_HEIGHT.name, Collapse::final_height)];
 /// Aspect ratios about that of the paper's cone `[-]`.
 const CONES: std::ops::RangeInclusive<f64> = 2.0..=3.5;
 /// Share of the variance that a line explains of a flank whose lower half is half as steep as its upper one `[-]`.
 const BENT_FLANK: f64 = 0.973;
 
 pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
-    let measures: [fn(&Collapse) -> f64; 2] = [Collapse::run_out, Collapse::final_height];
-    let spreads = measures.map(|measure| relative_spread(records, measure));
+    let spreads = RESULTS.map(|(_, measure)| relative_spread(records, measure));
     let mut metrics = Vec::new();
     let mut ratios = Vec::new();
     for column in records {
@@ -56,7 +56,7 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
             continue;
         }
         let known = [0, 1].map(|result| Known {
-            study: numerical_uncertainty(records, run, measures[result]),
+            study: numerical_uncertainty(records, run, RESULTS[result].1),
             spread: spreads[result],
         });
         // points of its own experiment stand in the place of other experiments' laws

@@ -2,7 +2,7 @@
 //! not.
 
 use super::bands::{SAME_LAW, band};
-use super::quantities::{FRONT, KINETIC_ENERGY};
+use super::quantities::*;
 use crate::collapse::{Collapse, ColumnRun, Geometry, Material, Reservoir, SlopeRun};
 use crate::figure::Panel;
 use crate::metric::{Limit, Metric, MetricKind, Origin, Quantity, Variant};

@@ -2,7 +2,8 @@
 //! and pressure (27), whose pressure then oscillates.
 
 use super::bands;
-use super::quantities::{EDDY_CHANGE, EDDY_GAIN, FINAL_HEIGHT, PRESSURE_NOISE_RATIO, RUN_OUT, VELOCITY_NOISE_RATIO};
+use super::quantities::*;
+use super::{Measure, RESULTS};
 use crate::case::Run;
 use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose};
 use crate::metric::{Confidence, Metric, Variant};
@@ -27,19 +28,18 @@ pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
 /// By how much an eddy viscosity moves run-out and height, and how much nearer to the laws it brings the run-out.
 fn with_eddies((run, record): &CollapseRecord, (_, own): &CollapseRecord) -> Vec<Metric> {
     let variant = run.variant();
-    let change = |of: fn(&Collapse) -> f64| 100.0 * (of(&record.data) / of(&own.data) - 1.0);
+    let change = |of: Measure| 100.0 * (of(&record.data) / of(&own.data) - 1.0);
     let acts = "statement of the collapse paper: turbulence acts in such fluids at high Reynolds numbers";
     let helps = "statement of the collapse paper: the eddy viscosity helped where tall columns flow fast";
-    let mut metrics: Vec<Metric> =
-        [(RUN_OUT.name, Collapse::run_out as fn(&Collapse) -> f64), (FINAL_HEIGHT.name, Collapse::final_height)]
-            .into_iter()
-            .map(|(quantity, of)| {
-                EDDY_CHANGE
-                    .of(&Variant::of("quantity", quantity).followed_by(&variant), change(of).abs())
-                    .against(None, acts, Confidence::Medium)
-                    .with_snapshot_tolerance(0.05, 0.1)
-            })
-            .collect();
+    let mut metrics: Vec<Metric> = RESULTS
+        .into_iter()
+        .map(|(quantity, of)| {
+            EDDY_CHANGE
+                .of(&Variant::of("quantity", quantity).followed_by(&variant), change(of).abs())
+                .against(None, acts, Confidence::Medium)
+                .with_snapshot_tolerance(0.05, 0.1)
+        })
+        .collect();
     if let Some(law) = bands::laws_of(run).0.value(run.initial_height()) {
         let off = |collapse: &Collapse| 100.0 * (collapse.run_out() / law - 1.0).abs();
         metrics.push(

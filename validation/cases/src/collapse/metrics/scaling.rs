@@ -1,11 +1,11 @@
 //! How run-out and height of tall columns grow with the aspect ratio: fitted power laws and where they begin.
 
-use super::quantities::{
-    BREAK_POINT, FINAL_HEIGHT, RUN_OUT, SCALING_COEFFICIENT, SCALING_CONFIDENCE, SCALING_EXPONENT,
-};
-use crate::collapse::{Alteration, Collapse, CollapseRecord, ColumnPurpose, ExperimentGrains, Geometry, Material};
+use super::quantities::*;
+use super::{Measure, RESULTS};
+use crate::collapse::{Alteration, CollapseRecord, ColumnPurpose, ExperimentGrains, Geometry, Material};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
+use crate::shared::range;
 use crate::statistics::{Exponent, power_law, student_quantile};
 
 /// Fewest tall columns that a power law is fitted to.
@@ -56,15 +56,14 @@ fn columns<'a>(records: &[&'a CollapseRecord], material: Material, from: f64, to
 }
 
 /// The fit of a quantity; none for fewer than four tall columns.
-pub(crate) fn fit(records: &[&CollapseRecord], material: Material, quantity: fn(&Collapse) -> f64) -> Option<Scaling> {
+pub(crate) fn fit(records: &[&CollapseRecord], material: Material, quantity: Measure) -> Option<Scaling> {
     let smallest = FAMILIES.iter().find(|family| family.0 == material)?.1;
     let tall = columns(records, material, smallest, f64::INFINITY);
     let points: Vec<(f64, f64)> =
         tall.iter().map(|(run, record)| (run.initial_height(), quantity(&record.data))).collect();
     let law = power_law(&points).filter(|_| points.len() >= FEWEST)?;
     let half_width = half_width(&law, points.len());
-    let ends = points.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), (a, _)| (low.min(*a), high.max(*a)));
-    Some(Scaling { law, half_width, range: ends })
+    Some(Scaling { law, half_width, range: range(points.iter().map(|point| point.0)) })
 }
 
 /// Half width of an exponent's 95 % interval from its scatter about a fit through some points `[-]`.
@@ -99,10 +98,7 @@ pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
     for (material, smallest, run_out_gate, height_gate) in FAMILIES {
         let columns = columns(&records, material, smallest, f64::INFINITY);
         let ratios = Value::list(columns.iter().map(|(run, _)| run.aspect_ratio));
-        type Measure = (&'static str, fn(&Collapse) -> f64, Option<Limit>);
-        let quantities: [Measure; 2] =
-            [(RUN_OUT.name, Collapse::run_out, run_out_gate), (FINAL_HEIGHT.name, Collapse::final_height, height_gate)];
-        for (quantity, measure, gate) in quantities {
+        for ((quantity, measure), gate) in RESULTS.into_iter().zip([run_out_gate, height_gate]) {
             let Some(scaling) = fit(&records, material, measure) else { continue };
             let variant = Variant::of("quantity", quantity)
                 .and("material", material.to_string())

@@ -1,7 +1,7 @@
 //! What the collapse paper says of single columns at single times: fast grains that come to rest, a top that falls as it is, and a
 //! flow like a plug at the foot.
 
-use super::quantities::{FAST_UPSTREAM_RATIO, FOOT_VELOCITY_RATIO, TOP_DISTORTION};
+use super::quantities::*;
 use crate::case::Run;
 use crate::collapse::interior::Station;
 use crate::collapse::{BIN_WIDTH, Collapse, ColumnRun, Geometry, Material};
@@ -92,10 +92,7 @@ fn distortion_of_top(start: &Frame, frame: &Frame) -> f64 {
 fn foot_velocity_ratio(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<f64> {
     let time = FOOT.0 * run.time_scale();
     let frame = Frame::nearest(&record.frames, time)?;
-    let data = &record.data;
-    let nearest =
-        (0..data.time.len()).min_by(|&a, &b| (data.time[a] - time).abs().total_cmp(&(data.time[b] - time).abs()))?;
-    let place = 1.0 + FOOT.1 * (data.front[nearest] - 1.0);
+    let place = 1.0 + FOOT.1 * (record.data.front[record.data.nearest(time)?] - 1.0);
     let station = Station::of(frame, place * run.half_width, BIN_WIDTH * run.half_width, run.spacing());
     let fastest = station.profile.iter().map(|point| point.1).fold(0.0, f64::max);
     (station.profile.len() > 1 && fastest > 0.0).then(|| station.profile[0].1 / fastest)

@@ -1,6 +1,7 @@
 //! Return mapping and regularised viscosity side by side.
 
-use super::quantities::{EXPLICIT_STEPS, FINAL_HEIGHT, REGULARISED_DIFFERENCE, RUN_OUT};
+use super::Measure;
+use super::quantities::*;
 use crate::case::Run;
 use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose};
 use crate::figure::{Axis, Figure, Mark, Panel};
@@ -26,7 +27,7 @@ fn of_regularised((run, record): &CollapseRecord, partner: Option<&CollapseRecor
         RUN_OUT.of(&variant, record.data.run_out()).with_snapshot_tolerance(1e-3, 1e-3),
     ];
     if let Some((_, mapped)) = partner {
-        let difference = |of: fn(&Collapse) -> f64| 100.0 * (of(&record.data) / of(&mapped.data) - 1.0);
+        let difference = |of: Measure| 100.0 * (of(&record.data) / of(&mapped.data) - 1.0);
         let values = [
             (RUN_OUT.name, difference(Collapse::run_out)),
             ("centroid", difference(|collapse| collapse.centroid)),

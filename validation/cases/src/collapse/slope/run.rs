@@ -88,11 +88,12 @@ impl Run for SlopeRun {
     }
 
     fn particles(&self) -> f64 {
-        Self::particles(self)
+        (self.reservoir.resolution * self.rows()) as f64
     }
 
     fn particle_steps(&self) -> f64 {
-        let step = acoustic_step(&self.reservoir.numerics, self.spacing(), self.sound_speed());
+        let sound_speed = (self.bulk_modulus() / self.bulk_density).sqrt();
+        let step = acoustic_step(&self.reservoir.numerics, self.spacing(), sound_speed);
         self.reservoir.duration / step * self.particles()
     }
 
@@ -147,12 +148,6 @@ impl SlopeRun {
         self.reservoir.reservoir_length / self.reservoir.resolution as f64
     }
 
-    /// Particles.
-    #[must_use]
-    pub fn particles(&self) -> f64 {
-        (self.reservoir.resolution * self.rows()) as f64
-    }
-
     /// Whether there are enough rows over the height for a gate.
     #[must_use]
     pub fn is_resolved(&self) -> bool {
@@ -173,10 +168,6 @@ impl SlopeRun {
 
     fn bulk_modulus(&self) -> f64 {
         STIFFNESS * self.bulk_density * self.reservoir.gravity * self.reservoir.initial_height
-    }
-
-    fn sound_speed(&self) -> f64 {
-        (self.bulk_modulus() / self.bulk_density).sqrt()
     }
 
     /// Gravity along the slope and across it `[m/s²]`.
