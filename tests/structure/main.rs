@@ -9,6 +9,7 @@ mod documents;
 mod examples;
 mod imports;
 mod limits;
+mod lines;
 mod literals;
 mod mutations;
 mod order;
