@@ -1,4 +1,5 @@
-//! Parameters of cases that cannot be: exit code 2 and a message that names the field, and nothing is written.
+//! Rules between parameters of cases: exit code 2, a message that names the field, and nothing written. A rule of one field stands
+//! in its attribute; `tests/inputs/bounds.rs` tells when it is lost.
 
 use crate::bad_input::refused;
 use crate::program::Place;
@@ -8,50 +9,12 @@ fn a_layer_of_water_and_grains_that_cannot_be() {
     let place = Place::new();
     let cases = [
         (
-            "slopes=[0.0]",
-            "`slopes[0]` is 0, but must be positive and finite; give tanθ, such as 0.03; without a slope nothing flows",
-        ),
-        (
-            "slopes=[0.02, -0.03]",
-            "`slopes[1]` is -0.03, but must be positive and finite; give tanθ, such as 0.03; without a slope nothing flows",
-        ),
-        (
-            "slopes=[0.5]",
-            "`slopes[0]` is 0.5, but must be between 0 and 0.2; on steeper slopes the bed itself would slide",
-        ),
-        (
-            "slopes=[0.03, 0.15]",
-            "`slopes[1]` is 0.15, but must be for a slope below 0.10804, where the bed slides (here 0.15000); deepen the bed to more than 0.1643 m, or choose a gentler slope",
-        ),
-        (
             "similar.shields_number=9.0",
             "`similar.shields_number` is 9, but must be for a slope below 0.06348, where the bed slides (here 0.72000); no bed of these grains lies on such a slope: choose a gentler one",
         ),
         (
             "onset.relative_depth=12.33",
             "`onset.relative_depth` is 12.33, but must be a whole multiple of a cell; choose whole numbers",
-        ),
-        (
-            "closures.grain_roughness.bed_roughness_fade_length=0.0",
-            "`closures.grain_roughness.bed_roughness_fade_length` is 0, but must be positive and finite; a few hundredths: a layer of grains that moves has more",
-        ),
-        (
-            "closures.largest_fraction=1.0",
-            "`closures.largest_fraction` is 1, but must be between 0.1 and 0.74; grains at rest fill 0.5 to 0.64 of the space",
-        ),
-        (
-            "closures.limiting_friction=0.3",
-            "`closures.limiting_friction` is 0.3, but must be greater than the static friction; friction grows from μ_s at rest to μ_2 in fast shear",
-        ),
-        (
-            "closures.dilation=-0.31",
-            "`closures.dilation` is -0.31, but must be between 0 and 100; grains loosen in shear: give B, such as 0.31, or 0 for grains that do not",
-        ),
-        ("closures.karman=nan", "`closures.karman` is NaN, but must be positive and finite; give κ, 0.41"),
-        ("water.depth=0.0", "`water.depth` is 0, but must be positive and finite; give it in metres, such as 0.046"),
-        (
-            "grains.bed_depth=-0.04",
-            "`grains.bed_depth` is -0.04, but must be positive and finite; give it in metres, such as 0.04",
         ),
         (
             "grains.density=900.0",
@@ -76,32 +39,12 @@ fn grains_that_do_not_settle() {
             "`grain_density` is 900, but must be greater than the density of the water; grains that float do not settle",
         ),
         (
-            "grain.diameter=-0.005",
-            "`grain.diameter` is -0.005, but must be positive and finite; give it in metres; 0.005 for 5 mm",
-        ),
-        (
-            "suspension.diameter=0.0",
-            "`suspension.diameter` is 0, but must be positive and finite; give it in metres; 0.005 for 5 mm",
-        ),
-        (
-            "suspension.solid_fractions=[0.3, 1.0]",
-            "`suspension.solid_fractions[1]` is 1, but must be between 0.01 and 0.64; grains fill up to 0.64 of the space",
-        ),
-        (
-            "suspension.dilute_fraction=0.1",
-            "`suspension.dilute_fraction` is 0.1, but must be between 0 and 0.005; 0.002 hinders by less than 1 %; 0 for none",
-        ),
-        (
             "grain.laws=[\"ergun\"]",
             "`grain.laws[0]` is ergun, but must be a law of one grain that covers its Reynolds number; leave out \"ergun\", and \"morsi-alexander\" above R = 50 000",
         ),
         (
             "grain.columns=4",
             "`grain.columns` is 4, but must be between 8 and 1000; the box must hold the reach of the kernels twice; 12 is quick",
-        ),
-        (
-            "numerics.velocity_tolerance=1.0",
-            "`numerics.velocity_tolerance` is 1, but must be between 1e-14 and 0.1; see the default numerics with `bagnold show`",
         ),
         (
             "numerics.continuity=\"mixture\"",
@@ -175,30 +118,11 @@ fn a_channel_without_a_slope() {
     refused(&place, &["clear-water", "--set", "slopes=[0.03, 0]"], &format!("`slopes[1]` is 0, but {rule}"));
     refused(&place, &["clear-water", "--set", "slopes=[nan]"], &format!("`slopes[0]` is NaN, but {rule}"));
     refused(&place, &["water-film", "--set", "slope=-0.03"], &format!("`slope` is -0.03, but {rule}"));
-    refused(
-        &place,
-        &["clear-water", "--set", "slopes=[]"],
-        "`slopes` is [], but must be at least one slope; 3 % is 0.03",
-    );
-    refused(
-        &place,
-        &["clear-water", "--set", "slopes=[0.03, 0.03]"],
-        "`slopes[1]` is 0.03, but must be unique; name every slope once",
-    );
 }
 
 #[test]
-fn a_roughness_that_no_wall_has() {
+fn a_roughness_above_the_first_row_of_particles() {
     let place = Place::new();
-    for (value, shown) in [("-5e-3", "-0.005"), ("0", "0"), ("inf", "inf"), ("nan", "NaN")] {
-        refused(
-            &place,
-            &["clear-water", "--set", &format!("sand_roughness={value}")],
-            &format!(
-                "`sand_roughness` is {shown}, but must be positive and finite; give it in metres; about the grain diameter"
-            ),
-        );
-    }
     refused(
         &place,
         &["clear-water", "--set", "sand_roughness=0.1"],
@@ -268,18 +192,6 @@ fn a_moving_bed_that_cannot_be() {
             "`stabilised.slopes[0]` is 0, but must be positive and at most 0.2; without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %",
         ),
         (
-            "stabilised.material.yield_stress=-5.0",
-            "`stabilised.material.yield_stress` is -5, but must be finite and not negative; give the yield stress in Pa, or 0 for grains without cohesion",
-        ),
-        (
-            "continuum.closures.largest_fraction=1.0",
-            "`continuum.closures.largest_fraction` is 1, but must be between 0.1 and 0.74; grains at rest fill 0.5 to 0.64 of the space",
-        ),
-        (
-            "materials.grain_density=900.0",
-            "`materials.grain_density` is 900, but must be between 1010 and 100000; grains that float are no bed load",
-        ),
-        (
             "stabilised.bed_depth=0.032",
             "`stabilised.bed_depth` is 0.032, but must be a whole multiple of the grain diameter, 0.005 m; choose lengths that divide each other",
         ),
@@ -308,10 +220,6 @@ fn a_moving_bed_that_cannot_be() {
             "continuum.closures.turbulent_schmidt=0.7",
             "`continuum.closures.turbulent_schmidt` is 0.7, but must be 0 unless all runs are `dilating`; eddies carry no grains \
              of a given fraction",
-        ),
-        (
-            "continuum.columns.node_ratio=0.0",
-            "`continuum.columns.node_ratio` is 0, but must be between 0.1 and 1; see the default numerics with `bagnold show`",
         ),
         (
             "continuum.runs=[{ stage = \"dilating\", slopes = [0.03], pair_laws = [\"pair-rate\"], starts = [1.0], spacings = \
@@ -344,30 +252,16 @@ fn a_moving_bed_that_cannot_be() {
 #[test]
 fn a_channel_that_is_too_short_and_times_that_do_not_fit() {
     let place = Place::new();
-    for case in ["still-water", "water-film", "clear-water"] {
-        for columns in ["0", "4"] {
-            refused(
-                &place,
-                &[case, "--set", &format!("columns={columns}")],
-                &format!(
-                    "`columns` is {columns}, but must be between 5 and 1000; the period must hold twice the reach of the kernel; 12 is quick"
-                ),
-            );
-        }
+    for case in ["water-film", "clear-water"] {
+        refused(
+            &place,
+            &[case, "--set", "columns=4"],
+            "`columns` is 4, but must be between 5 and 1000; the period must hold twice the reach of the kernel; 12 is quick",
+        );
     }
     refused(
         &place,
         &["clear-water", "--set", "period.fixed.averaging_time=2"],
         "`period.fixed.averaging_time` is 2, but must be between 0.2 and 1.5; the window lies in the second half",
-    );
-    refused(
-        &place,
-        &["still-water", "--set", "averaging_time=inf"],
-        "`averaging_time` is inf, but must be of a size between 1e-12 and 1e9 s; check the number: its unit is s",
-    );
-    refused(
-        &place,
-        &["still-water", "--set", "numerics.time_step=0"],
-        "`numerics.time_step` is 0, but must be between 1e-9 and 1; see the default numerics with `bagnold show`",
     );
 }

@@ -3,45 +3,37 @@
 use crate::imports::imports;
 use crate::source::{Source, sources};
 use bagnold_validation::REGISTRY;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-/// Rooms of one floor, which may use each other as long as no circle arises; and whether they must not, as peers.
-struct Floor {
-    rooms: &'static [&'static str],
-    peers: bool,
-}
+/// Rooms from the ground up; those of one floor do not know each other, so that no circle arises.
+type Floors = &'static [&'static [&'static str]];
 
-const fn floor(rooms: &'static [&'static str]) -> Floor {
-    Floor { rooms, peers: false }
-}
-
-const fn peers(rooms: &'static [&'static str]) -> Floor {
-    Floor { rooms, peers: true }
-}
-
-/// `solver/src`, from the ground up.
-const SOLVER: &[Floor] = &[
-    floor(&["vector", "lanes", "kernel", "domain", "parameter", "parallel", "cell_order"]),
-    floor(&["material", "linear"]),
-    floor(&["run"]),
-    peers(&["weakly_compressible", "incompressible"]),
+/// `solver/src`.
+const SOLVER: Floors = &[
+    &["vector", "parallel", "parameter"],
+    &["lanes", "domain"],
+    &["kernel", "cell_order"],
+    &["material", "linear"],
+    &["run"],
+    &["weakly_compressible", "incompressible"],
 ];
 
-/// `validation/inference/src`, from the ground up.
-const INFERENCE: &[Floor] = &[floor(&["statistics", "sampling"]), floor(&["inference"])];
+/// `validation/inference/src`.
+const INFERENCE: Floors = &[&["statistics", "sampling"], &["inference"]];
 
-/// `validation/harness/src`, from the ground up.
-const HARNESS: &[Floor] = &[
-    floor(&["input", "interruption"]),
-    floor(&["output", "page"]),
-    floor(&["metric"]),
-    floor(&["observation", "evidence"]),
-    floor(&["store", "checkpoint"]),
-    floor(&["control"]),
-    floor(&["case"]),
-    floor(&["setup"]),
-    floor(&["evaluation", "result"]),
-    floor(&["measured"]),
+/// `validation/harness/src`.
+const HARNESS: Floors = &[
+    &["input", "interruption"],
+    &["output", "page"],
+    &["metric"],
+    &["observation", "evidence"],
+    &["checkpoint"],
+    &["store"],
+    &["control"],
+    &["case"],
+    &["setup"],
+    &["evaluation", "result"],
+    &["measured"],
 ];
 
 /// Packages of `validation/`, each with the packages of this project that it may depend on.
@@ -66,11 +58,10 @@ fn offence(source: &Source, line: usize, rule: &str) -> String {
     format!("{}:{line} {rule}", source.path)
 }
 
-/// Everything in a crate that goes up a floor or over to a peer, and the circles that are left.
-fn offences(crate_src: &str, floors: &[Floor]) -> Vec<String> {
-    let height = |room: &str| floors.iter().position(|floor| floor.rooms.contains(&room));
+/// Everything in a crate that goes up a floor or over to another room of it.
+fn offences(crate_src: &str, floors: Floors) -> Vec<String> {
+    let height = |room: &str| floors.iter().position(|rooms| rooms.contains(&room));
     let mut found = Vec::new();
-    let mut uses: BTreeMap<String, BTreeMap<String, String>> = BTreeMap::new();
     for source in sources(crate_src) {
         // the crate's root and the program see everything
         let Some(room) = source.module.first() else { continue };
@@ -81,38 +72,10 @@ fn offences(crate_src: &str, floors: &[Floor]) -> Vec<String> {
         for import in imports(&source) {
             let Some(other) = import.path.first().filter(|other| *other != room) else { continue };
             // what is no room is an item of the crate's root
-            let Some(theirs) = height(other) else { continue };
-            let place = offence(&source, import.line, &format!("imports `{}`", import.path.join("::")));
-            if theirs > own {
-                found.push(format!("{place}: `{other}` stands above `{room}`"));
-            } else if theirs == own && floors[own].peers {
-                found.push(format!("{place}: `{room}` and `{other}` are peers that do not know each other"));
+            if height(other).is_some_and(|theirs| theirs >= own) {
+                let rule = format!("imports `{}`: `{other}` does not stand below `{room}`", import.path.join("::"));
+                found.push(offence(&source, import.line, &rule));
             }
-            uses.entry(room.clone()).or_default().entry(other.clone()).or_insert(place);
-        }
-    }
-    found.extend(circles(&uses));
-    found
-}
-
-/// Pairs of rooms that reach each other, with the line by which the first does.
-fn circles(uses: &BTreeMap<String, BTreeMap<String, String>>) -> Vec<String> {
-    let reached = |from: &str| {
-        let mut seen = BTreeSet::new();
-        let mut open = vec![from.to_owned()];
-        while let Some(room) = open.pop() {
-            for next in uses.get(&room).into_iter().flat_map(BTreeMap::keys) {
-                if seen.insert(next.clone()) {
-                    open.push(next.clone());
-                }
-            }
-        }
-        seen
-    };
-    let mut found = Vec::new();
-    for (room, others) in uses {
-        for (other, place) in others.iter().filter(|(other, _)| reached(other).contains(room)) {
-            found.push(format!("{place}: a circle, for `{other}` leads back to `{room}`"));
         }
     }
     found
@@ -221,15 +184,4 @@ fn case_folder(module: &[String]) -> Option<Vec<String>> {
         (None, _) if ALONE.contains(&first.as_str()) => Some(module[..1].to_vec()),
         _ => None,
     }
-}
-
-#[test]
-fn a_circle_is_found_with_its_line() {
-    let edge = |to: &str| BTreeMap::from([(to.to_owned(), format!("a file that imports {to}"))]);
-    let mut uses = BTreeMap::from([("a".to_owned(), edge("b")), ("b".to_owned(), edge("c"))]);
-    assert!(circles(&uses).is_empty());
-    uses.insert("c".to_owned(), edge("a"));
-    let found = circles(&uses);
-    assert_eq!(found.len(), 3);
-    assert_eq!(found[0], "a file that imports b: a circle, for `b` leads back to `a`");
 }
