@@ -1,6 +1,6 @@
 //! The one font of all figures. It is embedded, so that a figure looks the same on every machine.
 
-use super::glyphs::{Weight, line};
+use super::glyphs::Weight;
 use super::script::{Run, SMALLER, runs};
 
 /// Family name, as in the font's own name table and as browsers know it.
@@ -23,7 +23,7 @@ pub(super) fn plain_width(text: &str, em: f64, weight: Weight) -> f64 {
     const PARTS: f64 = 400.0;
     match weight.font() {
         // DejaVu's line is 1.164 em
-        Ok(font) => (PARTS * f64::from(line(text, font).1) / f64::from(font.line)).trunc() * 1.164 * em / PARTS,
+        Ok(font) => (PARTS * f64::from(font.glyphs(text).1) / f64::from(font.line)).trunc() * 1.164 * em / PARTS,
         Err(_) => 0.6 * em * text.chars().count() as f64,
     }
 }

@@ -1,16 +1,92 @@
 //! Text as outlines of the embedded font.
 
 use super::error::FigureError;
-use super::truetype::{ContourPoint, Font};
 use plotters::style::FontStyle;
+use skrifa::charmap::Charmap;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::metrics::GlyphMetrics;
+use skrifa::outline::{DrawSettings, OutlineGlyphCollection, OutlinePen};
+use skrifa::raw::TableProvider;
+use skrifa::raw::tables::kern::{Subtable0, SubtableKind};
+use skrifa::{FontRef, GlyphId, MetadataProvider};
 use std::sync::LazyLock;
-use tiny_skia::{Path, PathBuilder};
+use tiny_skia::{Path, PathBuilder, Transform};
 
 static REGULAR: LazyLock<Option<Font>> = LazyLock::new(|| Font::new(dejavu::sans::regular()));
 static BOLD: LazyLock<Option<Font>> = LazyLock::new(|| Font::new(dejavu::sans::bold()));
 
-/// Parts of a glyph may have parts to this depth.
-const DEPTH: u8 = 4;
+/// A font file, in units of the font.
+pub(super) struct Font {
+    letters: Charmap<'static>,
+    advances: GlyphMetrics<'static>,
+    outlines: OutlineGlyphCollection<'static>,
+    pairs: Subtable0<'static>,
+    units_per_em: f32,
+    /// Ascent minus descent.
+    pub(super) line: f32,
+}
+
+impl Font {
+    fn new(file: &'static [u8]) -> Option<Self> {
+        let font = FontRef::new(file).ok()?;
+        let metrics = font.metrics(Size::unscaled(), LocationRef::default());
+        let pairs = font.kern().ok()?.subtables().find_map(|table| match table.ok()?.kind().ok()? {
+            SubtableKind::Format0(pairs) => Some(pairs),
+            _ => None,
+        });
+        Some(Self {
+            letters: font.charmap(),
+            advances: font.glyph_metrics(Size::unscaled(), LocationRef::default()),
+            outlines: font.outline_glyphs(),
+            pairs: pairs?,
+            units_per_em: f32::from(metrics.units_per_em),
+            line: metrics.ascent - metrics.descent,
+        })
+    }
+
+    /// The glyphs of a text with the place where each begins, and the width of all.
+    pub(super) fn glyphs(&self, text: &str) -> (Vec<(GlyphId, f32)>, f32) {
+        let mut glyphs: Vec<(GlyphId, f32)> = Vec::new();
+        let mut pen = 0.0;
+        for letter in text.chars() {
+            // the first glyph, an empty box, stands for a letter that is not in the font
+            let glyph = self.letters.map(letter).unwrap_or_default();
+            let pair = glyphs.last().and_then(|&(before, _)| self.pairs.kerning(before, glyph));
+            pen += pair.unwrap_or(0) as f32;
+            glyphs.push((glyph, pen));
+            pen += self.advances.advance_width(glyph).unwrap_or(0.0);
+        }
+        (glyphs, pen)
+    }
+}
+
+/// Adds glyphs to a path, each from its own place on.
+struct Pen {
+    path: PathBuilder,
+    place: f32,
+}
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.path.move_to(self.place + x, y);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.path.line_to(self.place + x, y);
+    }
+
+    fn quad_to(&mut self, bend_x: f32, bend_y: f32, x: f32, y: f32) {
+        self.path.quad_to(self.place + bend_x, bend_y, self.place + x, y);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.path.cubic_to(self.place + x1, y1, self.place + x2, y2, self.place + x, y);
+    }
+
+    fn close(&mut self) {
+        self.path.close();
+    }
+}
 
 /// Thickness of the strokes of a text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,70 +104,37 @@ impl Weight {
     }
 
     pub(super) fn font(self) -> Result<&'static Font, FigureError> {
-        let (font, style) = match self {
-            Self::Regular => (&REGULAR, "regular"),
-            Self::Bold => (&BOLD, "bold"),
+        let font = match self {
+            Self::Regular => &REGULAR,
+            Self::Bold => &BOLD,
         };
-        font.as_ref().ok_or(FigureError::Font { style })
+        font.as_ref().ok_or(FigureError::Font { style: self.name() })
     }
-}
 
-/// The glyphs of a text with the place where each begins, and the width of all, in units of the font.
-pub(super) fn line(text: &str, font: &Font) -> (Vec<(u16, i32)>, i32) {
-    let mut glyphs: Vec<(u16, i32)> = Vec::new();
-    let mut pen = 0;
-    for letter in text.chars() {
-        let glyph = font.glyph(letter);
-        pen += glyphs.last().map_or(0, |&(before, _)| font.kerning(before, glyph));
-        glyphs.push((glyph, pen));
-        pen += font.advance(glyph);
+    fn name(self) -> &'static str {
+        match self {
+            Self::Regular => "regular",
+            Self::Bold => "bold",
+        }
     }
-    (glyphs, pen)
 }
 
 /// The outline of a text of `size` units an em with its base line's start at the origin, y downwards, and its width; nothing
 /// for a text without ink.
 pub(super) fn outline(text: &str, size: f32, weight: Weight) -> Result<Option<(Path, f32)>, FigureError> {
     let font = weight.font()?;
-    let scale = size / f32::from(font.units_per_em);
-    let (glyphs, width) = line(text, font);
-    let mut path = PathBuilder::new();
-    for (glyph, pen) in glyphs {
-        for contour in font.contours(glyph, DEPTH).unwrap_or_default() {
-            add(&mut path, &contour, |(x, y)| (scale * (pen as f32 + x), -scale * y));
+    let scale = size / font.units_per_em;
+    let (glyphs, width) = font.glyphs(text);
+    let mut pen = Pen { path: PathBuilder::new(), place: 0.0 };
+    for (glyph, place) in glyphs {
+        pen.place = place;
+        if let Some(outline) = font.outlines.get(glyph) {
+            let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
+            outline.draw(settings, &mut pen).map_err(|_| FigureError::Font { style: weight.name() })?;
         }
     }
-    Ok(path.finish().map(|path| (path, scale * width as f32)))
-}
-
-/// Adds a closed contour of quadratic curves: a point that it does not pass through bends it, and between two of them it passes
-/// through their middle.
-pub(super) fn add(path: &mut PathBuilder, contour: &[ContourPoint], place: impl Fn((f32, f32)) -> (f32, f32)) {
-    let at = |point: &ContourPoint| (point.x, point.y);
-    let middle = |one: (f32, f32), other: (f32, f32)| (0.5 * (one.0 + other.0), 0.5 * (one.1 + other.1));
-    let (next, start) = match (contour.iter().position(|point| point.is_on), contour) {
-        (Some(on), _) => (on + 1, at(&contour[on])),
-        (None, [first, .., last]) => (0, middle(at(first), at(last))),
-        _ => return,
-    };
-    path.move_to(place(start).0, place(start).1);
-    let mut bend: Option<(f32, f32)> = None;
-    let mut go = |bend: Option<(f32, f32)>, to: (f32, f32)| match (bend.map(&place), place(to)) {
-        (Some((x1, y1)), (x, y)) => path.quad_to(x1, y1, x, y),
-        (None, (x, y)) => path.line_to(x, y),
-    };
-    for point in contour[next..].iter().chain(&contour[..next]) {
-        match bend {
-            Some(before) if !point.is_on => go(bend, middle(before, at(point))),
-            _ if point.is_on => go(bend, at(point)),
-            _ => {}
-        }
-        bend = (!point.is_on).then_some(at(point));
-    }
-    if bend.is_some() {
-        go(bend, start);
-    }
-    path.close();
+    let path = pen.path.finish().and_then(|path| path.transform(Transform::from_scale(scale, -scale)));
+    Ok(path.map(|path| (path, scale * width)))
 }
 
 #[cfg(test)]
@@ -110,9 +153,29 @@ mod tests {
     }
 
     #[test]
+    fn pairs_of_letters_stand_closer_and_marks_are_above_their_letters() {
+        // advance of A, and the pair A V, by another reader
+        for (weight, advance, pair) in [(Weight::Regular, 1401.0, -131.0), (Weight::Bold, 1585.0, -139.0)] {
+            let width = |text: &str| weight.font().expect("font").glyphs(text).1;
+            assert_eq!((width("A"), width("AV") - width("A") - width("V")), (advance, pair));
+            assert_eq!(width("VV"), 2.0 * width("V"));
+            let top = |text: &str| outline(text, 1.0, weight).expect("font").expect("ink").0.bounds().top();
+            assert!(top("é") < top("e") - 0.1 && top("Å") < top("A") - 0.1);
+        }
+    }
+
+    #[test]
+    fn damaged_fonts_are_refused_or_read() {
+        for length in [0, 3, 11, 200, 5000, 300_000] {
+            drop(Font::new(&dejavu::sans::regular()[..length]));
+        }
+    }
+
+    #[test]
     fn letters_of_formulas_are_in_the_font_and_blanks_have_no_ink() {
         for letter in "−√⁻°²ηφτμδγρθ∞∫→⅔₀′βΔŪ…".chars() {
-            assert_ne!(Weight::Regular.font().expect("font").glyph(letter), 0, "{letter}");
+            let (glyphs, _) = Weight::Regular.font().expect("font").glyphs(&letter.to_string());
+            assert_ne!(glyphs[0].0, GlyphId::NOTDEF, "{letter}");
             assert!(outline(&letter.to_string(), 10.0, Weight::Regular).expect("font").is_some(), "{letter}");
         }
         assert_eq!(outline("  ", 10.0, Weight::Regular).expect("font"), None);

@@ -44,7 +44,6 @@ mod sheet;
 mod size;
 mod table;
 mod ticks;
-mod truetype;
 
 #[cfg(test)]
 mod tests;
