@@ -8,7 +8,7 @@ use bagnold_harness::evaluation::{EvaluationRecord, MetricValue};
 use bagnold_harness::metric::{Variant, Verdict};
 use bagnold_harness::output::OutputFolder;
 use bagnold_harness::store::{AllSpeeds, CodeOrigin, Store, StorePolicy};
-use bagnold_report::{Baseline, GateList, History, KnownFailures, RemovedGates, SpeedHistory};
+use bagnold_report::{Baseline, GateList, KnownFailures, RemovedGates};
 use bagnold_tools::calibration::CalibrationFolder;
 use bagnold_tools::league::blind;
 use bagnold_tools::sweep::slurm::{self, SlurmRequest, TEMPLATE};
@@ -117,7 +117,7 @@ fn a_sweep_is_continued_or_refused() {
     });
 }
 
-/// Accepted values, lists of gates and failures, histories and times.
+/// Accepted values, lists of gates and failures, and times.
 #[test]
 fn a_list_is_read_or_refused() {
     let folder = tempfile::tempdir().expect("temporary folder");
@@ -127,8 +127,6 @@ fn a_list_is_read_or_refused() {
         ("known_failures.toml", "tests/snapshots/known_failures.toml"),
         ("gates_removed.toml", "tests/snapshots/gates_removed.toml"),
         ("gates/quick.txt", "tests/snapshots/gates/quick.txt"),
-        ("history.csv", "reports/history.csv"),
-        ("speeds.csv", "reports/speeds.csv"),
         ("speeds.json", "validation/src/cli/speeds.json"),
         (".bagnold-output", "tests/inputs/study.sh"),
     ];
@@ -136,17 +134,15 @@ fn a_list_is_read_or_refused() {
     // the first lines tell as much as thousands
     let start = |text: String| text.split_inclusive('\n').take(200).collect::<String>().into_bytes();
     let mut contents = lists.map(|(_, name)| start(std::fs::read_to_string(in_repository(name)).expect("text")));
-    contents[6] = [&b"{\"build\":"[..], &contents[6], b"}"].concat();
-    contents[7] = b"Written by bagnold, which replaces these entries the next time:\nindex.html\nfigures\n".to_vec();
+    contents[4] = [&b"{\"build\":"[..], &contents[4], b"}"].concat();
+    contents[5] = b"Written by bagnold, which replaces these entries the next time:\nindex.html\nfigures\n".to_vec();
     let gates = GateList::default();
     damage(&files, &contents, |which| match which {
         0 => drop(Baseline::read(root, "film", Tier::Quick)),
         1 => drop(KnownFailures::read(&files[1])),
         2 => drop(RemovedGates::read(root).map(|removed| gates.differences(&Baseline::default(), &removed))),
         3 => drop(GateList::read(root, Tier::Quick)),
-        4 => drop(History::read(&files[4], Tier::Quick)),
-        5 => drop(SpeedHistory::read(&files[5], Tier::Quick).map(|speeds| speeds.of("film"))),
-        6 => {
+        4 => {
             let mut all = AllSpeeds::read(root);
             let speeds = all.of("build");
             let _ = (speeds.ratio("film", &Variant::default()), speeds.nominal("film"), speeds.beside("film", "run"));

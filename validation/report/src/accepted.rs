@@ -9,6 +9,7 @@ use crate::figure::is_file_name;
 use crate::input::DOCUMENT;
 use crate::metric::{Metric, Variant, Verdict};
 use crate::number::with_unit;
+use crate::store::provenance::short_commit;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -35,6 +36,8 @@ impl MetricKey {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Baseline {
     values: BTreeMap<MetricKey, AcceptedValue>,
+    /// Commits at which the values of cases were made, as far as they are known.
+    commits: BTreeMap<String, String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -124,6 +127,7 @@ impl Baseline {
     /// Adds the values of another case.
     pub fn extend(&mut self, other: Self) {
         self.values.extend(other.values);
+        self.commits.extend(other.commits);
     }
 
     /// The keys of all values that a gate judged, whether it held or not.
@@ -141,6 +145,19 @@ impl Baseline {
     #[must_use]
     pub fn value(&self, key: &MetricKey) -> Option<f64> {
         self.values.get(key).map(|entry| entry.value)
+    }
+
+    /// Names the commit at which the values of a case were made, unless it is empty.
+    pub(super) fn made_at(&mut self, case: &str, commit: &str) {
+        if !commit.is_empty() {
+            self.commits.insert(case.to_owned(), commit.to_owned());
+        }
+    }
+
+    /// The commit at which the values of a case were made, as short as a page shows it; empty where it is not known.
+    #[must_use]
+    pub fn commit(&self, case: &str) -> String {
+        self.commits.get(case).map_or_else(String::new, |commit| short_commit(commit))
     }
 
     /// The path of a case's file in the folder of all accepted values.
@@ -176,8 +193,9 @@ impl Baseline {
 
     fn parse(path: PathBuf, text: &str, case: &str, tier: Tier) -> Result<Self, BaselineError> {
         let refuse = |message: String| BaselineError::Content { path: path.clone(), message };
-        let lines = snapshot_text::parse(text, case, tier.name()).map_err(refuse)?;
+        let (commit, lines) = snapshot_text::parse(text, case, tier.name()).map_err(refuse)?;
         let mut read = Self::default();
+        read.made_at(case, commit);
         for (line, row) in lines.into_iter().enumerate() {
             let key = MetricKey { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.clone() };
             let entry = AcceptedValue { value: row.value, unit: row.unit.to_owned(), verdict: row.verdict, line };
@@ -207,16 +225,21 @@ impl Baseline {
         })
     }
 
-    /// Writes the values of `case` into `folder`, a line each, so that a change of one value is a diff of one line.
+    /// Writes the values of `case` into `folder`, a line each, with the commit at which they are accepted. A file that has
+    /// these values stays as it is.
     ///
     /// # Errors
     /// If the folder or file cannot be written.
-    pub fn write(&self, folder: &Path, case: &str, tier: Tier) -> Result<PathBuf, BaselineError> {
+    pub fn write(&self, folder: &Path, case: &str, tier: Tier, commit: &str) -> Result<PathBuf, BaselineError> {
         if !is_file_name(case) {
             return Err(BaselineError::Name { name: case.to_owned() });
         }
         let path = Self::path(folder, case, tier);
-        let text = snapshot_text::text(case, tier.name(), self.lines(case));
+        let content = self.content(case);
+        if path.exists() && Self::read(folder, case, tier)?.content(case) == content {
+            return Ok(path);
+        }
+        let text = snapshot_text::text(case, tier.name(), commit, &content);
         let write_error = |path: &Path, source| BaselineError::Write { path: path.to_owned(), source };
         if let Some(parent) = path.parent() {
             std::fs::create_dir_all(parent).map_err(|source| write_error(parent, source))?;

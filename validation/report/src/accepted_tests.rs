@@ -12,7 +12,7 @@ fn values_survive_the_file_and_other_tiers_stay_apart() {
     let folder = tempfile::tempdir().expect("folder");
     let metrics = [metric("velocity_l2", 0.512_345_678_912), metric("wall_slip", f64::NAN), metric("a", 0.0)];
     let written = Baseline::of("bagnold", &metrics);
-    let path = written.write(folder.path(), "bagnold", Tier::Quick).expect("written");
+    let path = written.write(folder.path(), "bagnold", Tier::Quick, "0d1e2f+changes").expect("written");
     assert!(path.ends_with("quick/bagnold.snap"));
     let text = std::fs::read_to_string(&path).expect("a file");
     assert!(text.find("wall_slip") < text.find("a |"), "in the order of the case");
@@ -20,6 +20,12 @@ fn values_survive_the_file_and_other_tiers_stay_apart() {
     assert_eq!(read.value(&MetricKey::of("bagnold", &metrics[0])), Some(0.512_345_679));
     assert!(read.value(&MetricKey::of("bagnold", &metrics[1])).is_some_and(f64::is_nan));
     assert_eq!(read.differences("bagnold", &metrics), [""; 0]);
+    assert_eq!((read.commit("bagnold").as_str(), read.commit("film").as_str()), ("0d1e2f+changes", ""));
+    for (metrics, commit) in [(&metrics[..], "0d1e2f+changes"), (&metrics[..2], "later")] {
+        Baseline::of("bagnold", metrics).write(folder.path(), "bagnold", Tier::Quick, "later").expect("written");
+        let read = Baseline::read(folder.path(), "bagnold", Tier::Quick).expect("read");
+        assert_eq!(read.commit("bagnold"), commit, "values that stay keep theirs");
+    }
     assert!(Baseline::read(folder.path(), "bagnold", Tier::Paper).expect("missing is empty").is_empty());
     assert!(Baseline::read(folder.path(), "../bagnold", Tier::Paper).is_err());
 }
@@ -104,7 +110,7 @@ fn differences_are_told_in_words() {
 fn a_damaged_or_foreign_file_is_refused_with_its_path() {
     let folder = tempfile::tempdir().expect("folder");
     let good = Baseline::of("film", &[metric("gci", 0.1)]);
-    let path = good.write(folder.path(), "film", Tier::Quick).expect("written");
+    let path = good.write(folder.path(), "film", Tier::Quick, "").expect("written");
     let text = std::fs::read_to_string(&path).expect("a file");
     let line = text.lines().last().expect("a line");
     for damaged in [String::new(), format!("{text}{line}\n"), text.replace("film", "x"), text.replace("0.1", "")] {

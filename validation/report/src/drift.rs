@@ -1,10 +1,9 @@
-//! Regressions since the baseline: the changes in tolerances, with the history of each value.
+//! Regressions since the baseline: the changes in tolerances.
 
 use super::Report;
-use super::accepted::{Drift, MetricKey};
-use super::history::History;
+use super::accepted::{Baseline, Drift, MetricKey};
 use super::judgement::{JudgedMetric, Judgement};
-use super::rows::{value_and_baseline, vanished};
+use super::rows::value_and_baseline;
 use super::view::{VerdictMark, anchor};
 use crate::number::{two_digits, with_unit};
 use serde_json::{Value, json};
@@ -15,12 +14,6 @@ const ROWS: usize = 25;
 
 /// Least change that is worth a row `[tolerances]`; smaller changes are rounding noise.
 const LEAST: f64 = 0.05;
-
-/// Values of the history that a line shows.
-const POINTS: usize = 24;
-
-/// Size of a line `[px]`.
-const LINE: (f64, f64) = (96.0, 20.0);
 
 /// A value that has moved.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,8 +28,8 @@ pub struct Moved {
     is_measured: bool,
     /// Value and baseline in words.
     statement: (String, String),
-    /// Earlier values, oldest first.
-    history: Vec<f64>,
+    /// Commit at which the baseline was made; empty where it is not known.
+    commit: String,
 }
 
 impl fmt::Display for Moved {
@@ -57,10 +50,10 @@ impl fmt::Display for Moved {
 /// Everything that has moved, the farthest first, then in the order of the cases. What has drifted comes before what has
 /// not.
 #[must_use]
-pub fn moved(judgement: &Judgement<'_>, history: &History) -> Vec<Moved> {
+pub fn moved(judgement: &Judgement<'_>, baseline: &Baseline) -> Vec<Moved> {
     let mut all = Vec::new();
     for case in &judgement.cases {
-        let of_metric = |judged: &JudgedMetric<'_>| of_metric(&case.case.name, judged, history);
+        let of_metric = |judged: &JudgedMetric<'_>| of_metric(&case.case.name, judged, baseline);
         all.extend(case.metrics.iter().filter_map(of_metric));
         all.extend(case.vanished.iter().map(|key| Moved {
             key: key.clone(),
@@ -68,7 +61,7 @@ pub fn moved(judgement: &Judgement<'_>, history: &History) -> Vec<Moved> {
             has_drifted: true,
             is_measured: false,
             statement: ("no longer measured".to_owned(), String::new()),
-            history: history.of(key).to_vec(),
+            commit: baseline.commit(&key.case),
         }));
     }
     all.retain(|moved| moved.has_drifted || moved.tolerances >= LEAST);
@@ -77,7 +70,7 @@ pub fn moved(judgement: &Judgement<'_>, history: &History) -> Vec<Moved> {
     all
 }
 
-fn of_metric(case: &str, judged: &JudgedMetric<'_>, history: &History) -> Option<Moved> {
+fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Option<Moved> {
     let metric = judged.metric;
     let value = with_unit(metric.value, &metric.unit);
     let statement = match &judged.drift {
@@ -89,15 +82,13 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, history: &History) -> Option
         Drift::UnitChanged { unit } => (value, format!("in {unit}")),
         Drift::VerdictChanged { verdict } => (value, format!("{}, now {}", verdict.word(), judged.verdict.word())),
     };
-    let key = MetricKey::of(case, metric);
-    let history = history.of(&key).iter().copied().chain([metric.value]).filter(|value| value.is_finite());
     Some(Moved {
         tolerances: judged.drift.in_tolerances()?,
         has_drifted: judged.drift.is_failure(),
         is_measured: true,
         statement,
-        history: history.collect(),
-        key,
+        commit: baseline.commit(case),
+        key: MetricKey::of(case, metric),
     })
 }
 
@@ -107,7 +98,7 @@ pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> Value {
         Some(folder) => format!("the report in {folder}"),
         None => "the accepted values".to_owned(),
     };
-    table_of(&moved(judgement, &report.history), against)
+    table_of(&moved(judgement, &report.baseline), against)
 }
 
 fn table_of(all: &[Moved], against: String) -> Value {
@@ -130,34 +121,8 @@ fn row(moved: &Moved) -> Value {
         "tolerances": if moved.tolerances.is_finite() { two_digits(moved.tolerances) } else { "–".to_owned() },
         "value": moved.statement.0,
         "baseline": moved.statement.1,
-        "line": sparkline(&moved.history, &vanished(key)),
+        "commit": moved.commit,
     })
-}
-
-/// The last values as a line from left to right; none for fewer than two.
-fn sparkline(values: &[f64], name: &str) -> Option<Value> {
-    let values = &values[values.len().saturating_sub(POINTS)..];
-    let (first, last) = (values.first()?, values.last().filter(|_| values.len() > 1)?);
-    let (least, most) = values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
-    let (wide, high) = LINE;
-    let margin = 2.0;
-    let at = |(place, value): (usize, &f64)| {
-        let x = margin + (wide - 2.0 * margin) * place as f64 / (values.len() - 1) as f64;
-        // a constant runs along the middle
-        let share = if most > least { (value - least) / (most - least) } else { 0.5 };
-        (format!("{x:.1}"), format!("{:.1}", high - margin - (high - 2.0 * margin) * share))
-    };
-    let points: Vec<(String, String)> = values.iter().enumerate().map(at).collect();
-    let text: Vec<String> = points.iter().map(|(x, y)| format!("{x},{y}")).collect();
-    let words = format!(
-        "{name}: {} values from {} to {}, between {} and {}",
-        values.len(),
-        two_digits(*first),
-        two_digits(*last),
-        two_digits(least),
-        two_digits(most)
-    );
-    Some(json!({ "points": text.join(" "), "last": points.last()?, "size": LINE, "words": words }))
 }
 
 #[cfg(test)]

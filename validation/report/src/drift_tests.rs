@@ -3,7 +3,7 @@
 use super::*;
 use crate::case::Tier;
 use crate::metric::{Limit, Metric, Variant};
-use crate::{Baseline, Report, history, judge, tests};
+use crate::{Baseline, Report, judge, tests};
 
 fn metric(name: &str, value: f64) -> Metric {
     Metric::observed(name, &Variant::of("resolution", 40), value, "%")
@@ -28,7 +28,7 @@ fn a_drift_of_two_tolerances_tops_the_table_and_is_denied() {
     let report = planted(2.0);
     let judgement = judge(&report);
     assert!(judgement.has_drift() && !judgement.has_unexpected_failure());
-    let all = moved(&judgement, &report.history);
+    let all = moved(&judgement, &report.baseline);
     let names: Vec<&str> = all.iter().map(|moved| moved.key.metric.as_str()).collect();
     assert_eq!(names, ["velocity_l2", "wall_slip"]);
     assert!(all[0].has_drifted && (all[0].tolerances - 2.0).abs() < 1e-6, "{:?}", all[0]);
@@ -43,7 +43,7 @@ fn a_drift_of_a_fifth_of_a_tolerance_is_shown_and_not_denied() {
     let report = planted(0.2);
     let judgement = judge(&report);
     assert!(!judgement.has_drift());
-    let all = moved(&judgement, &report.history);
+    let all = moved(&judgement, &report.baseline);
     assert!(all.iter().all(|moved| !moved.has_drifted));
     assert!((all[0].tolerances - 0.2).abs() < 1e-6, "{:?}", all[0]);
 }
@@ -54,7 +54,7 @@ fn a_value_that_moved_within_its_fourth_digit_is_shown_with_the_digits_that_move
     let now = Metric { value: 12.345_698, ..accepted[0].clone() };
     let report = report(vec![now], Baseline::of("film", &accepted));
     let judgement = judge(&report);
-    let all = moved(&judgement, &report.history);
+    let all = moved(&judgement, &report.baseline);
     assert_eq!(
         all[0].to_string(),
         "film front_error [] 12.345698\u{202f}% (+2.7×10⁻⁵), was 12.345671\u{202f}% ± 1.2×10⁻⁵: 2.2 tolerances"
@@ -70,7 +70,7 @@ fn incomparable_values_come_first() {
     let other_unit = Metric { unit: "m".to_owned(), ..metric("gci", 5.0) };
     let report =
         report(vec![metric("velocity_l2", 12.0), other_unit, metric("new", 1.0)], Baseline::of("film", &accepted));
-    let all = moved(&judge(&report), &report.history);
+    let all = moved(&judge(&report), &report.baseline);
     let names: Vec<&str> = all.iter().map(|moved| moved.key.metric.as_str()).collect();
     assert_eq!(names, ["gci", "gone", "velocity_l2"], "what is new has not moved");
     assert!(all[1].tolerances.is_infinite() && all[1].has_drifted);
@@ -87,7 +87,7 @@ fn an_earlier_report_is_a_baseline() {
     let entry = |metric: &Metric| serde_json::to_value(crate::result::MetricEntry::from(metric)).expect("serialises");
     let document = serde_json::json!({
         "case": "film", "tier": "quick", "state_hash": "", "runs": [],
-        "provenance": {"version": "", "commit": "", "source_hash": "", "profile": "", "target_features": "",
+        "provenance": {"version": "", "commit": "0d1e2f", "source_hash": "", "profile": "", "target_features": "",
             "command": "", "threads": 1, "wall_seconds": 1.0, "microseconds_per_particle_step": null,
             "runs_from_store": 0},
         "metrics": [entry(&metric("velocity_l2", 10.0)), entry(&metric("gci", f64::NAN))],
@@ -95,28 +95,10 @@ fn an_earlier_report_is_a_baseline() {
     std::fs::write(place.join("metrics.json"), document.to_string()).expect("written");
     let baseline = read(Tier::Quick).expect("readable");
     let value = |name| baseline.value(&MetricKey::of("film", &metric(name, 0.0)));
-    assert_eq!(value("velocity_l2"), Some(10.0));
+    assert_eq!((value("velocity_l2"), baseline.commit("film").as_str()), (Some(10.0), "0d1e2f"));
     assert!(value("gci").is_some_and(f64::is_nan) && value("wall_slip").is_none());
     assert!(!baseline.drift("film", &metric("velocity_l2", 10.05)).is_failure());
     assert!(read(Tier::Paper).is_err_and(|error| error.to_string().contains("quick tier")));
     std::fs::write(place.join("metrics.json"), "{}").expect("written");
     assert!(read(Tier::Quick).is_err_and(|error| error.to_string().contains("metrics.json")));
-}
-
-#[test]
-fn a_line_shows_the_history_and_this_value() {
-    let folder = tempfile::tempdir().expect("folder");
-    let path = folder.path().join("history.csv");
-    for value in [8.0, 9.0, 9.5] {
-        history::append(&path, ("1", "a"), Tier::Quick, "film", &[metric("velocity_l2", value)]).expect("written");
-    }
-    let history = History::read(&path, Tier::Quick).expect("readable");
-    let report = planted(2.0);
-    let all = moved(&judge(&report), &history);
-    assert_eq!(all[0].history, [8.0, 9.0, 9.5, 10.2]);
-    let line = sparkline(&all[0].history, "velocity_l2").expect("two values and more");
-    assert_eq!(line["points"], "2.0,18.0 32.7,10.7 63.3,7.1 94.0,2.0");
-    assert!(line["words"].as_str().is_some_and(|words| words.starts_with("velocity_l2: 4 values from 8")), "{line}");
-    assert!(sparkline(&[1.0], "a").is_none() && sparkline(&[], "a").is_none());
-    assert_eq!(sparkline(&[1.0, 1.0], "a").expect("a constant")["last"][1], "10.0");
 }

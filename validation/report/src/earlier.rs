@@ -31,6 +31,7 @@ impl Baseline {
                 return Err(refuse(format!("it is of the {its} tier, not of the {own} tier")));
             }
             found = true;
+            baseline.made_at(case, &document.provenance.commit);
             for entry in document.metrics {
                 let key = MetricKey { case: case.clone(), metric: entry.name, variant: entry.variant };
                 // JSON has no word for what is not a finite number

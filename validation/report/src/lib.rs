@@ -14,8 +14,6 @@ mod error;
 mod failures;
 mod flows;
 mod gate_list;
-pub mod history;
-mod history_page;
 pub mod judgement;
 mod junit;
 pub mod known_failures;
@@ -30,7 +28,6 @@ mod rows;
 pub mod scatter;
 mod shipped;
 mod snapshot_text;
-mod speed_history;
 mod template;
 mod validated_page;
 mod view;
@@ -46,13 +43,11 @@ use print::Chapter;
 pub use accepted::{Baseline, Drift, MetricKey};
 pub use error::{BaselineError, EarlierError, ReportError};
 pub use gate_list::{GateList, RemovedGates};
-pub use history::History;
 pub use judgement::{Judgement, judge};
 pub use junit::check_junit;
 pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
 pub use power::GatePower;
 pub use snapshot_text::description;
-pub use speed_history::{SpeedHistory, SpeedRow};
 
 use bagnold_figure as figure;
 use bagnold_harness::{case, control, evidence, input, metric, observation, page as pages, result, store};
@@ -84,10 +79,6 @@ pub struct Report {
     pub baseline: Baseline,
     /// Folder of the earlier report that the baseline is; none where it is the accepted values.
     pub against: Option<String>,
-    /// History of accepted figures; may be empty.
-    pub history: History,
-    /// History of the wall time of a particle-step; may be empty.
-    pub speeds: SpeedHistory,
     /// The gates that are known to fail; may be empty.
     pub known_failures: KnownFailures,
     /// The papers whose elements are accounted for; none for no page of them.
@@ -218,7 +209,6 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
         let maps = folder.join("figures").join(validated_page::FOLDER);
         let maps = draw_figures(&validated_page::figures(), &maps, drawings)?;
         add("validated", validated_page::render(report, &maps)?)?;
-        add("history", history_page::render(report, &judgement)?)?;
     }
     let beside = draw_figures(
         &comparison_figure::figures(report),

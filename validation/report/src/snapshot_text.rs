@@ -22,6 +22,9 @@ pub(super) struct SnapshotLine<'a> {
 /// Source line of a snapshot, as insta writes it.
 const SOURCE: &str = "source: tests/snapshots/main.rs";
 
+/// Begins the line of a snapshot's heading that names a commit.
+const COMMIT: &str = "commit: ";
+
 /// Whose values a snapshot holds.
 #[must_use]
 pub fn description(case: &str, tier: &str) -> String {
@@ -37,19 +40,21 @@ pub(super) fn content<'a>(lines: impl Iterator<Item = SnapshotLine<'a>>) -> Stri
     text
 }
 
-/// A file.
-pub(super) fn text<'a>(case: &str, tier: &str, lines: impl Iterator<Item = SnapshotLine<'a>>) -> String {
-    format!("---\n{SOURCE}\ndescription: {}\n---\n{}", description(case, tier), content(lines))
+/// A file; its heading names the commit at which the values were accepted, unless it is empty.
+pub(super) fn text(case: &str, tier: &str, commit: &str, content: &str) -> String {
+    let commit = if commit.is_empty() { String::new() } else { format!("{COMMIT}{commit}\n") };
+    format!("---\n{SOURCE}\ndescription: {}\n{commit}---\n{content}", description(case, tier))
 }
 
-/// The lines of a file; what is wrong with it, if it is no such file or that of another case or tier.
-pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<Vec<SnapshotLine<'a>>, String> {
+/// The commit and the lines of a file; what is wrong with it, if it is no such file or that of another case or tier.
+pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<(&'a str, Vec<SnapshotLine<'a>>), String> {
     let expected = description(case, tier);
     let (heading, content) = text
         .strip_prefix("---\n")
         .and_then(|text| text.split_once("\n---\n"))
         .ok_or_else(|| "it has no heading between two lines `---`".to_owned())?;
-    let described = heading.lines().find_map(|line| line.strip_prefix("description: ")).unwrap_or_default();
+    let named = |field| heading.lines().find_map(|line| line.strip_prefix(field)).unwrap_or_default();
+    let described = named("description: ");
     if described.trim_matches('"') != expected {
         return Err(format!("its description is {described:?} instead of {expected:?}"));
     }
@@ -61,7 +66,7 @@ pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<Vec<Sna
     let line = |(index, text): (usize, &'a str)| {
         parse_line(text).ok_or_else(|| format!("value {} is {text:?} instead of `{COLUMNS}`", index + 1))
     };
-    lines.enumerate().map(line).collect()
+    Ok((named(COMMIT), lines.enumerate().map(line).collect::<Result<_, _>>()?))
 }
 
 fn parse_line(text: &str) -> Option<SnapshotLine<'_>> {
@@ -127,8 +132,8 @@ mod tests {
             (f64::INFINITY, "inf"),
         ] {
             assert_eq!(number(rounded(value)), written);
-            let file = text("film", "quick", [line(rounded(value))].into_iter());
-            let read = parse(&file, "film", "quick").expect("readable")[0].value;
+            let file = text("film", "quick", "", &content([line(rounded(value))].into_iter()));
+            let read = parse(&file, "film", "quick").expect("readable").1[0].value;
             assert!(read == rounded(value) || (read.is_nan() && value.is_nan()), "{value}: {read}");
             assert!(!value.is_finite() || (read - value).abs() <= rounding(read), "{value}: {read}");
         }
@@ -136,13 +141,13 @@ mod tests {
 
     #[test]
     fn a_file_is_a_heading_and_a_line_each() {
-        let file = text("film", "quick", [line(0.5)].into_iter());
+        let file = text("film", "quick", "0d1e2f", &content([line(0.5)].into_iter()));
         assert_eq!(
             file,
-            "---\nsource: tests/snapshots/main.rs\ndescription: film at the quick tier\n---\n\
+            "---\nsource: tests/snapshots/main.rs\ndescription: film at the quick tier\ncommit: 0d1e2f\n---\n\
              name | variant | value | unit | verdict\nvelocity_l2 | resolution=40 | 0.5 | % | pass\n"
         );
-        assert_eq!(parse(&file, "film", "quick"), Ok(vec![line(0.5)]));
+        assert_eq!(parse(&file, "film", "quick"), Ok(("0d1e2f", vec![line(0.5)])));
         for (damaged, expected) in [
             (file.replacen("---", "", 1), "it has no heading"),
             (file.replace("film", "bagnold"), "its description"),

@@ -3,7 +3,7 @@
 use crate::pages;
 use serde::Serialize;
 
-const TEMPLATES: [(&str, &str); 16] = [
+const TEMPLATES: [(&str, &str); 15] = [
     ("head.html", include_str!("template/head.html")),
     ("index.html", include_str!("template/index.html")),
     ("drift.html", include_str!("template/drift.html")),
@@ -17,7 +17,6 @@ const TEMPLATES: [(&str, &str); 16] = [
     ("coverage.html", include_str!("template/coverage.html")),
     ("comparisons.html", include_str!("template/comparisons.html")),
     ("validated.html", include_str!("template/validated.html")),
-    ("history.html", include_str!("template/history.html")),
     ("print.html", include_str!("template/print.html")),
     ("papers.html", include_str!("template/papers.html")),
 ];

@@ -40,8 +40,6 @@ pub(super) fn report(cases: Vec<CaseReport>) -> Report {
         cases,
         baseline: Baseline::default(),
         against: None,
-        history: History::default(),
-        speeds: SpeedHistory::default(),
         known_failures: KnownFailures::default(),
         papers: &[],
         features: None,

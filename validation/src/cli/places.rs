@@ -90,16 +90,6 @@ impl CommittedValues {
         Ok(if self.is_own(&path) { KnownFailures::read(&path)? } else { KnownFailures::shipped()? })
     }
 
-    /// The gated figures over time; the program carries none.
-    pub(super) fn history_file(&self) -> PathBuf {
-        match self {
-            Self::OfCases => {
-                workspace().map_or_else(|| PathBuf::from("reports"), |root| root.join("reports")).join("history.csv")
-            }
-            Self::OfSuite(_) => self.accepted_folder().join("history.csv"),
-        }
-    }
-
     /// Whether a file goes before what the program carries. In a checkout, and of a suite, also one that is missing does: what
     /// has been taken away there is gone.
     fn is_own(&self, path: &Path) -> bool {

@@ -10,8 +10,7 @@ use crate::measured::Measurements;
 use crate::metric::{Metric, Variant, Verdict};
 use crate::output::{FileError, OutputFolder};
 use crate::report::{
-    self, Baseline, CaseReport, History, KnownFailureStatus, KnownFailures, MetricKey, Report, ReportProvenance,
-    SpeedHistory,
+    self, Baseline, CaseReport, KnownFailureStatus, KnownFailures, MetricKey, Report, ReportProvenance,
 };
 use crate::result::{MetricsDocument, write_case};
 use crate::store::Store;
@@ -91,8 +90,6 @@ impl ResultPublication<'_> {
                 .collect(),
             baseline: self.baseline,
             against: None,
-            history: History::default(),
-            speeds: SpeedHistory::default(),
             known_failures: known.clone(),
             papers: &[],
             features: None,

@@ -10,7 +10,7 @@ use super::{Exit, controls, say, summary, tell, unchanged};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
 use crate::evidence::{ValidatedComparison, ValidationSet};
 use crate::output::{FileError, FolderError, OutputFolder, write_whole};
-use crate::report::{self, Baseline, CaseReport, GateList, History, Report, ReportProvenance, SpeedHistory, history};
+use crate::report::{self, Baseline, CaseReport, GateList, Report, ReportProvenance};
 use crate::store::provenance;
 use crate::study::{Study, Suite};
 use std::fmt::Write as _;
@@ -56,7 +56,6 @@ pub(super) fn report(
     let known = places.known_failures()?;
     let tiers = suite.iter().flat_map(|suite| suite.studies().iter().map(Study::tier));
     let tier = command.tier.or_else(|| tiers.min_by_key(|tier| tier.name() != "quick")).unwrap_or(Tier::Quick);
-    let history = History::read(&places.history_file(), tier)?;
     let store = command.work.open_store();
     let expectation = announce("report", &cases, &store, quiet);
     let started = Instant::now();
@@ -90,8 +89,6 @@ pub(super) fn report(
         cases,
         baseline,
         against: command.against.as_ref().map(|folder| folder.display().to_string()),
-        history,
-        speeds: SpeedHistory::read(&SpeedHistory::path(&places.history_file()), tier)?,
         known_failures: known.clone(),
     };
     report::write(&page, claimed.staging(), &store.drawings().in_format(command.figures.format()))?;
@@ -164,15 +161,12 @@ fn accept(places: &CommittedValues, results: &[CaseResult]) -> Result<Baseline, 
     let mut baseline = Baseline::default();
     for result in results {
         let fresh = Baseline::of(&result.name, &result.metrics);
-        fresh.write(&places.accepted_folder(), &result.name, result.tier)?;
-        let made_by = (provenance::version(), provenance::commit());
-        history::append(&places.history_file(), made_by, result.tier, &result.name, &result.metrics)?;
+        fresh.write(&places.accepted_folder(), &result.name, result.tier, provenance::commit())?;
         if *places == CommittedValues::OfCases {
             let mut gates = GateList::read(&places.accepted_folder(), result.tier)?;
             gates.add(&fresh);
             gates.write(&places.accepted_folder(), result.tier)?;
             accepted_comparisons(&places.accepted_folder(), result)?;
-            SpeedHistory::append(&SpeedHistory::path(&places.history_file()), made_by, result)?;
         }
         baseline.extend(fresh);
     }
@@ -216,7 +210,7 @@ fn baseline(
 
 /// A line for each value that has drifted, the farthest first.
 fn drifted(page: &Report) -> String {
-    let moved = report::drift::moved(&report::judge(page), &page.history);
+    let moved = report::drift::moved(&report::judge(page), &page.baseline);
     moved.iter().filter(|moved| moved.has_drifted).map(|moved| format!("drifted: {moved}\n")).collect()
 }
 

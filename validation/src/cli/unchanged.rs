@@ -31,15 +31,10 @@ pub(super) fn inputs(command: &ReportArguments, places: &CommittedValues) -> Opt
     }
     let mut all = fs::read(std::env::current_exe().ok()?).ok()?;
     all.extend(format!("{command:?}").bytes());
-    let history = places.history_file();
-    for folder in [places.accepted_folder(), history.parent()?.to_owned()] {
-        let is_report = folder == history.parent()?;
-        for path in files_below(&folder, !is_report).unwrap_or_default() {
-            if !is_report || path.extension().is_some_and(|ending| ending == "csv") {
-                all.extend(path.to_string_lossy().bytes());
-                all.extend(fs::read(folder.join(&path)).ok()?);
-            }
-        }
+    let folder = places.accepted_folder();
+    for path in files_below(&folder).unwrap_or_default() {
+        all.extend(path.to_string_lossy().bytes());
+        all.extend(fs::read(folder.join(&path)).ok()?);
     }
     Some(state_hash(&all))
 }
@@ -56,13 +51,13 @@ pub(super) fn said(out: &Path, inputs: &str) -> Option<(Exit, String)> {
 /// Keeps in a report's folder what it was made from and what it says.
 pub(super) fn keep(folder: &Path, inputs: String, exit: Exit, text: &str) -> io::Result<()> {
     let digest = |path: PathBuf| Ok((path.clone(), state_hash(&fs::read(folder.join(path))?)));
-    let files: io::Result<_> = files_below(folder, true)?.into_iter().map(digest).collect();
+    let files: io::Result<_> = files_below(folder)?.into_iter().map(digest).collect();
     let made = Made { inputs, files: files?, exit: exit as u8, text: text.to_owned() };
     fs::write(folder.join(FILE), serde_json::to_string(&made)?)
 }
 
-/// Files in a folder, and below it if asked for, in the order of their paths from there.
-fn files_below(folder: &Path, deep: bool) -> io::Result<Vec<PathBuf>> {
+/// Files in a folder and below it, in the order of their paths from there.
+fn files_below(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let (mut files, mut folders) = (Vec::new(), vec![PathBuf::new()]);
     while let Some(below) = folders.pop() {
         for entry in fs::read_dir(folder.join(&below))? {
@@ -70,7 +65,7 @@ fn files_below(folder: &Path, deep: bool) -> io::Result<Vec<PathBuf>> {
             let (path, kind) = (below.join(entry.file_name()), entry.file_type()?);
             if kind.is_file() {
                 files.push(path);
-            } else if deep && kind.is_dir() {
+            } else if kind.is_dir() {
                 folders.push(path);
             }
         }
