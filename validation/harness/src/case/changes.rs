@@ -7,7 +7,8 @@ use crate::metric::Variant;
 use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value as Schema;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
@@ -73,11 +74,20 @@ pub(super) fn table_of<P: Serialize>(parameters: &P) -> Table {
 }
 
 /// Lays the changes over the defaults, checks each field along the schema, and types the result.
-pub(super) fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError>
-where
-    P: Parameters,
-{
+pub(super) fn resolve<P: Parameters>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError> {
     refuse_former(P::field_now, changes)?;
+    typed(case, defaults, changes, P::set_for_all)
+}
+
+fn typed<P>(
+    case: &str,
+    defaults: &P,
+    changes: &Changes<'_>,
+    set_for_all: fn(&mut Table, &[String]),
+) -> Result<P, ParameterError>
+where
+    P: Serialize + DeserializeOwned + JsonSchema + 'static,
+{
     let schema = schema_of::<P>();
     let defaults = table_of(defaults);
     let mut table = defaults.clone();
@@ -100,7 +110,7 @@ where
     }
     // Together, so that a law and its parameters may come in any order.
     overlay(schema, &mut table, &settings);
-    P::set_for_all(&mut table, &leaves(&settings));
+    set_for_all(&mut table, &leaves(&settings));
     // what a setting corrects is not warned of
     let of_file = changes.file.iter().flat_map(|(_, fields)| plausible::warnings(fields));
     let of_file = of_file.filter(|(path, _)| !is_set(changes.settings, path));

@@ -209,7 +209,7 @@ mod tests {
     const LIMITS: Limits = Limits { memory: 16.0 * GIBIBYTE, core_hours: 100.0 };
 
     fn of(particles: f64, core_seconds: f64) -> Estimate {
-        let running = particles * BYTES_WHILE_RUNNING;
+        let running = particles * super::super::cost::BYTES_WHILE_RUNNING;
         Estimate {
             runs: 1,
             running,

@@ -3,6 +3,13 @@ use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::not_negative;
 use serde::Deserialize;
 
+fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError>
+where
+    P: Serialize + DeserializeOwned + JsonSchema + 'static,
+{
+    typed(case, defaults, changes, |_, _| {})
+}
+
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 struct LayerExample {
     depth: f64,
