@@ -1,24 +1,24 @@
 //! The case's figures.
 
 use super::Record;
-use super::comparison::NumericsSet;
+use super::flow::FilmFlow;
 use super::metrics::convergence_errors;
-use super::runs::FilmRun;
 use crate::figure::{Axis, Figure, Panel};
 use crate::observation::Outcome;
 use crate::shared::Arrangement;
 use bagnold_solver::material::rheology::Rheology;
+use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
-    let newtonian = |run: &FilmRun| run.is_newtonian() && run.particles == Arrangement::Jittered;
+    let newtonian = |run: &FilmFlow| run.is_newtonian() && run.arrangement == Arrangement::Jittered;
     let finest = records.iter().filter(|(run, _)| newtonian(run)).map(|(run, _)| run.layer.resolution).max();
     let jittered: Vec<&Record> = records
         .iter()
-        .filter(|(run, _)| run.particles == Arrangement::Jittered && run.numerics_set == NumericsSet::Default)
+        .filter(|(run, _)| run.arrangement == Arrangement::Jittered && !run.is_compared())
         // a second Newtonian film may have been run for the comparison
         .filter(|(run, _)| !newtonian(run) || Some(run.layer.resolution) == finest)
         .collect();
-    let compared = records.iter().find(|(run, _)| NumericsSet::OTHERS.contains(&run.numerics_set));
+    let compared = records.iter().find(|(run, _)| run.is_compared());
     let mut figures = Vec::new();
     if !jittered.is_empty() {
         figures.push(profiles(&jittered));
@@ -50,13 +50,25 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     figures
 }
 
-fn label(run: &FilmRun) -> &'static str {
-    match run.law {
+fn label(run: &FilmFlow) -> &'static str {
+    match run.material {
         Rheology::Newtonian(_) if run.has_eddies() => "Newtonian with eddies",
         Rheology::Newtonian(_) => "Newtonian",
         Rheology::Bingham(_) => "Bingham",
         Rheology::HerschelBulkley(_) => "Herschel–Bulkley",
         other => other.name(),
+    }
+}
+
+fn numerics_label(run: &FilmFlow) -> &'static str {
+    let numerics = &run.layer.numerics;
+    match numerics.momentum_operator {
+        MomentumOperator::Pairwise => "(10) and (11), Morris–Adami walls",
+        MomentumOperator::PairwiseCorrected if numerics.kernel == Numerics::paper().kernel => {
+            "the paper's set: as above, cubic spline, h/Δ = 1.3, switch (16)"
+        }
+        MomentumOperator::PairwiseCorrected => "(10) and (13), Morris–Adami walls",
+        _ => "single divergence, extrapolated walls (default)",
     }
 }
 
@@ -99,7 +111,7 @@ fn operators(films: &[&Record]) -> Figure {
         let surface = film.velocity(h);
         let errors = data.drawn(&data.velocity, h).map(|(u, y)| (100.0 * (u - film.velocity(y * h)) / surface, y));
         let diverged = matches!(record.outcome, Outcome::Diverged { .. });
-        let name = format!("{}{}", run.numerics_set.label(), if diverged { " (diverged)" } else { "" });
+        let name = format!("{}{}", numerics_label(run), if diverged { " (diverged)" } else { "" });
         velocity.points(&name, slot, data.drawn(&data.velocity, h));
         error.line_points("", slot, errors);
     }

@@ -1,8 +1,7 @@
 //! How the runs are judged.
 
 use super::Record;
-use super::comparison::NumericsSet;
-use super::runs::FilmRun;
+use super::flow::FilmFlow;
 use crate::case::Run;
 use crate::layer::{self, BINS, Top};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
@@ -96,11 +95,12 @@ fn displacement_floor(records: &[Record]) -> Vec<Metric> {
 fn of_run(record: &Record) -> Vec<Metric> {
     let (run, recorded) = record;
     let variant = run.variant();
-    match run.numerics_set {
-        NumericsSet::Default => {}
+    if run.has_wide_skin() {
         // judged beside the film that it is a twin of
-        NumericsSet::WideSkin => return Vec::new(),
-        NumericsSet::Pairwise | NumericsSet::PairwiseCorrected | NumericsSet::Paper => return compared(record),
+        return Vec::new();
+    }
+    if run.is_compared() {
+        return compared(record);
     }
     let compressible = compressible_l2(record).map(|value| {
         let source = "exact weakly compressible film, η du/dy = p tanθ";
@@ -153,7 +153,7 @@ fn flux_error((run, record): &Record) -> f64 {
 /// A list with a skin holds more pairs than there are, of which those out of reach weigh nothing: lists that are renewed at
 /// other times give the same flow, except for the order of sums. Pairs that a list lacks, or has too late, make a difference.
 fn skin_difference(records: &[Record]) -> Option<Metric> {
-    let (run, wide) = records.iter().find(|(run, _)| run.numerics_set == NumericsSet::WideSkin)?;
+    let (run, wide) = records.iter().find(|(run, _)| run.has_wide_skin())?;
     let is_twin = |other: &&Record| {
         is_studied(&other.0, Arrangement::Lattice) && other.0.layer.resolution == run.layer.resolution
     };
@@ -234,9 +234,9 @@ fn compressible_l2((run, record): &Record) -> Option<f64> {
 }
 
 /// Whether a film belongs to the convergence study of an arrangement.
-fn is_studied(run: &FilmRun, particles: Arrangement) -> bool {
-    let plain = run.numerics_set == NumericsSet::Default && run.top == Top::Free;
-    plain && run.is_newtonian() && run.particles == particles
+fn is_studied(run: &FilmFlow, particles: Arrangement) -> bool {
+    let plain = !run.is_compared() && !run.has_wide_skin() && run.top == Top::Free;
+    plain && run.is_newtonian() && run.arrangement == particles
 }
 
 /// (rows, velocity L2 `[%]` against the weakly compressible film) of the Newtonian runs of an arrangement, coarse to fine.

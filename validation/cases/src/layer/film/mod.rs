@@ -1,15 +1,12 @@
 //! Newtonian, Bingham and Herschel–Bulkley films on an incline against their exact profiles.
 
-mod comparison;
 mod figures;
+mod flow;
 mod metrics;
-mod parameters;
-mod runs;
 
-pub use parameters::{EddyLiquid, FilmParameters, FluidKind};
-pub use runs::FilmRun;
+pub use flow::FilmFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::layer;
@@ -21,7 +18,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct Film;
 
-type Record = RecordOf<FilmParameters>;
+type Record = RecordOf<RunList<FilmFlow>>;
 
 impl Case for Film {
     const NAME: &'static str = "film";
@@ -37,25 +34,25 @@ impl Case for Film {
         Observed only. The Newtonian film with the operators and walls of the collapse paper. Any other law given \
         under `material`, compared with its steady film, integrated over the depth.";
     const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
-    type Parameters = FilmParameters;
+    type Parameters = RunList<FilmFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &FilmParameters, records: &[Record]) -> Vec<Metric> {
+    fn metrics(_: &RunList<FilmFlow>, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &FilmParameters, records: &[Record]) -> Vec<Figure> {
+    fn figures(_: &RunList<FilmFlow>, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
     fn from_external(
-        run: &FilmRun,
+        run: &FilmFlow,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<layer::LayerObservation>>, FieldError> {
         run.observe_external(given).map(Some)
     }
 
-    fn tables(_: &FilmParameters, records: &[Record]) -> Vec<Table> {
+    fn tables(_: &RunList<FilmFlow>, records: &[Record]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }
