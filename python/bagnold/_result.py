@@ -6,6 +6,7 @@ import json
 import warnings
 from collections.abc import Iterable, Iterator, Mapping
 from os import PathLike, fspath
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from . import _native
-from ._settings import settings
+from ._settings import settings, varied
 
 
 class DivergenceWarning(UserWarning):
@@ -155,6 +156,7 @@ def run(
     case: str | PathLike[str],
     *,
     tier: str | None = None,
+    vary: Mapping[str, Iterable[Any]] = MappingProxyType({}),
     only: str | Iterable[str] = (),
     overlay: str | PathLike[str] | Iterable[str | PathLike[str]] = (),
     fresh: bool = False,
@@ -165,7 +167,8 @@ def run(
     """Simulates a case, or a TOML file that describes a case or study, and judges it.
 
     Every other keyword is a parameter of the case, as ``show`` lists them: ``resolution=20``,
-    ``newtonian={"viscosity": 0.5}``. ``tier`` is "quick" (default), "paper" or "fine"; ``only`` names runs by their keys,
+    ``material={"viscosity": 0.5}``. ``tier`` is "quick" (default), "paper" or "fine"; ``vary`` gives several values of
+    parameters, each with each, in place of the runs of the tier; ``only`` names runs by their keys,
     such as "material=sand,aspect_ratio=3"; ``overlay`` names CSV files with measurements, which are drawn into the figure
     with their axes and give a metric ``overlay_residual``; ``fresh`` simulates what is stored; ``threads`` changes no result.
 
@@ -180,7 +183,7 @@ def run(
     described = _native.run(
         fspath(case),
         tier=tier,
-        settings=settings(parameters),
+        settings=[*settings(parameters), *varied(vary)],
         only=only,
         overlay=overlay,
         fresh=fresh,

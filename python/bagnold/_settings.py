@@ -8,8 +8,16 @@ from typing import Any
 
 
 def settings(parameters: Mapping[str, Any]) -> list[str]:
-    """``{"newtonian": {"viscosity": 0.5}}`` as ``["newtonian.viscosity=0.5"]``."""
+    """``{"material": {"viscosity": 0.5}}`` as ``["material.viscosity=0.5"]``."""
     return [f"{path}={_toml(value, path)}" for path, value in _paths(parameters, "")]
+
+
+def varied(parameters: Mapping[str, Any]) -> list[str]:
+    """``{"resolution": [10, 20]}`` as the list of runs in place of the tier's."""
+    if not parameters:
+        return []
+    vary = [{"path": path, "values": values} for path, values in parameters.items()]
+    return ["variants=[]", f"vary={_toml(vary, 'vary')}"]
 
 
 def _paths(parameters: Mapping[str, Any], above: str) -> Iterator[tuple[str, Any]]:

@@ -47,5 +47,5 @@ def test_other_threads_go_on_and_an_interrupted_run_goes_on_later(heard):
     checkpoints = [file for _, _, files in os.walk(os.environ["BAGNOLD_STORE"]) for file in files if file.endswith("checkpoint")]
     assert checkpoints, "what was computed is kept"
     # the interruption is over: the next run is not ended by it
-    cheap = {"fluids": ["newtonian"], "convergence_resolutions": [], "comparison_resolution": 0, "resolution": 10}
+    cheap = {"vary": {"resolution": [10]}}
     assert bagnold.run("film", **cheap, fresh=True).holds

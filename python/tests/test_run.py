@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-CHEAP = {"fluids": ["newtonian"], "convergence_resolutions": [], "comparison_resolution": 0, "resolution": 10}
+CHEAP = {"vary": {"resolution": [10]}}
 
 
 @pytest.fixture
@@ -36,9 +36,9 @@ def test_metrics_in_three_lines():
 
 
 def test_parameters_are_python_values(film):
-    thin = bagnold.run("film", **CHEAP, newtonian={"viscosity": np.float64(0.5)})
+    thin = bagnold.run("film", **CHEAP, material={"viscosity": np.float64(0.5)})
     assert thin.parameters["newtonian"]["viscosity"] == 0.5 and thin.state_hash != film.state_hash
-    dotted = bagnold.run("film", **CHEAP, **{"newtonian.viscosity": 0.5})
+    dotted = bagnold.run("film", **CHEAP, **{"material.viscosity": 0.5})
     assert dotted.state_hash == thin.state_hash
     assert dotted.runs["from_store"].all()
 
@@ -85,9 +85,7 @@ def test_the_numbers_are_the_programs_to_the_last_digit(film, folder):
     program = os.environ.get("BAGNOLD_PROGRAM")
     if not program:
         pytest.skip("BAGNOLD_PROGRAM names no program to compare with")
-    changes = ["fluids=[\"newtonian\"]", "convergence_resolutions=[]", "comparison_resolution=0", "resolution=10"]
-    words = [word for change in changes for word in ("--set", change)]
-    command = [program, "--quiet", "run", "film", *words, "--fresh", "--store", str(folder / "own"), "--json"]
+    command = [program, "--quiet", "run", "film", "--vary", "resolution=10", "--fresh", "--store", str(folder / "own"), "--json"]
     text = subprocess.run([*command, "--out", "out"], check=True, capture_output=True, text=True).stdout
     theirs = json.loads(text)
     assert theirs["state_hash"] == film.state_hash

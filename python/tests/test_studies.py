@@ -22,7 +22,7 @@ PLAN = """
 title = "viscosity of a film"
 
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 unit = "Pa·s"
 lower = 0.2
 upper = 2.0
@@ -30,7 +30,7 @@ scale = "log"
 
 [[fit]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10 }
 data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]", file = "mine.csv" }]
 """
 

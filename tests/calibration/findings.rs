@@ -13,7 +13,7 @@ use std::path::Path;
 
 pub(crate) const VISCOSITY: &str = r#"
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 name = "viscosity"
 unit = "Pa·s"
 lower = 0.2
@@ -38,7 +38,7 @@ truth = 1000.0
 const FILM: &str = r#"
 [[fit]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, jitter = 0.0, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10, jitter = 0.0 }
 "#;
 
 const PROFILE: &str =

@@ -9,8 +9,8 @@ use bagnold_inference::inference::{SearchResult, solve};
 use bagnold_validation::REGISTRY;
 use std::path::Path;
 
-const WITH: &str = "fluids = [\"herschel_bulkley\"]\nresolution = 10\njitter = 0.0\nconvergence_resolutions = []\n\
-                    comparison_resolution = 0\n";
+const WITH: &str = "resolution = 10\njitter = 0.0\nrelaxation_times = 1.0\n\
+                    material = { law = \"herschel-bulkley\", yield_stress = 5.1, consistency = 1.1, flow_index = 0.7, regularisation_rate = 0.3 }\n";
 /// Height of the film `[m]`.
 const HEIGHT: f64 = 0.01;
 /// Relative standard uncertainty of a velocity.
@@ -36,7 +36,7 @@ fn velocities([yield_stress, consistency, flow_index]: [f64; 3], heights: &[f64]
     let with = toml::from_str(WITH).expect("parameters of the case");
     let request = CaseRequest { case: "film".to_owned(), name: None, tier: Tier::Quick, with, only: Vec::new() };
     let fields = [("yield_stress", yield_stress), ("consistency", consistency), ("flow_index", flow_index)];
-    let settings = fields.map(|(name, value)| format!("herschel_bulkley.{name}={value}"));
+    let settings = fields.map(|(name, value)| format!("material.{name}={value}"));
     let prepared = request.prepare(*REGISTRY, Path::new("particles.rs"), &settings, Limits::default()).ok()?;
     let record = evaluate(prepared, &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");
     let table = record.tables.iter().find(|table| table.columns.iter().any(|column| column == "u [m/s]"))?;

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 const FILM: &str = r#"
 [[fit]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10 }
 data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]", noise = 0.03, bins = 9 }]
 "#;
 

@@ -115,8 +115,8 @@ fn a_reservoir_of_too_few_or_too_many_rows() {
 fn a_channel_without_a_slope() {
     let place = Place::new();
     let rule = "must be positive and at most 0.2; without a slope there is no friction velocity √(g h i); give its tangent, such as 0.03 for 3 %";
-    refused(&place, &["clear-water", "--set", "slopes=[0.03, 0]"], &format!("`slopes[1]` is 0, but {rule}"));
-    refused(&place, &["clear-water", "--set", "slopes=[nan]"], &format!("`slopes[0]` is NaN, but {rule}"));
+    refused(&place, &["clear-water", "--vary", "slope=0.03,0"], &format!("`vary[0].slope` is 0, but {rule}"));
+    refused(&place, &["clear-water", "--set", "slope=nan"], &format!("`slope` is NaN, but {rule}"));
     refused(&place, &["water-film", "--set", "slope=-0.03"], &format!("`slope` is -0.03, but {rule}"));
 }
 

@@ -12,7 +12,7 @@ evaluations = 14
 trajectories = 2
 
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 unit = "Pa·s"
 lower = 0.2
 upper = 2.0
@@ -20,13 +20,13 @@ scale = "log"
 
 [[fit]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, jitter = 0.0, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10, jitter = 0.0 }
 data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]", file = "mine.csv" }]
 
 [[hold_out]]
 case = "film"
 conditions = ["slope_angle"]
-with = { fluids = ["newtonian"], resolution = 10, jitter = 0.0, slope_angle = 12.0, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10, jitter = 0.0, slope_angle = 12.0 }
 data = [{ metric = "particles_lost", value = 0.0, unit = "-", uncertainty = 1.0, source = "own" }]
 "#;
 
@@ -170,9 +170,9 @@ fn refusal(change: impl Fn(&str) -> String, data: impl Fn(&str) -> String) -> St
 fn wrong_plans_are_refused_by_name() {
     let plan = |from: &'static str, to: &'static str| refusal(move |text| text.replace(from, to), str::to_owned);
     assert_eq!(
-        plan("newtonian.viscosity", "newtonian.viscoscity"),
-        "error: plan.toml: `path` is `newtonian.viscoscity`, but `film` has no such field; did you mean \
-         `newtonian.viscosity`? `bagnold show film` prints all fields"
+        plan("material.viscosity", "material.viscoscity"),
+        "error: plan.toml: `path` is `material.viscoscity`, but `film` has no such field; did you mean \
+         `material.viscosity`? `bagnold show film` prints all fields"
     );
     assert_eq!(
         plan("lower = 0.2", "lower = 5.0"),
@@ -227,8 +227,8 @@ fn validation_data_must_differ_in_physics() {
          film` prints all fields"
     );
     assert_eq!(
-        refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"fluids\"]"), str::to_owned),
-        "error: plan.toml: `hold_out[0].conditions` is fluids, but must be a number or a list of numbers of the case; name \
+        refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"arrangement\"]"), str::to_owned),
+        "error: plan.toml: `hold_out[0].conditions` is arrangement, but must be a number or a list of numbers of the case; name \
          what is measured along, such as a slope"
     );
 }
@@ -289,21 +289,21 @@ title = "which fluid"
 
 [[choices]]
 name = "thin"
-set = { film = ["newtonian.viscosity=0.5"] }
+set = { film = ["material.viscosity=0.5"] }
 
 [[choices]]
 name = "thick"
-set = { film = ["newtonian.viscosity=1.0"] }
+set = { film = ["material.viscosity=1.0"] }
 
 [[fit]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10 }
 data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]", file = "mine.csv" }]
 
 [[hold_out]]
 case = "film"
 conditions = ["slope_angle"]
-with = { fluids = ["newtonian"], resolution = 10, slope_angle = 12.0, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10, slope_angle = 12.0 }
 data = [{ metric = "no_such_metric", value = 0.0, unit = "-", uncertainty = 1.0, source = "own" }]
 "#;
 
@@ -333,13 +333,13 @@ fn choices_that_set_nothing_are_refused() {
         String::from_utf8_lossy(&refused.get_output().stderr).trim_end().to_owned()
     };
     assert_eq!(
-        refusal("film = [\"newtonian.viscosity=1.0\"]", "flim = [\"newtonian.viscosity=1.0\"]"),
+        refusal("film = [\"material.viscosity=1.0\"]", "flim = [\"material.viscosity=1.0\"]"),
         "error: plan.toml: `choices[1].set` is flim, but must be a case that has data; did you mean `film`?"
     );
     assert_eq!(
-        refusal("newtonian.viscosity=1.0", "newtonian.viscoscity=1.0"),
-        "error: plan.toml: `path` is `newtonian.viscoscity`, but `film` has no such field; did you mean \
-         `newtonian.viscosity`? `bagnold show film` prints all fields"
+        refusal("material.viscosity=1.0", "material.viscoscity=1.0"),
+        "error: plan.toml: `path` is `material.viscoscity`, but `film` has no such field; did you mean \
+         `material.viscosity`? `bagnold show film` prints all fields"
     );
     assert_eq!(
         refusal("name = \"thick\"", "name = \"thin\""),

@@ -84,7 +84,7 @@ fn zero_for_a_material_that_published_laws_do_not_judge() {
 fn three_when_a_run_diverges() {
     let place = Place::new();
     // five times the stable step of the explicit viscous term
-    let settings = ["--set", "newtonian.viscosity=20", "--set", "numerics.viscous_courant=1"];
+    let settings = ["--set", "material.viscosity=20", "--set", "numerics.viscous_courant=1"];
     let document = document(&place.run(&[CHEAP, &settings, &["--json"]].concat()).code(3));
     let [run] = document.runs.as_slice() else { panic!("one run was asked for") };
     let Outcome::Diverged { message, expected: false } = &run.outcome else { panic!("{:?}", run.outcome) };
@@ -101,7 +101,7 @@ fn three_when_a_run_diverges() {
 #[test]
 fn a_divergence_leaves_the_states_before_and_after() {
     let place = Place::new();
-    place.run(&[CHEAP, &["--set", "newtonian.viscosity=20", "--set", "numerics.viscous_courant=1"]].concat()).code(3);
+    place.run(&[CHEAP, &["--set", "material.viscosity=20", "--set", "numerics.viscous_courant=1"]].concat()).code(3);
     let snapshots = place.path("out/snapshots");
     let collections: Vec<String> = std::fs::read_dir(&snapshots)
         .expect("snapshots")

@@ -155,9 +155,7 @@ fn a_report_has_the_verdicts_and_is_self_contained() {
 fn a_store_that_cannot_be_written_is_warned_of_once() {
     let place = Place::new();
     place.file("file", "");
-    let films = "fluids=[\"newtonian\", \"bingham\"]";
-    let settings = ["--set", films, "--set", "convergence_resolutions=[]", "--set", "comparison_resolution=0"];
-    let arguments = [&["film", "--set", "resolution=10", "--store", "file/store"], &settings[..]].concat();
+    let arguments = ["film", "--vary", "resolution=10,12", "--store", "file/store"];
     let finished = place.run(&arguments);
     let said = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
     let warnings: Vec<&str> = said.lines().filter(|line| line.contains("not kept")).collect();

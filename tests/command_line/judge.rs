@@ -159,12 +159,12 @@ fn two_runs_are_compared_number_by_number() {
     };
     run("first", &[]);
     run("again", &[]);
-    run("thicker", &["--set", "newtonian.viscosity=1.1"]);
+    run("thicker", &["--set", "material.viscosity=1.1"]);
     place.bagnold(&["compare", "first", "again", "--out", "same", "--deny-differences"]).assert().code(0);
     let differ =
         place.bagnold(&["compare", "first", "thicker", "--out", "other", "--deny-differences"]).assert().code(1);
     let shown = String::from_utf8_lossy(&differ.get_output().stdout).into_owned();
-    assert!(shown.starts_with("parameter newtonian.viscosity: 1.0 → 1.1\n"), "{shown}");
+    assert!(shown.starts_with("parameter material.viscosity: 1.0 → 1.1\n"), "{shown}");
     assert!(shown.lines().nth(2).is_some_and(|line| line.starts_with("  film ") && line.contains(" → ")), "{shown}");
     let lines = read(&place, "other/differences.json");
     assert!(lines[0]["tolerances"].as_f64() > Some(1.0), "{}", lines[0]);
@@ -187,7 +187,7 @@ fn two_runs_are_compared_number_by_number() {
     assert!(message.contains(&words), "{message}");
     place.bagnold(&["compare", "first", "again", "--out", "across", "--across-gates"]).assert().code(0);
     let parameters = read(&place, "other/parameters.json");
-    assert_eq!(parameters[0]["path"], "newtonian.viscosity", "{parameters}");
+    assert_eq!(parameters[0]["path"], "material.viscosity", "{parameters}");
     assert_eq!((parameters[0]["values"][1].as_str(), parameters.as_array().map(Vec::len)), (Some("1.1"), Some(1)));
     assert_eq!(read(&place, "same/parameters.json").as_array().map(Vec::len), Some(0));
     let figures = std::fs::read_dir(place.path("other/figures")).expect("figures").count();

@@ -100,7 +100,7 @@ fn longer_runs_of_cases_of_both_models_continue_finished_ones() {
     };
     let still = |duration: f64| {
         let duration = format!("duration={duration}");
-        set("still-water", &[&duration, "averaging_time=0.2", "unstabilised_jitters=[]"])
+        set("still-water", &[&duration, "averaging_time=0.2", "vary=[]", "variants=[]"])
     };
     let bed_load = |duration: f64| {
         let grains = format!("stabilised.duration={duration}");
@@ -248,7 +248,7 @@ fn a_state_that_does_not_fit_is_refused_by_field_and_rule() {
     std::fs::write(place.path("cut"), &whole[..whole.len() / 2]).expect("writable");
     place.file("text", "no state");
     let channel = Place::new();
-    let still = ["duration=0.5", "averaging_time=0.2", "unstabilised_jitters=[]", "jitters=[0.1]"];
+    let still = ["duration=0.5", "averaging_time=0.2", "vary=[]", "variants=[]"];
     outcome(&channel, &set("still-water", &still));
     let of_model_b =
         walk(&channel.path("store")).into_iter().find(|file| file.ends_with("0.checkpoint")).expect("a state");

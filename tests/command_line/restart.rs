@@ -18,20 +18,7 @@ pub(crate) struct Work {
 
 pub(crate) const RUN_IN_PLANE: Work = Work {
     name: "run, model A, plane",
-    arguments: &[
-        "run",
-        "film",
-        "--set",
-        "fluids=[\"newtonian\"]",
-        "--set",
-        "convergence_resolutions=[]",
-        "--set",
-        "comparison_resolution=0",
-        "--set",
-        "resolution=36",
-        "--set",
-        "relaxation_times=1.5",
-    ],
+    arguments: &["run", "film", "--vary", "resolution=36", "--set", "relaxation_times=1.5"],
     states: "metrics.json",
     only: Some("\"state_hash\""),
 };
@@ -78,10 +65,10 @@ design = "grid"
 
 [[cases]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 30, convergence_resolutions = [], comparison_resolution = 0, relaxation_times = 1.5 }
+with = { resolution = 30, relaxation_times = 1.5 }
 
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 values = [0.5, 1.0]
 "#;
 
@@ -92,7 +79,7 @@ trajectories = 0
 region_evaluations = 0
 
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 unit = "Pa·s"
 lower = 0.2
 upper = 2.0
@@ -100,7 +87,7 @@ scale = "log"
 
 [[fit]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 30, convergence_resolutions = [], comparison_resolution = 0, relaxation_times = 1.5 }
+with = { resolution = 30, relaxation_times = 1.5 }
 data = [{ metric = "wall_work", value = -1.0, unit = "%", uncertainty = 1.0, source = "own" }]
 "#;
 

@@ -332,7 +332,7 @@ fn a_table_that_show_documents_can_be_added_to_a_scene() {
     let shown = String::from_utf8_lossy(&shown.stdout).into_owned();
     // a file is completed, and another law shown with all of its parameters
     place.file("mine.toml", "case = \"film\"\nresolution = 17\n");
-    let mine = place.bagnold(&["show", "mine.toml", "--set", "newtonian.viscosity=0.25"]).assert().code(0);
+    let mine = place.bagnold(&["show", "mine.toml", "--set", "material.viscosity=0.25"]).assert().code(0);
     let mine = String::from_utf8_lossy(&mine.get_output().stdout).into_owned();
     assert!(mine.contains("\nresolution = 17") && mine.contains("\nviscosity = 0.25  # dynamic viscosity"), "{mine}");
     let law = place.bagnold(&["show", "scene", "--set", "material.law=bingham"]).assert().code(2);

@@ -92,9 +92,9 @@ const SWEEP: &str = r#"
 design = "grid"
 [[cases]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10 }
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 values = [0.5, 1.0]
 "#;
 

@@ -12,10 +12,10 @@ design = "grid"
 
 [[cases]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10 }
 
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 values = [0.5, 0.7, 1.0, 1.4]
 
 [[parameters]]
@@ -58,7 +58,7 @@ fn a_sweep_that_was_killed_gives_the_same_table_and_repeats_nothing() {
 #[test]
 fn a_sweep_may_mean_some_runs_only() {
     let place = Place::new();
-    let chosen = PLAN.replace("fluids = [\"newtonian\"], ", "").replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]");
+    let chosen = PLAN.replace("", "").replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]");
     let chosen = chosen.replace("[20.0, 25.0, 95.0]", "[20.0]");
     let plan =
         place.file("plan.toml", &chosen.replace("case = \"film\"", "case = \"film\"\nonly = [\"fluid=newtonian\"]"));
@@ -117,11 +117,11 @@ fn refusal(plan: &str, arguments: &[&str]) -> String {
 
 #[test]
 fn wrong_plans_are_refused_by_name() {
-    let path = refusal(&PLAN.replace("newtonian.viscosity", "newtonian.viscoscity"), &[]);
+    let path = refusal(&PLAN.replace("material.viscosity", "material.viscoscity"), &[]);
     assert_eq!(
         path,
-        "error: plan.toml: `path` is `newtonian.viscoscity`, but `film` has no such field; did you mean \
-         `newtonian.viscosity`? `bagnold show film` prints all fields"
+        "error: plan.toml: `path` is `material.viscoscity`, but `film` has no such field; did you mean \
+         `material.viscosity`? `bagnold show film` prints all fields"
     );
     let reversed = PLAN.replace("values = [0.5, 0.7, 1.0, 1.4]", "lower = 2.0\nupper = 1.0\nlevels = 3");
     assert_eq!(

@@ -21,10 +21,10 @@ design = "grid"
 
 [[cases]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = 10, convergence_resolutions = [], comparison_resolution = 0 }
+with = { resolution = 10 }
 
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 lower = 0.5
 upper = 2.0
 levels = 6

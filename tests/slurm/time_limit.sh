@@ -23,10 +23,10 @@ design = "grid"
 
 [[cases]]
 case = "film"
-with = { fluids = ["newtonian"], resolution = $rows, convergence_resolutions = [], comparison_resolution = 0, relaxation_times = 1.5 }
+with = { resolution = $rows, relaxation_times = 1.5 }
 
 [[parameters]]
-path = "newtonian.viscosity"
+path = "material.viscosity"
 values = [1.0]
 PLAN
 

@@ -5,7 +5,7 @@ use super::fault;
 use super::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
 use super::{ParameterError, Parameters, Run, Tier};
 use crate::input::FieldError;
-use bagnold_solver::parameter::{Fault, first_fault, schema_of};
+use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -232,7 +232,16 @@ impl<F: Flow> Parameters for RunList<F> {
     fn set_for_all(table: &mut Table, paths: &[String]) {
         let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.get(key)?.clone())));
         let Ok(mut list) = Value::Table(parts.collect()).try_into::<ListOfRuns>() else { return };
-        paths.iter().for_each(|path| list.forget(path));
+        for path in paths {
+            list.forget(path);
+            // another choice of a law replaces what the list says of its parameters
+            if let Some((above, tag)) = path.rsplit_once('.')
+                && let Some(schema) = schema_of::<F>()["properties"].get(above)
+                && matches!(Shape::of(schema), Shape::Tagged { tag: own, .. } if own == tag)
+            {
+                list.forget(above);
+            }
+        }
         let list = table_of(&list);
         for key in ["variants", "vary"] {
             match list.get(key) {

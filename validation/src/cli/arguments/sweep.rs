@@ -15,10 +15,10 @@ A file that varies the viscosity of a film over a grid:
 
   [[cases]]
   case = \"film\"
-  with = { fluids = [\"newtonian\"], resolution = 10 }
+  with = { resolution = 10 }
 
   [[parameters]]
-  path = \"newtonian.viscosity\"
+  path = \"material.viscosity\"
   values = [0.5, 1.0, 2.0]         # or lower, upper, levels, scale = \"log\"
 
 The folder receives manifest.json, runs/NNNN-CASE/, results.csv (one line per metric), failures.csv and figures/.

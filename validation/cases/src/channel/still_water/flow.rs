@@ -39,7 +39,7 @@ impl Flow for StillWaterFlow {
 
     fn check(&self) -> Result<(), ParameterError> {
         let longest = 0.5 * self.duration;
-        rules::between("averaging_time", self.averaging_time, 0.2, longest, "the window lies in the second half")?;
+        rules::between("averaging_time", self.averaging_time, 0.01, longest, "the window lies in the second half")?;
         self.water.check()
     }
 }
