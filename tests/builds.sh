@@ -5,8 +5,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 target=${CARGO_TARGET_DIR:-target}
 for profile in unoptimised release; do
-    cargo build --profile "$profile" --bin bagnold
+    cargo build --profile "$profile" --bin bagnold-dev
     printf '%s:\n' "$profile"
-    "$target/$profile/bagnold" dev verify
+    "$target/$profile/bagnold-dev" verify
 done
 echo "unoptimised and release builds give the same bits"

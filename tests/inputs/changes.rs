@@ -32,8 +32,8 @@ const COUNTS: [&str; 14] =
 /// Values of other types than numbers.
 const OTHERS: [&str; 7] = ["\"\"", "\"word\"", "true", "[]", "{}", "2024-01-01", "[[[]]]"];
 
-/// The list of `bagnold dev verify`: with its settings a case takes a moment.
-const SHORT_RUNS: &str = include_str!("../../validation/verify/short_runs.toml");
+/// The list of `bagnold-dev verify`: with its settings a case takes a moment.
+const SHORT_RUNS: &str = include_str!("../../validation/dev/short_runs.toml");
 
 /// The settings that cut a case short.
 fn short(case: &str) -> Vec<String> {

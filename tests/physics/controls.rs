@@ -33,7 +33,11 @@ fn trials(case: &dyn AnyCase, right: &CaseResult) -> Vec<ControlTrial> {
         own.into_iter().zip(&wrong).map(|(control, wrong)| wrong.trial(control.clone(), right)).collect();
     for control in controls.iter().filter(|control| !in_report(control)) {
         let trial = tried.trial(control);
-        trials.push(trial.unwrap_or_else(|| panic!("{} {}: run `bagnold dev controls`", case.name(), control.name)));
+        trials.push(
+            trial.unwrap_or_else(|| {
+                panic!("{} {}: run `cargo run -p bagnold-dev -- controls`", case.name(), control.name)
+            }),
+        );
     }
     trials
 }

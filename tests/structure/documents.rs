@@ -60,7 +60,7 @@ fn packages_hold_every_table_and_every_plan() {
         is_packaged(&harness, &format!("snapshots/quick/{case}.snap"));
     }
     is_packaged(&harness, "snapshots/known_failures.toml");
-    for name in ["sweeps/bed-load-1d-map.toml", "verify/short_runs.toml", "README.md", "build/texts/embed.rs"] {
+    for name in ["sweeps/bed-load-1d-map.toml", "README.md", "build/texts/embed.rs"] {
         is_packaged(&program, name);
     }
 }

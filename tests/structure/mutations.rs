@@ -1,10 +1,10 @@
-//! Errors for the mutation check stand outside of the sources (`validation/tools/mutations.toml`): a reader of an equation sees the
+//! Errors for the mutation check stand outside of the sources (`validation/dev/mutations.toml`): a reader of an equation sees the
 //! equation.
 
 use crate::source::workspace;
+use bagnold_dev::mutation::Mutations;
 use bagnold_harness::case::{Changes, Tier};
 use bagnold_harness::control::ControlKind;
-use bagnold_tools::mutation::Mutations;
 use bagnold_validation::REGISTRY;
 
 #[test]

@@ -37,7 +37,7 @@ const HARNESS: Floors = &[
 ];
 
 /// Packages of `validation/`, each with the packages of this project that it may depend on.
-const PACKAGES: [(&str, &[&str]); 9] = [
+const PACKAGES: [(&str, &[&str]); 10] = [
     ("number", &[]),
     ("figure", &["number"]),
     ("inference", &["number"]),
@@ -47,6 +47,7 @@ const PACKAGES: [(&str, &[&str]); 9] = [
     ("cases", &["number", "figure", "inference", "solver", "harness", "reference"]),
     ("scenes", &["number", "figure", "inference", "solver", "harness", "reference"]),
     ("tools", &["number", "figure", "inference", "solver", "harness", "report"]),
+    ("dev", &["number", "inference", "harness", "report", "validation"]),
 ];
 
 /// Rooms of the models by which a term could see more than its arguments.

@@ -1,10 +1,10 @@
 //! The rows of the papers speak of what is there: files, tests, cases, metrics, runs.
 
 use crate::source::workspace;
+use bagnold_dev::mutation::Mutations;
 use bagnold_harness::case::{Changes, Tier};
 use bagnold_harness::evidence::{Element, PAPERS};
 use bagnold_harness::metric::Variant;
-use bagnold_tools::mutation::Mutations;
 use bagnold_validation::REGISTRY;
 use std::collections::BTreeMap;
 
@@ -40,7 +40,7 @@ fn every_test_is_in_its_file() {
     assert_none(&wrong);
 }
 
-/// `bagnold dev mutate --tests` shows that the test fails.
+/// `bagnold-dev mutate --tests` shows that the test fails.
 #[test]
 fn every_element_that_rests_on_tests_alone_names_an_error_that_one_of_them_notices() {
     let mutations = Mutations::read(&workspace()).expect("a file of mutations");

@@ -6,7 +6,8 @@ const MACROS: [&str; 5] = ["println!", "print!", "eprintln!", "eprint!", "dbg!"]
 
 #[test]
 fn nothing_prints_by_a_macro_that_panics() {
-    let packages = ["harness", "report", "reference", "cases", "scenes", "tools", "figure", "inference", "number"];
+    let packages =
+        ["harness", "report", "reference", "cases", "scenes", "tools", "dev", "figure", "inference", "number"];
     let packages = packages.map(|package| format!("validation/{package}/src"));
     let folders = ["solver/src", "validation/src", "python/src"].into_iter().chain(packages.iter().map(String::as_str));
     for source in folders.flat_map(sources) {

@@ -13,10 +13,8 @@ use bagnold_harness::{
 use bagnold_number as number;
 use bagnold_report as report;
 use bagnold_scenes::study;
-use bagnold_tools::{calibration, compare, judge, league, mutation, sweep};
+use bagnold_tools::{calibration, compare, judge, league, sweep};
 
 #[cfg(test)]
 #[path = "../harness/src/case/pendulum.rs"]
 mod pendulum;
-#[cfg(test)]
-mod stale_sensitivities;

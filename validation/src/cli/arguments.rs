@@ -3,8 +3,8 @@
 mod examples;
 mod foreign;
 mod new;
+mod store;
 mod sweep;
-pub(super) mod upkeep;
 mod work;
 
 pub(super) use examples::ExamplesArguments;
@@ -12,12 +12,10 @@ pub(super) use foreign::{CompareArguments, ExportArguments, JudgeArguments, Leag
 #[cfg(test)]
 pub(super) use new::Named;
 pub(super) use new::{NewArguments, NewCrate};
+pub(super) use store::{StoreAction, StoreArguments};
 pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
-pub(super) use upkeep::{
-    ControlsArguments, DevCommand, MutateArguments, SensitivitiesArguments, StoreAction, StoreArguments,
-    VerifyArguments,
-};
-pub(super) use work::{ExecutionOptions, FigureOptions, ResourceLimits};
+pub(super) use work::FigureOptions;
+pub use work::{ExecutionOptions, ResourceLimits};
 
 use crate::case::Tier;
 use clap::{ArgAction, Args, Parser, Subcommand};
@@ -123,6 +121,14 @@ pub struct Arguments {
     /// Command.
     #[command(subcommand)]
     pub command: Command,
+    /// Amount of output.
+    #[command(flatten)]
+    pub verbosity: Verbosity,
+}
+
+/// Amount of output on standard error.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Verbosity {
     /// Verbose output; repeat (-vv) for debug output.
     #[arg(short, long, global = true, action = ArgAction::Count, conflicts_with = "quiet")]
     pub verbose: u8,
@@ -164,9 +170,6 @@ pub enum Command {
     Sweep(Box<SweepArguments>),
     /// List stored results, or delete old ones.
     Store(StoreArguments),
-    /// Check bits, gates and sensitivity tables (for developers of Bagnold).
-    #[command(subcommand)]
-    Dev(DevCommand),
 }
 
 /// `bagnold schema`

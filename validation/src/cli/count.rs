@@ -8,7 +8,7 @@ use std::time::Instant;
 const AT_LEAST_LEFT: u64 = 10;
 
 /// Progress of things of about equal cost.
-pub(super) struct CountBar {
+pub struct CountBar {
     display: Display,
     state: Arc<Mutex<Counted>>,
 }
@@ -44,7 +44,9 @@ impl Counted {
 }
 
 impl CountBar {
-    pub(super) fn new(what: &str, all: usize, done: usize, quiet: bool) -> Self {
+    /// A bar for so many things, of which some are done.
+    #[must_use]
+    pub fn new(what: &str, all: usize, done: usize, quiet: bool) -> Self {
         let (all, done) = (all as u64, done as u64);
         let (what, doing, begin) = (what.to_owned(), String::new(), Instant::now());
         let state = Arc::new(Mutex::new(Counted { what, doing, all, done, usual: 0, before: done, begin }));
@@ -75,17 +77,17 @@ impl CountBar {
     }
 
     /// Shows what is being done.
-    pub(super) fn say(&self, doing: &str) {
+    pub fn say(&self, doing: &str) {
         self.change(|state| doing.clone_into(&mut state.doing));
     }
 
     /// One more is done.
-    pub(super) fn step(&self) {
+    pub fn step(&self) {
         self.change(|state| state.done += 1);
     }
 
     /// Takes the bar off the screen.
-    pub(super) fn clear(&self) {
+    pub fn clear(&self) {
         self.display.clear();
     }
 }

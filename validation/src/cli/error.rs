@@ -6,7 +6,6 @@ use crate::case::ParameterError;
 use crate::compare::CompareError;
 use crate::evaluation::PlanError;
 use crate::judge::JudgeError;
-use crate::mutation::CopyError;
 use crate::output::{FileError, FolderError, reason};
 use crate::report::{BaselineError, EarlierError, ReportError};
 use crate::sweep::SweepError;
@@ -56,42 +55,6 @@ pub enum ProgramError {
     Cautions {
         /// Their number.
         count: usize,
-    },
-    /// Mutations without the sources that they change.
-    #[error("failed to find the sources that mutations change; work in a checkout of bagnold")]
-    NoSources,
-    /// The copy of the program with all mutations.
-    #[error(transparent)]
-    Copy(#[from] CopyError),
-    /// No mutation has this name.
-    #[error("`{name}` is not among the mutations; `bagnold dev mutate list` names them")]
-    UnknownError {
-        /// Requested name.
-        name: String,
-    },
-    /// A mutation that no test is named for.
-    #[error(
-        "mutation `{name}` names no test to run; give it `tests` in validation/tools/mutations.toml, or try it in a case: `bagnold dev mutate trial {name} CASE`"
-    )]
-    ErrorWithoutTests {
-        /// Its name.
-        name: String,
-    },
-    /// A test that fails without a mutation as well.
-    #[error("test {test} fails without an error as well: {reason}; mend it first")]
-    TestFails {
-        /// The test.
-        test: String,
-        /// Its message.
-        reason: String,
-    },
-    /// A case that does not even run without an error.
-    #[error("failed to run {case} without an error: {reason}; see `bagnold run {case}`")]
-    Trial {
-        /// Name of the case.
-        case: String,
-        /// Its message.
-        reason: String,
     },
     /// The committed baseline or list of known failures cannot be used.
     #[error("failed to {0}; correct the file or restore it from version control")]

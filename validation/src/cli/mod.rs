@@ -15,7 +15,6 @@ mod expectation;
 mod judge;
 mod logging;
 mod machine;
-mod mutate;
 mod new;
 mod panels;
 mod places;
@@ -24,7 +23,6 @@ mod progress;
 mod publication;
 mod report;
 mod run;
-mod sensitivities;
 mod setup;
 mod simulation;
 mod store;
@@ -36,13 +34,15 @@ mod terminal;
 mod tests;
 mod ticker;
 mod unchanged;
-mod verify;
 
-pub use arguments::{Arguments, Command};
+pub use arguments::{Arguments, Command, ExecutionOptions, ResourceLimits, Verbosity};
+pub use count::CountBar;
 pub use error::ProgramError;
 pub use exit::Exit;
 pub use new::error::NewError;
-pub use simulation::warn_of_fast;
+pub use simulation::{simulate_announced, warn_of_fast};
+pub use summary::of_case as table_of_case;
+pub use terminal::{say, tell};
 
 use crate::case::{Limits, ParameterError, Registry};
 use crate::checkpoint::{self, InterruptedRuns};
@@ -50,13 +50,14 @@ use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
 use crate::report::check_junit;
 use crate::store::{Store, StorePolicy};
-use arguments::{DevCommand, ExecutionOptions, ResourceLimits};
 use bagnold_solver::lanes::InstructionSet;
 use clap::Parser;
+use clap::error::{ContextKind, ContextValue};
 use std::ffi::OsString;
+use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
-use terminal::{StandardOutput, print, say, tell};
+use terminal::{StandardOutput, print};
 
 /// The program: reads its arguments, prints on standard output and error.
 #[must_use]
@@ -68,11 +69,19 @@ pub fn main() -> ExitCode {
 #[must_use]
 pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
     declare_build();
-    let arguments = match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => arguments,
-        Err(answer) => return answered(&answer),
-    };
-    logging::start(arguments.verbose, arguments.quiet);
+    match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => conduct(arguments.verbosity, |output| execute(&arguments, registry, output)),
+        Err(answer) => answered(&answer),
+    }
+}
+
+/// Acts with logging, signals and standard output as every command has them, and says why it ends where it fails.
+#[must_use]
+pub fn conduct<E: Display>(
+    verbosity: Verbosity,
+    act: impl FnOnce(&mut (dyn Write + Send)) -> Result<Exit, E>,
+) -> ExitCode {
+    logging::start(verbosity.verbose, verbosity.quiet);
     if let Err(error) = interruption::listen() {
         tracing::warn!("no signal is listened to ({error}): an interruption keeps what the last checkpoints hold");
     }
@@ -80,23 +89,32 @@ pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into
         tell("error: this program was built for processors with AVX2; build it on this machine, or with --release");
         return Exit::BadInput.into();
     }
-    match execute(&arguments, registry, &mut std::io::stdout()) {
-        Ok(exit) => exit.into(),
-        Err(error) => match interruption::asked() {
-            Some(signal) => {
-                tell(&interrupted(signal, &error));
-                ExitCode::from(signal.exit_code())
-            }
-            None => {
-                tell(&format!("error: {error}"));
-                Exit::BadInput.into()
-            }
-        },
+    let mut output = std::io::stdout();
+    let mut output = StandardOutput::new(&mut output);
+    let outcome = act(&mut output).map_err(|error| error.to_string());
+    let outcome = outcome.and_then(|exit| output.finish().map(|()| exit).map_err(|error| error.to_string()));
+    match (outcome, interruption::asked()) {
+        (Ok(exit), _) => exit.into(),
+        (Err(error), Some(signal)) => {
+            tell(&interrupted(signal, &error));
+            ExitCode::from(signal.exit_code())
+        }
+        (Err(error), None) => {
+            tell(&format!("error: {error}"));
+            Exit::BadInput.into()
+        }
     }
 }
 
 /// Prints what the arguments ask for by themselves, such as `--help`, or why they are refused.
-fn answered(answer: &clap::Error) -> ExitCode {
+#[must_use]
+pub fn answered(answer: &clap::Error) -> ExitCode {
+    if answer.get(ContextKind::InvalidSubcommand) == Some(&ContextValue::String("dev".to_owned())) {
+        tell(
+            "error: `bagnold dev` is a separate program, bagnold-dev; in a checkout, run `cargo run -p bagnold-dev -- COMMAND`",
+        );
+        return Exit::BadInput.into();
+    }
     if answer.use_stderr() {
         // in colours on a terminal; arguments are the user's own
         let _: std::io::Result<()> = answer.print();
@@ -112,7 +130,7 @@ fn answered(answer: &clap::Error) -> ExitCode {
 }
 
 /// Message after a signal: the results that are kept, and how to resume.
-fn interrupted(signal: Signal, error: &ProgramError) -> String {
+fn interrupted(signal: Signal, error: &str) -> String {
     let InterruptedRuns { whole, lost } = checkpoint::kept_at_the_end();
     let runs = |count: usize| if count == 1 { "1 run".to_owned() } else { format!("{count} runs") };
     let mut text = format!("interrupted by {}: what is finished is kept", signal.name);
@@ -123,7 +141,7 @@ fn interrupted(signal: Signal, error: &ProgramError) -> String {
     if lost > 0 {
         text += &format!("\n{} could not be kept at this moment and will lose some time", runs(lost));
     }
-    if error.to_string() != ParameterError::Interrupted.to_string() {
+    if error != ParameterError::Interrupted.to_string() {
         text += &format!("\nerror: {error}");
     }
     text
@@ -138,20 +156,7 @@ pub fn execute(
     registry: Registry,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let mut output = StandardOutput::new(output);
-    let exit = act(arguments, registry, &mut output)?;
-    output.finish().map(|()| exit)
-}
-
-/// The error of a name that is neither a case nor a kind of file, with the kind that is meant.
-fn unknown_schema(name: &str, unknown: ParameterError) -> ParameterError {
-    match crate::input::nearest(name, ["study", "calibration", "sweep"]) {
-        Some(kind) => ParameterError::UnknownCase { file: None, name: name.to_owned(), nearest: Some(kind) },
-        None => unknown,
-    }
-}
-
-fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+    let quiet = arguments.verbosity.quiet;
     let junit = match &arguments.command {
         Command::Run(run) => run.junit.as_deref(),
         Command::Report(report) => report.junit.as_deref(),
@@ -167,89 +172,57 @@ fn act(arguments: &Arguments, registry: Registry, output: &mut (dyn Write + Send
             }
             Ok(Exit::Held)
         }
-        Command::Show(show) => {
-            match &show.picture {
-                Some(picture) => setup::draw(show, picture, registry, output)?,
-                None => say(output, &setup::show(show, registry)?),
-            }
-            Ok(Exit::Held)
-        }
-        Command::Schema(show) => {
-            // a case goes before the file of the same name
-            let schema = match (registry.find(&show.case), show.case.as_str()) {
-                (Err(_), "study") => crate::study::schema(),
-                (Err(_), "calibration") => crate::calibration::schema().clone(),
-                (Err(_), "sweep") => crate::sweep::schema().clone(),
-                (Ok(case), _) => case.schema(show.tier),
-                (Err(unknown), name) => return Err(unknown_schema(name, unknown).into()),
-            };
-            print(output, &format!("{schema:#}\n"));
-            Ok(Exit::Held)
-        }
-        Command::Run(command) => in_pool(&command.work, || match study::file(&command.target, registry) {
-            Some(file) => study::run(&file, command, registry, arguments.quiet, output),
-            None => run::run(command, registry, arguments.quiet, output),
+        Command::Show(command) => setup::show(command, registry, output),
+        Command::Schema(command) => setup::schema(command, registry, output),
+        Command::Run(command) => in_pool(command.work.threads, || match study::file(&command.target, registry) {
+            Some(file) => study::run(&file, command, registry, quiet, output),
+            None => run::run(command, registry, quiet, output),
         }),
         Command::Calibrate(command) => {
-            in_pool(&command.work, || calibrate::run(command, registry, arguments.quiet, output))
+            in_pool(command.work.threads, || calibrate::run(command, registry, quiet, output))
         }
         Command::Completions(command) => Ok(completions::completions(command, registry, output)),
         Command::Examples(command) => examples::examples(command, output),
         Command::New(command) => new::new(command, output),
         Command::Compare(command) => compare::compare(command, output),
-        Command::Judge(command) => in_pool(&command.work, || judge::judge(command, registry, arguments.quiet, output)),
-        Command::League(command) => {
-            in_pool(&command.work, || judge::league(command, registry, arguments.quiet, output))
-        }
-        Command::Export(command) => {
-            in_pool(&command.work, || judge::export(command, registry, arguments.quiet, output))
-        }
+        Command::Judge(command) => in_pool(command.work.threads, || judge::judge(command, registry, quiet, output)),
+        Command::League(command) => in_pool(command.work.threads, || judge::league(command, registry, quiet, output)),
+        Command::Export(command) => in_pool(command.work.threads, || judge::export(command, registry, quiet, output)),
         Command::Store(command) => store::store(command, output),
-        Command::Sweep(command) => in_pool(&command.work, || sweep::sweep(command, registry, arguments.quiet, output)),
-        Command::Dev(DevCommand::Verify(command)) => verify::verify(command, registry, output),
-        Command::Dev(DevCommand::Sensitivities(command)) => {
-            in_pool(&command.work, || sensitivities::sensitivities(command, registry, arguments.quiet, output))
-        }
-        Command::Dev(DevCommand::Controls(command)) => {
-            in_pool(&command.work, || mutate::controls::controls(command, registry, arguments.quiet, output))
-        }
-        Command::Dev(DevCommand::Mutate(command)) => mutate::mutate(command, registry, arguments.quiet, output),
-        Command::Report(command) => {
-            in_pool(&command.work, || report::report(command, registry, arguments.quiet, output))
-        }
+        Command::Sweep(command) => in_pool(command.work.threads, || sweep::sweep(command, registry, quiet, output)),
+        Command::Report(command) => in_pool(command.work.threads, || report::report(command, registry, quiet, output)),
     }
 }
 
-/// Runs a command inside a pool of the threads asked for.
-fn in_pool(
-    work: &ExecutionOptions,
-    command: impl FnOnce() -> Result<Exit, ProgramError> + Send,
-) -> Result<Exit, ProgramError> {
-    in_pool_of(work.threads, command)
-}
-
-/// Runs a command inside a pool of so many threads, or of one a core.
-fn in_pool_of(
+/// Calls inside a pool of so many threads, or of one a core.
+///
+/// # Errors
+/// Threads that cannot be started, and the errors of the call.
+pub fn in_pool<T: Send, E: From<ParameterError> + Send>(
     threads: Option<u16>,
-    command: impl FnOnce() -> Result<Exit, ProgramError> + Send,
-) -> Result<Exit, ProgramError> {
+    act: impl FnOnce() -> Result<T, E> + Send,
+) -> Result<T, E> {
     // For rayon, 0 threads means all cores.
     let threads = usize::from(threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .map_err(|error| ParameterError::Threads { threads, reason: error.to_string() })?;
-    pool.install(command)
+    pool.install(act)
 }
 
 impl ResourceLimits {
-    fn limits(&self) -> Limits {
+    /// The limits that the options give.
+    #[must_use]
+    pub fn limits(&self) -> Limits {
         Limits::of(self.most_memory, self.most_hours)
     }
 }
 
 impl ExecutionOptions {
-    fn open_store(&self) -> Store {
+    /// The folder of stored results that the options name.
+    #[must_use]
+    pub fn open_store(&self) -> Store {
         self.store_for(if self.fresh { StorePolicy::Refresh } else { StorePolicy::Use })
     }
 

@@ -1,23 +1,49 @@
-//! `bagnold show FILE.toml --picture setup.png`: a scene as it starts, drawn without a simulation.
+//! `bagnold show` and `bagnold schema`: parameters of a case, their schema, and a scene as it starts, without a simulation.
 
-use super::arguments::ShowArguments;
+use super::Exit;
+use super::arguments::{SchemaArguments, ShowArguments};
 use super::error::ProgramError;
-use super::terminal::say;
+use super::terminal::{print, say};
 use crate::case::{ParameterError, Registry, Request, Tier};
 use crate::figure::{FigureError, FigureFormat, render};
+use crate::input::nearest;
 use crate::output::{FileError, write_whole};
 use std::io::Write;
 use std::path::Path;
 
-/// The parameters of a case as a file, or a file and settings with all that they leave out.
-///
-/// # Errors
-/// An unknown case, or parameters that the case refuses.
-pub(super) fn show(show: &ShowArguments, registry: Registry) -> Result<String, ParameterError> {
-    match registry.find(&show.case) {
-        Ok(case) if show.settings.is_empty() => Ok(case.show(show.tier.unwrap_or(Tier::Quick))),
-        _ => Ok(request(show).prepare(registry)?.prepared.parameters_toml().to_owned()),
+/// Prints the parameters of a case as a file, or a file and settings with all that they leave out; or draws a scene.
+pub(super) fn show(
+    show: &ShowArguments,
+    registry: Registry,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
+    match (&show.picture, registry.find(&show.case)) {
+        (Some(picture), _) => draw(show, picture, registry, output)?,
+        (None, Ok(case)) if show.settings.is_empty() => say(output, &case.show(show.tier.unwrap_or(Tier::Quick))),
+        (None, _) => say(output, request(show).prepare(registry)?.prepared.parameters_toml()),
     }
+    Ok(Exit::Held)
+}
+
+/// Prints the schema of a case or a kind of file; a case goes before the file of the same name.
+pub(super) fn schema(
+    show: &SchemaArguments,
+    registry: Registry,
+    output: &mut (dyn Write + Send),
+) -> Result<Exit, ProgramError> {
+    let schema = match (registry.find(&show.case), show.case.as_str()) {
+        (Ok(case), _) => case.schema(show.tier),
+        (Err(_), "study") => crate::study::schema(),
+        (Err(_), "calibration") => crate::calibration::schema().clone(),
+        (Err(_), "sweep") => crate::sweep::schema().clone(),
+        (Err(unknown), name) => {
+            let kind = nearest(name, ["study", "calibration", "sweep"]);
+            let meant = |kind| ParameterError::UnknownCase { file: None, name: name.to_owned(), nearest: Some(kind) };
+            return Err(kind.map_or(unknown, meant).into());
+        }
+    };
+    print(output, &format!("{schema:#}\n"));
+    Ok(Exit::Held)
 }
 
 fn request(show: &ShowArguments) -> Request<'_> {
@@ -25,10 +51,7 @@ fn request(show: &ShowArguments) -> Request<'_> {
 }
 
 /// Draws what the runs of a case start from into a file of that name.
-///
-/// # Errors
-/// Parameters that the case refuses, a case that draws nothing, a file of another kind, or one that cannot be written.
-pub(super) fn draw(
+fn draw(
     show: &ShowArguments,
     picture: &Path,
     registry: Registry,

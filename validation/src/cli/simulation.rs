@@ -82,6 +82,20 @@ pub(super) fn simulate(
     simulate_showing(cases, store, quiet, None, expectation)
 }
 
+/// Says what the runs of a command are expected to need, and simulates them with a progress bar.
+///
+/// # Errors
+/// A scene that turns out impossible, or an interruption.
+pub fn simulate_announced(
+    command: &'static str,
+    cases: Vec<Box<dyn PreparedCase>>,
+    store: &Store,
+    quiet: bool,
+) -> Result<Vec<CaseResult>, ParameterError> {
+    let expectation = announce(command, &cases, store, quiet);
+    simulate(cases, store, quiet, Some(&expectation))
+}
+
 /// Simulates with a progress bar, and shows states on the way.
 pub(super) fn simulate_showing(
     cases: Vec<Box<dyn PreparedCase>>,

@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 /// A case's metrics, one per line, what went wrong in its runs, and what is predicted.
-pub(super) fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
+pub fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
     let table = table(result.metrics.iter().map(|metric| row(metric, is_known(metric))).collect());
     let is_sound = result.runs.iter().all(|run| !matches!(run.outcome, Outcome::Diverged { .. }));
     heading(result) + &table + &if is_sound { predictions(&result.metrics) } else { String::new() }

@@ -26,7 +26,7 @@ pub(super) fn sweep(
             say(output, slurm::TEMPLATE);
             Ok(Exit::Held)
         }
-        (Some(SweepAction::Task { folder, entry, work }), _) => super::in_pool(work, || {
+        (Some(SweepAction::Task { folder, entry, work }), _) => super::in_pool(work.threads, || {
             let sweep = SweepFolder::open(folder)?;
             let record = run_entry(&sweep, sweep.manifest().entry(*entry)?, registry, &work.open_store())?;
             Ok(if record.failure.is_some() { Exit::Diverged } else { Exit::Held })

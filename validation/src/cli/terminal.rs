@@ -26,7 +26,7 @@ pub(super) static BARS: LazyLock<MultiProgress> = LazyLock::new(|| {
 const BARS_HERTZ: u8 = 20;
 
 /// Says something on standard error, a line or more, and escapes what would control a terminal.
-pub(super) fn tell(text: &str) {
+pub fn tell(text: &str) {
     tell_raw(format!("{}\n", escaped_lines(text)).as_bytes());
 }
 
@@ -134,7 +134,7 @@ impl Write for StandardOutput<'_> {
 }
 
 /// Prints, and escapes what would control a terminal.
-pub(super) fn say(output: &mut (dyn Write + Send), text: &str) {
+pub fn say(output: &mut (dyn Write + Send), text: &str) {
     print(output, &escaped_lines(text));
 }
 

@@ -1,10 +1,9 @@
-//! Tools for any case: calibrations, sweeps, judging of external codes and their league, comparisons of folders, mutations.
+//! Tools for any case: calibrations, sweeps, judging of external codes and their league, comparisons of folders.
 
 pub mod calibration;
 pub mod compare;
 pub mod judge;
 pub mod league;
-pub mod mutation;
 pub mod sweep;
 
 use bagnold_figure as figure;

@@ -2,9 +2,9 @@
 //! physics is.
 //!
 //! The controls of a case stand in `controls/CASE.toml`, those of a canonical study in its own file. Each is a change of
-//! parameters, which a report runs beside the case, or an error of the solver (`bagnold dev mutate list`); what became of the
+//! parameters, which a report runs beside the case, or an error of the solver (`bagnold-dev mutate list`); what became of the
 //! latter, and of changes that are too dear for a report, stands in the committed tables `controls/tried/CASE.csv` that
-//! `bagnold dev controls` renews. A control of a canonical study is dear if the study's table has it.
+//! `bagnold-dev controls` renews. A control of a canonical study is dear if the study's table has it.
 
 mod reading;
 mod series;
@@ -84,7 +84,7 @@ impl Control {
                 let set: String = set.iter().map(|change| format!(" --set '{change}'")).collect();
                 format!("bagnold run {case}{only}{set}")
             }
-            ControlKind::Solver(error) => format!("bagnold dev mutate trial {error} {case}"),
+            ControlKind::Solver(error) => format!("cargo run -p bagnold-dev -- mutate trial {error} {case}"),
         }
     }
 }

@@ -13,7 +13,7 @@ pub enum PlanError {
     #[error(transparent)]
     File(#[from] FileError),
     /// It is not TOML, or not one of its command.
-    #[error("{}: line {line}, column {column}: {message}; `bagnold {command} --help` shows a plan", shown(.file))]
+    #[error("{}: line {line}, column {column}: {message}; `{command} --help` shows a plan", shown(.file))]
     Syntax {
         /// The file.
         file: PathBuf,

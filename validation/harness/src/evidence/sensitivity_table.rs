@@ -1,4 +1,4 @@
-//! Results of a case at both ends of the ranges of its inputs, `validation/harness/sensitivities/CASE.csv`, which `bagnold dev sensitivities CASE`
+//! Results of a case at both ends of the ranges of its inputs, `validation/harness/sensitivities/CASE.csv`, which `bagnold-dev sensitivities CASE`
 //! computes.
 
 use crate::metric::Variant;
@@ -73,7 +73,7 @@ pub fn sensitivity_table(case: &str) -> &'static [SensitivityRow] {
 pub fn sensitivity_text(case: &str, rows: &[SensitivityRow]) -> Result<String, csv::Error> {
     let head = format!(
         "# Comparisons of {case} with each input at both ends of its range (reference-data/{case}/uncertainty.toml), quick tier.\n\
-         # bagnold dev sensitivities {case} --out validation/harness/sensitivities/{case}.csv\n"
+         # cargo run -p bagnold-dev -- sensitivities {case} --out validation/harness/sensitivities/{case}.csv\n"
     );
     let mut writer = csv::Writer::from_writer(Vec::new());
     rows.iter().try_for_each(|row| writer.serialize(row))?;
@@ -115,7 +115,7 @@ mod tests {
             let spacings = stated.spacings.iter().map(|spacing| (spacing.name.as_str(), RangeEnd::Refined));
             let mut expected: Vec<(&str, RangeEnd)> = ranges.chain(spacings).chain([("", RangeEnd::Own)]).collect();
             expected.sort_unstable();
-            assert_eq!(named, expected, "{case}: run `bagnold dev sensitivities {case}` again");
+            assert_eq!(named, expected, "{case}: run `cargo run -p bagnold-dev -- sensitivities {case}` again");
         }
     }
 }

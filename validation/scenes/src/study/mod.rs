@@ -83,7 +83,7 @@ impl Study {
 
     /// The study of a file with this text, and of the files that it names.
     fn parse(file: &Path, text: &str) -> Result<Self, PlanError> {
-        let text: StudyText = parse_plan(file, text, "run")?;
+        let text: StudyText = parse_plan(file, text, "bagnold run")?;
         let in_file = |error: FieldError| error.in_file(file);
         text.check().map_err(in_file)?;
         let beside = file.parent().unwrap_or(Path::new(""));

@@ -18,7 +18,7 @@ impl CalibrationPlan {
     /// A file that cannot be read or typed, ranges that break a rule, a case or a path that does not exist, a run that is
     /// in both fit and hold-out.
     pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, CalibrationError> {
-        let text: CalibrationText = read_plan(file, "calibrate")?;
+        let text: CalibrationText = read_plan(file, "bagnold calibrate")?;
         let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
         plan.check_cases(registry)?;
         plan.check_data()?;

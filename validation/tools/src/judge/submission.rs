@@ -134,7 +134,7 @@ impl Submission {
     /// # Errors
     /// A file that cannot be read, is not TOML, or lacks something.
     pub fn read(path: &Path) -> Result<Self, PlanError> {
-        let submission: Self = read_plan(path, "judge")?;
+        let submission: Self = read_plan(path, "bagnold judge")?;
         submission.check().map_err(|error| error.in_file(path))?;
         let fields = submission.parameters(path)?;
         Ok(Self { path: path.to_owned(), with: fields, ..submission })

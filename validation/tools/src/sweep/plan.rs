@@ -114,7 +114,7 @@ impl SweepPlan {
     /// # Errors
     /// A file that cannot be read or typed, or ranges that break a rule.
     pub fn read(file: &Path) -> Result<Self, SweepError> {
-        let plan = Self { file: file.to_owned(), text: read_plan(file, "sweep")? };
+        let plan = Self { file: file.to_owned(), text: read_plan(file, "bagnold sweep")? };
         plan.check().map_err(|error| error.in_file(file))?;
         Ok(plan)
     }

@@ -39,7 +39,7 @@ pub struct Element {
     pub implemented: Option<String>,
     /// Tests that hold it.
     pub tests: Vec<TestName>,
-    /// Error that makes one of the tests fail, where nothing else shows the element (`bagnold dev mutate --tests`).
+    /// Error that makes one of the tests fail, where nothing else shows the element (`bagnold-dev mutate --tests`).
     pub control: Option<String>,
     /// Metrics that show it.
     pub metrics: Vec<MetricName>,

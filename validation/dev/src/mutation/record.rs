@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// File of the mutations, from the root of a checkout.
-pub const FILE: &str = "validation/tools/mutations.toml";
+pub const FILE: &str = "validation/dev/mutations.toml";
 
 /// An error that a programmer could make.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -78,7 +78,7 @@ impl Mutations {
     /// A file that cannot be read or typed, or two of the same name.
     pub fn read(workspace: &Path) -> Result<Self, PlanError> {
         let file = workspace.join(FILE);
-        let all: Self = read_plan(&file, "dev mutate")?;
+        let all: Self = read_plan(&file, "bagnold-dev mutate")?;
         let mut names = BTreeSet::new();
         if let Some(twin) = all.list.iter().find(|mutation| !names.insert(&mutation.name)) {
             let error = FieldError::new("mutation.name", &twin.name, "unique", "rename one of them");

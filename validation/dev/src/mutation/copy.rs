@@ -58,6 +58,9 @@ fn reach(number: usize) -> bool {
 }
 ";
 
+/// Command of cargo that builds the copy.
+pub(super) const BUILD: [&str; 3] = ["build", "--bin", "bagnold-dev"];
+
 /// The copy says nothing of what a mutation makes odd, such as a comparison that always holds.
 const NO_LINTS: &str = "#![allow(warnings, arithmetic_overflow, unconditional_panic, overflowing_literals)]\n";
 
@@ -96,7 +99,7 @@ pub enum CopyError {
 /// A text that does not stand once in its file, files that cannot be written, a copy that does not compile.
 pub fn build(workspace: &Path, mutations: &Mutations) -> Result<PathBuf, CopyError> {
     let copy = SourceCopy::renew(workspace, mutations)?;
-    copy.compile(&["build", "--bin", "bagnold"])?.whole(&copy)?;
+    copy.compile(&BUILD)?.whole(&copy)?;
     Ok(copy.program())
 }
 
@@ -223,7 +226,7 @@ impl SourceCopy {
     }
 
     pub(super) fn program(&self) -> PathBuf {
-        self.target.join("debug").join(format!("bagnold{}", std::env::consts::EXE_SUFFIX))
+        self.target.join("debug").join(format!("bagnold-dev{}", std::env::consts::EXE_SUFFIX))
     }
 
     pub(super) fn compile(&self, arguments: &[&str]) -> Result<Compilation, CopyError> {

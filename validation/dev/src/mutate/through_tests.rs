@@ -2,9 +2,9 @@
 
 use super::program::Program;
 use super::{PATIENCE, try_all};
-use crate::cli::error::ProgramError;
-use crate::cli::tell;
+use crate::error::DevError;
 use crate::mutation::{Detection, Mutation, MutationOutcome, Mutations, TestProgram, TestTarget, build_tests};
+use bagnold_validation::cli::tell;
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -16,12 +16,12 @@ pub(super) fn findings(
     program: &Program,
     workspace: &Path,
     quiet: bool,
-) -> Result<Vec<MutationOutcome>, ProgramError> {
+) -> Result<Vec<MutationOutcome>, DevError> {
     if errors.is_empty() {
         return Ok(Vec::new());
     }
     if let Some(error) = errors.iter().find(|error| error.tests.is_empty()) {
-        return Err(ProgramError::ErrorWithoutTests { name: error.name.clone() });
+        return Err(DevError::ErrorWithoutTests { name: error.name.clone() });
     }
     let named = errors.iter().flat_map(|error| &error.tests);
     let targets: BTreeSet<TestTarget> = named.filter_map(|test| TestTarget::of(test)).collect();
@@ -32,7 +32,7 @@ pub(super) fn findings(
     let right = |test: &String| {
         let started = Instant::now();
         let outcome = run(program, &programs, test, 0, Duration::MAX);
-        outcome.map_err(|reason| ProgramError::TestFails { test: test.clone(), reason })?;
+        outcome.map_err(|reason| DevError::TestFails { test: test.clone(), reason })?;
         Ok(started.elapsed())
     };
     let wrong = |error: &Mutation, right: &[(&String, &Duration)]| {

@@ -1,6 +1,6 @@
 //! A random draw of mutations by rule, of those that compile, and what has been found of it so far.
 
-use super::copy::{CopyError, SourceCopy, beginning};
+use super::copy::{BUILD, CopyError, SourceCopy, beginning};
 use super::generator::{Candidate, candidates};
 use super::record::{Mutation, Mutations};
 use super::{MutantRun, MutationOutcome};
@@ -88,7 +88,7 @@ impl Draw {
             let copy = SourceCopy::renew(workspace, &Mutations::of(list.clone()))?;
             let mut compilation = copy.compile(&["check", "-p", "bagnold-solver"])?;
             if compilation.errors().next().is_none() {
-                compilation = copy.compile(&["build", "--bin", "bagnold"])?;
+                compilation = copy.compile(&BUILD)?;
             }
             let wrong = culprits(&copy.tree, &list, compilation.errors());
             if wrong.is_empty() {

@@ -1,6 +1,6 @@
 //! The copy of the program, run again for each trial: an error may stop the program that has it.
 
-use crate::cli::error::ProgramError;
+use crate::error::DevError;
 use crate::interruption;
 use crate::mutation::{CHOICE, MutantRun, Mutation, MutationOutcome, Scope, TestProgram, judge};
 use crate::output::FileError;
@@ -18,7 +18,7 @@ pub(super) const NONE: &str = "none";
 /// The copy, asked to run a case with the mutation of a number, or to trace one into a file.
 pub(super) fn trial(program: &Path, choice: &str, scope: &Scope, threads: Option<u16>) -> Command {
     let mut command = Command::new(program);
-    command.env(CHOICE, choice).args(["--quiet", "dev", "mutate", "trial", NONE, &scope.case]);
+    command.env(CHOICE, choice).args(["--quiet", "mutate", "trial", NONE, &scope.case]);
     for setting in &scope.settings {
         command.args(["--set", setting]);
     }
@@ -59,13 +59,13 @@ fn ended(command: &mut Command, limit: Duration, is_enough: impl Fn() -> bool) -
 }
 
 /// A copy, and where its trials leave what they found.
-pub(super) struct Program {
+pub(crate) struct Program {
     path: PathBuf,
     folder: PathBuf,
 }
 
 impl Program {
-    pub(super) fn new(path: PathBuf, staging: &Path) -> Result<Self, ProgramError> {
+    pub(crate) fn new(path: PathBuf, staging: &Path) -> Result<Self, DevError> {
         let folder = staging.join("trials");
         std::fs::create_dir_all(&folder).map_err(|error| FileError::unwritable(&folder, &error))?;
         Ok(Self { path, folder })
@@ -100,7 +100,7 @@ impl Program {
     ///
     /// # Errors
     /// Reason for a missing result: the program stopped, or was stopped.
-    pub(super) fn run(&self, choice: &str, scope: &Scope, limit: Duration) -> Result<MutantRun, String> {
+    pub(crate) fn run(&self, choice: &str, scope: &Scope, limit: Duration) -> Result<MutantRun, String> {
         let name = Path::new(choice).file_name().unwrap_or_default().to_string_lossy().into_owned();
         let file = self.file(&format!("{name}-{}-result", scope.case));
         let threads = u16::try_from(rayon::current_num_threads()).ok();

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 const MOVED: f64 = 0.01;
 
 /// Baseline comparisons of the paper tier.
-const PAPER: &str = include_str!("../harness/snapshots/comparisons/paper.csv");
+const PAPER: &str = include_str!("../../harness/snapshots/comparisons/paper.csv");
 
 /// Names of all cases that state ranges.
 fn stating() -> impl Iterator<Item = (&'static str, &'static StatedUncertainty)> {
@@ -64,7 +64,11 @@ fn tables_are_of_the_program() {
     for (case, stated) in stating() {
         let rows: Vec<&ValidatedComparison> = accepted.comparisons.iter().filter(|row| row.case == case).collect();
         let found = stale(case, stated, sensitivity_table(case), &rows);
-        assert!(found.is_empty(), "run `bagnold dev sensitivities {case}` again:\n{}", found.join("\n"));
+        assert!(
+            found.is_empty(),
+            "run `cargo run -p bagnold-dev -- sensitivities {case}` again:\n{}",
+            found.join("\n")
+        );
     }
 }
 

@@ -1,30 +1,28 @@
-//! `bagnold dev controls`: tries the controls that a report does not run, errors of the solver and dear inputs, and renews the
+//! `bagnold-dev controls`: tries the controls that a report does not run, errors of the solver and dear inputs, and renews the
 //! committed tables of what became of them.
 
-use super::program::Program;
-use super::{PATIENCE, named, sources};
+use crate::arguments::ControlsArguments;
 use crate::case::{CaseResult, Registry, Request, Tier, share_out_for};
-use crate::cli::arguments::ControlsArguments;
-use crate::cli::count::CountBar;
-use crate::cli::error::ProgramError;
-use crate::cli::{Exit, say, simulation, tell};
 use crate::control::{Control, ControlKind, ControlTrial, Found, TriedControls};
+use crate::error::DevError;
 use crate::evidence::PAPERS;
 use crate::metric::{Metric, Verdict};
+use crate::mutate::{PATIENCE, Program, named, sources};
 use crate::mutation::{Mutations, Scope, build};
 use crate::output::{FileError, write_whole};
 use crate::store::Store;
+use bagnold_validation::cli::{CountBar, Exit, say, simulate_announced, tell};
 use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
 /// Tries the controls of the cases asked for and writes, or compares, their tables.
-pub(in crate::cli) fn controls(
+pub(crate) fn controls(
     command: &ControlsArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+) -> Result<Exit, DevError> {
     let workspace = sources()?;
     let cases: Vec<&str> = if command.cases.is_empty() {
         registry.iter().map(|case| case.name()).collect()
@@ -54,7 +52,7 @@ pub(in crate::cli) fn controls(
             continue;
         }
         let path = workspace.join("validation/harness/controls").join(TriedControls::file(name));
-        let unwritable = |error: std::io::Error| ProgramError::from(FileError::unwritable(&path, &error));
+        let unwritable = |error: std::io::Error| DevError::from(FileError::unwritable(&path, &error));
         let text = table.text().map_err(|error| unwritable(std::io::Error::other(error)))?;
         std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).map_err(unwritable)?;
         write_whole(&path, text.as_bytes()).map_err(unwritable)?;
@@ -70,23 +68,23 @@ fn of_solver(
     program: &Program,
     mutations: &Mutations,
     quiet: bool,
-) -> Result<Vec<ControlTrial>, ProgramError> {
+) -> Result<Vec<ControlTrial>, DevError> {
     let errors = controls.iter().filter_map(|control| match &control.kind {
         ControlKind::Solver(error) => Some((control, error)),
         ControlKind::Input { .. } => None,
     });
     let errors: Vec<(&Control, usize)> = errors
         .map(|(control, error)| Ok((control, mutations.number(named(mutations, error)?))))
-        .collect::<Result<_, ProgramError>>()?;
+        .collect::<Result<_, DevError>>()?;
     if errors.is_empty() {
         return Ok(Vec::new());
     }
     let scope: Scope = mutations.scope(case);
     let right = program.run("0", &scope, Duration::MAX);
-    let right = right.map_err(|reason| ProgramError::Trial { case: case.to_owned(), reason })?;
+    let right = right.map_err(|reason| DevError::Trial { case: case.to_owned(), reason })?;
     let limit = Duration::from_secs_f64(10.0 * right.wall_seconds + PATIENCE);
     let bar = CountBar::new("controls", errors.len(), 0, quiet);
-    let trials = share_out_for(errors, |(control, number): (&Control, usize)| -> Result<_, ProgramError> {
+    let trials = share_out_for(errors, |(control, number): (&Control, usize)| -> Result<_, DevError> {
         bar.say(&control.name);
         // a program that stops has noticed, but its gates have not
         let wrong = program.run(&number.to_string(), &scope, limit).ok();
@@ -112,7 +110,7 @@ fn of_inputs(
     registry: Registry,
     store: &Store,
     quiet: bool,
-) -> Result<Vec<ControlTrial>, ProgramError> {
+) -> Result<Vec<ControlTrial>, DevError> {
     let mut requests = vec![Request { target: case, tier: Some(Tier::Quick), ..Request::default() }];
     let mut dear: Vec<&Control> = Vec::new();
     for control in controls {
@@ -125,7 +123,7 @@ fn of_inputs(
         return Ok(Vec::new());
     }
     let prepared = requests.iter().map(|request| Ok(request.prepare(registry)?.prepared));
-    let results = simulation::simulate(prepared.collect::<Result<_, ProgramError>>()?, store, quiet, None)?;
+    let results = simulate_announced("controls", prepared.collect::<Result<_, DevError>>()?, store, quiet)?;
     let [right, wrong @ ..] = &results[..] else { return Ok(Vec::new()) };
     let trial = |(control, wrong): (&&Control, &CaseResult)| {
         let mut trial = wrong.trial((*control).clone(), right);

@@ -1,23 +1,23 @@
-//! `bagnold dev verify`: short runs of every case end in the committed bits, on 1, 2 and 3 threads.
+//! `bagnold-dev verify`: short runs of every case end in the committed bits, on 1, 2 and 3 threads.
 
-use super::arguments::VerifyArguments;
-use super::error::ProgramError;
-use super::{Exit, in_pool_of, say};
+use crate::arguments::VerifyArguments;
 use crate::case::{Changes, ParameterError, Registry, Silent, Tier, execute};
+use crate::error::DevError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, write_whole};
 use crate::store::{Store, StorePolicy};
+use bagnold_validation::cli::{Exit, in_pool, say};
 use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::Path;
 
 /// The committed list.
-const SHORT_RUNS: &str = include_str!("../../verify/short_runs.toml");
+const SHORT_RUNS: &str = include_str!("../short_runs.toml");
 
 const THREADS: [u16; 3] = [1, 2, 3];
 
-const HEADER: &str = "# What `bagnold dev verify` runs: every case at the quick tier, cut short by its settings, and the hash of its final states.\n\
-    # `bagnold dev verify --write validation/verify/short_runs.toml` writes the hashes anew, where bits are meant to change.\n\n";
+const HEADER: &str = "# What `bagnold-dev verify` runs: every case at the quick tier, cut short by its settings, and the hash of its final states.\n\
+    # `cargo run -p bagnold-dev -- verify --write validation/dev/short_runs.toml` writes the hashes anew, where bits are meant to change.\n\n";
 
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -34,18 +34,18 @@ struct ShortRun {
 }
 
 /// Runs the list and compares, or writes it anew.
-pub(super) fn verify(
+pub(crate) fn verify(
     command: &VerifyArguments,
     registry: Registry,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+) -> Result<Exit, DevError> {
     let mut list = read(command.file.as_deref())?;
     let mut differing = Vec::new();
     for run in &mut list.runs {
         let hashes = THREADS
             .into_iter()
             .map(|threads| Ok((threads, state_hash(run, registry, threads)?)))
-            .collect::<Result<Vec<(u16, String)>, ProgramError>>()?;
+            .collect::<Result<Vec<(u16, String)>, DevError>>()?;
         let expected = if command.write.is_some() { hashes[0].1.clone() } else { run.state_hash.clone() };
         let wrong: Vec<String> = hashes
             .iter()
@@ -82,7 +82,7 @@ fn brief(hash: &str) -> &str {
     hash.get(..16).unwrap_or(hash)
 }
 
-fn read(file: Option<&Path>) -> Result<ShortRuns, ProgramError> {
+fn read(file: Option<&Path>) -> Result<ShortRuns, DevError> {
     let path = file.unwrap_or_else(|| Path::new("short_runs.toml"));
     let text = match file {
         Some(file) => read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?,
@@ -101,16 +101,13 @@ fn read(file: Option<&Path>) -> Result<ShortRuns, ProgramError> {
 }
 
 /// The hash over the final states of a short run, simulated on so many threads.
-fn state_hash(run: &ShortRun, registry: Registry, threads: u16) -> Result<String, ProgramError> {
+fn state_hash(run: &ShortRun, registry: Registry, threads: u16) -> Result<String, DevError> {
     let changes = Changes { settings: &run.settings, ..Changes::default() };
-    let mut hash = String::new();
-    in_pool_of(Some(threads), || {
+    in_pool(Some(threads), || {
         let prepared = registry.find(&run.case)?.prepare(Tier::Quick, &changes)?;
         let results = execute(vec![prepared], &Store::open(StorePolicy::Bypass), &Silent)?;
-        hash = results.into_iter().map(|result| result.state_hash).collect();
-        Ok(Exit::Held)
-    })?;
-    Ok(hash)
+        Ok(results.into_iter().map(|result| result.state_hash).collect())
+    })
 }
 
 #[cfg(test)]

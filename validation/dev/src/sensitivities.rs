@@ -1,22 +1,21 @@
-//! `bagnold dev sensitivities`: a case with each input at both ends of its stated range.
+//! `bagnold-dev sensitivities`: a case with each input at both ends of its stated range.
 
-use super::arguments::SensitivitiesArguments;
-use super::error::ProgramError;
-use super::simulation::{announce, simulate};
-use super::{Exit, say};
+use crate::arguments::SensitivitiesArguments;
 use crate::case::{ParameterError, Registry};
+use crate::error::DevError;
 use crate::evaluation::SensitivityPlan;
 use crate::evidence::sensitivity_text;
 use crate::output::{FileError, write_whole};
+use bagnold_validation::cli::{Exit, say, simulate_announced};
 use std::io::Write;
 
 /// Simulates and writes the table.
-pub(super) fn sensitivities(
+pub(crate) fn sensitivities(
     command: &SensitivitiesArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+) -> Result<Exit, DevError> {
     let case = registry.find(&command.case)?;
     let plan = SensitivityPlan::of(case.name());
     if plan.is_empty() {
@@ -24,9 +23,7 @@ pub(super) fn sensitivities(
         return Err(ParameterError::field("CASE", case.name(), "a case with stated ranges", &remedy).into());
     }
     let prepared = plan.prepare(case, command.allowance.limits())?;
-    let store = command.work.open_store();
-    let expectation = announce("sensitivities", &prepared, &store, quiet);
-    let results = simulate(prepared, &store, quiet, Some(&expectation))?;
+    let results = simulate_announced("sensitivities", prepared, &command.work.open_store(), quiet)?;
     let rows = plan.rows(&results);
     let text = sensitivity_text(case.name(), &rows)
         .map_err(|error| FileError::unwritable(&command.out, &std::io::Error::other(error)))?;

@@ -1,25 +1,35 @@
-//! Arguments of `store`, and of the commands below `dev`, for the development of Bagnold itself.
+//! Command-line arguments of `bagnold-dev`.
 
-use super::work::{ExecutionOptions, ResourceLimits, positive};
-use clap::{Args, Subcommand};
+use bagnold_validation::cli::{ExecutionOptions, ResourceLimits, Verbosity};
+use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
-const MUTATE_EXAMPLES: &str = "Examples:
-  bagnold dev mutate
-  bagnold dev mutate list                                the mutations and the cases that should kill them
-  bagnold dev mutate --errors von-karman,gravity-value   two of them
-  bagnold dev mutate trial von-karman clear-water        one case with one mutation
-  bagnold dev mutate drawn --count 100 --seed 1          100 random mutations of the solver
+const MUTATE_EXAMPLES: &str = "Examples, after `cargo build -p bagnold-dev` in target/debug:
+  bagnold-dev mutate
+  bagnold-dev mutate list                                the mutations and the cases that should kill them
+  bagnold-dev mutate --errors von-karman,gravity-value   two of them
+  bagnold-dev mutate trial von-karman clear-water        one case with one mutation
+  bagnold-dev mutate drawn --count 100 --seed 1          100 random mutations of the solver
 
 Requires a checkout: a copy of the program in target/mutations is built with the mutations of
-validation/tools/mutations.toml. A mutation is killed by a gate, by a run that stops, by the
+validation/dev/mutations.toml. A mutation is killed by a gate, by a run that stops, by the
 baseline values alone, or survives.
 
 Exit codes: 0 enough mutations are killed by gates, 1 too few, 2 bad input or no checkout.";
 
-/// `bagnold dev`
+/// Checks bits, gates and sensitivity tables of a checkout of Bagnold.
+#[derive(Debug, Parser)]
+#[command(name = "bagnold-dev", version, propagate_version = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: DevCommand,
+    #[command(flatten)]
+    pub(crate) verbosity: Verbosity,
+}
+
+/// The commands.
 #[derive(Debug, Subcommand)]
-pub enum DevCommand {
+pub(crate) enum DevCommand {
     /// Run every case briefly and compare the final states with the committed hashes.
     Verify(VerifyArguments),
     /// Run a case with each input at both ends of its range and write the table for input uncertainties.
@@ -30,110 +40,81 @@ pub enum DevCommand {
     Mutate(MutateArguments),
 }
 
-/// `bagnold dev verify`
+/// `bagnold-dev verify`
 #[derive(Debug, Args)]
 #[command(after_help = "Exit codes: 0 bitwise identical, 1 different, 2 bad input.")]
-pub struct VerifyArguments {
+pub(crate) struct VerifyArguments {
     /// List of short runs that replaces the committed one.
     #[arg(long, value_name = "FILE.toml")]
-    pub file: Option<PathBuf>,
+    pub(crate) file: Option<PathBuf>,
     /// Write the list with the hashes of this program.
     #[arg(long, value_name = "FILE.toml")]
-    pub write: Option<PathBuf>,
+    pub(crate) write: Option<PathBuf>,
 }
 
-/// `bagnold dev sensitivities`
+/// `bagnold-dev sensitivities`
 #[derive(Debug, Args)]
 #[command(
     after_help = "Ranges and sources are in reference-data/CASE/uncertainty.toml. Reports take input uncertainties from the tables in
 validation/harness/sensitivities, which are part of the program."
 )]
-pub struct SensitivitiesArguments {
+pub(crate) struct SensitivitiesArguments {
     /// Name of a case, see `bagnold list`.
     #[arg(value_name = "CASE")]
-    pub case: String,
+    pub(crate) case: String,
     /// File to write.
     #[arg(long, value_name = "FILE.csv")]
-    pub out: PathBuf,
+    pub(crate) out: PathBuf,
     /// Resource limits.
     #[command(flatten)]
-    pub allowance: ResourceLimits,
+    pub(crate) allowance: ResourceLimits,
     /// Execution options.
     #[command(flatten)]
-    pub work: ExecutionOptions,
+    pub(crate) work: ExecutionOptions,
 }
 
-/// `bagnold store`
-#[derive(Debug, Args)]
-pub struct StoreArguments {
-    /// Command.
-    #[command(subcommand)]
-    pub action: StoreAction,
-    /// Folder of stored results [default: $BAGNOLD_STORE, else reports/store of the checkout, else the
-    /// cache folder of the user].
-    #[arg(long, value_name = "DIR", global = true)]
-    pub store: Option<PathBuf>,
-}
-
-/// Action on stored results.
-#[derive(Debug, Clone, Copy, Subcommand)]
-pub enum StoreAction {
-    /// List stored results by program version: number, size, age.
-    List,
-    /// Delete entries, the oldest first.
-    #[command(group = clap::ArgGroup::new("limit").required(true).multiple(true))]
-    Prune {
-        /// Delete entries older than this.
-        #[arg(long, value_name = "DAYS", value_parser = positive, allow_negative_numbers = true, group = "limit")]
-        days: Option<f64>,
-        /// Delete the oldest entries until the total size falls below this.
-        #[arg(long, value_name = "GIB", value_parser = positive, allow_negative_numbers = true, group = "limit")]
-        size: Option<f64>,
-    },
-}
-
-/// `bagnold dev controls`
+/// `bagnold-dev controls`
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Requires a checkout: errors of the solver run in the copy that `bagnold dev mutate` builds. Controls are in
+    after_help = "Requires a checkout: errors of the solver run in the copy that `bagnold-dev mutate` builds. Controls are in
 validation/harness/controls/CASE.toml, their outcomes in validation/harness/controls/tried/CASE.csv; a report shows both.
 
 Exit codes: 0 written or unchanged, 1 different from the tables, 2 bad input or no checkout."
 )]
-pub struct ControlsArguments {
+pub(crate) struct ControlsArguments {
     /// Comma-separated names of cases [default: all].
     #[arg(long, value_name = "CASE,…", value_delimiter = ',')]
-    pub cases: Vec<String>,
+    pub(crate) cases: Vec<String>,
     /// Compare with the tables instead of writing them.
     #[arg(long)]
-    pub check: bool,
+    pub(crate) check: bool,
     /// Execution options.
     #[command(flatten)]
-    pub work: ExecutionOptions,
+    pub(crate) work: ExecutionOptions,
 }
 
-/// `bagnold dev mutate`
+/// `bagnold-dev mutate`
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, after_help = MUTATE_EXAMPLES)]
-pub struct MutateArguments {
+pub(crate) struct MutateArguments {
     /// Another action.
     #[command(subcommand)]
-    pub action: Option<MutateAction>,
+    pub(crate) action: Option<MutateAction>,
     /// Comma-separated names of mutations [default: all].
     #[arg(long, value_name = "ERROR,…", value_delimiter = ',')]
-    pub errors: Vec<String>,
+    pub(crate) errors: Vec<String>,
     /// Only mutations generated by rule, each of which a gate must kill.
     #[arg(long, conflicts_with = "errors")]
-    pub generated: bool,
+    pub(crate) generated: bool,
     /// Only mutations that tests must kill: one for each statement of a paper that rests on tests alone.
     #[arg(long, conflicts_with = "generated")]
-    pub tests: bool,
+    pub(crate) tests: bool,
     /// Folder to write.
     #[arg(long, value_name = "DIR", default_value = "reports/mutation")]
-    pub out: PathBuf,
+    pub(crate) out: PathBuf,
     /// Threads to use [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    pub(crate) threads: Option<u16>,
 }
 
 const DRAWN_HELP: &str =
@@ -146,25 +127,25 @@ continues; findings are stored in target/mutations, by seed and sources.
 
 Exit codes: 0 all mutations were run, 2 bad input or no checkout.";
 
-/// `bagnold dev mutate drawn`
+/// `bagnold-dev mutate drawn`
 #[derive(Debug, Args)]
 #[command(after_help = DRAWN_HELP)]
-pub struct DrawnArguments {
+pub(crate) struct DrawnArguments {
     /// Number of mutations that compile and are reached.
     #[arg(long, value_name = "N", default_value = "100", value_parser = clap::value_parser!(u16).range(1..=10_000))]
-    pub count: u16,
+    pub(crate) count: u16,
     /// Seed of the draw, decimal or hexadecimal.
     #[arg(long, value_name = "SEED", default_value = "0x22b011ce", value_parser = seed)]
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// Run the tests of the solver with mutations that survive all gates.
     #[arg(long)]
-    pub tests: bool,
+    pub(crate) tests: bool,
     /// Folder to write.
     #[arg(long, value_name = "DIR", default_value = "reports/mutation-drawn")]
-    pub out: PathBuf,
+    pub(crate) out: PathBuf,
     /// Threads to use [default: all cores].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    pub(crate) threads: Option<u16>,
 }
 
 fn seed(text: &str) -> Result<u64, String> {
@@ -172,9 +153,9 @@ fn seed(text: &str) -> Result<u64, String> {
     number.map_err(|_| "must be an integer from 0 to 2^64 - 1, such as 1 or 0x22b011ce".to_owned())
 }
 
-/// Actions of `bagnold dev mutate` beside trying errors.
+/// Actions of `bagnold-dev mutate` beside trying errors.
 #[derive(Debug, Subcommand)]
-pub enum MutateAction {
+pub(crate) enum MutateAction {
     /// List the mutations and the cases that should kill them.
     List,
     /// Draw mutations by rule and run each through the quick-tier cases that reach it.
@@ -188,7 +169,7 @@ pub enum MutateAction {
         /// Change one parameter; may be repeated.
         #[arg(long = "set", value_name = "path=value")]
         settings: Vec<String>,
-        /// File to write what the case said to, as `bagnold dev mutate` reads it, instead of printing it.
+        /// File to write what the case said to, as `bagnold-dev mutate` reads it, instead of printing it.
         #[arg(long, value_name = "FILE", hide = true)]
         result: Option<PathBuf>,
         /// Threads to use [default: all cores].

@@ -1,16 +1,15 @@
-//! `bagnold dev mutate drawn`: draws mutations by rule, runs each through the cases that reach it, and estimates how many are killed.
+//! `bagnold-dev mutate drawn`: draws mutations by rule, runs each through the cases that reach it, and estimates how many are killed.
 
 use super::program::Program;
+use crate::arguments::DrawnArguments;
 use crate::case::{ParameterError, Registry, share_out, share_out_for};
-use crate::cli::arguments::upkeep::DrawnArguments;
-use crate::cli::error::ProgramError;
-use crate::cli::exit::Exit;
-use crate::cli::terminal::{say, tell};
+use crate::error::DevError;
 use crate::interruption;
 use crate::mutation::{
     Detection, Draw, DrawProgress, MutationOutcome, Scope, TestTarget, TracedCase, build_tests, drawn_line, drawn_page,
 };
 use crate::output::{FileError, OutputFolder};
+use bagnold_validation::cli::{Exit, say, tell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -34,7 +33,7 @@ pub(super) fn drawn(
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+) -> Result<Exit, DevError> {
     if command.out.starts_with("reports") {
         OutputFolder::adopt(Path::new("reports"))?;
     }
@@ -104,34 +103,30 @@ pub(super) fn drawn(
 }
 
 /// Every case at the quick tier without an error, and the places whose expressions it reaches.
-fn traced(
-    program: &Program,
-    places: &[usize],
-    registry: Registry,
-) -> Result<BTreeMap<String, TracedCase>, ProgramError> {
+fn traced(program: &Program, places: &[usize], registry: Registry) -> Result<BTreeMap<String, TracedCase>, DevError> {
     let cases = share_out_for(registry.iter().map(|case| case.name().to_owned()).collect(), |case: String| {
         let file = program.file(&format!("reached-{case}"));
         let scope = Scope { case, settings: Vec::new() };
         let right = program.run(&file.to_string_lossy(), &scope, Duration::MAX);
         going_on()?;
-        let right = right.map_err(|reason| ProgramError::Trial { case: scope.case.clone(), reason })?;
+        let right = right.map_err(|reason| DevError::Trial { case: scope.case.clone(), reason })?;
         let numbers = std::fs::read_to_string(&file).unwrap_or_default();
         let place = |line: &str| places.get(line.parse::<usize>().ok()?.checked_sub(1)?).copied();
         let reached: BTreeSet<usize> = numbers.lines().filter_map(place).collect();
-        Ok::<_, ProgramError>((scope.case, TracedCase { right, reached }))
+        Ok::<_, DevError>((scope.case, TracedCase { right, reached }))
     })?;
     Ok(cases.into_iter().collect())
 }
 
 /// # Errors
 /// A signal: what a trial that it ended says is no finding.
-pub(super) fn going_on() -> Result<(), ProgramError> {
+pub(super) fn going_on() -> Result<(), DevError> {
     interruption::asked().map_or(Ok(()), |_| Err(ParameterError::Interrupted.into()))
 }
 
 impl Trial<'_> {
     /// Keeps a finding and prints it.
-    fn keep(&self, place: usize, outcome: MutationOutcome) -> Result<(), ProgramError> {
+    fn keep(&self, place: usize, outcome: MutationOutcome) -> Result<(), DevError> {
         let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
         say(&mut **output, &format!("{}\n", drawn_line(&outcome)));
         let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
@@ -140,7 +135,7 @@ impl Trial<'_> {
     }
 
     /// Runs a mutation through the cases that reach it.
-    fn cases(&self, program: &Program, place: usize, number: usize) -> Result<(), ProgramError> {
+    fn cases(&self, program: &Program, place: usize, number: usize) -> Result<(), DevError> {
         let mutation = self.draw.mutation(place);
         let cases: Vec<_> = {
             let progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
@@ -162,7 +157,7 @@ impl Trial<'_> {
         program: &Program,
         places: Vec<usize>,
         number: &(impl Fn(usize) -> usize + Sync),
-    ) -> Result<(), ProgramError> {
+    ) -> Result<(), DevError> {
         if places.is_empty() {
             return Ok(());
         }

@@ -1,24 +1,22 @@
-//! `bagnold dev mutate`: builds a copy of the program with all mutations, runs it with one at a time, and says who noticed.
+//! `bagnold-dev mutate`: builds a copy of the program with all mutations, runs it with one at a time, and says who noticed.
 
-pub(super) mod controls;
 mod drawn;
 mod program;
 mod through_tests;
 
-use super::arguments::MutateArguments;
-use super::arguments::upkeep::MutateAction;
-use super::count::CountBar;
-use super::error::ProgramError;
-use super::{Exit, say, summary, tell};
+use crate::arguments::{MutateAction, MutateArguments};
 use crate::case::{Registry, share_out_for};
+use crate::error::DevError;
 use crate::mutation::{
     CHOICE, Detection, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, run_trial, table,
     write,
 };
 use crate::output::{FileError, OutputFolder};
 use crate::store::provenance::workspace;
+use bagnold_validation::cli::{CountBar, Exit, in_pool, say, table_of_case, tell};
 use drawn::going_on;
-use program::{NONE, Program, trial};
+pub(crate) use program::Program;
+use program::{NONE, trial};
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -26,15 +24,15 @@ use std::process::Stdio;
 use std::time::{Duration, Instant};
 
 /// Seconds that a case with an error may take beyond ten times its own.
-pub(super) const PATIENCE: f64 = 60.0;
+pub(crate) const PATIENCE: f64 = 60.0;
 
 /// Lists, tries one error, or tries all.
-pub(super) fn mutate(
+pub(crate) fn mutate(
     command: &MutateArguments,
     registry: Registry,
     quiet: bool,
     output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+) -> Result<Exit, DevError> {
     match &command.action {
         Some(MutateAction::List) => {
             let mutations = Mutations::read(&sources()?)?;
@@ -47,11 +45,11 @@ pub(super) fn mutate(
         // the copy itself is asked
         Some(MutateAction::Trial { case, settings, result, threads, .. }) if std::env::var_os(CHOICE).is_some() => {
             let scope = Scope { case: case.clone(), settings: settings.clone() };
-            super::in_pool_of(*threads, || {
+            in_pool(*threads, || {
                 let (results, sighting) = run_trial(&scope, registry)?;
                 match result {
                     Some(file) => sighting.write(file).map_err(|error| FileError::unwritable(file, &error))?,
-                    None => results.iter().for_each(|result| say(output, &summary::of_case(result, |_| false))),
+                    None => results.iter().for_each(|result| say(output, &table_of_case(result, |_| false))),
                 }
                 Ok(Exit::of(&results, |_, _| false))
             })
@@ -74,22 +72,22 @@ pub(super) fn mutate(
         }
         Some(MutateAction::Drawn(drawn)) => {
             let workspace = sources()?;
-            super::in_pool_of(drawn.threads, || drawn::drawn(drawn, &workspace, registry, quiet, output))
+            in_pool(drawn.threads, || drawn::drawn(drawn, &workspace, registry, quiet, output))
         }
-        None => super::in_pool_of(command.threads, || all(command, quiet, output)),
+        None => in_pool(command.threads, || all(command, quiet, output)),
     }
 }
 
-fn sources() -> Result<PathBuf, ProgramError> {
-    workspace().map(Path::to_owned).ok_or(ProgramError::NoSources)
+pub(crate) fn sources() -> Result<PathBuf, DevError> {
+    workspace().map(Path::to_owned).ok_or(DevError::NoSources)
 }
 
-fn named<'a>(mutations: &'a Mutations, name: &str) -> Result<&'a Mutation, ProgramError> {
-    mutations.find(name).ok_or_else(|| ProgramError::UnknownError { name: name.to_owned() })
+pub(crate) fn named<'a>(mutations: &'a Mutations, name: &str) -> Result<&'a Mutation, DevError> {
+    mutations.find(name).ok_or_else(|| DevError::UnknownError { name: name.to_owned() })
 }
 
 /// Tries the errors asked for, writes the findings and prints them.
-fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, DevError> {
     let workspace = sources()?;
     let mutations = Mutations::read(&workspace)?;
     let errors: Vec<&Mutation> = if command.errors.is_empty() {
@@ -134,10 +132,10 @@ fn findings(
     mutations: &Mutations,
     program: &Program,
     quiet: bool,
-) -> Result<Vec<MutationOutcome>, ProgramError> {
+) -> Result<Vec<MutationOutcome>, DevError> {
     let right = |scope: &Scope| {
         let sighting = program.run("0", scope, Duration::MAX);
-        sighting.map_err(|reason| ProgramError::Trial { case: scope.case.clone(), reason })
+        sighting.map_err(|reason| DevError::Trial { case: scope.case.clone(), reason })
     };
     let wrong = |error: &Mutation, right: &[(&Scope, &MutantRun)]| {
         let finding = program.try_error(error, mutations.number(error), right, PATIENCE);
@@ -159,10 +157,10 @@ fn try_all<W: Ord + Send + Sync, R: Send + Sync>(
     (what, quiet): (&str, bool),
     (witnesses, right, wrong): (
         impl Fn(&Mutation) -> Vec<W> + Sync,
-        impl Fn(&W) -> Result<R, ProgramError> + Sync,
+        impl Fn(&W) -> Result<R, DevError> + Sync,
         impl Fn(&Mutation, &[(&W, &R)]) -> MutationOutcome + Sync,
     ),
-) -> Result<Vec<MutationOutcome>, ProgramError> {
+) -> Result<Vec<MutationOutcome>, DevError> {
     let all: BTreeSet<W> = errors.iter().flat_map(|error| witnesses(error)).collect();
     let bar = CountBar::new(what, all.len() + errors.len(), 0, quiet);
     let said = share_out_for(Vec::from_iter(all), |witness: W| {
@@ -170,7 +168,7 @@ fn try_all<W: Ord + Send + Sync, R: Send + Sync>(
         let said = right(&witness);
         going_on()?;
         bar.step();
-        Ok::<_, ProgramError>((witness, (said?, started.elapsed())))
+        Ok::<_, DevError>((witness, (said?, started.elapsed())))
     })?;
     let said: BTreeMap<W, (R, Duration)> = said.into_iter().collect();
     let cost = |error: &Mutation| -> Duration {
@@ -185,7 +183,7 @@ fn try_all<W: Ord + Send + Sync, R: Send + Sync>(
         let finding = wrong(error, &own);
         going_on()?;
         bar.step();
-        Ok::<_, ProgramError>(finding)
+        Ok::<_, DevError>(finding)
     })?;
     bar.clear();
     findings.sort_by_key(|finding| mutations.number(&finding.error));
