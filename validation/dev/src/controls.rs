@@ -84,7 +84,7 @@ fn of_solver(
     let right = right.map_err(|reason| DevError::Trial { case: case.to_owned(), reason })?;
     let limit = Duration::from_secs_f64(10.0 * right.wall_seconds + PATIENCE);
     let bar = CountBar::new("controls", errors.len(), 0, quiet);
-    let trials = share_out_for(errors, |(control, number): (&Control, usize)| -> Result<_, DevError> {
+    share_out_for(errors, |(control, number): (&Control, usize)| -> Result<_, DevError> {
         bar.say(&control.name);
         // a program that stops has noticed, but its gates have not
         let wrong = program.run(&number.to_string(), &scope, limit).ok();
@@ -98,9 +98,7 @@ fn of_solver(
         };
         bar.step();
         Ok(trial)
-    })?;
-    bar.clear();
-    Ok(trials)
+    })
 }
 
 /// Each dear change of parameters, against the case as it comes.

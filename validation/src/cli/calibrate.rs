@@ -48,9 +48,8 @@ pub(super) fn run(
     }
     let bar = EvaluationBar(CountBar::new("simulations", 0, 0, quiet));
     bar.0.plan(plan.usual_evaluations());
-    let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar);
-    bar.0.clear();
-    let outcome = outcome?;
+    let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar)?;
+    drop(bar);
     write(&outcome, &plan, &folder)?;
     say(output, &text(&outcome));
     let beyond = outcome.evaluations.len().saturating_sub(outcome.searched);

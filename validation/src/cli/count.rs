@@ -1,17 +1,13 @@
 //! Progress count of work of about equal cost: runs of a sweep, evaluations of a calibration.
 
-use super::display::{Display, time_left};
-use std::sync::{Arc, Mutex, PoisonError};
+use super::display::{Display, Work, time_left};
 use std::time::Instant;
 
 /// A count whose number is only usual leaves at least one in so many that are done.
 const AT_LEAST_LEFT: u64 = 10;
 
-/// Progress of things of about equal cost.
-pub struct CountBar {
-    display: Display,
-    state: Arc<Mutex<Counted>>,
-}
+/// Progress of things of about equal cost; dropped, it leaves the screen.
+pub struct CountBar(Display<Counted>);
 
 /// Progress of counted work.
 struct Counted {
@@ -26,7 +22,11 @@ struct Counted {
     begin: Instant,
 }
 
-impl Counted {
+impl Work for Counted {
+    fn part(&self) -> f64 {
+        self.done as f64 / self.expected().max(1) as f64
+    }
+
     fn text(&self) -> String {
         let Self { what, doing, done, before, begin, .. } = self;
         let all = self.expected();
@@ -35,7 +35,9 @@ impl Counted {
         let about = if all > self.all { "about " } else { "" };
         format!("{done}/{about}{all} {what}  {left}  {doing}")
     }
+}
 
+impl Counted {
     /// Number of all things: those queued, the usual number, or where that is nearly reached a little more than are done.
     fn expected(&self) -> u64 {
         let least = if self.usual > 0 { self.usual.max(self.done + self.done / AT_LEAST_LEFT) } else { 0 };
@@ -47,48 +49,28 @@ impl CountBar {
     /// A bar for so many things, of which some are done.
     #[must_use]
     pub fn new(what: &str, all: usize, done: usize, quiet: bool) -> Self {
-        let (all, done) = (all as u64, done as u64);
-        let (what, doing, begin) = (what.to_owned(), String::new(), Instant::now());
-        let state = Arc::new(Mutex::new(Counted { what, doing, all, done, usual: 0, before: done, begin }));
-        let display = Display::new(all, "{bar:24} {wide_msg}", quiet);
-        let told = Arc::clone(&state);
-        display.refresh_by(move || told.lock().unwrap_or_else(PoisonError::into_inner).text());
-        let count = Self { display, state };
-        count.change(|_| {});
-        count
-    }
-
-    fn change(&self, change: impl FnOnce(&mut Counted)) {
-        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        change(&mut state);
-        self.display.bar.set_length(state.expected());
-        self.display.bar.set_position(state.done);
-        self.display.bar.set_message(state.text());
+        let (what, all, done, begin) = (what.to_owned(), all as u64, done as u64, Instant::now());
+        Self(Display::new(Counted { what, doing: String::new(), all, done, usual: 0, before: done, begin }, quiet))
     }
 
     /// So many are usual in all, though fewer are queued at first.
     pub(super) fn plan(&self, usual: usize) {
-        self.change(|state| state.usual = usual as u64);
+        self.0.change(|count| count.usual = usual as u64);
     }
 
     /// So many more are to be done.
     pub(super) fn expect(&self, more: usize) {
-        self.change(|state| state.all += more as u64);
+        self.0.change(|count| count.all += more as u64);
     }
 
     /// Shows what is being done.
     pub fn say(&self, doing: &str) {
-        self.change(|state| doing.clone_into(&mut state.doing));
+        self.0.change(|count| doing.clone_into(&mut count.doing));
     }
 
     /// One more is done.
     pub fn step(&self) {
-        self.change(|state| state.done += 1);
-    }
-
-    /// Takes the bar off the screen.
-    pub fn clear(&self) {
-        self.display.clear();
+        self.0.change(|count| count.done += 1);
     }
 }
 

@@ -1,66 +1,97 @@
 //! Progress display: a bar on a terminal, elsewhere a line every half minute.
 
-use super::terminal::{BARS, moves_its_cursor, tell};
+use super::terminal::{BARS, SHOWN, moves_its_cursor, tell};
 use super::ticker::Ticker;
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::sync::{Mutex, PoisonError};
+use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between two lines where there is no terminal, and between two updates of a bar that nothing else updates.
 const LINE_INTERVAL: Duration = Duration::from_secs(30);
 const BAR_INTERVAL: Duration = Duration::from_secs(1);
 
+/// Least time between two updates: a step of the work may take less than a terminal needs for a line.
+const UPDATE_INTERVAL: Duration = Duration::from_millis(100);
+
+/// Resolution of the bar.
+const PARTS: u64 = 10_000;
+
 /// Part of the work that must be done before the time left is shown `[-]`.
 const LEAST_PART: f64 = 1e-3;
 
-/// A bar and, where it cannot be seen, lines in its place.
-pub(super) struct Display {
-    pub(super) bar: ProgressBar,
-    pub(super) begin: Instant,
-    pub(super) lines: bool,
-    quiet: bool,
-    ticker: Mutex<Option<Ticker>>,
+/// Work whose progress is shown.
+pub(super) trait Work: Send + 'static {
+    /// Part that is done, 0 … 1 `[-]`.
+    fn part(&self) -> f64;
+    /// Time left, counts and the last thing done.
+    fn text(&self) -> String;
 }
 
-impl Display {
-    pub(super) fn new(length: u64, template: &str, quiet: bool) -> Self {
-        let seen = moves_its_cursor();
-        let bar = if quiet || !seen {
-            ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden())
-        } else {
-            BARS.add(ProgressBar::new(length))
-        };
-        if let Ok(style) = ProgressStyle::with_template(template) {
+/// Shows work as a bar or, where it cannot be seen, as lines, until it is dropped.
+pub(super) struct Display<W: Work> {
+    bar: ProgressBar,
+    /// The work, and the time of the last update.
+    work: Arc<Mutex<(W, Instant)>>,
+    ticker: Option<Ticker>,
+}
+
+fn lock<W>(work: &Mutex<W>) -> MutexGuard<'_, W> {
+    work.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn show(bar: &ProgressBar, work: &impl Work) {
+    // A saturating cast.
+    bar.set_position((work.part() * PARTS as f64) as u64);
+    bar.set_message(work.text());
+}
+
+impl<W: Work> Display<W> {
+    pub(super) fn new(work: W, quiet: bool) -> Self {
+        let bar = ProgressBar::hidden();
+        let work = Arc::new(Mutex::new((work, Instant::now())));
+        if quiet {
+            return Self { bar, work, ticker: None };
+        }
+        let told = Arc::clone(&work);
+        if !moves_its_cursor() {
+            let tell = move || {
+                let (work, _) = &*lock(&told);
+                tell(&format!("{:.1} % done  {}", 100.0 * work.part(), work.text()));
+            };
+            return Self { bar, work, ticker: Some(Ticker::every(LINE_INTERVAL, tell)) };
+        }
+        let bar = BARS.add(ProgressBar::new(PARTS));
+        SHOWN.fetch_add(usize::from(!bar.is_hidden()), Ordering::SeqCst);
+        if let Ok(style) = ProgressStyle::with_template("{bar:24} {percent:>3} %  {wide_msg}") {
             bar.set_style(style);
         }
-        Self { bar, begin: Instant::now(), lines: !quiet && !seen, quiet, ticker: Mutex::new(None) }
+        show(&bar, &lock(&work).0);
+        let shown = bar.clone();
+        let ticker = Ticker::every(BAR_INTERVAL, move || show(&shown, &lock(&told).0));
+        Self { bar, work, ticker: Some(ticker) }
     }
 
-    /// Shows the text that `text` makes, from now on also while nothing happens.
-    pub(super) fn refresh_by(&self, text: impl Fn() -> String + Send + 'static) {
-        let ticker = if self.lines {
-            Ticker::every(LINE_INTERVAL, move || tell(&text()))
-        } else {
-            let bar = self.bar.clone();
-            Ticker::every(BAR_INTERVAL, move || bar.set_message(text()))
-        };
-        *self.ticker.lock().unwrap_or_else(PoisonError::into_inner) = Some(ticker);
-    }
-
-    /// Says something once, above the bar.
-    pub(super) fn say(&self, text: &str) {
-        if !self.quiet {
-            tell(text);
+    /// Notes progress.
+    pub(super) fn change(&self, change: impl FnOnce(&mut W)) {
+        let (work, updated) = &mut *lock(&self.work);
+        change(work);
+        if updated.elapsed() > UPDATE_INTERVAL {
+            *updated = Instant::now();
+            show(&self.bar, work);
         }
     }
+}
 
-    /// Takes the bar off the screen and ends the lines.
-    pub(super) fn clear(&self) {
-        let ticker = self.ticker.lock().unwrap_or_else(PoisonError::into_inner).take();
+impl<W: Work> Drop for Display<W> {
+    fn drop(&mut self) {
         // joined here: it may be about to write
-        drop(ticker);
-        self.bar.finish_and_clear();
-        BARS.remove(&self.bar);
+        self.ticker = None;
+        if !self.bar.is_hidden() {
+            self.bar.finish_and_clear();
+            BARS.remove(&self.bar);
+            SHOWN.fetch_sub(1, Ordering::SeqCst);
+        }
     }
 }
 

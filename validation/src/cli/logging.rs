@@ -39,7 +39,7 @@ struct AboveBars;
 impl Write for AboveBars {
     /// Takes everything: an unread line is not an error, and the logger would report one on standard error again.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        tell_raw(bytes);
+        tell_raw(String::from_utf8_lossy(bytes).trim_end_matches('\n'));
         Ok(bytes.len())
     }
 

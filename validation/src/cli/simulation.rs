@@ -4,7 +4,7 @@ use super::error::ProgramError;
 use super::expectation::Expectation;
 use super::progress::RunsBar;
 use super::tell;
-use crate::case::{CaseResult, Estimate, Monitor, ParameterError, PreparedCase, StateOutput, execute};
+use crate::case::{CaseResult, Estimate, ParameterError, PreparedCase, execute};
 use crate::output::{caution, cautions};
 use crate::result::States;
 use crate::store::{Store, provenance};
@@ -104,43 +104,6 @@ pub(super) fn simulate_showing(
     states: Option<&States>,
     expectation: Option<&Expectation>,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    let showing = Showing { progress: RunsBar::new(&cases, quiet), states, expectation };
-    let results = execute(cases, store, &showing);
-    showing.progress.clear();
-    results
-}
-
-/// A progress bar, who takes the states of the runs, and who takes their times.
-struct Showing<'a> {
-    progress: RunsBar,
-    states: Option<&'a States>,
-    expectation: Option<&'a Expectation>,
-}
-
-impl Monitor for Showing<'_> {
-    fn started(&self, run: usize) {
-        self.progress.started(run);
-        if let Some(expectation) = self.expectation {
-            expectation.started(run);
-        }
-    }
-
-    fn advanced(&self, run: usize, simulated: f64, total: f64, particle_steps: f64) {
-        self.progress.advanced(run, simulated, total, particle_steps);
-    }
-
-    fn told(&self, run: usize, news: &str) {
-        self.progress.told(run, news);
-    }
-
-    fn finished(&self, run: usize) {
-        self.progress.finished(run);
-        if let Some(expectation) = self.expectation {
-            expectation.finished(run);
-        }
-    }
-
-    fn output(&self, run: usize) -> Option<&dyn StateOutput> {
-        self.states?.run(run)
-    }
+    let bar = RunsBar::new(&cases, quiet, states, expectation);
+    execute(cases, store, &bar)
 }

@@ -73,9 +73,8 @@ fn begin(
                 return finish(&sweep, registry, output);
             }
             let watch = SweepBar::new(&sweep, quiet);
-            let outcome = run_locally(&sweep, registry, &command.work.open_store(), &watch);
-            watch.0.clear();
-            outcome?;
+            run_locally(&sweep, registry, &command.work.open_store(), &watch)?;
+            drop(watch);
             finish(&sweep, registry, output)
         }
         Engine::Slurm => {

@@ -5,90 +5,36 @@
 
 use super::error::ProgramError;
 use crate::input::escaped_lines;
-use console::Term;
-use indicatif::{MultiProgress, ProgressDrawTarget, TermLike};
+use indicatif::{MultiProgress, ProgressDrawTarget};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Whether standard error is a terminal that understands escape codes.
 pub(super) fn moves_its_cursor() -> bool {
     io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|name| name != "dumb")
 }
 
-/// All progress bars of the program; whatever else is said moves them out of its way.
-pub(super) static BARS: LazyLock<MultiProgress> = LazyLock::new(|| {
-    let seen = moves_its_cursor();
-    let terminal = || ProgressDrawTarget::term_like_with_hz(Box::new(Forgiving(Term::buffered_stderr())), BARS_HERTZ);
-    MultiProgress::with_draw_target(if seen { terminal() } else { ProgressDrawTarget::hidden() })
-});
+/// All progress bars of the program; whatever else is said appears above them.
+pub(super) static BARS: LazyLock<MultiProgress> =
+    LazyLock::new(|| MultiProgress::with_draw_target(ProgressDrawTarget::stderr()));
 
-/// Most times that bars are drawn anew `[1/s]`.
-const BARS_HERTZ: u8 = 20;
+/// Number of bars that are shown.
+pub(super) static SHOWN: AtomicUsize = AtomicUsize::new(0);
 
 /// Says something on standard error, a line or more, and escapes what would control a terminal.
 pub fn tell(text: &str) {
-    tell_raw(format!("{}\n", escaped_lines(text)).as_bytes());
+    tell_raw(&escaped_lines(text));
 }
 
-/// Writes to standard error unchanged, where it is open.
-pub(super) fn tell_raw(bytes: &[u8]) {
+/// Writes lines to standard error unchanged, where it is open.
+pub(super) fn tell_raw(lines: &str) {
     // there is nowhere left to report that this fails
-    let write = || io::stderr().write_all(bytes).and_then(|()| io::stderr().flush());
-    let _: io::Result<()> = BARS.suspend(write);
-}
-
-/// A terminal for progress bars that may vanish: the crate of the bars panics where one of theirs cannot be written.
-#[derive(Debug)]
-struct Forgiving(Term);
-
-impl Forgiving {
-    fn attempt(&self, act: impl FnOnce(&Term) -> io::Result<()>) -> io::Result<()> {
-        // the bar is lost with its terminal, the work continues
-        let _: io::Result<()> = act(&self.0);
-        Ok(())
-    }
-}
-
-impl TermLike for Forgiving {
-    fn width(&self) -> u16 {
-        TermLike::width(&self.0)
-    }
-
-    fn height(&self) -> u16 {
-        TermLike::height(&self.0)
-    }
-
-    fn move_cursor_up(&self, lines: usize) -> io::Result<()> {
-        self.attempt(|terminal| terminal.move_cursor_up(lines))
-    }
-
-    fn move_cursor_down(&self, lines: usize) -> io::Result<()> {
-        self.attempt(|terminal| terminal.move_cursor_down(lines))
-    }
-
-    fn move_cursor_right(&self, columns: usize) -> io::Result<()> {
-        self.attempt(|terminal| terminal.move_cursor_right(columns))
-    }
-
-    fn move_cursor_left(&self, columns: usize) -> io::Result<()> {
-        self.attempt(|terminal| terminal.move_cursor_left(columns))
-    }
-
-    fn write_line(&self, text: &str) -> io::Result<()> {
-        self.attempt(|terminal| terminal.write_line(text))
-    }
-
-    fn write_str(&self, text: &str) -> io::Result<()> {
-        self.attempt(|terminal| terminal.write_str(text))
-    }
-
-    fn clear_line(&self) -> io::Result<()> {
-        self.attempt(Term::clear_line)
-    }
-
-    fn flush(&self) -> io::Result<()> {
-        self.attempt(Term::flush)
-    }
+    let _: io::Result<()> = if SHOWN.load(Ordering::SeqCst) > 0 {
+        BARS.println(lines)
+    } else {
+        io::stderr().write_all(format!("{lines}\n").as_bytes())
+    };
 }
 
 /// Standard output that remembers what it could not write, so that the work is finished before the command fails.

@@ -185,7 +185,6 @@ fn try_all<W: Ord + Send + Sync, R: Send + Sync>(
         bar.step();
         Ok::<_, DevError>(finding)
     })?;
-    bar.clear();
     findings.sort_by_key(|finding| mutations.number(&finding.error));
     Ok(findings)
 }
