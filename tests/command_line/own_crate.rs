@@ -156,7 +156,7 @@ fn a_crate_is_written_into_a_new_folder_under_a_name_that_it_can_have() {
     let refused = refusal(&["new", "case", "my-case", "--out", "notes"]);
     assert_eq!(
         refused,
-        "error: notes: exists already, so nothing was changed; name a new folder with --out, or remove this one\n"
+        "error: `--out` is notes, but must be a new folder; name another one with --out, or remove this one\n"
     );
     place.bagnold(&["new", "case", "my-case"]).assert().code(0);
     assert!(place.path("my-case/src/main.rs").is_file());

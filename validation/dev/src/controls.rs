@@ -13,7 +13,6 @@ use crate::output::{FileError, write_whole};
 use crate::store::Store;
 use bagnold_validation::cli::{CountBar, Exit, say, simulate_announced, tell};
 use std::io::Write;
-use std::path::Path;
 use std::time::Duration;
 
 /// Tries the controls of the cases asked for and writes, or compares, their tables.
@@ -54,7 +53,6 @@ pub(crate) fn controls(
         let path = workspace.join("validation/harness/controls").join(TriedControls::file(name));
         let unwritable = |error: std::io::Error| DevError::from(FileError::unwritable(&path, &error));
         let text = table.text().map_err(|error| unwritable(std::io::Error::other(error)))?;
-        std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).map_err(unwritable)?;
         write_whole(&path, text.as_bytes()).map_err(unwritable)?;
         say(output, &format!("{name}: {} controls, written to {}\n", trials.len(), path.display()));
     }

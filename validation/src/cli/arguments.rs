@@ -272,22 +272,9 @@ A new shell completes, if it has the package bash-completion; else add this line
 Zsh reads `_bagnold` in a folder of $fpath, fish reads ~/.config/fish/completions/bagnold.fish. `man bagnold` finds the page
 if ~/.local/bin is in the PATH.")]
 pub struct CompletionsArguments {
-    /// Shell, or `man` for the manual page.
-    #[arg(value_enum)]
-    pub of: CompletionsOf,
-}
-
-/// Text to print for a shell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
-pub enum CompletionsOf {
-    /// Bash.
-    Bash,
-    /// Zsh.
-    Zsh,
-    /// Fish.
-    Fish,
-    /// The manual page, in troff.
-    Man,
+    /// Shell, or `man` for the manual page in troff.
+    #[arg(value_name = "SHELL", value_parser = ["bash", "zsh", "fish", "man"])]
+    pub of: String,
 }
 
 /// `bagnold report`

@@ -10,8 +10,10 @@ use crate::calibration::{
 use crate::case::Registry;
 use crate::number::aligned_digits;
 use crate::output::OutputFolder;
+use indicatif::HumanDuration;
 use std::io::Write;
 use std::path::Path;
+use std::time::Duration;
 
 /// Calibrates, writes the page and prints the parameters.
 pub(super) fn run(
@@ -62,12 +64,7 @@ pub(super) fn run(
 
 /// Cost of an evaluation at the start and at the dearest corner of the box.
 fn cost_in_words(cost: &EvaluationCost, limit: f64) -> String {
-    let time = |hours: f64| match hours {
-        hours if hours < 1.0 / 60.0 => format!("{} s", aligned_digits(3600.0 * hours)),
-        hours if hours < 2.0 => format!("{} min", aligned_digits(60.0 * hours)),
-        hours if hours < 72.0 => format!("{} h", aligned_digits(hours)),
-        hours => format!("{} days", aligned_digits(hours / 24.0)),
-    };
+    let time = |hours: f64| HumanDuration(Duration::from_secs_f64((3600.0 * hours).clamp(1.0, 1e12)));
     let (start, dearest) = (time(cost.start), time(cost.dearest));
     let mut text = format!("core time of an evaluation: about {start} at the start, {dearest} at {}", cost.at);
     if cost.dearest > limit {

@@ -1,6 +1,6 @@
 //! `bagnold completions`: what shells and `man` want to know of the program.
 
-use super::arguments::{Arguments, CompletionsArguments, CompletionsOf};
+use super::arguments::{Arguments, CompletionsArguments};
 use super::{Exit, say};
 use crate::case::Registry;
 use clap::builder::PossibleValuesParser;
@@ -10,17 +10,10 @@ use std::io::Write;
 
 /// Prints a shell's completions, or the manual page with all commands.
 pub(super) fn completions(command: &CompletionsArguments, registry: Registry, output: &mut (dyn Write + Send)) -> Exit {
-    let mut program = with_cases(Arguments::command(), registry);
     let mut text = Vec::new();
-    let shell = match command.of {
-        CompletionsOf::Bash => Some(Shell::Bash),
-        CompletionsOf::Zsh => Some(Shell::Zsh),
-        CompletionsOf::Fish => Some(Shell::Fish),
-        CompletionsOf::Man => None,
-    };
-    match shell {
-        Some(shell) => generate(shell, &mut program, "bagnold", &mut text),
-        None => text = manual(Arguments::command()),
+    match command.of.parse::<Shell>() {
+        Ok(shell) => generate(shell, &mut with_cases(Arguments::command(), registry), "bagnold", &mut text),
+        Err(_) => text = manual(Arguments::command()),
     }
     say(output, &String::from_utf8_lossy(&text));
     Exit::Held
@@ -69,16 +62,16 @@ mod tests {
 
     #[test]
     fn every_command_is_completed_and_in_the_manual() {
-        for of in [CompletionsOf::Bash, CompletionsOf::Zsh, CompletionsOf::Fish, CompletionsOf::Man] {
+        for of in ["bash", "zsh", "fish", "man"] {
             let mut output = Vec::new();
-            completions(&CompletionsArguments { of }, *crate::REGISTRY, &mut output);
+            completions(&CompletionsArguments { of: of.to_owned() }, *crate::REGISTRY, &mut output);
             let text = String::from_utf8(output).expect("text");
             for command in Arguments::command().get_subcommands() {
-                assert!(text.contains(command.get_name()), "{of:?}: {}", command.get_name());
+                assert!(text.contains(command.get_name()), "{of}: {}", command.get_name());
             }
-            let has_part = if matches!(of, CompletionsOf::Man) { "Change one parameter" } else { "water\\-column" };
-            assert!(text.replace("water-column", "water\\-column").contains(has_part), "{of:?}");
-            assert!(!text.contains("bagnold\\-run(1)"), "{of:?} names a page that does not exist");
+            let has_part = if of == "man" { "Change one parameter" } else { "water\\-column" };
+            assert!(text.replace("water-column", "water\\-column").contains(has_part), "{of}");
+            assert!(!text.contains("bagnold\\-run(1)"), "{of} names a page that does not exist");
         }
     }
 }

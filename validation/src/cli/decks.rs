@@ -3,9 +3,7 @@
 use super::error::ProgramError;
 use crate::case::{AnyCase, ParameterError, Tier};
 use crate::judge;
-use crate::output::FileError;
 use std::collections::BTreeSet;
-use std::path::Path;
 
 include!(concat!(env!("OUT_DIR"), "/decks.rs"));
 
@@ -35,15 +33,4 @@ pub(super) fn find(
         return refuse(&format!("a deck of today's {today}"), "compare case.toml with the numbers of the deck");
     }
     Ok(files)
-}
-
-/// Writes the files of a deck into a folder.
-pub(super) fn write(files: &[(&str, &str)], folder: &Path) -> Result<(), ProgramError> {
-    for (name, text) in files {
-        let file = folder.join(name);
-        std::fs::create_dir_all(file.parent().unwrap_or(folder))
-            .and_then(|()| std::fs::write(&file, text))
-            .map_err(|error| FileError::unwritable(folder, &error))?;
-    }
-    Ok(())
 }

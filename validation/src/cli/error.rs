@@ -1,6 +1,5 @@
 //! Errors that end the program with exit code 2.
 
-use super::new::error::NewError;
 use crate::calibration::CalibrationError;
 use crate::case::ParameterError;
 use crate::compare::CompareError;
@@ -37,9 +36,6 @@ pub enum ProgramError {
     /// Results that cannot be compared.
     #[error(transparent)]
     Compare(#[from] CompareError),
-    /// A crate that is not made.
-    #[error(transparent)]
-    New(#[from] NewError),
     /// Standard output cannot be written.
     #[error(
         "standard output: cannot be written ({reason}); free space, or send it elsewhere: what goes into folders was written"

@@ -3,9 +3,8 @@
 use super::arguments::ExamplesArguments;
 use super::error::ProgramError;
 use super::{Exit, say};
-use crate::output::{FileError, OutputFolder};
+use crate::output::{FileError, OutputFolder, write_whole};
 use std::io::Write;
-use std::path::Path;
 
 include!(concat!(env!("OUT_DIR"), "/plans.rs"));
 
@@ -13,10 +12,7 @@ include!(concat!(env!("OUT_DIR"), "/plans.rs"));
 pub(super) fn examples(command: &ExamplesArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
     let claimed = OutputFolder::claim(&command.out)?;
     for (name, text) in FILES {
-        let file = claimed.staging().join(name);
-        let folder = file.parent().unwrap_or(Path::new(""));
-        std::fs::create_dir_all(folder)
-            .and_then(|()| std::fs::write(&file, text))
+        write_whole(&claimed.staging().join(name), text.as_bytes())
             .map_err(|error| FileError::unwritable(&command.out, &error))?;
     }
     claimed.publish()?;

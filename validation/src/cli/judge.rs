@@ -7,7 +7,7 @@ use crate::case::{Changes, ParameterError, Registry};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
 use crate::metric::Verdict;
-use crate::output::OutputFolder;
+use crate::output::{FileError, OutputFolder, write_whole};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -131,7 +131,10 @@ pub(super) fn export(
     };
     let exit = Exit::of(&results, |_, _| true);
     judge::export(case, &*prepared, command.tier, results.first(), claimed.staging())?;
-    decks::write(&deck, claimed.staging())?;
+    for (name, text) in deck {
+        write_whole(&claimed.staging().join(name), text.as_bytes())
+            .map_err(|error| FileError::unwritable(&command.out, &error))?;
+    }
     claimed.publish()?;
     say(output, &format!("written to {}\n", command.out.display()));
     Ok(exit)

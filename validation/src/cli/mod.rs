@@ -39,7 +39,6 @@ pub use arguments::{Arguments, Command, ExecutionOptions, ResourceLimits, Verbos
 pub use count::CountBar;
 pub use error::ProgramError;
 pub use exit::Exit;
-pub use new::error::NewError;
 pub use simulation::{simulate_announced, warn_of_fast};
 pub use summary::of_case as table_of_case;
 pub use terminal::{say, tell};

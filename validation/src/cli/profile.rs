@@ -1,8 +1,7 @@
 //! `--profile`: what a command took of the machine, stage by stage and run by run.
 
-use crate::case::CaseResult;
+use crate::case::{CaseResult, RunSummary};
 use rustix::time::{ClockId, clock_gettime};
-use std::fmt::Write;
 use std::time::Instant;
 
 /// Runs that are listed one by one.
@@ -33,17 +32,12 @@ impl StageTimer {
     /// The stages, and the runs that took longest.
     pub(super) fn in_words(&self, results: &[CaseResult], threads: usize) -> String {
         let wall = self.begun.elapsed().as_secs_f64();
-        let mut text = format!("profile: {wall:.1} s of wall time, {threads} threads");
-        // writing to a string cannot fail
-        let _ = match peak_memory() {
-            Some(megabytes) => writeln!(text, ", at most {megabytes:.0} MiB of memory"),
-            None => writeln!(text),
-        };
+        let memory = peak_memory().map(|most| format!(", at most {most:.0} MiB of memory")).unwrap_or_default();
+        let mut text = format!("profile: {wall:.1} s of wall time, {threads} threads{memory}\n");
         for (stage, wall, processor) in &self.stages {
             let share = if *wall > 0.0 { processor / wall } else { 0.0 };
-            let _ = writeln!(
-                text,
-                "  {stage:<24}  {wall:8.2} s of wall time  {processor:8.2} s of processor  {share:5.2} cores busy"
+            text += &format!(
+                "  {stage:<24}  {wall:8.2} s of wall time  {processor:8.2} s of processor  {share:5.2} cores busy\n"
             );
         }
         text + &runs(results)
@@ -52,35 +46,24 @@ impl StageTimer {
 
 /// A line for each of the runs that took longest; what came from the store took no time.
 fn runs(results: &[CaseResult]) -> String {
-    let mut rows: Vec<(f64, String)> = Vec::new();
-    let mut stored = 0;
-    for result in results {
-        for run in &result.runs {
-            if run.from_store {
-                stored += 1;
-                continue;
-            }
-            let cost = run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), |cost| format!("{cost:.3}"));
-            let line = format!(
-                "  {:8.2} s  {:>8} particles  {:>9} steps  {cost:>7} µs a particle and step  {} {}",
-                run.wall_seconds, run.particles, run.steps, result.name, run.variant
-            );
-            rows.push((run.wall_seconds, line.trim_end().to_owned()));
-        }
-    }
-    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut text = String::new();
-    for (_, line) in rows.iter().take(LISTED) {
-        text.push_str(line);
-        text.push('\n');
-    }
-    let others: f64 = rows.iter().skip(LISTED).map(|row| row.0).sum();
-    // writing to a string cannot fail
+    let all = results.iter().flat_map(|result| result.runs.iter().map(move |run| (&result.name, run)));
+    let (stored, mut rows): (Vec<_>, Vec<_>) = all.partition(|(_, run)| run.from_store);
+    rows.sort_by(|(_, a), (_, b)| b.wall_seconds.total_cmp(&a.wall_seconds));
+    let line = |(case, run): &(&String, &RunSummary)| {
+        let RunSummary { variant, wall_seconds, particles, steps, .. } = run;
+        let cost = run.microseconds_per_particle_step.map_or_else(|| "–".to_owned(), |cost| format!("{cost:.3}"));
+        let line = format!(
+            "  {wall_seconds:8.2} s  {particles:>8} particles  {steps:>9} steps  {cost:>7} µs a particle and step  {case} {variant}"
+        );
+        line.trim_end().to_owned() + "\n"
+    };
+    let mut text: String = rows.iter().take(LISTED).map(line).collect();
+    let others: f64 = rows.iter().skip(LISTED).map(|(_, run)| run.wall_seconds).sum();
     if rows.len() > LISTED {
-        let _ = writeln!(text, "  {others:8.2} s  in {} other runs", rows.len() - LISTED);
+        text += &format!("  {others:8.2} s  in {} other runs\n", rows.len() - LISTED);
     }
-    if stored > 0 {
-        let _ = writeln!(text, "  {stored} runs came from the store");
+    if !stored.is_empty() {
+        text += &format!("  {} runs came from the store\n", stored.len());
     }
     text
 }

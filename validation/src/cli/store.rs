@@ -5,6 +5,7 @@ use super::error::ProgramError;
 use super::{Exit, say};
 use crate::output::FileError;
 use crate::store::{RetentionPolicy, Store, StorePolicy, prune, versions};
+use indicatif::HumanBytes;
 use std::io::Write;
 use std::time::{Duration, SystemTime};
 
@@ -24,7 +25,7 @@ pub(super) fn store(command: &StoreArguments, output: &mut (dyn Write + Send)) -
             bytes: size.map(|gibibytes| (gibibytes * BYTES_PER_GIBIBYTE) as u64),
         };
         let pruned = prune(root, keep, now).map_err(|error| FileError::unwritable(root, &error))?;
-        text += &format!("deleted {} entries and checkpoints, {}\n", pruned.files, size_in_words(pruned.bytes));
+        text += &format!("deleted {} entries and checkpoints, {}\n", pruned.files, HumanBytes(pruned.bytes));
     }
     let versions = versions(root).map_err(|error| FileError::unreadable(root, &error))?;
     for version in &versions {
@@ -33,13 +34,13 @@ pub(super) fn store(command: &StoreArguments, output: &mut (dyn Write + Send)) -
             "{}  {}, {}, the newest {days:.1} days old\n",
             version.name,
             counted(version.entries, version.unfinished),
-            size_in_words(version.bytes)
+            HumanBytes(version.bytes)
         );
     }
     let entries = versions.iter().map(|version| version.entries).sum();
     let unfinished = versions.iter().map(|version| version.unfinished).sum();
     let bytes = versions.iter().map(|version| version.bytes).sum();
-    text += &format!("{}: {}, {}\n", root.display(), counted(entries, unfinished), size_in_words(bytes));
+    text += &format!("{}: {}, {}\n", root.display(), counted(entries, unfinished), HumanBytes(bytes));
     say(output, &text);
     Ok(Exit::Held)
 }
@@ -51,8 +52,4 @@ fn counted(entries: usize, unfinished: usize) -> String {
         1 => format!("{entries} entries and 1 unfinished run"),
         _ => format!("{entries} entries and {unfinished} unfinished runs"),
     }
-}
-
-fn size_in_words(bytes: u64) -> String {
-    format!("{:.1} MiB", bytes as f64 / 1024.0 / 1024.0)
 }

@@ -8,8 +8,8 @@ use crate::arguments::{MutateAction, MutateArguments};
 use crate::case::{Registry, share_out_for};
 use crate::error::DevError;
 use crate::mutation::{
-    CHOICE, Detection, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, run_trial, table,
-    write,
+    CHOICE, Detection, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, page, run_trial,
+    table,
 };
 use crate::output::{FileError, OutputFolder};
 use crate::store::provenance::workspace;
@@ -119,7 +119,8 @@ fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) 
     let by_cases = of_cases.is_empty() || DetectionTally::of(&findings).holds() && !findings.iter().any(survives);
     let holds = by_cases && of_tests.iter().all(is_noticed);
     findings.extend(of_tests);
-    write(&findings, claimed.staging()).map_err(|error| FileError::unwritable(&command.out, &error))?;
+    std::fs::write(claimed.staging().join("mutation.md"), page(&findings))
+        .map_err(|error| FileError::unwritable(&command.out, &error))?;
     claimed.publish()?;
     say(output, &table(&findings));
     say(output, &format!("{:.0} s; written to {}\n", started.elapsed().as_secs_f64(), command.out.display()));

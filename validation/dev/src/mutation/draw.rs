@@ -6,7 +6,7 @@ use super::record::{Mutation, Mutations};
 use super::{MutantRun, MutationOutcome};
 use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::observation::state_hash;
-use crate::output::FileError;
+use crate::output::{FileError, write_whole};
 use crate::sampling::Random;
 use crate::store::provenance::source_hash;
 use serde::{Deserialize, Serialize};
@@ -194,10 +194,8 @@ impl DrawProgress {
     /// # Errors
     /// A file that cannot be written.
     pub fn save(&self, file: &Path) -> Result<(), FileError> {
-        let half = file.with_extension("half");
         let bytes = postcard::to_stdvec(self).map_err(std::io::Error::other);
-        let written = bytes.and_then(|bytes| std::fs::write(&half, bytes)).and_then(|()| std::fs::rename(&half, file));
-        written.map_err(|error| FileError::unwritable(file, &error))
+        bytes.and_then(|bytes| write_whole(file, &bytes)).map_err(|error| FileError::unwritable(file, &error))
     }
 
     /// The cases that reach a mutation, the cheapest first.

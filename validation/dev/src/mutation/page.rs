@@ -1,11 +1,8 @@
-//! The findings as a table for the terminal, as CSV and as Markdown.
+//! The findings as a table for the terminal and as Markdown.
 
 use super::{Detection, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
 use crate::number::short_digits;
 use std::fmt::Write as _;
-use std::path::Path;
-
-const COLUMNS: [&str; 6] = ["error", "what is wrong", "cases", "caught by", "witness", "values drifted"];
 
 /// Kind of detection, in a word.
 fn word(catch: &Detection) -> &'static str {
@@ -36,17 +33,6 @@ fn witness(finding: &MutationOutcome) -> String {
         Detection::Stop(message) | Detection::Test(message) => message.clone(),
         Detection::Snapshot | Detection::Nothing => finding.first_drift.clone(),
     }
-}
-
-fn row(finding: &MutationOutcome) -> [String; 6] {
-    [
-        finding.error.name.clone(),
-        finding.error.description.clone(),
-        finding.cases.join(", "),
-        word(&finding.catch).to_owned(),
-        witness(finding),
-        finding.drifted.to_string(),
-    ]
 }
 
 /// The shares in a sentence each, with what they must be.
@@ -88,19 +74,21 @@ pub fn table(findings: &[MutationOutcome]) -> String {
     text + "\n" + &shares(findings)
 }
 
-/// The same as Markdown, with what is wrong and which cases ran.
-fn markdown(findings: &[MutationOutcome]) -> String {
-    let mut text = format!("# Mutations\n\n{}\n", shares(findings));
-    let mut line = |cells: &[String]| {
-        let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|")).collect();
-        text += &format!("| {} |\n", cells.join(" | "));
+/// A row of a table in Markdown.
+fn row(cells: &[&str]) -> String {
+    let cells: Vec<String> = cells.iter().map(|cell| cell.replace('|', "\\|").replace('\n', " ")).collect();
+    format!("| {} |\n", cells.join(" | "))
+}
+
+/// The findings as a table in Markdown, with what is wrong, which cases ran, and a last column.
+fn rows(findings: &[MutationOutcome], last: (&str, impl Fn(&MutationOutcome) -> String)) -> String {
+    let heads = row(&["mutation", "what is wrong", "killed by", "witness", "cases", last.0]) + &row(&["---"; 6]);
+    let line = |finding: &MutationOutcome| {
+        let MutationOutcome { error, catch, cases, .. } = finding;
+        let cells = [word(catch), &witness(finding), &cases.join(", "), &last.1(finding)];
+        row(&[&[error.name.as_str(), &error.description], &cells[..]].concat())
     };
-    line(&COLUMNS.map(str::to_owned));
-    line(&COLUMNS.map(|_| "---".to_owned()));
-    for finding in findings {
-        line(&row(finding));
-    }
-    text
+    heads + &findings.iter().map(line).collect::<String>()
 }
 
 /// A drawn mutation in a line: place, rule, right → wrong, who noticed, seconds.
@@ -139,34 +127,14 @@ pub fn drawn_page(sentence: &str, findings: &[MutationOutcome]) -> String {
         let share = part as f64 / tally.all().max(1) as f64;
         text += &format!("| {by} | {part} | {:.0} | {:.0} … {:.0} |\n", 100.0 * share, 100.0 * lower, 100.0 * upper);
     }
-    text += "\n| mutation | file:line: rule: right → wrong | killed by | witness | cases | s |\n";
-    text += "| --- | --- | --- | --- | --- | --- |\n";
-    for finding in findings {
-        let cells = [
-            finding.error.name.clone(),
-            finding.error.description.clone(),
-            word(&finding.catch).to_owned(),
-            witness(finding),
-            finding.cases.join(", "),
-            format!("{:.1}", finding.wall_seconds),
-        ];
-        text += &format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|").replace('\n', " ")).join(" | "));
-    }
-    text
+    text + "\n" + &rows(findings, ("s", |finding| format!("{:.1}", finding.wall_seconds)))
 }
 
-/// Writes `mutation.md` and `mutation.csv` into a folder.
-///
-/// # Errors
-/// The system's.
-pub fn write(findings: &[MutationOutcome], folder: &Path) -> std::io::Result<()> {
-    std::fs::write(folder.join("mutation.md"), markdown(findings))?;
-    let mut csv = csv::Writer::from_path(folder.join("mutation.csv"))?;
-    csv.write_record(COLUMNS)?;
-    for finding in findings {
-        csv.write_record(row(finding))?;
-    }
-    csv.flush()
+/// The findings as Markdown, with the shares.
+#[must_use]
+pub fn page(findings: &[MutationOutcome]) -> String {
+    let rows = rows(findings, ("values drifted", |finding| finding.drifted.to_string()));
+    format!("# Mutations\n\n{}\n{rows}", shares(findings))
 }
 
 #[cfg(test)]

@@ -1,13 +1,12 @@
 //! `bagnold new`: a crate with a law or a case of a user's own, which builds and runs as it is.
 
-pub(super) mod error;
 mod name;
 
 use super::arguments::{NewArguments, NewCrate};
 use super::error::ProgramError;
 use super::{Exit, say};
+use crate::case::ParameterError;
 use crate::output::FileError;
-use error::NewError;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
@@ -40,7 +39,7 @@ pub(super) fn new(command: &NewArguments, output: &mut (dyn Write + Send)) -> Re
         NewCrate::Law(asked) => (asked, LAW),
         NewCrate::Case(asked) => (asked, CASE),
     };
-    name::check(&asked.name, &command.what).map_err(NewError::from)?;
+    name::check(&asked.name, &command.what).map_err(ParameterError::from)?;
     let folder = asked.out.clone().unwrap_or_else(|| PathBuf::from(&asked.name));
     let checkout = checkout();
     write(&folder, &asked.name, templates, checkout)?;
@@ -63,14 +62,15 @@ fn checkout() -> Option<&'static Path> {
     ["solver", "validation"].iter().all(|package| root.join(package).join("Cargo.toml").is_file()).then_some(root)
 }
 
-fn write(folder: &Path, name: &str, templates: &[Template], checkout: Option<&Path>) -> Result<(), NewError> {
+fn write(folder: &Path, name: &str, templates: &[Template], checkout: Option<&Path>) -> Result<(), ProgramError> {
     let unwritable = |error: std::io::Error| FileError::unwritable(folder, &error);
     if let Some(parent) = folder.parent() {
         std::fs::create_dir_all(parent).map_err(unwritable)?;
     }
     match std::fs::create_dir(folder) {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-            return Err(NewError::Exists { folder: folder.to_owned() });
+            let remedy = "name another one with --out, or remove this one";
+            return Err(ParameterError::field("--out", folder.display(), "a new folder", remedy).into());
         }
         made => made.map_err(unwritable)?,
     }
@@ -140,7 +140,7 @@ mod tests {
     fn a_folder_that_is_there_is_left_as_it_is() {
         let root = tempfile::tempdir().expect("a folder");
         let refused = write(root.path(), "my-own", LAW, None).expect_err("it exists");
-        assert!(matches!(&refused, NewError::Exists { folder } if folder == root.path()), "{refused}");
+        assert!(refused.to_string().contains("but must be a new folder"), "{refused}");
         assert_eq!(std::fs::read_dir(root.path()).expect("readable").count(), 0);
     }
 }
