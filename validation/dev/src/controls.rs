@@ -11,50 +11,48 @@ use crate::mutate::{PATIENCE, Program, named, sources};
 use crate::mutation::{Mutations, Scope, build};
 use crate::output::{FileError, write_whole};
 use crate::store::Store;
-use bagnold_validation::cli::{CountBar, Exit, say, simulate_announced, tell};
-use std::io::Write;
+use bagnold_validation::cli::{CountBar, Exit, Session, simulate_announced, tell};
 use std::time::Duration;
 
 /// Tries the controls of the cases asked for and writes, or compares, their tables.
-pub(crate) fn controls(
-    command: &ControlsArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, DevError> {
+pub(crate) fn controls(command: &ControlsArguments, session: &mut Session<'_>) -> Result<Exit, DevError> {
     let workspace = sources()?;
     let cases: Vec<&str> = if command.cases.is_empty() {
-        registry.iter().map(|case| case.name()).collect()
+        session.registry.iter().map(|case| case.name()).collect()
     } else {
-        command.cases.iter().map(|name| registry.find(name.trim()).map(|case| case.name())).collect::<Result<_, _>>()?
+        command
+            .cases
+            .iter()
+            .map(|name| session.registry.find(name.trim()).map(|case| case.name()))
+            .collect::<Result<_, _>>()?
     };
     let mutations = Mutations::read(&workspace)?;
     let staging = workspace.join("target").join("mutations");
-    if !quiet {
+    if !session.quiet {
         tell("building a copy of the program that holds all mutations");
     }
     let program = Program::new(build(&workspace, &mutations)?, &staging)?;
     let mut same = true;
     for name in cases {
-        let mut own: Vec<Control> = registry.find(name)?.controls();
+        let mut own: Vec<Control> = session.registry.find(name)?.controls();
         own.retain(|control| !matches!(control.kind, ControlKind::Input { in_table: false, .. }));
         if own.is_empty() {
             continue;
         }
-        let mut trials = of_solver(name, &own, &program, &mutations, quiet)?;
-        trials.extend(of_inputs(name, &own, registry, &command.work.open_store(), quiet)?);
+        let mut trials = of_solver(name, &own, &program, &mutations, session.quiet)?;
+        trials.extend(of_inputs(name, &own, session.registry, &command.work.open_store(), session.quiet)?);
         let table = TriedControls::by_this_program(&trials);
         if command.check {
             let agrees = TriedControls::shipped(name).agrees(&table);
             same &= agrees;
-            say(output, &format!("{} {name}: {} controls\n", if agrees { "same   " } else { "DIFFERS" }, trials.len()));
+            session.say(&format!("{} {name}: {} controls\n", if agrees { "same   " } else { "DIFFERS" }, trials.len()));
             continue;
         }
         let path = workspace.join("validation/harness/controls").join(TriedControls::file(name));
         let unwritable = |error: std::io::Error| DevError::from(FileError::unwritable(&path, &error));
         let text = table.text().map_err(|error| unwritable(std::io::Error::other(error)))?;
         write_whole(&path, text.as_bytes()).map_err(unwritable)?;
-        say(output, &format!("{name}: {} controls, written to {}\n", trials.len(), path.display()));
+        session.say(&format!("{name}: {} controls, written to {}\n", trials.len(), path.display()));
     }
     Ok(if same { Exit::Held } else { Exit::GateFailed })
 }

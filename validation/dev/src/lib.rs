@@ -19,10 +19,9 @@ use bagnold_report as report;
 use bagnold_validation::REGISTRY;
 
 use arguments::{Arguments, DevCommand};
-use bagnold_validation::cli::{Exit, answered, conduct, in_pool};
+use bagnold_validation::cli::{Exit, Session, answered, conduct, in_pool};
 use clap::Parser;
 use error::DevError;
-use std::io::Write;
 use std::process::ExitCode;
 
 #[cfg(test)]
@@ -33,21 +32,18 @@ mod pendulum;
 #[must_use]
 pub fn main() -> ExitCode {
     match Arguments::try_parse() {
-        Ok(Arguments { command, verbosity }) => conduct(verbosity, |output| execute(&command, verbosity.quiet, output)),
+        Ok(Arguments { command, verbosity }) => conduct(verbosity, *REGISTRY, |session| execute(&command, session)),
         Err(answer) => answered(&answer),
     }
 }
 
-fn execute(command: &DevCommand, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, DevError> {
-    let registry = *REGISTRY;
+fn execute(command: &DevCommand, session: &mut Session<'_>) -> Result<Exit, DevError> {
     match command {
-        DevCommand::Verify(command) => verify::verify(command, registry, output),
+        DevCommand::Verify(command) => verify::verify(command, session),
         DevCommand::Sensitivities(command) => {
-            in_pool(command.work.threads, || sensitivities::sensitivities(command, registry, quiet, output))
+            in_pool(command.work.threads, || sensitivities::sensitivities(command, session))
         }
-        DevCommand::Controls(command) => {
-            in_pool(command.work.threads, || controls::controls(command, registry, quiet, output))
-        }
-        DevCommand::Mutate(command) => mutate::mutate(command, registry, quiet, output),
+        DevCommand::Controls(command) => in_pool(command.work.threads, || controls::controls(command, session)),
+        DevCommand::Mutate(command) => mutate::mutate(command, session),
     }
 }

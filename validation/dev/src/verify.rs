@@ -6,9 +6,8 @@ use crate::error::DevError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, write_whole};
 use crate::store::{Store, StorePolicy};
-use bagnold_validation::cli::{Exit, in_pool, say};
+use bagnold_validation::cli::{Exit, Session, in_pool};
 use serde::{Deserialize, Serialize};
-use std::io::Write;
 use std::path::Path;
 
 /// The committed list.
@@ -34,17 +33,13 @@ struct ShortRun {
 }
 
 /// Runs the list and compares, or writes it anew.
-pub(crate) fn verify(
-    command: &VerifyArguments,
-    registry: Registry,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, DevError> {
+pub(crate) fn verify(command: &VerifyArguments, session: &mut Session<'_>) -> Result<Exit, DevError> {
     let mut list = read(command.file.as_deref())?;
     let mut differing = Vec::new();
     for run in &mut list.runs {
         let hashes = THREADS
             .into_iter()
-            .map(|threads| Ok((threads, state_hash(run, registry, threads)?)))
+            .map(|threads| Ok((threads, state_hash(run, session.registry, threads)?)))
             .collect::<Result<Vec<(u16, String)>, DevError>>()?;
         let expected = if command.write.is_some() { hashes[0].1.clone() } else { run.state_hash.clone() };
         let wrong: Vec<String> = hashes
@@ -53,10 +48,10 @@ pub(crate) fn verify(
             .map(|(threads, hash)| format!("{hash} on {threads}"))
             .collect();
         if wrong.is_empty() {
-            say(output, &format!("same     {} {}\n", run.case, brief(&expected)));
+            session.say(&format!("same     {} {}\n", run.case, brief(&expected)));
         } else {
             let line = format!("differs  {}: {} threads, but {expected} is committed\n", run.case, wrong.join(", "));
-            say(output, &line);
+            session.say(&line);
             differing.push(run.case.clone());
         }
         run.state_hash = expected;
@@ -70,11 +65,11 @@ pub(crate) fn verify(
         write_whole(file, format!("{HEADER}{text}").as_bytes()).map_err(|error| FileError::unwritable(file, &error))?;
     }
     if differing.is_empty() {
-        say(output, &format!("{} cases end in the same bits on 1, 2 and 3 threads\n", list.runs.len()));
+        session.say(&format!("{} cases end in the same bits on 1, 2 and 3 threads\n", list.runs.len()));
         return Ok(Exit::Held);
     }
     let remedy = "a change of numbers, a compiler or a machine that rounds otherwise";
-    say(output, &format!("other bits: {} ({remedy})\n", differing.join(", ")));
+    session.say(&format!("other bits: {} ({remedy})\n", differing.join(", ")));
     Ok(Exit::GateFailed)
 }
 
@@ -119,7 +114,8 @@ mod tests {
     fn run(file: &Path, write: bool) -> (Exit, String) {
         let command = VerifyArguments { file: Some(file.to_owned()), write: write.then(|| file.to_owned()) };
         let mut output = Vec::new();
-        let exit = verify(&command, pendulum::REGISTRY, &mut output).expect("a good list");
+        let exit = verify(&command, &mut Session { registry: pendulum::REGISTRY, quiet: true, output: &mut output })
+            .expect("a good list");
         (exit, String::from_utf8(output).expect("text"))
     }
 

@@ -3,34 +3,27 @@
 use super::arguments::CalibrateArguments;
 use super::count::CountBar;
 use super::error::ProgramError;
-use super::{Exit, say, tell};
+use super::{Exit, Session, tell};
 use crate::calibration::{
     CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, EvaluationCost, calibrate, write,
 };
-use crate::case::Registry;
 use crate::number::aligned_digits;
 use crate::output::OutputFolder;
 use indicatif::HumanDuration;
-use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
 /// Calibrates, writes the page and prints the parameters.
-pub(super) fn run(
-    command: &CalibrateArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
-    let mut plan = CalibrationPlan::read(&command.file, registry, command.allowance.limits())?;
+pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let mut plan = CalibrationPlan::read(&command.file, session.registry, command.allowance.limits())?;
     let folder = command.out.clone().unwrap_or_else(|| {
         Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
     });
     if command.out.is_none() {
         OutputFolder::adopt(Path::new("reports"))?;
     }
-    let kept = CalibrationFolder::begin(&folder, &command.file, registry.origin(), command.resume)?;
-    if !quiet && plan.choices.is_empty() {
+    let kept = CalibrationFolder::begin(&folder, &command.file, session.registry.origin(), command.resume)?;
+    if !session.quiet && plan.choices.is_empty() {
         // other starts may take as many evaluations again, and so does a search among runs that scatter
         let searches = (1 + usize::from(plan.budget.starts > 0)) * (1 + usize::from(plan.repeats.count > 1));
         let grid = plan.levels.iter().product();
@@ -39,26 +32,26 @@ pub(super) fn run(
         let rest = format!("{} for intervals; simulations per evaluation: {each}", plan.region_evaluations);
         tell(&format!("planned evaluations: up to {search} for the search, {rest}"));
     }
-    if let Some(cost) = EvaluationCost::of(&plan, registry) {
+    if let Some(cost) = EvaluationCost::of(&plan, session.registry) {
         let is_limited = command.allowance.most_hours.is_some() || std::env::var_os("BAGNOLD_MOST_HOURS").is_some();
         if !is_limited {
             plan.limits.core_hours = plan.limits.core_hours.min(cost.limit());
         }
-        if !quiet {
+        if !session.quiet {
             tell(&cost_in_words(&cost, plan.limits.core_hours));
         }
     }
-    let bar = EvaluationBar(CountBar::new("simulations", 0, 0, quiet));
+    let bar = EvaluationBar(CountBar::new("simulations", 0, 0, session.quiet));
     bar.0.plan(plan.usual_evaluations());
-    let outcome = calibrate(&plan, &kept, registry, &command.work.open_store(), &bar)?;
+    let outcome = calibrate(&plan, &kept, session.registry, &command.work.open_store(), &bar)?;
     drop(bar);
     write(&outcome, &plan, &folder)?;
-    say(output, &text(&outcome));
+    session.say(&text(&outcome));
     let beyond = outcome.evaluations.len().saturating_sub(outcome.searched);
     let simulations = std::fs::read_dir(kept.evaluations()).map_or(0, Iterator::count);
     let needed = format!("{} for the search, {beyond} for intervals; simulations: {simulations}", outcome.searched);
-    say(output, &format!("evaluations: {needed}\n"));
-    say(output, &format!("written to {}\n", folder.join("index.html").display()));
+    session.say(&format!("evaluations: {needed}\n"));
+    session.say(&format!("written to {}\n", folder.join("index.html").display()));
     Ok(Exit::Held)
 }
 

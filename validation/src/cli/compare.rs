@@ -2,20 +2,19 @@
 
 use super::arguments::CompareArguments;
 use super::error::ProgramError;
-use super::{Exit, say};
+use super::{Exit, Session};
 use crate::case::ParameterError;
 use crate::compare::{self, Difference, PairedKey, Results};
 use crate::number::four_digits;
 use crate::output::OutputFolder;
 use crate::result::MetricEntry;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Numbers that differ, the largest difference first, on the terminal; the page has all.
 const MOST_SHOWN: usize = 8;
 
 /// Reads, compares and writes.
-pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+pub(super) fn compare(command: &CompareArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let all = Results::read(&command.folders)?;
     let same = |folder: &&PathBuf| {
         let whole = |path: &Path| path.canonicalize().ok();
@@ -33,32 +32,29 @@ pub(super) fn compare(command: &CompareArguments, output: &mut (dyn Write + Send
     claimed.publish()?;
     for one in compare::changed(&all).iter().take(MOST_SHOWN) {
         let values: Vec<&str> = one.values.iter().map(|value| value.as_deref().unwrap_or("–")).collect();
-        say(output, &format!("parameter {}: {}\n", one.path, values.join(" → ")));
+        session.say(&format!("parameter {}: {}\n", one.path, values.join(" → ")));
     }
     for PairedKey { case, key, values } in all.iter().flat_map(|results| &results.paired) {
-        say(output, &format!("{case}: runs with {key}={} beside those with {key}={}\n", values[1], values[0]));
+        session.say(&format!("{case}: runs with {key}={} beside those with {key}={}\n", values[1], values[0]));
     }
     let apart = compare::differences(&all).iter().filter(|one| one.entries.iter().any(Option::is_none)).count();
     if apart > 0 {
-        say(output, &format!("{apart} numbers are not in every folder, so not compared\n"));
+        session.say(&format!("{apart} numbers are not in every folder, so not compared\n"));
     }
     let shown = match moved.len() {
         0..=MOST_SHOWN => "",
         _ => ", the largest differences first; index.html has all",
     };
-    say(output, &format!("{} numbers differ by more than their tolerance{shown}\n", moved.len()));
-    moved.iter().take(MOST_SHOWN).for_each(|one| say(output, &in_words(one)));
+    session.say(&format!("{} numbers differ by more than their tolerance{shown}\n", moved.len()));
+    moved.iter().take(MOST_SHOWN).for_each(|one| session.say(&in_words(one)));
     let limits =
         all.split_first().map_or(0, |(first, others)| others.iter().map(|other| first.moved_limits(other)).sum());
     if limits > 0 {
-        say(
-            output,
-            &format!(
-                "limits of {limits} gates differ: other versions of the gates, or limits that follow from the runs\n"
-            ),
-        );
+        session.say(&format!(
+            "limits of {limits} gates differ: other versions of the gates, or limits that follow from the runs\n"
+        ));
     }
-    say(output, &format!("written to {}\n", command.out.join("index.html").display()));
+    session.say(&format!("written to {}\n", command.out.join("index.html").display()));
     Ok(if !moved.is_empty() && command.deny_differences { Exit::GateFailed } else { Exit::Held })
 }
 

@@ -1,21 +1,20 @@
 //! `bagnold completions`: what shells and `man` want to know of the program.
 
 use super::arguments::{Arguments, CompletionsArguments};
-use super::{Exit, say};
+use super::{Exit, Session};
 use crate::case::Registry;
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, Command, CommandFactory};
 use clap_complete::{Shell, generate};
-use std::io::Write;
 
 /// Prints a shell's completions, or the manual page with all commands.
-pub(super) fn completions(command: &CompletionsArguments, registry: Registry, output: &mut (dyn Write + Send)) -> Exit {
+pub(super) fn completions(command: &CompletionsArguments, session: &mut Session<'_>) -> Exit {
     let mut text = Vec::new();
     match command.of.parse::<Shell>() {
-        Ok(shell) => generate(shell, &mut with_cases(Arguments::command(), registry), "bagnold", &mut text),
+        Ok(shell) => generate(shell, &mut with_cases(Arguments::command(), session.registry), "bagnold", &mut text),
         Err(_) => text = manual(Arguments::command()),
     }
-    say(output, &String::from_utf8_lossy(&text));
+    session.say(&String::from_utf8_lossy(&text));
     Exit::Held
 }
 
@@ -64,7 +63,8 @@ mod tests {
     fn every_command_is_completed_and_in_the_manual() {
         for of in ["bash", "zsh", "fish", "man"] {
             let mut output = Vec::new();
-            completions(&CompletionsArguments { of: of.to_owned() }, *crate::REGISTRY, &mut output);
+            let mut session = Session { registry: *crate::REGISTRY, quiet: true, output: &mut output };
+            completions(&CompletionsArguments { of: of.to_owned() }, &mut session);
             let text = String::from_utf8(output).expect("text");
             for command in Arguments::command().get_subcommands() {
                 assert!(text.contains(command.get_name()), "{of}: {}", command.get_name());

@@ -2,14 +2,13 @@
 
 use super::arguments::ExamplesArguments;
 use super::error::ProgramError;
-use super::{Exit, say};
+use super::{Exit, Session};
 use crate::output::{FileError, OutputFolder, write_whole};
-use std::io::Write;
 
 include!(concat!(env!("OUT_DIR"), "/plans.rs"));
 
 /// Writes the calibrations, scenes, studies and sweeps that the program carries.
-pub(super) fn examples(command: &ExamplesArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+pub(super) fn examples(command: &ExamplesArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let claimed = OutputFolder::claim(&command.out)?;
     for (name, text) in FILES {
         write_whole(&claimed.staging().join(name), text.as_bytes())
@@ -17,7 +16,7 @@ pub(super) fn examples(command: &ExamplesArguments, output: &mut (dyn Write + Se
     }
     claimed.publish()?;
     for (name, _) in FILES {
-        say(output, &format!("{}\n", command.out.join(name).display()));
+        session.say(&format!("{}\n", command.out.join(name).display()));
     }
     Ok(Exit::Held)
 }

@@ -2,44 +2,38 @@
 
 use super::arguments::{ExportArguments, JudgeArguments, LeagueArguments};
 use super::error::ProgramError;
-use super::{Exit, decks, say, simulation, summary};
-use crate::case::{Changes, ParameterError, Registry};
+use super::{Exit, Session, decks, simulation, summary};
+use crate::case::{Changes, ParameterError};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
 use crate::metric::Verdict;
 use crate::output::{FileError, OutputFolder, write_whole};
 use std::collections::BTreeSet;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Gates without data that are named on the terminal.
 const MOST_NAMES: usize = 6;
 
 /// Judges submissions, or prints an empty one.
-pub(super) fn judge(
-    command: &JudgeArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+pub(super) fn judge(command: &JudgeArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     if let Some(case) = &command.template {
-        say(output, &judge::blank(registry.find(case)?, command.tier)?);
+        session.say(&judge::blank(session.registry.find(case)?, command.tier)?);
         return Ok(Exit::Held);
     }
-    let CaseSubmissions { prepared, entries } = CaseSubmissions::read(&command.files, registry)?;
+    let CaseSubmissions { prepared, entries } = CaseSubmissions::read(&command.files, session.registry)?;
     let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/judged/{}", prepared.name())));
     if command.out.is_none() {
         OutputFolder::adopt(Path::new("reports"))?;
     }
     let claimed = OutputFolder::claim(&folder)?;
-    let results = simulation::simulate(vec![prepared], &command.work.open_store(), quiet, None)?;
+    let results = simulation::simulate(vec![prepared], &command.work.open_store(), session.quiet, None)?;
     let exit = Exit::of(&results, |_, _| true);
     let Some(own) = results.into_iter().next() else { return Ok(exit) };
     let judgement = judge::judge(own, &entries)?;
     judge::write(&judgement, claimed.staging(), command.junit.as_deref())?;
     claimed.publish()?;
-    say(output, &verdicts(&judgement));
-    say(output, &format!("written to {}\n", folder.join("index.html").display()));
+    session.say(&verdicts(&judgement));
+    session.say(&format!("written to {}\n", folder.join("index.html").display()));
     // what was not judged is no success either
     let mut counts = judgement.codes.iter().map(judge::JudgedCode::counts);
     let fails = counts.any(|(held, failed, open)| failed > 0 || (held == 0 && open > 0));
@@ -47,12 +41,7 @@ pub(super) fn judge(
 }
 
 /// Judges all submissions of a folder and writes one page.
-pub(super) fn league(
-    command: &LeagueArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+pub(super) fn league(command: &LeagueArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let own = || {
         let place = Path::new("validation").join("league");
         let current = std::env::current_dir().unwrap_or_default();
@@ -67,8 +56,8 @@ pub(super) fn league(
     let files = league::submissions(&folder)?;
     let blind = league::blind::read(&folder)?;
     let claimed = OutputFolder::claim(&command.out)?;
-    let (prepared, entries) = league::split(league::read(&files, registry)?);
-    let results = simulation::simulate(prepared, &command.work.open_store(), quiet, None)?;
+    let (prepared, entries) = league::split(league::read(&files, session.registry)?);
+    let results = simulation::simulate(prepared, &command.work.open_store(), session.quiet, None)?;
     let judged = results.into_iter().zip(&entries).map(|(own, entries)| judge::judge(own, entries));
     let judged: Vec<CodeComparison> = judged.collect::<Result<_, _>>()?;
     league::write(&league::league(&judged), &blind, claimed.staging())?;
@@ -77,11 +66,11 @@ pub(super) fn league(
     for judgement in &judged {
         if judgement.own.name != case {
             case = &judgement.own.name;
-            say(output, &format!("{case}\n"));
+            session.say(&format!("{case}\n"));
         }
-        say(output, &verdicts(judgement));
+        session.say(&verdicts(judgement));
     }
-    say(output, &format!("written to {}\n", command.out.join("index.html").display()));
+    session.say(&format!("written to {}\n", command.out.join("index.html").display()));
     Ok(Exit::Held)
 }
 
@@ -114,18 +103,13 @@ fn verdicts(judgement: &CodeComparison) -> String {
 }
 
 /// Writes what another code needs to run a case.
-pub(super) fn export(
-    command: &ExportArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
-    let case = registry.find(&command.case)?;
+pub(super) fn export(command: &ExportArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let case = session.registry.find(&command.case)?;
     let deck = command.code.as_ref().map_or(Ok(Vec::new()), |code| decks::find(code, case, command.tier))?;
     let prepare = || case.prepare(command.tier, &Changes::default());
     let (prepared, claimed) = (prepare()?, OutputFolder::claim(&command.out)?);
     let results = if command.simulate {
-        simulation::simulate(vec![prepare()?], &command.work.open_store(), quiet, None)?
+        simulation::simulate(vec![prepare()?], &command.work.open_store(), session.quiet, None)?
     } else {
         Vec::new()
     };
@@ -136,6 +120,6 @@ pub(super) fn export(
             .map_err(|error| FileError::unwritable(&command.out, &error))?;
     }
     claimed.publish()?;
-    say(output, &format!("written to {}\n", command.out.display()));
+    session.say(&format!("written to {}\n", command.out.display()));
     Ok(exit)
 }

@@ -41,7 +41,7 @@ pub use error::ProgramError;
 pub use exit::Exit;
 pub use simulation::{simulate_announced, warn_of_fast};
 pub use summary::of_case as table_of_case;
-pub use terminal::{say, tell};
+pub use terminal::tell;
 
 use crate::case::{Limits, ParameterError, Registry};
 use crate::checkpoint::{self, InterruptedRuns};
@@ -56,7 +56,7 @@ use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
-use terminal::{StandardOutput, print};
+use terminal::{StandardOutput, print, say};
 
 /// The program: reads its arguments, prints on standard output and error.
 #[must_use]
@@ -69,8 +69,25 @@ pub fn main() -> ExitCode {
 pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
     declare_build();
     match Arguments::try_parse_from(arguments) {
-        Ok(arguments) => conduct(arguments.verbosity, |output| execute(&arguments, registry, output)),
+        Ok(arguments) => conduct(arguments.verbosity, registry, |session| act(&arguments.command, session)),
         Err(answer) => answered(&answer),
+    }
+}
+
+/// What a command works with.
+pub struct Session<'a> {
+    /// The cases.
+    pub registry: Registry,
+    /// Whether nothing but results and errors is said.
+    pub quiet: bool,
+    /// Standard output.
+    pub output: &'a mut (dyn Write + Send),
+}
+
+impl Session<'_> {
+    /// Prints, and escapes what would control a terminal.
+    pub fn say(&mut self, text: &str) {
+        say(self.output, text);
     }
 }
 
@@ -78,7 +95,8 @@ pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into
 #[must_use]
 pub fn conduct<E: Display>(
     verbosity: Verbosity,
-    act: impl FnOnce(&mut (dyn Write + Send)) -> Result<Exit, E>,
+    registry: Registry,
+    act: impl FnOnce(&mut Session<'_>) -> Result<Exit, E>,
 ) -> ExitCode {
     logging::start(verbosity.verbose, verbosity.quiet);
     if let Err(error) = interruption::listen() {
@@ -90,7 +108,8 @@ pub fn conduct<E: Display>(
     }
     let mut output = std::io::stdout();
     let mut output = StandardOutput::new(&mut output);
-    let outcome = act(&mut output).map_err(|error| error.to_string());
+    let outcome = act(&mut Session { registry, quiet: verbosity.quiet, output: &mut output });
+    let outcome = outcome.map_err(|error| error.to_string());
     let outcome = outcome.and_then(|exit| output.finish().map(|()| exit).map_err(|error| error.to_string()));
     match (outcome, interruption::asked()) {
         (Ok(exit), _) => exit.into(),
@@ -155,41 +174,47 @@ pub fn execute(
     registry: Registry,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
-    let quiet = arguments.verbosity.quiet;
-    let junit = match &arguments.command {
+    act(&arguments.command, &mut Session { registry, quiet: arguments.verbosity.quiet, output })
+}
+
+fn act(command: &Command, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let junit = match command {
         Command::Run(run) => run.junit.as_deref(),
         Command::Report(report) => report.junit.as_deref(),
         Command::Judge(judge) => judge.junit.as_deref(),
         _ => None,
     };
     junit.map_or(Ok(()), check_junit).map_err(ParameterError::from)?;
-    match &arguments.command {
+    match command {
         Command::List => {
+            let registry = session.registry;
             let width = registry.iter().map(|case| case.name().len()).max().unwrap_or(0);
             for case in registry.iter() {
-                say(output, &format!("{:width$}  {}\n", case.name(), case.summary()));
+                session.say(&format!("{:width$}  {}\n", case.name(), case.summary()));
             }
             Ok(Exit::Held)
         }
-        Command::Show(command) => setup::show(command, registry, output),
-        Command::Schema(command) => setup::schema(command, registry, output),
-        Command::Run(command) => in_pool(command.work.threads, || match study::file(&command.target, registry) {
-            Some(file) => study::run(&file, command, registry, quiet, output),
-            None => run::run(command, registry, quiet, output),
-        }),
-        Command::Calibrate(command) => {
-            in_pool(command.work.threads, || calibrate::run(command, registry, quiet, output))
+        Command::Show(command) => setup::show(command, session),
+        Command::Schema(command) => setup::schema(command, session),
+        Command::Run(command) => {
+            in_pool(command.work.threads, || match study::file(&command.target, session.registry) {
+                Some(file) => study::run(&file, command, session.registry, session.quiet, session.output),
+                None => run::run(command, session.registry, session.quiet, session.output),
+            })
         }
-        Command::Completions(command) => Ok(completions::completions(command, registry, output)),
-        Command::Examples(command) => examples::examples(command, output),
-        Command::New(command) => new::new(command, output),
-        Command::Compare(command) => compare::compare(command, output),
-        Command::Judge(command) => in_pool(command.work.threads, || judge::judge(command, registry, quiet, output)),
-        Command::League(command) => in_pool(command.work.threads, || judge::league(command, registry, quiet, output)),
-        Command::Export(command) => in_pool(command.work.threads, || judge::export(command, registry, quiet, output)),
-        Command::Store(command) => store::store(command, output),
-        Command::Sweep(command) => in_pool(command.work.threads, || sweep::sweep(command, registry, quiet, output)),
-        Command::Report(command) => in_pool(command.work.threads, || report::report(command, registry, quiet, output)),
+        Command::Calibrate(command) => in_pool(command.work.threads, || calibrate::run(command, session)),
+        Command::Completions(command) => Ok(completions::completions(command, session)),
+        Command::Examples(command) => examples::examples(command, session),
+        Command::New(command) => new::new(command, session),
+        Command::Compare(command) => compare::compare(command, session),
+        Command::Judge(command) => in_pool(command.work.threads, || judge::judge(command, session)),
+        Command::League(command) => in_pool(command.work.threads, || judge::league(command, session)),
+        Command::Export(command) => in_pool(command.work.threads, || judge::export(command, session)),
+        Command::Store(command) => store::store(command, session),
+        Command::Sweep(command) => in_pool(command.work.threads, || sweep::sweep(command, session)),
+        Command::Report(command) => {
+            in_pool(command.work.threads, || report::report(command, session.registry, session.quiet, session.output))
+        }
     }
 }
 

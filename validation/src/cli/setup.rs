@@ -1,37 +1,28 @@
 //! `bagnold show` and `bagnold schema`: parameters of a case, their schema, and a scene as it starts, without a simulation.
 
-use super::Exit;
 use super::arguments::{SchemaArguments, ShowArguments};
 use super::error::ProgramError;
-use super::terminal::{print, say};
-use crate::case::{ParameterError, Registry, Request, Tier};
+use super::terminal::print;
+use super::{Exit, Session};
+use crate::case::{ParameterError, Request, Tier};
 use crate::figure::{FigureError, FigureFormat, render};
 use crate::input::nearest;
 use crate::output::{FileError, write_whole};
-use std::io::Write;
 use std::path::Path;
 
 /// Prints the parameters of a case as a file, or a file and settings with all that they leave out; or draws a scene.
-pub(super) fn show(
-    show: &ShowArguments,
-    registry: Registry,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
-    match (&show.picture, registry.find(&show.case)) {
-        (Some(picture), _) => draw(show, picture, registry, output)?,
-        (None, Ok(case)) if show.settings.is_empty() => say(output, &case.show(show.tier.unwrap_or(Tier::Quick))),
-        (None, _) => say(output, request(show).prepare(registry)?.prepared.parameters_toml()),
+pub(super) fn show(show: &ShowArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    match (&show.picture, session.registry.find(&show.case)) {
+        (Some(picture), _) => draw(show, picture, session)?,
+        (None, Ok(case)) if show.settings.is_empty() => session.say(&case.show(show.tier.unwrap_or(Tier::Quick))),
+        (None, _) => session.say(request(show).prepare(session.registry)?.prepared.parameters_toml()),
     }
     Ok(Exit::Held)
 }
 
 /// Prints the schema of a case or a kind of file; a case goes before the file of the same name.
-pub(super) fn schema(
-    show: &SchemaArguments,
-    registry: Registry,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
-    let schema = match (registry.find(&show.case), show.case.as_str()) {
+pub(super) fn schema(show: &SchemaArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let schema = match (session.registry.find(&show.case), show.case.as_str()) {
         (Ok(case), _) => case.schema(show.tier),
         (Err(_), "study") => crate::study::schema(),
         (Err(_), "calibration") => crate::calibration::schema().clone(),
@@ -42,7 +33,7 @@ pub(super) fn schema(
             return Err(kind.map_or(unknown, meant).into());
         }
     };
-    print(output, &format!("{schema:#}\n"));
+    print(session.output, &format!("{schema:#}\n"));
     Ok(Exit::Held)
 }
 
@@ -51,12 +42,7 @@ fn request(show: &ShowArguments) -> Request<'_> {
 }
 
 /// Draws what the runs of a case start from into a file of that name.
-fn draw(
-    show: &ShowArguments,
-    picture: &Path,
-    registry: Registry,
-    output: &mut (dyn Write + Send),
-) -> Result<(), ProgramError> {
+fn draw(show: &ShowArguments, picture: &Path, session: &mut Session<'_>) -> Result<(), ProgramError> {
     let refused = |field: &str, value: String, rule: &str, remedy: &str| {
         ProgramError::from(ParameterError::field(field, format!("\"{value}\""), rule, remedy))
     };
@@ -65,7 +51,7 @@ fn draw(
         let rule = "a file name that ends with .png or .svg";
         return Err(refused("--picture", picture.display().to_string(), rule, "such as --picture setup.png"));
     }
-    let prepared = request(show).prepare(registry)?.prepared;
+    let prepared = request(show).prepare(session.registry)?.prepared;
     let Some(figure) = prepared.setup() else {
         let rule = "a scene, or the file of one";
         return Err(refused("--picture", show.case.clone(), rule, "other cases make their starts themselves"));
@@ -77,6 +63,6 @@ fn draw(
     let bytes = drawn.map_err(|error: FigureError| unwritable(&std::io::Error::other(error.to_string())))?;
     // a bare name lies where the program is started
     write_whole(&Path::new(".").join(picture), &bytes).map_err(|error| unwritable(&error))?;
-    say(output, &format!("{}\nwritten to {}\n", figure.caption, picture.display()));
+    session.say(&format!("{}\nwritten to {}\n", figure.caption, picture.display()));
     Ok(())
 }

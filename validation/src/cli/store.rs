@@ -2,18 +2,17 @@
 
 use super::arguments::{StoreAction, StoreArguments};
 use super::error::ProgramError;
-use super::{Exit, say};
+use super::{Exit, Session};
 use crate::output::FileError;
 use crate::store::{RetentionPolicy, Store, StorePolicy, prune, versions};
 use indicatif::HumanBytes;
-use std::io::Write;
 use std::time::{Duration, SystemTime};
 
 const BYTES_PER_GIBIBYTE: f64 = 1024.0 * 1024.0 * 1024.0;
 const SECONDS_PER_DAY: f64 = 86_400.0;
 
 /// Lists or prunes.
-pub(super) fn store(command: &StoreArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+pub(super) fn store(command: &StoreArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let policy = StorePolicy::Use;
     let store = command.store.as_ref().map_or_else(|| Store::open(policy), |folder| Store::at(folder, policy));
     let root = store.root();
@@ -41,7 +40,7 @@ pub(super) fn store(command: &StoreArguments, output: &mut (dyn Write + Send)) -
     let unfinished = versions.iter().map(|version| version.unfinished).sum();
     let bytes = versions.iter().map(|version| version.bytes).sum();
     text += &format!("{}: {}, {}\n", root.display(), counted(entries, unfinished), HumanBytes(bytes));
-    say(output, &text);
+    session.say(&text);
     Ok(Exit::Held)
 }
 

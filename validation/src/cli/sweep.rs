@@ -3,38 +3,29 @@
 use super::arguments::{Cluster, Engine, SweepAction, SweepArguments};
 use super::count::CountBar;
 use super::error::ProgramError;
-use super::{Exit, say};
-use crate::case::Registry;
+use super::{Exit, Session};
 use crate::evaluation::EvaluationRecord;
 use crate::output::OutputFolder;
 use crate::sweep::{
     SweepFolder, SweepMonitor, SweepPlan, SweepProgress, SweepRun, gather, run_entry, run_locally, slurm,
 };
 use std::collections::BTreeSet;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Plans, runs, submits or gathers.
-pub(super) fn sweep(
-    command: &SweepArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+pub(super) fn sweep(command: &SweepArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     match (&command.action, &command.file) {
         (Some(SweepAction::Template), _) => {
-            say(output, slurm::TEMPLATE);
+            session.say(slurm::TEMPLATE);
             Ok(Exit::Held)
         }
         (Some(SweepAction::Task { folder, entry, work }), _) => super::in_pool(work.threads, || {
             let sweep = SweepFolder::open(folder)?;
-            let record = run_entry(&sweep, sweep.manifest().entry(*entry)?, registry, &work.open_store())?;
+            let record = run_entry(&sweep, sweep.manifest().entry(*entry)?, session.registry, &work.open_store())?;
             Ok(if record.failure.is_some() { Exit::Diverged } else { Exit::Held })
         }),
-        (Some(SweepAction::Collect { folder, resubmit, cluster }), _) => {
-            collect(folder, *resubmit, cluster, registry, output)
-        }
-        (None, Some(file)) => begin(file, command, registry, quiet, output),
+        (Some(SweepAction::Collect { folder, resubmit, cluster }), _) => collect(folder, *resubmit, cluster, session),
+        (None, Some(file)) => begin(file, command, session),
         (None, None) => Ok(Exit::BadInput),
     }
 }
@@ -42,14 +33,8 @@ pub(super) fn sweep(
 /// Remedy for a repeated run of a finished sweep.
 const ANEW: &str = "to run them again, name another folder with --out";
 
-fn begin(
-    file: &Path,
-    command: &SweepArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
-    let manifest = SweepPlan::read(file)?.manifest(registry, command.allowance.limits())?;
+fn begin(file: &Path, command: &SweepArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let manifest = SweepPlan::read(file)?.manifest(session.registry, command.allowance.limits())?;
     let folder = command
         .out
         .clone()
@@ -66,37 +51,29 @@ fn begin(
     match command.engine {
         Engine::Local => {
             if sweep.missing().is_empty() {
-                say(
-                    output,
-                    &format!("all {} runs were done before: nothing was run; {ANEW}\n", manifest.entries.len()),
-                );
-                return finish(&sweep, registry, output);
+                session
+                    .say(&format!("all {} runs were done before: nothing was run; {ANEW}\n", manifest.entries.len()));
+                return finish(&sweep, session);
             }
-            let watch = SweepBar::new(&sweep, quiet);
-            run_locally(&sweep, registry, &command.work.open_store(), &watch)?;
+            let watch = SweepBar::new(&sweep, session.quiet);
+            run_locally(&sweep, session.registry, &command.work.open_store(), &watch)?;
             drop(watch);
-            finish(&sweep, registry, output)
+            finish(&sweep, session)
         }
         Engine::Slurm => {
-            submit(&sweep, &command.cluster, command.work.store.clone(), output)?;
-            say(output, &format!("then: bagnold sweep collect {}\n", folder.display()));
+            submit(&sweep, &command.cluster, command.work.store.clone(), session)?;
+            session.say(&format!("then: bagnold sweep collect {}\n", folder.display()));
             Ok(Exit::Held)
         }
     }
 }
 
-fn collect(
-    folder: &Path,
-    resubmit: bool,
-    cluster: &Cluster,
-    registry: Registry,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, ProgramError> {
+fn collect(folder: &Path, resubmit: bool, cluster: &Cluster, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let sweep = SweepFolder::open(folder)?;
     if resubmit {
-        submit(&sweep, cluster, None, output)?;
+        submit(&sweep, cluster, None, session)?;
     }
-    finish(&sweep, registry, output)
+    finish(&sweep, session)
 }
 
 /// Submits what is neither done nor queued.
@@ -104,18 +81,18 @@ fn submit(
     sweep: &SweepFolder,
     cluster: &Cluster,
     store: Option<PathBuf>,
-    output: &mut (dyn Write + Send),
+    session: &mut Session<'_>,
 ) -> Result<(), ProgramError> {
     let queued = slurm::queued(sweep)?;
     let missing: BTreeSet<usize> = sweep.missing().iter().map(|entry| entry.number).collect();
     let numbers: Vec<usize> = missing.difference(&queued).copied().collect();
     if numbers.is_empty() {
-        say(output, "nothing to submit\n");
+        session.say("nothing to submit\n");
         return Ok(());
     }
     let last = slurm::last_request(sweep)?;
     let jobs = slurm::submit(sweep, &numbers, &asked(cluster, store, last))?;
-    say(output, &format!("submitted {} runs as Slurm job {}\n", numbers.len(), jobs.join(", ")));
+    session.say(&format!("submitted {} runs as Slurm job {}\n", numbers.len(), jobs.join(", ")));
     Ok(())
 }
 
@@ -133,8 +110,8 @@ fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::SlurmRequest) -
 }
 
 /// Gathers and says how far the sweep is.
-fn finish(sweep: &SweepFolder, registry: Registry, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
-    let SweepProgress { done, failed, missing, without_value } = gather(sweep, registry)?;
+fn finish(sweep: &SweepFolder, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let SweepProgress { done, failed, missing, without_value } = gather(sweep, session.registry)?;
     let all = sweep.manifest().entries.len();
     let mut text = format!("{done} of {all} runs done");
     if failed > 0 {
@@ -146,7 +123,7 @@ fn finish(sweep: &SweepFolder, registry: Registry, output: &mut (dyn Write + Sen
     if without_value > 0 {
         text += &format!("; {without_value} values are not numbers (column `reason` of results.csv says why)");
     }
-    say(output, &format!("{text}\nwritten to {}\n", sweep.path().join("results.csv").display()));
+    session.say(&format!("{text}\nwritten to {}\n", sweep.path().join("results.csv").display()));
     Ok(match (missing, failed) {
         (1.., _) => Exit::GateFailed,
         (0, 1..) => Exit::Diverged,

@@ -80,7 +80,7 @@ impl Write for StandardOutput<'_> {
 }
 
 /// Prints, and escapes what would control a terminal.
-pub fn say(output: &mut (dyn Write + Send), text: &str) {
+pub(super) fn say(output: &mut (dyn Write + Send), text: &str) {
     print(output, &escaped_lines(text));
 }
 

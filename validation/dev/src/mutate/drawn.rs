@@ -9,9 +9,8 @@ use crate::mutation::{
     Detection, Draw, DrawProgress, MutationOutcome, Scope, TestTarget, TracedCase, build_tests, drawn_line, drawn_page,
 };
 use crate::output::{FileError, OutputFolder};
-use bagnold_validation::cli::{Exit, say, tell};
+use bagnold_validation::cli::{Exit, Session, tell};
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -20,20 +19,14 @@ use std::time::{Duration, Instant};
 const PATIENCE: f64 = 10.0;
 
 /// A draw, what is known of it, and where that is kept.
-struct Trial<'a> {
+struct Trial<'a, 'b> {
     draw: Draw,
     progress: Mutex<DrawProgress>,
     kept: PathBuf,
-    output: Mutex<&'a mut (dyn Write + Send)>,
+    session: Mutex<&'a mut Session<'b>>,
 }
 
-pub(super) fn drawn(
-    command: &DrawnArguments,
-    workspace: &Path,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, DevError> {
+pub(super) fn drawn(command: &DrawnArguments, workspace: &Path, session: &mut Session<'_>) -> Result<Exit, DevError> {
     if command.out.starts_with("reports") {
         OutputFolder::adopt(Path::new("reports"))?;
     }
@@ -41,6 +34,7 @@ pub(super) fn drawn(
     let draw = Draw::new(workspace, command.seed)?;
     let (mut progress, kept) = DrawProgress::open(workspace, &draw);
     let count = usize::from(command.count);
+    let (registry, quiet) = (session.registry, session.quiet);
     let note = |text: &str| {
         if !quiet {
             tell(text);
@@ -66,7 +60,7 @@ pub(super) fn drawn(
         wanted += count;
     };
     let number = |place: usize| places.iter().position(|other| *other == place).map_or(0, |index| index + 1);
-    let trial = Trial { draw, progress: Mutex::new(progress), kept, output: Mutex::new(output) };
+    let trial = Trial { draw, progress: Mutex::new(progress), kept, session: Mutex::new(session) };
     let open = |done: &dyn Fn(&DrawProgress, usize) -> bool| -> Vec<usize> {
         let progress = trial.progress.lock().unwrap_or_else(PoisonError::into_inner);
         sample.iter().filter(|place| !done(&progress, **place)).copied().collect()
@@ -81,7 +75,7 @@ pub(super) fn drawn(
         trial.tests(workspace, &program, left, &number)?;
     }
     drop(program);
-    let Trial { progress, output, .. } = trial;
+    let Trial { progress, session, .. } = trial;
     let progress = progress.into_inner().unwrap_or_else(PoisonError::into_inner);
     let findings: Vec<MutationOutcome> = sample.iter().map(|place| progress.outcomes[place].clone()).collect();
     let last = sample.last().copied().unwrap_or(0);
@@ -96,9 +90,9 @@ pub(super) fn drawn(
     let file = claimed.staging().join("drawn.md");
     std::fs::write(&file, &page).map_err(|error| FileError::unwritable(&command.out, &error))?;
     claimed.publish()?;
-    let output = output.into_inner().unwrap_or_else(PoisonError::into_inner);
-    say(output, page.split("\n| mutation").next().unwrap_or_default());
-    say(output, &format!("written to {}\n", command.out.join("drawn.md").display()));
+    let session = session.into_inner().unwrap_or_else(PoisonError::into_inner);
+    session.say(page.split("\n| mutation").next().unwrap_or_default());
+    session.say(&format!("written to {}\n", command.out.join("drawn.md").display()));
     Ok(Exit::Held)
 }
 
@@ -124,11 +118,11 @@ pub(super) fn going_on() -> Result<(), DevError> {
     interruption::asked().map_or(Ok(()), |_| Err(ParameterError::Interrupted.into()))
 }
 
-impl Trial<'_> {
+impl Trial<'_, '_> {
     /// Keeps a finding and prints it.
     fn keep(&self, place: usize, outcome: MutationOutcome) -> Result<(), DevError> {
-        let mut output = self.output.lock().unwrap_or_else(PoisonError::into_inner);
-        say(&mut **output, &format!("{}\n", drawn_line(&outcome)));
+        let mut session = self.session.lock().unwrap_or_else(PoisonError::into_inner);
+        session.say(&format!("{}\n", drawn_line(&outcome)));
         let mut progress = self.progress.lock().unwrap_or_else(PoisonError::into_inner);
         progress.outcomes.insert(place, outcome);
         Ok(progress.save(&self.kept)?)

@@ -5,7 +5,7 @@ mod program;
 mod through_tests;
 
 use crate::arguments::{MutateAction, MutateArguments};
-use crate::case::{Registry, share_out_for};
+use crate::case::share_out_for;
 use crate::error::DevError;
 use crate::mutation::{
     CHOICE, Detection, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, page, run_trial,
@@ -13,12 +13,11 @@ use crate::mutation::{
 };
 use crate::output::{FileError, OutputFolder};
 use crate::store::provenance::workspace;
-use bagnold_validation::cli::{CountBar, Exit, in_pool, say, table_of_case, tell};
+use bagnold_validation::cli::{CountBar, Exit, Session, in_pool, table_of_case, tell};
 use drawn::going_on;
 pub(crate) use program::Program;
 use program::{NONE, trial};
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -27,18 +26,13 @@ use std::time::{Duration, Instant};
 pub(crate) const PATIENCE: f64 = 60.0;
 
 /// Lists, tries one error, or tries all.
-pub(crate) fn mutate(
-    command: &MutateArguments,
-    registry: Registry,
-    quiet: bool,
-    output: &mut (dyn Write + Send),
-) -> Result<Exit, DevError> {
+pub(crate) fn mutate(command: &MutateArguments, session: &mut Session<'_>) -> Result<Exit, DevError> {
     match &command.action {
         Some(MutateAction::List) => {
             let mutations = Mutations::read(&sources()?)?;
             let width = mutations.iter().map(|mutation| mutation.name.len()).max().unwrap_or(0);
             for Mutation { name, description, cases, .. } in mutations.iter() {
-                say(output, &format!("{name:width$}  {description}; {}\n", cases.join(", ")));
+                session.say(&format!("{name:width$}  {description}; {}\n", cases.join(", ")));
             }
             Ok(Exit::Held)
         }
@@ -46,10 +40,10 @@ pub(crate) fn mutate(
         Some(MutateAction::Trial { case, settings, result, threads, .. }) if std::env::var_os(CHOICE).is_some() => {
             let scope = Scope { case: case.clone(), settings: settings.clone() };
             in_pool(*threads, || {
-                let (results, sighting) = run_trial(&scope, registry)?;
+                let (results, sighting) = run_trial(&scope, session.registry)?;
                 match result {
                     Some(file) => sighting.write(file).map_err(|error| FileError::unwritable(file, &error))?,
-                    None => results.iter().for_each(|result| say(output, &table_of_case(result, |_| false))),
+                    None => results.iter().for_each(|result| session.say(&table_of_case(result, |_| false))),
                 }
                 Ok(Exit::of(&results, |_, _| false))
             })
@@ -59,7 +53,7 @@ pub(crate) fn mutate(
             let mutations = Mutations::read(&workspace)?;
             let number = if error == NONE { 0 } else { mutations.number(named(&mutations, error)?) };
             let scope = Scope { case: case.clone(), settings: settings.clone() };
-            registry.find(case)?;
+            session.registry.find(case)?;
             let mut trial = trial(&build(&workspace, &mutations)?, &number.to_string(), &scope, *threads);
             let status = trial.stdin(Stdio::null()).status();
             let status = status.map_err(|error| FileError::unreadable(Path::new("bagnold"), &error))?;
@@ -72,9 +66,9 @@ pub(crate) fn mutate(
         }
         Some(MutateAction::Drawn(drawn)) => {
             let workspace = sources()?;
-            in_pool(drawn.threads, || drawn::drawn(drawn, &workspace, registry, quiet, output))
+            in_pool(drawn.threads, || drawn::drawn(drawn, &workspace, session))
         }
-        None => in_pool(command.threads, || all(command, quiet, output)),
+        None => in_pool(command.threads, || all(command, session)),
     }
 }
 
@@ -87,7 +81,7 @@ pub(crate) fn named<'a>(mutations: &'a Mutations, name: &str) -> Result<&'a Muta
 }
 
 /// Tries the errors asked for, writes the findings and prints them.
-fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) -> Result<Exit, DevError> {
+fn all(command: &MutateArguments, session: &mut Session<'_>) -> Result<Exit, DevError> {
     let workspace = sources()?;
     let mutations = Mutations::read(&workspace)?;
     let errors: Vec<&Mutation> = if command.errors.is_empty() {
@@ -104,14 +98,14 @@ fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) 
     }
     let claimed = OutputFolder::claim(&command.out)?;
     let started = Instant::now();
-    if !quiet {
+    if !session.quiet {
         tell("building a copy of the program that holds all mutations");
     }
     let program = Program::new(build(&workspace, &mutations)?, claimed.staging())?;
     let (of_tests, of_cases): (Vec<&Mutation>, _) =
         errors.into_iter().partition(|error| command.tests || error.cases.is_empty());
-    let mut findings = findings(&of_cases, &mutations, &program, quiet)?;
-    let of_tests = through_tests::findings(&of_tests, &mutations, &program, &workspace, quiet)?;
+    let mut findings = findings(&of_cases, &mutations, &program, session.quiet)?;
+    let of_tests = through_tests::findings(&of_tests, &mutations, &program, &workspace, session.quiet)?;
     // what the trials left goes before the folder is published
     drop(program);
     let survives = |finding: &MutationOutcome| finding.error.generated && !finding.catch.is_certain();
@@ -122,8 +116,8 @@ fn all(command: &MutateArguments, quiet: bool, output: &mut (dyn Write + Send)) 
     std::fs::write(claimed.staging().join("mutation.md"), page(&findings))
         .map_err(|error| FileError::unwritable(&command.out, &error))?;
     claimed.publish()?;
-    say(output, &table(&findings));
-    say(output, &format!("{:.0} s; written to {}\n", started.elapsed().as_secs_f64(), command.out.display()));
+    session.say(&table(&findings));
+    session.say(&format!("{:.0} s; written to {}\n", started.elapsed().as_secs_f64(), command.out.display()));
     Ok(if holds { Exit::Held } else { Exit::GateFailed })
 }
 

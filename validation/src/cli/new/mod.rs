@@ -4,10 +4,10 @@ mod name;
 
 use super::arguments::{NewArguments, NewCrate};
 use super::error::ProgramError;
-use super::{Exit, say};
+use super::{Exit, Session};
 use crate::case::ParameterError;
 use crate::output::FileError;
-use std::io::{ErrorKind, Write};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// A file of a crate: its path, and its text with places for the name.
@@ -34,7 +34,7 @@ const CASE: &[Template] = &[
 const PROFILE: &str = include_str!("template/profile.template");
 
 /// Writes the crate.
-pub(super) fn new(command: &NewArguments, output: &mut (dyn Write + Send)) -> Result<Exit, ProgramError> {
+pub(super) fn new(command: &NewArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let (asked, templates) = match &command.what {
         NewCrate::Law(asked) => (asked, LAW),
         NewCrate::Case(asked) => (asked, CASE),
@@ -44,14 +44,14 @@ pub(super) fn new(command: &NewArguments, output: &mut (dyn Write + Send)) -> Re
     let checkout = checkout();
     write(&folder, &asked.name, templates, checkout)?;
     for (path, _) in templates {
-        say(output, &format!("{}\n", folder.join(path).display()));
+        session.say(&format!("{}\n", folder.join(path).display()));
     }
-    say(output, &format!("`cargo run -- list` in {} builds it; README.md there has the rest\n", folder.display()));
+    session.say(&format!("`cargo run -- list` in {} builds it; README.md there has the rest\n", folder.display()));
     if let Some(checkout) = checkout {
-        say(
-            output,
-            &format!("it uses the sources in {}; to use others, change the paths in Cargo.toml\n", checkout.display()),
-        );
+        session.say(&format!(
+            "it uses the sources in {}; to use others, change the paths in Cargo.toml\n",
+            checkout.display()
+        ));
     }
     Ok(Exit::Held)
 }
