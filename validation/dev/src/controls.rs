@@ -11,7 +11,7 @@ use crate::mutate::{PATIENCE, Program, named, sources};
 use crate::mutation::{Mutations, Scope, build};
 use crate::output::{FileError, write_whole};
 use crate::store::Store;
-use bagnold_validation::cli::{CountBar, Exit, Session, simulate_announced, tell};
+use bagnold_validation::cli::{CountBar, Exit, Session, simulate_announced};
 use std::time::Duration;
 
 /// Tries the controls of the cases asked for and writes, or compares, their tables.
@@ -28,9 +28,7 @@ pub(crate) fn controls(command: &ControlsArguments, session: &mut Session<'_>) -
     };
     let mutations = Mutations::read(&workspace)?;
     let staging = workspace.join("target").join("mutations");
-    if !session.quiet {
-        tell("building a copy of the program that holds all mutations");
-    }
+    session.note("building a copy of the program that holds all mutations");
     let program = Program::new(build(&workspace, &mutations)?, &staging)?;
     let mut same = true;
     for name in cases {

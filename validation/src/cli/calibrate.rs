@@ -3,7 +3,7 @@
 use super::arguments::CalibrateArguments;
 use super::count::CountBar;
 use super::error::ProgramError;
-use super::{Exit, Session, tell};
+use super::{Exit, Session};
 use crate::calibration::{
     CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, EvaluationCost, calibrate, write,
 };
@@ -23,23 +23,21 @@ pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Re
         OutputFolder::adopt(Path::new("reports"))?;
     }
     let kept = CalibrationFolder::begin(&folder, &command.file, session.registry.origin(), command.resume)?;
-    if !session.quiet && plan.choices.is_empty() {
+    if plan.choices.is_empty() {
         // other starts may take as many evaluations again, and so does a search among runs that scatter
         let searches = (1 + usize::from(plan.budget.starts > 0)) * (1 + usize::from(plan.repeats.count > 1));
         let grid = plan.levels.iter().product();
         let search = if plan.levels.is_empty() { searches * plan.budget.evaluations } else { grid };
         let each = plan.blocks.iter().filter(|block| !block.held_out).count() * plan.repeats.count;
         let rest = format!("{} for intervals; simulations per evaluation: {each}", plan.region_evaluations);
-        tell(&format!("planned evaluations: up to {search} for the search, {rest}"));
+        session.note(&format!("planned evaluations: up to {search} for the search, {rest}"));
     }
     if let Some(cost) = EvaluationCost::of(&plan, session.registry) {
         let is_limited = command.allowance.most_hours.is_some() || std::env::var_os("BAGNOLD_MOST_HOURS").is_some();
         if !is_limited {
             plan.limits.core_hours = plan.limits.core_hours.min(cost.limit());
         }
-        if !session.quiet {
-            tell(&cost_in_words(&cost, plan.limits.core_hours));
-        }
+        session.note(&cost_in_words(&cost, plan.limits.core_hours));
     }
     let bar = EvaluationBar(CountBar::new("simulations", 0, 0, session.quiet));
     bar.0.plan(plan.usual_evaluations());

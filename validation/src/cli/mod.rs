@@ -89,6 +89,13 @@ impl Session<'_> {
     pub fn say(&mut self, text: &str) {
         say(self.output, text);
     }
+
+    /// Says on standard error what is being done, unless that is not wanted.
+    pub fn note(&self, text: &str) {
+        if !self.quiet {
+            tell(text);
+        }
+    }
 }
 
 /// Acts with logging, signals and standard output as every command has them, and says why it ends where it fails.

@@ -13,7 +13,7 @@ use crate::mutation::{
 };
 use crate::output::{FileError, OutputFolder};
 use crate::store::provenance::workspace;
-use bagnold_validation::cli::{CountBar, Exit, Session, in_pool, table_of_case, tell};
+use bagnold_validation::cli::{CountBar, Exit, Session, in_pool, table_of_case};
 use drawn::going_on;
 pub(crate) use program::Program;
 use program::{NONE, trial};
@@ -98,9 +98,7 @@ fn all(command: &MutateArguments, session: &mut Session<'_>) -> Result<Exit, Dev
     }
     let claimed = OutputFolder::claim(&command.out)?;
     let started = Instant::now();
-    if !session.quiet {
-        tell("building a copy of the program that holds all mutations");
-    }
+    session.note("building a copy of the program that holds all mutations");
     let program = Program::new(build(&workspace, &mutations)?, claimed.staging())?;
     let (of_tests, of_cases): (Vec<&Mutation>, _) =
         errors.into_iter().partition(|error| command.tests || error.cases.is_empty());
