@@ -1,6 +1,7 @@
 //! Reference values that files hold as numbers, by the route that they came from: what material points extrapolate to, and the travelling front
 //! that `fed-slope` is compared with.
 
+use bagnold_harness::evidence::shipped_table;
 use bagnold_reference::collapse::{CodeQuantity, OtherCodes, PLANAR_CODES, ROUND_CODES, RoughIncline, SLOPE_CODES};
 use bagnold_reference::grains::{GLASS_BEADS, GLASS_BEADS_FLOW_RULE};
 use bagnold_reference::one_dimension::submerged::{SubmergedColumn, SubmergedLayer};
@@ -157,17 +158,13 @@ fn references_of_the_submerged_slope_are_those_of_its_layer() {
     let checks = study["checks"].as_array().expect("checks");
     let mut compared = 0;
     for (name, solid_fraction) in [("loose", 0.578), ("dense", 0.584)] {
-        let layer = SubmergedLayer {
-            viscosity: 0.0032,
-            compressibility: 2.5e-4,
-            fraction_diffusion: 0.0,
-            longest_step: 0.5 / 30.0,
-            ..SubmergedLayer::EXPERIMENT
-        };
-        let mut column = SubmergedColumn::new(&layer, solid_fraction, 0.0).expect("a layer");
+        let layer = SubmergedLayer::GLASS_BEADS;
+        let mut column = SubmergedColumn::new(&layer, solid_fraction, 0.0);
+        let is_named = |check: &toml::Value, part: &str| check["name"].as_str().is_some_and(|name| name.contains(part));
         let own = checks.iter().filter(|check| check["only"].as_str().is_some_and(|only| only.contains(name)));
-        let (mut of_time, of_weight): (Vec<_>, Vec<_>) =
-            own.partition(|check| !check["name"].as_str().is_some_and(|name| name.contains("pressure_on_the_floor")));
+        let own = own.filter(|check| !is_named(check, "measured_velocity"));
+        let (of_weight, mut of_time): (Vec<_>, Vec<_>) =
+            own.partition(|check| is_named(check, "pressure_on_the_floor"));
         for check in of_weight {
             let (reference, exact) = (number(&check["reference"]), layer.floor_overburden(solid_fraction));
             assert!((reference / exact - 1.0).abs() < 1e-4, "{reference} Pa instead of {exact} Pa");
@@ -197,6 +194,31 @@ fn references_of_the_submerged_slope_are_those_of_its_layer() {
         }
     }
     assert_eq!(compared, 10);
+}
+
+/// Measured velocities of the tilted layers end the digitised curves; the liquid is thirty times as thin.
+#[test]
+fn measured_velocities_of_the_submerged_slope_are_those_of_its_table() {
+    let study: toml::Value = toml::from_str(&text("validation/studies/submerged-slope.toml")).expect("TOML");
+    let table = shipped_table("submerged-slope/measured-velocity.csv").expect("a table");
+    let [fractions, times, velocities] =
+        ["solid fraction", "time", "surface velocity"].map(|name| table.numbers(name).expect("a column"));
+    let is_measured = |check: &&toml::Value| check["name"].as_str() == Some("measured_velocity");
+    let checks: Vec<&toml::Value> = study["checks"].as_array().expect("checks").iter().filter(is_measured).collect();
+    for check in &checks {
+        let is_own = |variant: &&toml::Value| {
+            check["only"].as_str().and_then(|only| only.strip_prefix("variant=")) == variant["name"].as_str()
+        };
+        let variant = study["variants"].as_array().expect("variants").iter().find(is_own).expect("a variant");
+        let own = variant["set"].get("material.solid_fraction");
+        let fraction = number(own.unwrap_or(&study["parameters"]["material"]["solid_fraction"]));
+        let end = fractions.iter().rposition(|row| (row - fraction).abs() < 1e-9).expect("a curve");
+        let (time, velocity) = (times[end] / 30.0, velocities[end] * 30e-3);
+        assert!((number(&check["value"]["at"]) - time).abs() < 1e-4, "{check}: {time} s");
+        assert!((number(&check["reference"]) - velocity).abs() < 1e-9, "{check}: {velocity} m/s");
+        assert_eq!(check["source"].as_str(), Some(table.metadata.source.as_str()));
+    }
+    assert_eq!(checks.len(), 5);
 }
 
 /// Curves of the figure over the slope: the uniform layers of the local and of the nonlocal law at one discharge, h_stop of

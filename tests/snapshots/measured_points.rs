@@ -8,8 +8,7 @@ use bagnold_validation::REGISTRY;
 use std::collections::BTreeSet;
 
 /// Cases that measured points judge.
-const CASES: [&str; 6] =
-    ["column-planar", "column-round", "water-column", "settling", "submerged-layer", "bed-load-1d"];
+const CASES: [&str; 5] = ["column-planar", "column-round", "water-column", "settling", "bed-load-1d"];
 /// Least numbers of quantities and data sets that the quick tier judges by measured points.
 const QUANTITIES: usize = 12;
 const DATA_SETS: usize = 6;

@@ -177,7 +177,7 @@ fn case_folder(module: &[String]) -> Option<Vec<String>> {
         ("collapse", &["planar", "round", "incline"]),
         ("channel", &["still_water", "water_film", "clear_water", "bed_load"]),
     ];
-    const ALONE: [&str; 5] = ["nonlocal_shear", "settling", "submerged_layer", "bed_load_1d", "water_column"];
+    const ALONE: [&str; 4] = ["nonlocal_shear", "settling", "bed_load_1d", "water_column"];
     let [first, rest @ ..] = module else { return None };
     let family = FAMILIES.iter().find(|(name, _)| name == first);
     match (family, rest) {

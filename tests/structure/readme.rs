@@ -23,7 +23,7 @@ const fn row(
     Row { case, says, metric, with, without }
 }
 
-const ROWS: [Row; 18] = [
+const ROWS: [Row; 17] = [
     row("hydrostatic", "pressure at rest {} off exact", "pressure_l2", "", ""),
     row("film", "velocity {} off exact", "velocity_l2", "particles=jittered,resolution=20", "numerics"),
     row("bagnold", "velocity on 22–25° {} off exact", "velocity_l2", "start=rest", "material"),
@@ -37,7 +37,6 @@ const ROWS: [Row; 18] = [
     row("water-film", "velocity {} off exact", "velocity_l2", "", ""),
     row("clear-water", "mean velocity {} times the logarithmic law's", "mean_velocity", "", ""),
     row("settling", "settling velocity {} off exact", "terminal_velocity_error", "", ""),
-    row("submerged-layer", "velocity {}; measured 0.41–0.56 mm/s", "end_velocity", "", ""),
     row("bed-load-1d", "transport {} times Wong & Parker's fit", "transport_ratio", "start=rest", ""),
     row("bed-load", "transport {} times the 1-D layer's", "transport_ratio", "formulation=dilating", ""),
     row("scene", "balances of your 2-D geometry", "", "", ""),

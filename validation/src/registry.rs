@@ -5,7 +5,7 @@ use crate::store::provenance::{Build, declare};
 use bagnold_cases::channel::{bed_load, clear_water, still_water, water_film};
 use bagnold_cases::collapse::{incline as incline_collapse, planar as column_planar, round as column_round};
 use bagnold_cases::layer::{bagnold, film, flow_thickness, hydrostatic};
-use bagnold_cases::{bed_load_1d, nonlocal_shear, settling, submerged_layer, water_column};
+use bagnold_cases::{bed_load_1d, nonlocal_shear, settling, water_column};
 use bagnold_scenes::study::canonical;
 use bagnold_scenes::{scene, scene_space};
 use std::sync::LazyLock;
@@ -67,7 +67,6 @@ registry!($
     water_film::WaterFilm,
     clear_water::ClearWater,
     settling::Settling,
-    submerged_layer::SubmergedLayer,
     bed_load_1d::BedLoad1d,
     bed_load::BedLoad,
     scene::UserScene,
@@ -100,13 +99,13 @@ mod tests {
         }
     }
 
-    /// Cases without particles solve a layer over its depth and a file, and have no scene to read.
+    /// The case without particles solves a layer over its depth, and has no scene to read.
     #[test]
     fn every_case_of_particles_has_boundaries_and_a_start() {
         for case in REGISTRY.iter().filter(|case| !case.is_study()) {
             let prepared = case.prepare(Tier::Quick, &Changes::default()).expect("the tier is valid");
             let Some(all) = prepared.conditions(0) else {
-                assert!(["bed-load-1d", "submerged-layer"].contains(&case.name()), "{}", case.name());
+                assert_eq!(case.name(), "bed-load-1d");
                 continue;
             };
             let (start, boundaries): (Vec<_>, Vec<_>) = all.rows.iter().partition(|row| row.is_of_start());

@@ -8,7 +8,6 @@ pub mod layer;
 pub mod nonlocal_shear;
 pub mod settling;
 mod shared;
-pub mod submerged_layer;
 pub mod water_column;
 
 use bagnold_figure as figure;

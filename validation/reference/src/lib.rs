@@ -10,7 +10,6 @@ pub mod film;
 pub mod grains;
 pub mod one_dimension;
 pub mod settling;
-pub mod submerged;
 pub mod water;
 
 use bagnold_harness::{evidence, metric};

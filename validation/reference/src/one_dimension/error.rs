@@ -31,16 +31,6 @@ pub enum LayerError {
         /// Time `[s]`.
         time: f64,
     },
-    /// A submerged layer takes too many steps.
-    #[error(
-        "compute the submerged layer: t = {time} s after {steps} steps; use a shorter `duration` or a longer `longest_step`"
-    )]
-    StepsUsedUp {
-        /// Time `[s]`.
-        time: f64,
-        /// Steps taken.
-        steps: usize,
-    },
     /// Two starts lead to two steady states.
     #[error(
         "compute the steady layer: it has two states, q* = {slow:.3e} from rest and {fast:.3e} from a fast start, which \

@@ -4,27 +4,18 @@
 //! Under a given stress τ and a given effective pressure p′ the shear rate is linear in p′:
 //! γ̇ = [τ − (μ_c + K3 (φ − φ_c)) p′]₊/(η (K1 + K2 K3)).
 
-use bagnold_solver::parameter::{between, inside};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 /// Law of friction and dilatancy over the viscous number I = η γ̇/p′.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViscousNumberLaw {
     /// Friction coefficient μ_c at rest `[-]`.
-    #[schemars(transform = between(0.1, 2.0, "0.415 for glass beads"))]
     pub critical_friction: f64,
     /// Rise K1 of the friction coefficient with I `[-]`.
-    #[schemars(transform = between(1.0, 1e4, "90.5 for glass beads"))]
     pub friction_slope: f64,
     /// Equilibrium solid fraction φ_c at rest `[-]`.
-    #[schemars(transform = inside(0.0, 1.0, "0.582 for glass beads"))]
     pub critical_fraction: f64,
     /// Fall K2 of the equilibrium solid fraction with I `[-]`.
-    #[schemars(transform = between(0.0, 1e3, "25 for glass beads"))]
     pub fraction_slope: f64,
     /// Dilatancy K3: tanψ per difference of solid fraction from equilibrium `[-]`.
-    #[schemars(transform = between(0.0, 100.0, "4.09 for glass beads; 0 for none"))]
     pub dilatancy: f64,
 }
 

@@ -4,90 +4,67 @@
 //! pressure p_f changes their effective pressure p′ = P − p_f (`pore_pressure.rs`). Inertia is left out: shear stress and
 //! pressure balance the buoyant weight, τ = P tanθ, P = (ρ_s − ρ_f) g cosθ ∫_z φ dz.
 //!
-//! - cells are Lagrangian: each keeps its grains and swells as they dilate;
-//! - ∂φ/∂t = −φ D + ∂_z(A d² γ̇ ∂_z φ): without the diffusion by shear one cell at the floor takes all shear of a dense layer,
-//!   whatever its height; it relaxes the fraction and moves no grains;
+//! - cells are Lagrangian: each keeps its grains and swells as they dilate, ∂φ/∂t = −φ D;
 //! - the midpoint rule for φ, with a step that changes it by at most [`SubmergedLayer::largest_fraction_change`].
 //!
-//! The law's constants and the permeability are published; no number is fitted to avalanches.
+//! The law's constants and the permeability are published; no number is fitted to avalanches. The study `submerged-slope` has its
+//! references from here.
 
 mod column;
-mod consolidation;
 mod law;
 mod pore_pressure;
 #[cfg(test)]
 mod tests;
 
-pub use column::{SubmergedColumn, SubmergedProfile};
-pub use consolidation::drained_pressure;
+pub use column::SubmergedColumn;
 pub use law::{GrainFlow, ViscousNumberLaw};
 
-use bagnold_solver::parameter::{between, positive};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+/// Coefficient of the permeability by Kozeny and Carman `[-]`.
+const PERMEABILITY: f64 = 1.0 / 180.0;
 
 /// A submerged layer and how it is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SubmergedLayer {
     /// Slope angle θ `[°]`.
-    #[schemars(transform = between(0.0, 60.0, "25 was measured"))]
     pub slope_angle: f64,
     /// Gravity `[m/s²]`.
-    #[schemars(transform = positive("give it in m/s², such as 9.81"))]
     pub gravity: f64,
     /// Depth h at the start `[m]`.
-    #[schemars(transform = between(1e-4, 10.0, "give it in metres, such as 0.0049"))]
     pub depth: f64,
     /// Diameter d of the grains `[m]`.
-    #[schemars(transform = between(1e-6, 0.1, "give it in metres, such as 1.6e-4"))]
     pub grain_diameter: f64,
     /// Density ρ_s of the grains `[kg/m³]`.
-    #[schemars(transform = positive("give it in kg/m³, such as 2500"))]
     pub grain_density: f64,
     /// Density ρ_f of the liquid `[kg/m³]`.
-    #[schemars(transform = positive("give it in kg/m³, such as 1041"))]
     pub liquid_density: f64,
     /// Viscosity η of the liquid `[Pa·s]`.
-    #[schemars(transform = between(1e-4, 1e3, "give it in Pa·s, such as 0.096"))]
     pub viscosity: f64,
-    /// Coefficient α of the permeability α d² (1 − φ)³/φ² `[-]`.
-    #[schemars(transform = between(1e-5, 1.0, "1/180 by Kozeny and Carman"))]
-    pub permeability_coefficient: f64,
-    /// Coefficient A of the diffusion A d² γ̇ of the solid fraction by shear `[-]`.
-    #[schemars(transform = between(0.0, 100.0, "1 spreads shear over a few grains; 0 for none"))]
-    pub fraction_diffusion: f64,
-    /// Compressibility S of the skeleton `[1/Pa]`; 0 for none.
-    #[schemars(transform = between(0.0, 1.0, "1e-4 stores water for seconds; 0 for none"))]
+    /// Compressibility S of the skeleton, above 0 `[1/Pa]`.
     pub compressibility: f64,
     /// Number of cells over the depth.
-    #[schemars(transform = between(2.0, 2000.0, "40 are used beside the experiment"))]
     pub cells: usize,
     /// Largest change of the solid fraction in a step `[-]`.
-    #[schemars(transform = between(1e-7, 0.01, "5e-5 leaves 0.1 % of an onset time"))]
     pub largest_fraction_change: f64,
     /// Longest step `[s]`.
-    #[schemars(transform = between(1e-3, 1e3, "give it in s, such as 0.5"))]
     pub longest_step: f64,
     /// Friction and dilatancy.
     pub law: ViscousNumberLaw,
 }
 
 impl SubmergedLayer {
-    /// Glass beads in a viscous liquid on 25°, the experiment of Pailha, Nicolas & Pouliquen (2008).
-    pub const EXPERIMENT: Self = Self {
+    /// Glass beads on 25° as in the experiment of Pailha, Nicolas & Pouliquen (2008), in a liquid thirty times as thin.
+    pub const GLASS_BEADS: Self = Self {
         slope_angle: 25.0,
         gravity: 9.81,
         depth: 4.9e-3,
         grain_diameter: 160e-6,
         grain_density: 2500.0,
         liquid_density: 1041.0,
-        viscosity: 0.096,
-        permeability_coefficient: 1.0 / 180.0,
-        fraction_diffusion: 1.0,
-        compressibility: 0.0,
+        viscosity: 0.096 / 30.0,
+        compressibility: 2.5e-4,
         cells: 40,
         largest_fraction_change: 5e-5,
-        longest_step: 0.5,
+        longest_step: 0.5 / 30.0,
         law: ViscousNumberLaw::GLASS_BEADS,
     };
 
@@ -97,12 +74,12 @@ impl SubmergedLayer {
         libm::tan(self.slope_angle.to_radians())
     }
 
-    /// Permeability k at a solid fraction `[m²]`.
+    /// Permeability k = d² (1 − φ)³/(180 φ²) at a solid fraction `[m²]`.
     #[must_use]
     pub fn permeability(&self, fraction: f64) -> f64 {
         let pores = 1.0 - fraction;
         let grain = self.grain_diameter / fraction;
-        self.permeability_coefficient * grain * grain * pores * pores * pores
+        PERMEABILITY * grain * grain * pores * pores * pores
     }
 
     /// Pressure P of the buoyant weight at the floor, from the solid fraction at the start `[Pa]`.
@@ -128,11 +105,5 @@ impl SubmergedLayer {
         let depth = self.depth * fraction / self.steady_fraction();
         let viscous_number = self.law.steady_viscous_number(self.slope());
         0.5 * viscous_number * self.floor_overburden(fraction) * depth / self.viscosity
-    }
-
-    /// Consolidation coefficient k/(η S) at a solid fraction `[m²/s]`.
-    #[must_use]
-    pub fn consolidation_coefficient(&self, fraction: f64) -> f64 {
-        self.permeability(fraction) / (self.viscosity * self.compressibility)
     }
 }

@@ -1,6 +1,6 @@
 //! Excess pore pressure of a column whose grains dilate: Darcy's law with the permeability of Kozeny and Carman.
 //!
-//! ∂_z(k/η ∂_z p_f) = D(p′) + S ∂p_f/∂t, k = α d² (1 − φ)³/φ², p′ = P − p_f under the overburden P. The surface drains
+//! ∂_z(k/η ∂_z p_f) = D(p′) + S ∂p_f/∂t, k = d² (1 − φ)³/(180 φ²), p′ = P − p_f under the overburden P. The surface drains
 //! (p_f = 0), the floor does not. Finite volumes, Newton's method, one tridiagonal system per iteration.
 
 use super::SubmergedLayer;
@@ -31,7 +31,7 @@ pub(super) struct DarcyFlow<'a> {
 
 /// Water stored by a compressible skeleton during a step.
 pub(super) struct Storage<'a> {
-    /// Compressibility over the length of the step `[1/(Pa s)]`; 0 without storage.
+    /// Compressibility over the length of the step `[1/(Pa s)]`.
     pub(super) rate: f64,
     /// Pore pressure at the start of the step `[Pa]`.
     pub(super) before: &'a [f64],
@@ -51,7 +51,7 @@ impl DarcyFlow<'_> {
     }
 
     /// Flux of water per difference of pressure across the upper face of each cell `[m/(Pa s)]`.
-    pub(super) fn conductance(&self) -> Vec<f64> {
+    fn conductance(&self) -> Vec<f64> {
         let resistance: Vec<f64> = (self.fraction.iter().zip(self.height))
             .map(|(&fraction, height)| 0.5 * height * self.layer.viscosity / self.layer.permeability(fraction))
             .collect();
