@@ -3,11 +3,8 @@
 use super::experiment::Experiment;
 use super::formulation::GrainFormulation;
 use super::parameters::SettlingParameters;
-use super::probe::Drag;
 use crate::reference::settling::{GrainForm, SettlingGrains};
-use bagnold_solver::incompressible::{
-    DragForm, DragSlip, IncompressibleScene, Sediment, SedimentPressure, SolidFraction,
-};
+use bagnold_solver::incompressible::{DragForm, IncompressibleScene, Sediment, SedimentPressure, SolidFraction};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::vector::Vector;
 use serde::Serialize;
@@ -45,13 +42,6 @@ impl GrainRun {
     pub fn terminal_velocity(&self) -> f64 {
         let Experiment { grains, law, .. } = &self.experiment;
         grains.terminal_velocity(*law, GrainForm::Planar).unwrap_or(f64::NAN)
-    }
-
-    pub(super) fn drag(&self) -> Drag {
-        match self.experiment.numerics.drag_slip {
-            DragSlip::Pair => Drag::OfPairs,
-            DragSlip::Mean => Drag::OfMean,
-        }
     }
 
     pub(super) fn scene(&self) -> IncompressibleScene<2> {

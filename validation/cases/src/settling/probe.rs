@@ -1,5 +1,6 @@
 //! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
 
+use super::experiment::Experiment;
 use crate::case::recording::{Ending, RestartableRun, SimulationStage, follow};
 use crate::case::{ParameterError, Progress};
 use crate::metric::Variant;
@@ -7,8 +8,9 @@ use crate::observation::Recorded;
 use crate::output::Table;
 use crate::reference::settling::SettlingGrains;
 use crate::statistics::block_average;
-use bagnold_solver::domain::AxisBoundary;
-use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, Sediment};
+use bagnold_solver::incompressible::{
+    DragSlip, IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, Sediment,
+};
 use bagnold_solver::kernel::{Kernel, KernelShape};
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::Vector;
@@ -71,18 +73,8 @@ pub struct SettlingObservation {
     pub momentum_error: f64,
 }
 
-/// Which slip the drag is taken from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Drag {
-    /// That of every pair: U of C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|.
-    OfPairs,
-    /// That against the mean of the fluid around.
-    OfMean,
-}
-
 /// Watches a run; sees every step.
 pub(super) struct Probe {
-    drag: Drag,
     grains: SettlingGrains,
     kernel: Kernel<2>,
     size: Vector<2>,
@@ -100,28 +92,17 @@ struct SettlingObserver {
 }
 
 impl Probe {
-    /// Runs a scene with a sediment.
+    /// Runs a scene of an experiment.
     pub(super) fn run(
         scene: &IncompressibleScene<2>,
-        drag: Drag,
-        duration: f64,
+        experiment: &Experiment,
         progress: &dyn Progress,
     ) -> Result<Recorded<SettlingObservation>, ParameterError> {
-        let sediment = sediment(scene);
+        let (sediment, duration) = (sediment(scene), experiment.duration);
         let probe = Self {
-            drag,
-            grains: SettlingGrains {
-                grain_diameter: sediment.grain_diameter,
-                grain_density: sediment.density,
-                fluid_density: scene.fluid.density,
-                kinematic_viscosity: scene.fluid.kinematic_viscosity,
-                gravity: sediment.gravity.norm(),
-            },
+            grains: experiment.grains,
             kernel: Kernel::new(KernelShape::CubicSpline, sediment.drag_smoothing_length),
-            size: Vector::<2>::from_fn(|axis, _| match scene.domain.axes[axis] {
-                AxisBoundary::Periodic { lower, upper } => upper - lower,
-                AxisBoundary::Open | AxisBoundary::Mirror { .. } => f64::INFINITY,
-            }),
+            size: experiment.vessel.size(),
             interval: duration / SAMPLES,
         };
         // momentum is that of every step
@@ -158,13 +139,13 @@ impl Probe {
 
     /// Sees a step; true where it was a sample.
     fn observe(&self, seen: &mut SettlingObserver, simulation: &IncompressibleSimulation<2>) -> bool {
-        let (momentum, force) = momentum(simulation);
+        let [momentum, force, weight] = momentum(simulation);
         let (before, step) = (seen.momentum, simulation.time() - seen.time);
         (seen.momentum, seen.time) = (momentum, simulation.time());
         if simulation.steps() == 0 {
             return false;
         }
-        let error = (momentum - before - force.all * step).norm() / (force.weight.norm() * step);
+        let error = (momentum - before - force * step).norm() / (weight.norm() * step);
         let SettlingObservation { series, momentum_error } = &mut seen.observation;
         *momentum_error = momentum_error.max(error);
         if seen.time < self.interval * (series.time.len() + 1) as f64 * (1.0 - 1e-9) {
@@ -172,9 +153,10 @@ impl Probe {
         }
         let (around, sinking) = self.around_grains(simulation);
         series.time.push(seen.time);
-        series.slip.push(match self.drag {
-            Drag::OfMean => around.mean,
-            Drag::OfPairs => {
+        series.slip.push(match simulation.scene().numerics.drag_slip {
+            DragSlip::Mean => around.mean,
+            // U of C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|
+            DragSlip::Pair => {
                 self.grains.slip_of_drag(sediment(simulation.scene()).drag, around.drag).unwrap_or(f64::NAN)
             }
         });
@@ -243,16 +225,8 @@ struct Around {
     drag: f64,
 }
 
-/// Forces from outside `[N/m]`.
-struct Force {
-    /// On both phases.
-    all: Vector<2>,
-    /// Gravity on the grains.
-    weight: Vector<2>,
-}
-
-/// Momentum of both phases and the forces on them, per metre of width.
-fn momentum(simulation: &IncompressibleSimulation<2>) -> (Vector<2>, Force) {
+/// Momentum of both phases, the forces on them from outside, and the weight of the grains, per metre of width.
+fn momentum(simulation: &IncompressibleSimulation<2>) -> [Vector<2>; 3] {
     let (scene, material) = (simulation.scene(), sediment(simulation.scene()));
     let fluid = (simulation.fluid().1, simulation.voidage(), &scene.fluid.gravity);
     let grains = (simulation.sediment().1, &material.filling[..], &material.gravity);
@@ -272,7 +246,7 @@ fn momentum(simulation: &IncompressibleSimulation<2>) -> (Vector<2>, Force) {
     let (of_fluid, fluid_weight, on_fluid) = of(fluid, scene.fluid.density, scene.fluid.spacing);
     let (of_grains, weight, on_grains) = of(grains, material.density, material.spacing);
     // where the phases overlap the gradient is zero
-    (of_fluid + of_grains, Force { all: fluid_weight + weight - on_fluid - on_grains, weight })
+    [of_fluid + of_grains, fluid_weight + weight - on_fluid - on_grains, weight]
 }
 
 /// Root mean square of velocities less their mean `[m/s]`.

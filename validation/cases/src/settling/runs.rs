@@ -2,7 +2,7 @@
 
 use super::experiment::Experiment;
 use super::grain::GrainRun;
-use super::probe::{Drag, Probe, SettlingObservation};
+use super::probe::{Probe, SettlingObservation};
 use super::suspension::SuspensionRun;
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::metric::Variant;
@@ -49,11 +49,11 @@ impl Run for SettlingRun {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
-        let (scene, drag) = match self {
-            Self::Grain(run) => (run.scene(), run.drag()),
-            Self::Suspension(run) => (run.scene(), Drag::OfMean),
+        let scene = match self {
+            Self::Grain(run) => run.scene(),
+            Self::Suspension(run) => run.scene(),
         };
-        Probe::run(&scene, drag, self.experiment().duration, progress)
+        Probe::run(&scene, self.experiment(), progress)
     }
 }
 

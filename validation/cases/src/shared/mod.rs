@@ -1,10 +1,12 @@
 //! Code that cases of several families share.
 
 mod arrangement;
+mod gate;
 mod metrics;
 pub(crate) mod transport_panel;
 
 pub(crate) use arrangement::Arrangement;
+pub(crate) use gate::close_by_gate;
 pub(crate) use metrics::printed_laws;
 
 /// Values in the order in which they come, each once.

@@ -8,6 +8,7 @@ use crate::reference::water::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
 use crate::setup::front::FrontLine;
 use crate::setup::rules;
 use crate::setup::{Lattice, displaced_flow, wall_rows};
+use crate::shared::close_by_gate;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
@@ -16,7 +17,6 @@ use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
-use bagnold_solver::weakly_compressible::walls::gate::Gate;
 use bagnold_solver::weakly_compressible::walls::wall::fill;
 use bagnold_solver::weakly_compressible::walls::{Surface, Wall};
 use schemars::JsonSchema;
@@ -31,16 +31,6 @@ const WALL_STRIP: f64 = 0.1;
 const BED_END: f64 = 6.0;
 /// Observations a run.
 const SAMPLES: f64 = 400.0;
-
-/// The surface of a bed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum BedSurface {
-    /// Without friction.
-    Smooth,
-    /// The water sticks to it, in a layer that may be thinner than a spacing.
-    Rough,
-}
 
 /// A square column behind a gate that is lifted.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -85,7 +75,7 @@ pub struct WaterColumnParameters {
     /// Surfaces of the bed.
     #[schemars(transform = filled("one or both of \"smooth\" and \"rough\"", "name every surface once"))]
     #[schemars(transform = unique("name every surface once"))]
-    pub surfaces: Vec<BedSurface>,
+    pub surfaces: Vec<Surface>,
     /// Whether the coarsest columns are repeated with a pressure that may become negative.
     pub with_tension: bool,
     /// The column behind a gate, on a smooth bed.
@@ -115,7 +105,7 @@ impl Parameters for WaterColumnParameters {
             viscosity: 1e-3,
             stiffness: 200.0,
             resolutions: vec![20],
-            surfaces: vec![BedSurface::Smooth, BedSurface::Rough],
+            surfaces: vec![Surface::Smooth, Surface::Rough],
             with_tension: true,
             gated: GatedColumn { width: 0.6, gate_speed: 4.53, resolutions: vec![40] },
             jitter: 0.05,
@@ -144,7 +134,7 @@ impl Parameters for WaterColumnParameters {
     }
 
     fn check_runs(&self, runs: &[&WaterColumnRun]) -> Result<(), ParameterError> {
-        let is_smooth = runs.iter().any(|run| run.surface == BedSurface::Smooth);
+        let is_smooth = runs.iter().any(|run| run.surface == Surface::Smooth);
         if is_smooth { rules::gate("numerics", &self.numerics) } else { Ok(()) }
     }
 
@@ -168,7 +158,7 @@ impl Parameters for WaterColumnParameters {
         runs.extend(self.gated.resolutions.iter().map(|&resolution| WaterColumnRun {
             column: gated.clone(),
             gate_speed: self.gated.gate_speed,
-            ..new(resolution, BedSurface::Smooth, Tension::Cut)
+            ..new(resolution, Surface::Smooth, Tension::Cut)
         }));
         runs
     }
@@ -182,7 +172,7 @@ pub struct WaterColumnRun {
     /// Particles over the width.
     pub resolution: usize,
     /// Surface of the bed.
-    pub surface: BedSurface,
+    pub surface: Surface,
     /// What becomes of a negative pressure.
     pub tension: Tension,
     /// Speed at which a gate is lifted `[m/s]`; 0 without one.
@@ -214,7 +204,7 @@ impl Run for WaterColumnRun {
     }
 
     fn variant(&self) -> Variant {
-        let surface = if self.surface == BedSurface::Smooth { "smooth" } else { "rough" };
+        let surface = if self.surface == Surface::Smooth { "smooth" } else { "rough" };
         let tension = if self.tension == Tension::Kept { "kept" } else { "cut" };
         let start = if self.gate_speed > 0.0 { Variant::of("release", "gate") } else { Variant::default() };
         start.and("bed", surface).and("tension", tension).and("resolution", self.resolution)
@@ -285,35 +275,23 @@ impl WaterColumnRun {
             |_| density * (spacing * spacing),
         );
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
-        let mut bed = Wall::still(1, 0.0, 1.0);
-        bed.roughness = if self.surface == BedSurface::Smooth { Surface::Smooth } else { Surface::Rough };
+        let bed = Wall { roughness: self.surface, ..Wall::still(1, 0.0, 1.0) };
         let extent = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, height));
         let rheology = self.rheology();
         let rows = wall_rows(numerics.smoothing_ratio);
-        let mut walls = vec![bed];
-        let mut wall_particles = fill(&walls, &domain, extent, spacing, rows);
-        if self.gate_speed > 0.0 {
-            let above = rows as f64 * spacing;
-            let gate = Gate {
-                position: self.column.width,
-                edge: 0.0,
-                height: height + above,
-                speed: self.gate_speed,
-                lift: height + 2.0 * above,
-                rows,
-            };
-            let (faces, particles) = gate.build(spacing, walls.len());
-            walls.extend(faces);
-            wall_particles.extend(particles);
-        }
-        Scene {
-            wall_particles,
+        let walls = vec![bed];
+        let mut scene = Scene {
+            wall_particles: fill(&walls, &domain, extent, spacing, rows),
             walls,
             domain,
             gravity: Vector::<2>::new(0.0, -gravity),
             numerics,
             ..Scene::unbounded(flow, spacing, equation_of_state, rheology)
+        };
+        if self.gate_speed > 0.0 {
+            close_by_gate(&mut scene, self.column.width, height, self.gate_speed, rows);
         }
+        scene
     }
 
     /// Height of the water beside the symmetry plane, half a spacing above the highest particle there `[m]`. Its volume there would fall by

@@ -72,18 +72,12 @@ pub(super) fn held_out(records: &[BedLoadRecord]) -> Vec<HeldOut> {
                 surfaces.iter().filter(|surface| surface.slope != held.slope).collect();
             let line =
                 |nodes: &[f64], k: usize| nodes[0] + (nodes[nodes.len() - 1] - nodes[0]) * k as f64 / FINE as f64;
-            let mut best = (f64::INFINITY, 0, 0);
-            for i in 0..=FINE {
-                for j in 0..=FINE {
-                    let (tau, mu) = (line(&held.yields, i), line(&held.viscosities, j));
-                    let sum: f64 = fitted.iter().map(|surface| surface.misfit(tau, mu).powi(2)).sum();
-                    if sum < best.0 {
-                        best = (sum, i, j);
-                    }
-                }
-            }
-            let (sum, i, j) = best;
-            let (yield_stress, viscosity) = (line(&held.yields, i), line(&held.viscosities, j));
+            let law = |i: usize, j: usize| (line(&held.yields, i), line(&held.viscosities, j));
+            let squares = |(tau, mu): (f64, f64)| fitted.iter().map(|surface| surface.misfit(tau, mu).powi(2)).sum();
+            let nodes = (0..=FINE).flat_map(|i| (0..=FINE).map(move |j| (i, j)));
+            let tried = nodes.map(|(i, j)| (squares(law(i, j)), i, j));
+            let (sum, i, j): (f64, _, _) = tried.fold((f64::INFINITY, 0, 0), |a, b| if b.0 < a.0 { b } else { a });
+            let (yield_stress, viscosity) = law(i, j);
             HeldOut {
                 slope: held.slope,
                 shields_number: held.shields_number,
@@ -120,14 +114,8 @@ fn surfaces(records: &[BedLoadRecord]) -> Vec<TransportSurface> {
         };
         let row = |&tau: &f64| viscosities.iter().map(|&mu| value(tau, mu)).collect::<Option<Vec<f64>>>();
         let values = yields.iter().map(row).collect::<Option<Vec<_>>>()?;
-        let shields_number = of_slope[0].1;
-        Some(TransportSurface {
-            slope,
-            shields_number,
-            yields: yields.clone(),
-            viscosities: viscosities.clone(),
-            values,
-        })
+        let (yields, viscosities) = (yields.clone(), viscosities.clone());
+        Some(TransportSurface { slope, shields_number: of_slope[0].1, yields, viscosities, values })
     };
     slopes.iter().filter_map(surface).collect()
 }

@@ -6,7 +6,9 @@ use crate::channel::ProfilePoint;
 use crate::metric::Variant;
 use crate::output::Table;
 use crate::reference::one_dimension::bed_load::LayerState;
-use crate::statistics::{Segmented, curvature, linear_fit, number_of_pieces, segmented_regression};
+use crate::statistics::{
+    Extrapolation, Segmented, curvature, interpolated, linear_fit, number_of_pieces, segmented_regression,
+};
 
 /// ln((z + z_0)/d) with the offset z_0 of the logarithmic law, over which u of clear water is a straight line `[-]`.
 fn log_height(run: &BedLoadRun, height: f64) -> f64 {
@@ -100,12 +102,9 @@ fn root(pair: [&ProfilePoint; 2], function: impl Fn(&ProfilePoint) -> f64) -> Op
 
 /// Velocity of the water at a height, over u_* `[-]`.
 pub(super) fn velocity_at(run: &BedLoadRun, points: &[ProfilePoint], z: f64) -> f64 {
-    let at = || {
-        let upper = points.iter().position(|point| point.height >= z)?;
-        let (a, b) = (points.get(upper.checked_sub(1)?)?, &points[upper]);
-        Some(a.velocity + (b.velocity - a.velocity) * (z - a.height) / (b.height - a.height))
-    };
-    at().map_or(f64::NAN, |velocity| velocity / run.clear_water().friction_velocity())
+    let points: Vec<(f64, f64)> = points.iter().map(|point| (point.height, point.velocity)).collect();
+    interpolated(&points, z, (Extrapolation::Nothing, Extrapolation::Nothing))
+        .map_or(f64::NAN, |velocity| velocity / run.clear_water().friction_velocity())
 }
 
 /// Semi-logarithmic slope next to the bed over that of the outer flow, of the lines through all heights that fit best `[-]`.

@@ -111,19 +111,17 @@ fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
         kind: "column",
         origin: ORIGIN,
     };
-    if let Some((end, _)) = given.pictures.split_last() {
-        let mut snapshots: Vec<Snapshot<D>> =
-            given.pictures.iter().map(|picture| snapshot(&room, picture)).collect::<Result<_, _>>()?;
+    let mut snapshots: Vec<Snapshot<D>> =
+        given.pictures.iter().map(|picture| snapshot(&room, picture)).collect::<Result<_, _>>()?;
+    if let Some(last) = snapshots.last_mut() {
+        without_stray_grains(last);
+    }
+    if let Some(end) = snapshots.last() {
         let mut surveyor = run.surveyor();
-        if let Some(last) = snapshots.last_mut() {
-            without_stray_grains(last);
-        }
         for snapshot in &snapshots {
             surveyor.observe(snapshot);
         }
-        if let Some(last) = snapshots.last() {
-            collapse = Collapse { momentum_residual: f64::NAN, ..surveyor.finish(last) };
-        }
+        collapse = Collapse { momentum_residual: f64::NAN, ..surveyor.finish(end) };
         measured.push(PARTICLES_LOST.name);
         if has_fallen(end.time) {
             measured.extend(told(run, given, &snapshots, &collapse));

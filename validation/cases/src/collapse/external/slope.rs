@@ -67,21 +67,19 @@ pub(crate) fn observe(run: &SlopeRun, given: &ExternalData) -> Result<ExternalOb
     let mut thickness = Vec::new();
     let mut collapse =
         Collapse { momentum_residual: f64::NAN, top: f64::NAN, centroid: f64::NAN, ..Collapse::default() };
-    if let Some(end) = given.pictures.last() {
+    let snapshots =
+        given.pictures.iter().map(|picture| snapshot::<2>(&room, picture)).collect::<Result<Vec<_>, _>>()?;
+    if let (Some(end), Some(picture)) = (snapshots.last(), given.pictures.last()) {
         let mut surveyor = run.surveyor();
-        let snapshots =
-            given.pictures.iter().map(|picture| snapshot::<2>(&room, picture)).collect::<Result<Vec<_>, _>>()?;
         for snapshot in &snapshots {
             thickness.push(surveyor.observe(snapshot).iter().map(|bin| bin.1).collect::<Vec<f64>>());
         }
-        if let Some(last) = snapshots.last() {
-            collapse = Collapse { momentum_residual: f64::NAN, ..surveyor.finish(last) };
-        }
+        collapse = Collapse { momentum_residual: f64::NAN, ..surveyor.finish(end) };
         if end.time >= EARLIEST_REST {
             measured.extend([FRONT_DISPLACEMENT.name, DEPOSIT_SLOPE_ANGLE.name]);
         }
         measured.extend([PARTICLES_LOST.name, FRONT.name]);
-        let moves = ["vx", "vy"].iter().all(|name| !end.column(name).is_empty());
+        let moves = ["vx", "vy"].iter().all(|name| !picture.column(name).is_empty());
         if moves && given.pictures.len() > 1 {
             measured.push(REST_TIME.name);
         }

@@ -2,7 +2,7 @@
 
 use crate::figure::{Axis, Figure, Panel};
 use crate::observation::Frame;
-use crate::statistics::{Regression, common_slope, linear_fit, linear_regression};
+use crate::statistics::{FittedValue, Regression, common_slope, linear_fit, linear_regression};
 
 /// The flowing layer moves faster than this share of the profile's largest velocity `[-]`; what is slower is the tail.
 const FLOWING: f64 = 0.35;
@@ -27,15 +27,6 @@ pub(crate) struct Station {
     pub(crate) tail: Vec<(f64, f64)>,
     /// Line through the flowing layer: shear rate `[1/s]` as slope.
     pub(crate) shear: Option<Regression>,
-}
-
-/// A decay length with its standard error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct DecayLength {
-    /// ℓ in u ∝ exp(y/ℓ) `[m]`.
-    pub(crate) value: f64,
-    /// Its standard error `[m]`.
-    pub(crate) standard_error: f64,
 }
 
 impl Station {
@@ -102,13 +93,13 @@ pub(crate) fn linear_misfit_ratio(station: &Station, layer: f64) -> Option<f64> 
     Some((misfit(1.0)? / curved).sqrt())
 }
 
-/// The decay length that all tails share, each with an amplitude of its own; none without a tail of three points.
-pub(crate) fn decay_length(stations: &[Station]) -> Option<DecayLength> {
+/// ℓ in u ∝ exp(y/ℓ) `[m]` that all tails share, each with an amplitude of its own; none without a tail of three points.
+pub(crate) fn decay_length(stations: &[Station]) -> Option<FittedValue> {
     let logarithms = |tail: &Vec<(f64, f64)>| tail.iter().map(|&(y, u)| (y, libm::log(u))).collect();
     let tails: Vec<Vec<(f64, f64)>> =
         stations.iter().map(|station| &station.tail).filter(|tail| tail.len() >= FEWEST).map(logarithms).collect();
     let rate = common_slope(&tails)?;
-    (rate.value > 0.0).then(|| DecayLength {
+    (rate.value > 0.0).then(|| FittedValue {
         value: 1.0 / rate.value,
         standard_error: rate.standard_error / (rate.value * rate.value),
     })

@@ -8,11 +8,11 @@ use crate::collapse::heap::{AT_REST, CollapseObserver, GrainBlock, STIFFNESS, Su
 use crate::metric::{FlowRegime, Value, Variant};
 use crate::observation::Recorded;
 use crate::setup::{Lattice, acoustic_step};
+use crate::shared::close_by_gate;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::scene::Scene;
-use bagnold_solver::weakly_compressible::walls::gate::Gate;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -196,17 +196,7 @@ impl SlopeRun {
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
         let mut scene = block.scene(lattice.sites(), domain, channel_length);
         if self.gate_speed > 0.0 {
-            let gate = Gate {
-                position: self.reservoir.reservoir_length,
-                edge: 0.0,
-                height: height + GATE_ROWS as f64 * spacing,
-                speed: self.gate_speed,
-                lift: height + 2.0 * GATE_ROWS as f64 * spacing,
-                rows: GATE_ROWS,
-            };
-            let (faces, particles) = gate.build(spacing, scene.walls.len());
-            scene.walls.extend(faces);
-            scene.wall_particles.extend(particles);
+            close_by_gate(&mut scene, self.reservoir.reservoir_length, height, self.gate_speed, GATE_ROWS);
         }
         scene
     }

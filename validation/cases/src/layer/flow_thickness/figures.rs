@@ -130,12 +130,16 @@ fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a Star
     }
 }
 
+/// (h/h_stop, Froude number) of the steady flows of the local or the nonlocal law.
+fn froude_numbers(incline: &RoughIncline, records: &[FlowThicknessRecord], nonlocal: bool) -> Vec<(f64, f64)> {
+    let flows = flows_of(records, nonlocal);
+    flows.filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data)))).collect()
+}
+
 /// The flow rule (42).
 fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("h/h_stop(θ) [-]"), Axis::linear("Ū/√(gh) [-]"));
-    let points: Vec<(f64, f64)> = flows_of(records, false)
-        .filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data))))
-        .collect();
+    let points = froude_numbers(incline, records, false);
     let far = points.iter().fold(1.0_f64, |most, point| most.max(point.0));
     let line = vec![(0.0, 0.0), (1.05 * far, 1.05 * far * parameters.flow_coefficient)];
     panel.reference("β of Table 1", line);
@@ -159,11 +163,7 @@ const SLOPE_ERROR: f64 = 0.5;
 fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
     let axis = Axis::logarithmic;
     let mut panel = Panel::new("", axis("h/h_stop(θ) of the experiments [-]"), axis("Ū/√(gh) [-]"));
-    let points = |nonlocal: bool| -> Vec<(f64, f64)> {
-        let flows = flows_of(records, nonlocal);
-        flows.filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data)))).collect()
-    };
-    let (local, nonlocal) = (points(false), points(true));
+    let [local, nonlocal] = [false, true].map(|nonlocal| froude_numbers(incline, records, nonlocal));
     let farthest = local.iter().chain(&nonlocal).fold(1.0_f64, |most, point| most.max(point.0));
     let (angle, coefficient) = (parameters.nonlocal.profile_angle, parameters.flow_coefficient);
     let thickness = |angle: f64| incline.deposit_thickness(angle.to_radians());

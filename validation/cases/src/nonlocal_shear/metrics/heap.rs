@@ -30,7 +30,7 @@ pub(super) fn metrics(
 fn creep(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
     let mut metrics = decay(run, seen, exact);
     metrics.push(velocity_l2(run, seen, exact).gated(
-        Limit::AtMost(2.0 * COARSE / run.particles_per_diameter as f64),
+        Limit::AtMost(2.0 * coarseness(run)),
         "2 % where two particles are as long as a grain and half of it with twice as many, as below a plate: the flowing layer is thicker, but what flows \
          between a surface without fluidity and walls that hold it goes with its depth to a higher power",
     ));
@@ -62,7 +62,7 @@ fn depth(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, expected: 
             )
             .with_snapshot_tolerance(5e-3, 0.0),
         velocity_l2(run, seen, exact).exactly(0.0, EXACT_LOCAL).gated(
-            Limit::AtMost(3.0 * COARSE * row),
+            Limit::AtMost(3.0 * coarseness(run)),
             "3 % where two particles are as long as a grain, half of it with twice as many and twice as much with half as many: a shift of a tenth of a row \
              of the depth where flow ends, at which the velocity begins as its square, is 1 % of the velocity of a layer of 21 rows",
         ),

@@ -53,8 +53,10 @@ const EXACT: &str = "steady flow of the nonlocal law in finite volumes over 2000
 /// deeper half.
 const TAIL: (f64, f64) = (0.0, 5.0);
 const DEEP_TAIL: (f64, f64) = (2.5, 6.0);
-/// Particles per diameter of the runs that limits are given for `[-]`.
-const COARSE: f64 = 2.0;
+/// Factor of limits that are given for two particles per diameter `[-]`.
+fn coarseness(run: &ShearRun) -> f64 {
+    2.0 / run.particles_per_diameter as f64
+}
 
 pub(super) fn all(records: &[NonlocalShearRecord]) -> Vec<Metric> {
     records.iter().flat_map(of_run).chain(heap::orders(records)).collect()
@@ -132,7 +134,7 @@ fn chute(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, half_width
         ShearFlow::Chute { wall_friction, .. } => wall_friction,
         ShearFlow::DraggedBed { .. } | ShearFlow::Heap { .. } => f64::NAN,
     };
-    let coarseness = COARSE / run.particles_per_diameter as f64;
+    let coarseness = coarseness(run);
     let implied = flow.friction_of(&grains, plug).ok().flatten().unwrap_or(f64::NAN);
     vec![
         length_metric(WALL_LAYER.of(&variant, layer / diameter), expected / diameter, run),
@@ -184,9 +186,8 @@ fn dragged_bed(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> V
             )
             .with_snapshot_tolerance(0.1, 1e-2),
     );
-    let allowed = 2.0 * COARSE / run.particles_per_diameter as f64;
     metrics.push(velocity_l2(run, seen, exact).gated(
-        Limit::AtMost(allowed),
+        Limit::AtMost(2.0 * coarseness(run)),
         "2 % where two particles are as long as a grain and half of it with twice as many: first order, of a layer six diameters thick below \
          a plate at which the first row is a quarter of a diameter away",
     ));
@@ -239,7 +240,7 @@ fn decay(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Met
 
 /// A length of the decay or of the layer at a wall `[diameters]`.
 fn length_metric(metric: Metric, expected: f64, run: &ShearRun) -> Metric {
-    let allowed = 0.05 * COARSE / run.particles_per_diameter as f64;
+    let allowed = 0.05 * coarseness(run);
     metric
         .exactly(expected, EXACT)
         .gated(
