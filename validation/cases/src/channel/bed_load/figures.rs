@@ -36,10 +36,7 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
 }
 
 fn stage_of(run: &BedLoadRun) -> Option<Stage> {
-    match &run.formulation {
-        BedLoadFormulation::Continuum(own) => Some(own.stage),
-        _ => None,
-    }
+    run.continuum().map(|own| own.stage)
 }
 
 /// Name of particles that are a grain each, in every legend.
@@ -288,36 +285,29 @@ fn against_layer(stage: Stage, records: &[&BedLoadRecord]) -> Figure {
     Figure::new(&format!("layer-{name}"), &caption, panels)
 }
 
-fn has_judged_law(run: &BedLoadRun) -> bool {
-    matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.is_judged())
-}
-
-fn is_dilating(run: &BedLoadRun) -> bool {
-    stage_of(run) == Some(Stage::Dilating) && has_judged_law(run)
-}
-
-/// Whether the water begins with the velocity of the 1-D layer.
-fn begins_as_layer(run: &BedLoadRun) -> bool {
-    matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.start == 1.0)
-}
-
 /// Whether a run belongs to a kind.
-type RunFilter = fn(&BedLoadRun) -> bool;
+type RunFilter = fn(&BedLoadRun, Option<&ContinuumRun>) -> bool;
+
+fn is_dilating(own: &ContinuumRun) -> bool {
+    own.stage == Stage::Dilating && own.is_judged()
+}
 
 fn transport(records: &[BedLoadRecord]) -> Figure {
     let mut panel = transport_panel::formulas();
     let mut largest_error: f64 = 0.0;
     let kinds: [(&str, usize, RunFilter); 5] = [
-        (PARTICLES, 0, |run| run.formulation.kind() == Some(GrainKind::Stabilised)),
-        (FROZEN, 2, |run| stage_of(run) == Some(Stage::Frozen) && has_judged_law(run)),
-        (DILATING, 5, |run| is_dilating(run) && begins_as_layer(run)),
-        ("grains that dilate, from another start", 4, |run| is_dilating(run) && !begins_as_layer(run)),
-        ("other laws between pairs", 3, |run| stage_of(run).is_some() && !has_judged_law(run)),
+        (PARTICLES, 0, |run, _| run.formulation.kind() == Some(GrainKind::Stabilised)),
+        (FROZEN, 2, |_, own| own.is_some_and(|own| own.stage == Stage::Frozen && own.is_judged())),
+        (DILATING, 5, |_, own| own.is_some_and(|own| is_dilating(own) && own.start == 1.0)),
+        ("grains that dilate, from another start", 4, |_, own| {
+            own.is_some_and(|own| is_dilating(own) && own.start != 1.0)
+        }),
+        ("other laws between pairs", 3, |_, own| own.is_some_and(|own| !own.is_judged())),
     ];
     for (name, slot, belongs) in kinds {
         let rates: Vec<(f64, FittedValue)> = records
             .iter()
-            .filter(|(run, _)| belongs(run))
+            .filter(|(run, _)| belongs(run, run.continuum()))
             .map(|(run, record)| (run.stream().shields_number(), record.data.mean_transport()))
             .filter(|(_, rate)| rate.value > 0.0)
             .collect();

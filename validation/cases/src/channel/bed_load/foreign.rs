@@ -2,7 +2,7 @@
 
 use super::metrics::*;
 use super::observation::{BedLoadObservation, Carried};
-use super::run::{BedLoadFormulation, BedLoadRun};
+use super::run::BedLoadRun;
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::channel::{self, BlockProfile, ProfilePoint};
 use crate::input::FieldError;
@@ -86,12 +86,9 @@ pub(super) fn observe(
     if !given.series("mean_velocity").is_empty() {
         measured.extend([STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
     }
-    let layer = match &run.formulation {
-        BedLoadFormulation::Continuum(own) => Some(own.layer(run.stream()).map_err(|error| {
-            FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
-        })?),
-        _ => None,
-    };
+    let layer = run.continuum().map(|own| own.layer(run.stream())).transpose().map_err(|error| {
+        FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
+    })?;
     let observation = BedLoadObservation {
         transport: given.full_series("transport").iter().map(|rate| rate / unit).collect(),
         stream_velocity: given.full_series("mean_velocity"),
@@ -115,7 +112,7 @@ mod tests {
 
     fn dilating() -> BedLoadRun {
         let runs = runs(&BedLoadParameters::of_tier(Tier::Quick));
-        let is_dilating = |run: &BedLoadRun| matches!(&run.formulation, BedLoadFormulation::Continuum(own) if own.stage.name() == "dilating");
+        let is_dilating = |run: &BedLoadRun| run.continuum().is_some_and(|own| own.stage.name() == "dilating");
         runs.into_iter().find(is_dilating).expect("the quick tier has grains that dilate")
     }
 
@@ -123,7 +120,7 @@ mod tests {
     #[test]
     fn the_layer_as_given_by_another_code_is_the_layer() {
         let run = dilating();
-        let BedLoadFormulation::Continuum(own) = &run.formulation else { unreachable!("it is one of a continuum") };
+        let own = run.continuum().expect("it is one of a continuum");
         let layer = own.layer(run.stream()).expect("a layer");
         let heights: Vec<f64> = (-30..45).map(|k| 1e-3 * (f64::from(k) + 0.5)).collect();
         let of = |pick: fn(&crate::reference::one_dimension::bed_load::LayerState, f64) -> f64| -> Vec<f64> {

@@ -93,6 +93,11 @@ impl BedLoadRun {
         }
     }
 
+    /// What is special to a run of volume fractions.
+    pub(super) fn continuum(&self) -> Option<&ContinuumRun> {
+        if let BedLoadFormulation::Continuum(own) = &self.formulation { Some(own) } else { None }
+    }
+
     /// Whether a run differs from this one in its start alone.
     pub(super) fn has_another_start_than(&self, other: &Self) -> bool {
         let is_alike = match (&self.formulation, &other.formulation) {
