@@ -3,7 +3,7 @@
 use bagnold_cases::collapse::Collapse;
 use bagnold_cases::collapse::planar::{ColumnPlanar, ColumnPlanarParameters};
 use bagnold_harness::case::{Case, Parameters, Run, Silent, Tier};
-use bagnold_harness::metric::COVERAGE;
+use bagnold_harness::metric::{COVERAGE, Origin};
 use bagnold_harness::observation::{Frame, Recorded};
 use bagnold_solver::material::rheology::Rheology;
 
@@ -65,8 +65,8 @@ fn the_interval_of_a_shallow_column_holds_what_finer_ones_approach() {
     let own = records.iter().map(|(_, record)| record.data.run_out());
     let mean = own.clone().sum::<f64>() / records.len() as f64;
     // the scatter, which the metric takes from the ensemble, and each run's own share of a row
-    let repeat =
-        shown.uncertainty.standard().expect("known").powi(2) - shown.uncertainty.of_spacing().expect("known").powi(2);
+    let repeat = shown.uncertainty.standard().expect("known").powi(2)
+        - shown.uncertainty.of(&[Origin::Numerical]).expect("known").powi(2);
     let covered = records.iter().filter(|(_, record)| {
         let spacing = record.data.front_uncertainty().expect("particles");
         (record.data.run_out() - APPROACHED).abs() <= COVERAGE * (repeat + spacing * spacing).sqrt()

@@ -5,7 +5,7 @@ use super::power::{GatePower, rejected_inputs};
 use super::view::VerdictMark;
 use super::{CaseReport, DrawnFigure, Report};
 use crate::figure::Figure;
-use crate::metric::{Metric, MetricKind, Variant, Verdict};
+use crate::metric::{Metric, MetricKind, Origin, Variant, Verdict};
 use crate::number::two_digits;
 use serde_json::{Value, json};
 
@@ -158,7 +158,7 @@ fn sentence(claim: &Claim, cases: &[&CaseReport]) -> Option<String> {
     let own: Vec<&Metric> = named.filter(|metric| (claim.value)(metric).is_finite()).collect();
     let range = span(own.iter().map(|metric| (claim.value)(metric)), decimals)?;
     // the middle of a bracket is known as an even spread of its width
-    let known = own.iter().filter_map(|metric| metric.uncertainty.of_spacing()).fold(0.0, f64::max);
+    let known = own.iter().filter_map(|metric| metric.uncertainty.of(&[Origin::Numerical])).fold(0.0, f64::max);
     let mut works: Vec<&str> =
         own.iter().filter_map(|metric| metric.reference.as_ref()?.source.split(',').next()).collect();
     works.dedup();

@@ -3,7 +3,7 @@
 use super::{DrawnFigure, Report};
 use crate::evidence::StatedUncertainty;
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::Metric;
+use crate::metric::{ComparisonPart, Metric};
 use crate::number::{four_digits, two_digits};
 use crate::statistics::{Comparison, Deviation, ModelBias, model_bias};
 use serde_json::{Value, json};
@@ -68,7 +68,7 @@ pub fn quantities_of<'a>(cases: impl IntoIterator<Item = (&'a str, Vec<&'a Metri
 
 fn comparison(metric: &Metric) -> Option<Comparison> {
     let measured = metric.compared_with()?;
-    let uncertainty = metric.uncertainty.of_reference().map(|standard| standard / measured.abs());
+    let uncertainty = metric.uncertainty.of_part(ComparisonPart::Reference).map(|standard| standard / measured.abs());
     Some(Comparison { predicted: metric.value, measured, uncertainty })
 }
 

@@ -19,6 +19,7 @@ use super::ReferenceError;
 use super::measured_table::{ReferenceColumn, parse_table};
 use crate::input::{DOCUMENT, plain_lines, read_text, shown};
 use crate::metric::{Confidence, MetricKind};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Origin of a reference value.
@@ -37,6 +38,15 @@ pub enum ReferenceKind {
 }
 
 impl ReferenceKind {
+    /// All, each with its word in a file.
+    const ALL: [(&'static str, Self); 5] = [
+        ("analytic", Self::Analytic),
+        ("computed", Self::Computed),
+        ("fit", Self::Fit),
+        ("measured", Self::Measured),
+        ("statement", Self::Statement),
+    ];
+
     /// Kind of verdict that such a reference value supports.
     #[must_use]
     pub fn kind(self) -> MetricKind {
@@ -95,36 +105,32 @@ impl MeasuredData {
         Ok(Self { file: file.to_owned(), metadata, columns })
     }
 
+    fn column(&self, name: &str) -> Option<&ReferenceColumn> {
+        self.columns.iter().find(|column| column.name() == name)
+    }
+
     /// Values of a number column, by its name without the unit.
     pub fn numbers(&self, name: &str) -> Result<&[f64], ReferenceError> {
-        self.columns
-            .iter()
-            .find_map(|column| match column {
-                ReferenceColumn::Numbers { name: own, values, .. } if own == name => Some(values.as_slice()),
-                _ => None,
-            })
-            .ok_or_else(|| self.no_column("number", name))
+        match self.column(name) {
+            Some(ReferenceColumn::Numbers { values, .. }) => Ok(values),
+            _ => Err(self.no_column("number", name)),
+        }
     }
 
     /// Values of a label column.
     pub fn labels(&self, name: &str) -> Result<&[String], ReferenceError> {
-        self.columns
-            .iter()
-            .find_map(|column| match column {
-                ReferenceColumn::Labels { name: own, values } if own == name => Some(values.as_slice()),
-                _ => None,
-            })
-            .ok_or_else(|| self.no_column("label", name))
+        match self.column(name) {
+            Some(ReferenceColumn::Labels { values, .. }) => Ok(values),
+            _ => Err(self.no_column("label", name)),
+        }
     }
 
     /// The row whose label in a column is this one; the first, if there are several.
     pub fn row(&self, column: &str, label: &str) -> Result<usize, ReferenceError> {
         let labels = self.labels(column)?;
-        labels.iter().position(|own| own == label).ok_or_else(|| ReferenceError::NoRow {
-            file: self.file.clone(),
-            column: column.to_owned(),
-            label: label.to_owned(),
-            known: labels.join(", "),
+        labels.iter().position(|own| own == label).ok_or_else(|| {
+            let known = labels.join(", ");
+            self.error(format!("no row has `{label}` in the column `{column}`; there are {known}"))
         })
     }
 
@@ -141,15 +147,12 @@ impl MeasuredData {
             Some(ReferenceColumn::Labels { values, .. }) => values.len(),
             None => 0,
         };
-        if !self.columns.iter().any(|column| column.name() == "confidence") {
+        if self.column("confidence").is_none() {
             return Ok(vec![self.metadata.confidence; rows]);
         }
         self.labels("confidence")?
             .iter()
-            .map(|word| {
-                let found = CONFIDENCES.iter().find(|(known, _)| known == word).map(|(_, confidence)| *confidence);
-                found.ok_or_else(|| self.bad_label("confidence", word, "high, medium, low, unverified"))
-            })
+            .map(|word| Confidence::stated(word).ok_or_else(|| self.bad_label("confidence", word, Confidence::STATED)))
             .collect()
     }
 
@@ -167,81 +170,58 @@ impl MeasuredData {
 
     /// Error of a label that is not among those allowed.
     #[must_use]
-    pub fn bad_label(&self, column: &str, label: &str, allowed: &'static str) -> ReferenceError {
-        ReferenceError::Label { file: self.file.clone(), column: column.to_owned(), label: label.to_owned(), allowed }
+    pub fn bad_label(&self, column: &str, label: &str, allowed: &str) -> ReferenceError {
+        self.error(format!("`{label}` in the column `{column}` is not one of {allowed}"))
     }
 
-    fn no_column(&self, kind: &'static str, name: &str) -> ReferenceError {
+    fn no_column(&self, kind: &str, name: &str) -> ReferenceError {
         let known: Vec<String> = self.columns.iter().map(|column| format!("`{}`", column.name())).collect();
-        ReferenceError::NoColumn { file: self.file.clone(), kind, name: name.to_owned(), known: known.join(", ") }
+        self.error(format!("there is no {kind} column `{name}`; its columns are {}", known.join(", ")))
+    }
+
+    fn error(&self, defect: String) -> ReferenceError {
+        ReferenceError::at(&self.file, defect)
     }
 }
-
-const CONFIDENCES: [(&str, Confidence); 4] = [
-    ("high", Confidence::High),
-    ("medium", Confidence::Medium),
-    ("low", Confidence::Low),
-    ("unverified", Confidence::Unverified),
-];
 
 const KEYS: [&str; 7] = ["quantity", "unit", "kind", "confidence", "uncertainty", "source", "licence"];
 
 fn parse_metadata(file: &str, text: &str, header_lines: usize) -> Result<Metadata, ReferenceError> {
-    let mut found: [Option<(u64, String)>; 7] = Default::default();
-    for (index, line) in text.lines().enumerate().take(header_lines) {
-        let number = index as u64 + 1;
-        let refuse = |rule: String| {
-            Err(ReferenceError::Metadata { file: file.to_owned(), line: number, text: line.to_owned(), rule })
-        };
-        if line.trim().is_empty() {
-            continue;
-        }
-        let Some((key, value)) = line.trim_start_matches('#').split_once(':') else {
-            return refuse("has no colon; write `# key: value`".to_owned());
+    let mut found = BTreeMap::new();
+    for (line, text) in (1..).zip(text.lines()).take(header_lines).filter(|(_, text)| !text.trim().is_empty()) {
+        let refuse = |rule: &str| Err(ReferenceError::at(&format!("{file}, line {line}"), format!("`{text}` {rule}")));
+        let Some((key, value)) = text.trim_start_matches('#').split_once(':') else {
+            return refuse("has no colon; write `# key: value`");
         };
         let (key, value) = (key.trim(), value.trim());
-        let Some(slot) = KEYS.iter().position(|known| *known == key) else {
-            return refuse(format!("has an unknown key; the keys are {}", KEYS.join(", ")));
-        };
-        if value.is_empty() {
-            return refuse("has no value; write one, \"none\" if there is none".to_owned());
+        if !KEYS.contains(&key) {
+            return refuse(&format!("has an unknown key; the keys are {}", KEYS.join(", ")));
         }
-        if found[slot].replace((number, value.to_owned())).is_some() {
-            return refuse("repeats a key; keep one of the lines".to_owned());
+        if value.is_empty() {
+            return refuse("has no value; write one, \"none\" if there is none");
+        }
+        if found.insert(key, (line, value)).is_some() {
+            return refuse("repeats a key; keep one of the lines");
         }
     }
-    let mut take = |key: &'static str| {
-        let slot = KEYS.iter().position(|known| *known == key);
-        slot.and_then(|slot| found[slot].take()).ok_or(ReferenceError::MissingMetadata { file: file.to_owned(), key })
+    let value = |key: &str| {
+        let missing = || format!("the line `# {key}: …` is missing; add it above the table");
+        found.get(key).copied().ok_or_else(|| ReferenceError::at(file, missing()))
     };
-    let origins = [
-        ("analytic", ReferenceKind::Analytic),
-        ("computed", ReferenceKind::Computed),
-        ("fit", ReferenceKind::Fit),
-        ("measured", ReferenceKind::Measured),
-        ("statement", ReferenceKind::Statement),
-    ];
+    let text = |key: &str| Ok(value(key)?.1.to_owned());
+    let not_one_of = |(line, text): (usize, &str), words: &str| {
+        ReferenceError::at(&format!("{file}, line {line}"), format!("`{text}` is not one of {words}"))
+    };
+    let (origin, confidence) = (value("kind")?, value("confidence")?);
+    let known = ReferenceKind::ALL.into_iter().find(|(word, _)| *word == origin.1);
     Ok(Metadata {
-        quantity: take("quantity")?.1,
-        unit: take("unit")?.1,
-        origin: choose(file, take("kind")?, &origins)?,
-        confidence: choose(file, take("confidence")?, &CONFIDENCES)?,
-        uncertainty: take("uncertainty")?.1,
-        source: take("source")?.1,
-        licence: take("licence")?.1,
-    })
-}
-
-/// One of a few words.
-fn choose<T: Copy>(file: &str, (line, text): (u64, String), choices: &[(&str, T)]) -> Result<T, ReferenceError> {
-    choices.iter().find(|(word, _)| *word == text).map(|(_, value)| *value).ok_or_else(|| {
-        let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
-        ReferenceError::Metadata {
-            file: file.to_owned(),
-            line,
-            text,
-            rule: format!("is not one of {}", words.join(", ")),
-        }
+        quantity: text("quantity")?,
+        unit: text("unit")?,
+        origin: known.ok_or_else(|| not_one_of(origin, &ReferenceKind::ALL.map(|(word, _)| word).join(", ")))?.1,
+        confidence: Confidence::stated(confidence.1).ok_or_else(|| not_one_of(confidence, Confidence::STATED))?,
+        uncertainty: text("uncertainty")?,
+        source: text("source")?,
+        licence: text("licence")?,
     })
 }
 

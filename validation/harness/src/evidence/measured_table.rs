@@ -6,6 +6,8 @@ use crate::input::{comma_fault, is_mark, row_remedy, text_fault};
 /// No measured number is larger, in whatever unit; squares of such numbers are still finite.
 const LARGEST: f64 = 1e30;
 
+const NO_NUMBER: &str = "not a finite measured value; write one with a decimal point, or drop the row";
+
 /// One column of a reference table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ReferenceColumn {
@@ -41,20 +43,13 @@ impl ReferenceColumn {
 pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result<Vec<ReferenceColumn>, ReferenceError> {
     let table: String = text.lines().skip(header_lines).flat_map(|line| [line, "\n"]).collect();
     let offset = header_lines as u64;
-    let refuse = |line: u64, column: usize, rule: String| ReferenceError::Table {
-        file: file.to_owned(),
-        line: line + offset,
-        column,
-        rule,
+    let refuse = |line: u64, column: usize, rule: String| {
+        ReferenceError::at(&format!("{file}, line {}, column {column}", line + offset), rule)
     };
     // of the whole text, whose lines it counts
     if let Some(fault) = text_fault(text) {
-        return Err(ReferenceError::Table {
-            file: file.to_owned(),
-            line: fault.line as u64,
-            column: fault.column,
-            rule: fault.in_words(),
-        });
+        let place = format!("{file}, line {}, column {}", fault.line, fault.column);
+        return Err(ReferenceError::at(&place, fault.in_words()));
     }
     if let Some(fault) = table.lines().next().and_then(|heading| comma_fault(heading, 1)) {
         return Err(refuse(1, fault.column, fault.in_words()));
@@ -89,13 +84,8 @@ pub(super) fn parse_table(file: &str, text: &str, header_lines: usize) -> Result
                 ReferenceColumn::Numbers { name, values, .. } => match text.parse::<f64>() {
                     Ok(value) if value.abs() <= LARGEST && !is_mark(value) => values.push(value),
                     _ => {
-                        return Err(ReferenceError::Number {
-                            file: file.to_owned(),
-                            line: line + offset,
-                            column: index + 1,
-                            name: name.clone(),
-                            text: text.to_owned(),
-                        });
+                        let place = format!("{file}, line {}, column {} (`{name}`)", line + offset, index + 1);
+                        return Err(ReferenceError::at(&place, format!("`{text}` is {NO_NUMBER}")));
                     }
                 },
             }

@@ -15,7 +15,7 @@ pub fn shipped_tables() -> impl Iterator<Item = (&'static str, &'static str)> {
 /// If there is no such table, or it is malformed.
 pub fn shipped_table(name: &str) -> Result<MeasuredData, ReferenceError> {
     let found = FILES.iter().find(|(own, _)| *own == name);
-    let (_, text) = found.ok_or_else(|| ReferenceError::NotShipped { name: name.to_owned() })?;
+    let (_, text) = found.ok_or_else(|| ReferenceError::at(name, "the program carries no such table"))?;
     MeasuredData::parse(&format!("reference-data/{name}"), text)
 }
 

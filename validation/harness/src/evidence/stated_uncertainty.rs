@@ -188,11 +188,7 @@ impl StatedUncertainty {
             let Some(own) = self.parts.iter().find(is_it).filter(|_| metric.uncertainty.of_part(part).is_none()) else {
                 continue;
             };
-            let origin = match own.part {
-                ComparisonPart::Numerical => Origin::Numerical,
-                ComparisonPart::Input => Origin::Input,
-                ComparisonPart::Reference => Origin::Experiment,
-            };
+            let origin = own.part.origins()[0];
             let standard = own.absolute.or(own.relative.map(|relative| relative * scale));
             let words = format!("{}: {}", own.basis.word(), own.source);
             metric = match standard {

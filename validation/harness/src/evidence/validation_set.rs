@@ -64,7 +64,7 @@ impl ValidatedComparison {
             value: metric.value,
             reference,
             uncertainty: metric.uncertainty.standard(),
-            reference_uncertainty: metric.uncertainty.of_reference().map(relative),
+            reference_uncertainty: metric.uncertainty.of_part(ComparisonPart::Reference).map(relative),
             input_uncertainty: metric.uncertainty.of_part(ComparisonPart::Input).map(relative),
             aspect_ratio: regime.aspect_ratio,
             slope_angle: regime.slope_angle,

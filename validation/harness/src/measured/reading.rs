@@ -106,14 +106,10 @@ fn said(text: &str) -> Result<Said, FieldError> {
             "panel" => said.panel = Some(value),
             "curve" => said.curve = Some(value),
             "source" => said.source = Some(value),
-            "confidence" => {
-                let words = ["high", "medium", "low", "unverified"];
-                let known = [Confidence::High, Confidence::Medium, Confidence::Low, Confidence::Unverified];
-                match words.iter().position(|word| *word == value) {
-                    Some(place) => said.confidence = Some(known[place]),
-                    None => return wrong("one of high, medium, low, unverified", "without one it is low"),
-                }
-            }
+            "confidence" => match Confidence::stated(&value) {
+                Some(confidence) => said.confidence = Some(confidence),
+                None => return wrong(&format!("one of {}", Confidence::STATED), "without one it is low"),
+            },
             _ => {
                 // comments are free; what is one letter off a key is no comment
                 if let Some(meant) = KEYS.into_iter().find(|known| strsim::osa_distance(&key, known) == 1) {

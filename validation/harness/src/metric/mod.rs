@@ -75,6 +75,18 @@ pub enum Confidence {
     Unverified,
 }
 
+impl Confidence {
+    /// The words for what a file may state of its own values.
+    pub const STATED: &'static str = "high, medium, low, unverified";
+
+    /// Confidence of one of those words.
+    #[must_use]
+    pub fn stated(word: &str) -> Option<Self> {
+        let all = [Self::High, Self::Medium, Self::Low, Self::Unverified];
+        Self::STATED.split(", ").zip(all).find(|(known, _)| *known == word).map(|(_, own)| own)
+    }
+}
+
 /// The rule of a gate, in the metric's unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -250,7 +262,7 @@ impl Metric {
     #[must_use]
     pub fn is_coarser_than_gate(&self) -> bool {
         let width = self.gate.as_ref().and_then(|gate| gate.statistical);
-        width.zip(self.uncertainty.of_spacing()).is_some_and(|(width, spacing)| COVERAGE * spacing > width)
+        width.zip(self.uncertainty.of(&[Origin::Numerical])).is_some_and(|(width, spacing)| COVERAGE * spacing > width)
     }
 
     /// Makes its gate, if it has one, one that the user states.

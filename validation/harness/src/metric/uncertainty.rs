@@ -33,12 +33,6 @@ impl Origin {
             Self::Input => "input",
         }
     }
-
-    /// Whether it belongs to the reference, not to the prediction.
-    #[must_use]
-    pub const fn is_of_reference(self) -> bool {
-        matches!(self, Self::Experiment | Self::Digitisation)
-    }
 }
 
 /// Part of a comparison's uncertainty, after ASME V&V 20.
@@ -129,18 +123,6 @@ impl Uncertainty {
         root_of_squares(self.parts.iter().filter(|part| origins.contains(&part.origin)))
     }
 
-    /// The same of the parts that belong to the reference.
-    #[must_use]
-    pub fn of_reference(&self) -> Option<f64> {
-        root_of_squares(self.parts.iter().filter(|part| part.origin.is_of_reference()))
-    }
-
-    /// The same of the spacing.
-    #[must_use]
-    pub fn of_spacing(&self) -> Option<f64> {
-        root_of_squares(self.parts.iter().filter(|part| part.origin == Origin::Numerical))
-    }
-
     /// The same of what belongs to a part of a comparison.
     #[must_use]
     pub fn of_part(&self, part: ComparisonPart) -> Option<f64> {
@@ -187,7 +169,10 @@ mod tests {
     #[test]
     fn parts_add_as_squares_and_unknown_ones_not_at_all() {
         let metric = Metric::observed("run_out", &Variant::default(), 1.2, "-");
-        assert_eq!((metric.uncertainty.standard(), metric.uncertainty.of_reference()), (None, None));
+        assert_eq!(
+            (metric.uncertainty.standard(), metric.uncertainty.of_part(ComparisonPart::Reference)),
+            (None, None)
+        );
         let metric = metric
             .known_to(Origin::Digitisation, Some(0.3), "other readings")
             .known_to(Origin::Experiment, None, "not given")
@@ -195,7 +180,7 @@ mod tests {
             .known_to(Origin::Repeat, Some(0.4), "five seeds");
         assert_eq!(metric.uncertainty.parts().len(), 2);
         assert!(metric.uncertainty.standard().is_some_and(|standard| (standard - 0.5).abs() < 1e-15));
-        assert_eq!(metric.uncertainty.of_reference(), Some(0.3));
+        assert_eq!(metric.uncertainty.of_part(ComparisonPart::Reference), Some(0.3));
         assert_eq!(metric.uncertainty.largest(ComparisonPart::Input), None);
         let metric = metric.known_to(Origin::Input, Some(0.3), "a (a reason)").known_to(
             Origin::Input,

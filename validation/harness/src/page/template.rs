@@ -15,24 +15,8 @@ pub fn fill(
     for (own, text) in templates {
         environment.add_template(own, text)?;
     }
-    environment.get_template(name)?.render(template_value(page)?)
-}
-
-/// The page as the template engine's own value, by way of JSON: the engine is built without serde.
-fn template_value(page: &impl serde::Serialize) -> Result<minijinja::Value, minijinja::Error> {
-    use minijinja::{Error, ErrorKind, Value};
-    use serde_json::Value as Json;
-    fn convert(json: Json) -> Value {
-        match json {
-            Json::Null => Value::from(()),
-            Json::Bool(flag) => Value::from(flag),
-            Json::Number(number) => number.as_u64().map_or_else(|| Value::from(number.as_f64()), Value::from),
-            Json::String(text) => Value::from(text),
-            Json::Array(items) => Value::from(items.into_iter().map(convert).collect::<Vec<Value>>()),
-            Json::Object(fields) => Value::from_pairs(fields.into_iter().map(|(key, value)| (key, convert(value)))),
-        }
-    }
-    let json =
-        serde_json::to_value(page).map_err(|error| Error::new(ErrorKind::InvalidOperation, error.to_string()))?;
-    Ok(convert(json))
+    // by way of JSON, which has nothing for a number that is not finite
+    let page = serde_json::to_value(page)
+        .map_err(|error| minijinja::Error::new(minijinja::ErrorKind::InvalidOperation, error.to_string()))?;
+    environment.get_template(name)?.render(minijinja::value::Serde(page))
 }

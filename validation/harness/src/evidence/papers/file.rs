@@ -1,6 +1,7 @@
 //! A file of `reference-data/papers` → a paper; every rule that a row can break.
 
-use super::{Element, ElementStatus, FigureName, MetricName, Paper, PaperError, Printed, RunName, TestName};
+use super::super::ReferenceError;
+use super::{Element, ElementStatus, FigureName, MetricName, Paper, Printed, RunName, TestName};
 use crate::metric::Variant;
 use serde::Deserialize;
 
@@ -26,7 +27,7 @@ struct ElementRow {
     #[serde(default)]
     metrics: Vec<MetricRow>,
     #[serde(default)]
-    runs: Vec<RunRow>,
+    runs: Vec<RunName>,
     #[serde(default)]
     figures: Vec<String>,
     status: Option<String>,
@@ -52,13 +53,6 @@ struct MetricRow {
     outside: Option<String>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct RunRow {
-    case: String,
-    variant: Variant,
-}
-
 /// Kinds of element, by the beginning of its name.
 const KINDS: [&str; 5] = ["eq-", "table-", "fig-", "number-", "claim-"];
 
@@ -80,9 +74,10 @@ struct RowPlace<'a> {
 }
 
 impl RowPlace<'_> {
-    fn refuse(&self, field: &'static str, value: &str, rule: impl Into<String>) -> PaperError {
-        let (file, id) = (self.file.to_owned(), self.id.to_owned());
-        PaperError::Row { file, row: self.row, id, field, value: value.to_owned(), rule: rule.into() }
+    fn refuse(&self, field: &str, value: &str, rule: impl Into<String>) -> ReferenceError {
+        let place = format!("{}, row {} (`{}`)", self.file, self.row, self.id);
+        let defect = format!("`{field}` is {value:?}, but must be {}", rule.into());
+        ReferenceError::Text { place, defect }
     }
 }
 
@@ -91,11 +86,11 @@ impl Paper {
     ///
     /// # Errors
     /// If the text is malformed, or a row breaks a rule; the error names file, row, field, value and rule.
-    pub fn parse(name: &str, text: &str) -> Result<Self, PaperError> {
+    pub fn parse(name: &str, text: &str) -> Result<Self, ReferenceError> {
         let path = format!("reference-data/papers/{name}.toml");
-        let file: File = toml::from_str(text).map_err(|error| PaperError::Text {
-            file: path.clone(),
-            message: error.to_string().trim_end().to_owned(),
+        let file: File = toml::from_str(text).map_err(|error| ReferenceError::Text {
+            place: path.clone(),
+            defect: error.to_string().trim_end().to_owned(),
         })?;
         let mut elements: Vec<Element> = Vec::with_capacity(file.elements.len());
         for (index, row) in file.elements.into_iter().enumerate() {
@@ -110,7 +105,7 @@ impl Paper {
     }
 }
 
-fn element(row: ElementRow, place: &RowPlace<'_>) -> Result<Element, PaperError> {
+fn element(row: ElementRow, place: &RowPlace<'_>) -> Result<Element, ReferenceError> {
     let plain = |text: &str| text.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-');
     if !KINDS.iter().any(|kind| row.id.len() > kind.len() && row.id.starts_with(kind)) || !plain(&row.id) {
         let rule = format!("one of {} and more of a-z, 0-9 and -", KINDS.join(", "));
@@ -130,24 +125,23 @@ fn element(row: ElementRow, place: &RowPlace<'_>) -> Result<Element, PaperError>
     let tests = row.tests.iter().map(|test| test_name(test, place)).collect::<Result<Vec<_>, _>>()?;
     let metrics = row.metrics.into_iter().map(|metric| metric_name(metric, place)).collect::<Result<Vec<_>, _>>()?;
     let figures = row.figures.iter().map(|figure| figure_name(figure, place)).collect::<Result<Vec<_>, _>>()?;
-    let runs: Vec<RunName> = row.runs.into_iter().map(|run| RunName { case: run.case, variant: run.variant }).collect();
-    if settled.is_none() && tests.is_empty() && metrics.is_empty() && runs.is_empty() {
-        let words: Vec<&str> = SETTLED.iter().map(|(word, _)| *word).collect();
-        let rule = format!("one of {}, where no metric, run or test says what became of the element", words.join(", "));
+    if settled.is_none() && tests.is_empty() && metrics.is_empty() && row.runs.is_empty() {
+        let words = SETTLED.map(|(word, _)| word).join(", ");
+        let rule = format!("one of {words}, where no metric, run or test says what became of the element");
         return Err(place.refuse("status", "", rule));
     }
-    let ElementRow { id, place, says, note, control, .. } = row;
+    let ElementRow { id, place, says, note, control, runs, .. } = row;
     Ok(Element { id, place, statement: says, implemented, tests, control, metrics, runs, figures, settled, note })
 }
 
-fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(ElementStatus, String)>, PaperError> {
+fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(ElementStatus, String)>, ReferenceError> {
     match (&row.status, &row.because) {
         (None, None) => Ok(None),
         (None, Some(reason)) => Err(place.refuse("because", reason, "absent where no `status` is written")),
         (Some(word), reason) => {
             let found = SETTLED.iter().find(|(known, _)| known == word).map(|(_, settled)| *settled);
-            let words: Vec<&str> = SETTLED.iter().map(|(word, _)| *word).collect();
-            let rule = format!("one of {}; every other status is computed", words.join(", "));
+            let words = SETTLED.map(|(word, _)| word).join(", ");
+            let rule = format!("one of {words}; every other status is computed");
             let settled = found.ok_or_else(|| place.refuse("status", word, rule))?;
             match reason {
                 Some(reason) if !reason.trim().is_empty() => Ok(Some((settled, reason.clone()))),
@@ -157,7 +151,7 @@ fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(ElementStat
     }
 }
 
-fn test_name(text: &str, place: &RowPlace<'_>) -> Result<TestName, PaperError> {
+fn test_name(text: &str, place: &RowPlace<'_>) -> Result<TestName, ReferenceError> {
     match text.split_once("::") {
         Some((file, function)) if file.ends_with(".rs") && !function.is_empty() => {
             Ok(TestName { file: file.to_owned(), function: function.to_owned() })
@@ -166,7 +160,7 @@ fn test_name(text: &str, place: &RowPlace<'_>) -> Result<TestName, PaperError> {
     }
 }
 
-fn figure_name(text: &str, place: &RowPlace<'_>) -> Result<FigureName, PaperError> {
+fn figure_name(text: &str, place: &RowPlace<'_>) -> Result<FigureName, ReferenceError> {
     match text.split_once('/') {
         Some((case, figure)) if !case.is_empty() && !figure.is_empty() => {
             Ok(FigureName { case: case.to_owned(), figure: figure.to_owned() })
@@ -175,7 +169,7 @@ fn figure_name(text: &str, place: &RowPlace<'_>) -> Result<FigureName, PaperErro
     }
 }
 
-fn metric_name(row: MetricRow, place: &RowPlace<'_>) -> Result<MetricName, PaperError> {
+fn metric_name(row: MetricRow, place: &RowPlace<'_>) -> Result<MetricName, ReferenceError> {
     let (lowest, highest) = match (row.printed, row.tolerance, row.at_least, row.at_most) {
         (Some(value), Some(tolerance), None, None) => {
             if !(tolerance >= 0.0 && tolerance.is_finite() && value.is_finite()) {

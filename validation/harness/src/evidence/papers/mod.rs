@@ -2,14 +2,12 @@
 //! and by what that is shown. The rows stand in `reference-data/papers`; whether one is reproduced is not written there but
 //! follows from the metrics that it names.
 
-mod error;
 mod file;
 #[cfg(test)]
 mod tests;
 
-pub use error::PaperError;
-
 use crate::metric::Variant;
+use serde::Deserialize;
 use std::fmt;
 use std::sync::LazyLock;
 
@@ -93,7 +91,8 @@ pub struct MetricName {
 }
 
 /// Runs of a case: those whose variant has all the parts that are given.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RunName {
     /// Case.
     pub case: String,
@@ -139,7 +138,7 @@ impl MetricName {
     #[must_use]
     pub fn names(&self, metric: &str, variant: &Variant) -> bool {
         let same_quantity = self.variant.get(QUANTITY) == variant.get(QUANTITY);
-        self.metric == metric && same_quantity && has_all(variant, &self.variant)
+        self.metric == metric && same_quantity && variant.includes(&self.variant)
     }
 }
 
@@ -147,13 +146,8 @@ impl RunName {
     /// Whether it names the run of a case.
     #[must_use]
     pub fn names(&self, run: &Variant) -> bool {
-        has_all(run, &self.variant)
+        run.includes(&self.variant)
     }
-}
-
-/// Whether a variant has all the parts of another.
-fn has_all(variant: &Variant, wanted: &Variant) -> bool {
-    wanted.parts().all(|(key, value)| variant.get(key) == Some(value))
 }
 
 /// The papers that the program accounts for.

@@ -13,7 +13,7 @@ implemented = "none"
 metrics = [{ case = "film", metric = "velocity_l2", variant = "fluid=newtonian", printed = 5.0, tolerance = 0.5 }]
 "#;
 
-fn parse(rows: &str) -> Result<Paper, PaperError> {
+fn parse(rows: &str) -> Result<Paper, crate::evidence::ReferenceError> {
     Paper::parse("made-up", &format!("{HEAD}{rows}"))
 }
 

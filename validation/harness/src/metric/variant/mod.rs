@@ -119,14 +119,13 @@ impl FromStr for Variant {
     fn from_str(text: &str) -> Result<Self, VariantError> {
         let mut variant = Self::default();
         for part in text.split(',').filter(|_| !text.is_empty()) {
-            let (key, value) = part
-                .split_once('=')
-                .ok_or_else(|| VariantError::Part { text: text.to_owned(), part: part.to_owned() })?;
+            let refuse = |defect: String| Err(VariantError { text: text.to_owned(), defect });
+            let (key, value) = part.split_once('=').unwrap_or_default();
             if key.is_empty() || value.is_empty() || value.contains('=') {
-                return Err(VariantError::Part { text: text.to_owned(), part: part.to_owned() });
+                return refuse(format!("the part `{part}`"));
             }
             if variant.get(key).is_some() {
-                return Err(VariantError::Twice { text: text.to_owned(), key: key.to_owned() });
+                return refuse(format!("`{key}` twice"));
             }
             variant = variant.and(key, value);
         }
