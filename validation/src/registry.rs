@@ -69,8 +69,8 @@ registry!($
     settling::Settling,
     bed_load_1d::BedLoad1d,
     bed_load::BedLoad,
-    scene::UserScene,
-    scene_space::SpaceScene,
+    scene::CASE,
+    scene_space::CASE,
 );
 
 #[cfg(test)]

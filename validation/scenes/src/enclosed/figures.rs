@@ -6,11 +6,14 @@ use super::setting::SceneInlet;
 use super::surfaces::Surfaces;
 use super::{Measurand, SceneObservation, SceneParameters, SceneRecord};
 use super::{series, shapes};
-use crate::figure::{Axis, Figure, Panel};
+use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use bagnold_solver::vector::Vector;
 
 /// Margin of pictures around the material, over the size of its box in the direction of the axis `[-]`.
 const MARGIN: f64 = 0.1;
+
+/// Labels of the axes of space.
+const AXES: [&str; 3] = ["x [m]", "y [m]", "z [m]"];
 
 pub(crate) fn all<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
@@ -36,7 +39,40 @@ pub(crate) fn picture_axes<'a, S: Dimension<D>, const D: usize>(
     let (lower, upper) = shapes::around(seen.chain(parameters.inlets.iter().flat_map(SceneInlet::corners)));
     let margin = ((upper - lower) * MARGIN).add_scalar(rim);
     let limits = |k: usize| ((lower[k] - margin[k]).max(scene.0[k]), (upper[k] + margin[k]).min(scene.1[k]));
-    std::array::from_fn(|k| Axis { limits: Some(limits(k)), ..Axis::linear(["x [m]", "y [m]", "z [m]"][k]) })
+    std::array::from_fn(|k| Axis { limits: Some(limits(k)), ..Axis::linear(AXES[k]) })
+}
+
+/// Panel of the start along two axes: sites in the colours of their values.
+pub(crate) fn start_panel<'s, S: Dimension<D>, const D: usize>(
+    parameters: &SceneParameters<S, D>,
+    title: &str,
+    [right, up]: [usize; 2],
+    sites: impl IntoIterator<Item = &'s (Vector<D>, f64)>,
+) -> Panel {
+    let (lower, upper) = parameters.extent();
+    let margin = 4.0 * parameters.spacing;
+    let axis = |k: usize| Axis::linear(AXES[k]).between(lower[k] - margin, upper[k] + margin);
+    let mut panel = Panel::new(title, axis(right), axis(up));
+    let (points, values): (Vec<_>, Vec<_>) =
+        sites.into_iter().map(|(place, value)| ((place[right], place[up]), *value)).unzip();
+    if !points.is_empty() {
+        panel.field = Some(Field::new("behind [-]", parameters.spacing, (0.0, 1.0), points, values));
+    }
+    panel
+}
+
+/// Draws the inlets along two axes, in colours behind those of the walls.
+pub(crate) fn add_inlets<S: Dimension<D>, const D: usize>(
+    panel: &mut Panel,
+    parameters: &SceneParameters<S, D>,
+    [right, up]: [usize; 2],
+) {
+    for (k, inlet) in parameters.inlets.iter().enumerate() {
+        let corners = inlet.corners();
+        let closing = corners.first().filter(|_| D > 2);
+        let points = corners.iter().chain(closing).map(|place| (place[right], place[up])).collect();
+        panel.series.push(Series::new(inlet.name(), Mark::LinePoints, parameters.walls.len() + k, points));
+    }
 }
 
 /// Figure of the initial particles, and of the parts of bodies that walls remove.

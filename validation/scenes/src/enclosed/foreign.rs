@@ -129,8 +129,9 @@ mod tests {
     use super::*;
     use crate::case::{NamedColumns, Parameters, Tier};
     use crate::enclosed::MeasuredSeries;
+    use crate::enclosed::SceneCase;
     use crate::metric::{Metric, Verdict};
-    use crate::scene::{PlaneParameters, UserScene};
+    use crate::scene::PlaneParameters;
 
     /// The tier's scene, with a front that was measured to run 1 m/s until 0.2 s.
     fn scene(limit: f64) -> PlaneParameters {
@@ -153,7 +154,7 @@ mod tests {
         let run = scene.runs().remove(0);
         let seen = observe(&run, given).map_err(|error| error.to_string())?.expect("a front");
         let record = given.record(seen.observation);
-        let all = UserScene::metrics(scene, &[(run, record)]);
+        let all = SceneCase::metrics(scene, &[(run, record)]);
         Ok(all.into_iter().filter(|metric| seen.measured.contains(&metric.name.as_str())).collect())
     }
 

@@ -48,8 +48,21 @@ quantities! { shared pub(super)
     GAUGE_ERROR: validated("gauge_error", "%", "√⟨(g(t)/m − 1)²⟩ over the measured values m at times t; the gauge g is interpolated linearly between its rows"),
 }
 
-/// All quantities of a case of scenes, of which three have units of its own: [`Dimension::MEAN_FORCE`],
-/// [`Dimension::MASS_CROSSED`] and [`Dimension::MASS_FED`].
+const fn mean_force<S: Dimension<D>, const D: usize>() -> Quantity {
+    let description = "time average, from the start, of the force of the flow on the wall of a gauge";
+    Quantity::accounted("mean_force", S::FORCE_UNIT, description)
+}
+
+const fn mass_crossed<S: Dimension<D>, const D: usize>() -> Quantity {
+    let description = "mass that crosses the line or parallelogram of a gauge until the end";
+    Quantity::accounted("mass_crossed", S::MASS_UNIT, description)
+}
+
+const fn mass_fed<S: Dimension<D>, const D: usize>() -> Quantity {
+    Quantity::accounted("mass_fed", S::MASS_UNIT, "inflow through an inlet until the end")
+}
+
+/// All quantities of a case of scenes.
 pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 23] {
     [
         ENERGY_RESIDUAL,
@@ -72,9 +85,9 @@ pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantit
         FRONT,
         DEPTH,
         GAUGE_ERROR,
-        S::MEAN_FORCE,
-        S::MASS_CROSSED,
-        S::MASS_FED,
+        mean_force::<S, D>(),
+        mass_crossed::<S, D>(),
+        mass_fed::<S, D>(),
     ]
 }
 
@@ -154,11 +167,11 @@ fn of_run<S: Dimension<D>, const D: usize>(
             }
             Measurand::Force { .. } => {
                 let means: Vec<f64> = series.values.iter().map(|component| mean(component)).collect();
-                S::MEAN_FORCE.of(&own, size(&means))
+                mean_force::<S, D>().of(&own, size(&means))
             }
             // what it reads has no one quantity: studies take its columns
             Measurand::Probe(_) => continue,
-            Measurand::Flux(_) => S::MASS_CROSSED.of(&own, last),
+            Measurand::Flux(_) => mass_crossed::<S, D>().of(&own, last),
         };
         metrics.push(metric.with_snapshot_tolerance(0.1, 0.1 * largest(first)));
         metrics.extend(errors(&own, &data.time, first, &series.measured));
@@ -216,7 +229,7 @@ fn feeds<S: Dimension<D>, const D: usize>(
     let of_inlet = |(inlet, fed): (&S::Inlet, &FedMass)| {
         let own = variant.clone().and("inlet", inlet.name());
         [
-            S::MASS_FED.of(&own, fed.mass).with_snapshot_tolerance(1e-6, 0.0),
+            mass_fed::<S, D>().of(&own, fed.mass).with_snapshot_tolerance(1e-6, 0.0),
             FEED_ERROR
                 .of(&own, fed.farthest)
                 .exactly(0.0, "the integral of the rate; material comes in row by row")

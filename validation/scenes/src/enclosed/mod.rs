@@ -24,6 +24,7 @@ mod parameters;
 pub(super) mod periods;
 mod prediction;
 mod run;
+mod scene_case;
 pub(super) mod series;
 pub mod setting;
 mod settling;
@@ -40,6 +41,7 @@ pub use measured::MeasuredSeries;
 pub use observation::{FedMass, OutflowRecord, SceneObservation};
 pub use parameters::{Dimension, SceneParameters, SceneStart};
 pub use run::SceneRun;
+pub use scene_case::SceneCase;
 pub use settling::BodyPreparation;
 pub use sides::DomainSide;
 

@@ -8,7 +8,6 @@ use super::sides::SceneSides;
 use super::{BodyPreparation, Measurand, shapes};
 use crate::case::Tier;
 use crate::figure::{Figure, Panel};
-use crate::metric::Quantity;
 use crate::observation::Frame;
 use crate::setup::Bulk;
 use bagnold_solver::domain::AxisBoundary;
@@ -38,16 +37,20 @@ pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + S
     /// A gauge.
     type Gauge: SceneGauge<D>;
 
+    /// Name of the case.
+    const NAME: &'static str;
+    /// One line for `bagnold list`.
+    const SUMMARY: &'static str;
+    /// A paragraph for the report.
+    const DESCRIPTION: &'static str;
     /// Remedy for a scene without bodies.
     const ADD_A_BODY: &'static str;
     /// Cost of a particle-step over that of a layer in the plane `[-]`.
     const COST: f64;
-    /// Mean force on a gauge's wall, in the unit that forces have here.
-    const MEAN_FORCE: Quantity;
-    /// Mass that has crossed a gauge's opening, in the unit that masses have here.
-    const MASS_CROSSED: Quantity;
-    /// Mass that an inlet has fed, in the unit that masses have here.
-    const MASS_FED: Quantity;
+    /// Unit of a force.
+    const FORCE_UNIT: &'static str;
+    /// Unit of a mass.
+    const MASS_UNIT: &'static str;
     /// Unit of a mass per time.
     const FLUX_UNIT: &'static str;
 

@@ -57,7 +57,7 @@ pub(super) fn counts<S: Dimension<D>, const D: usize>(parameters: &SceneParamete
 
 /// The columns of a gauge's series.
 fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<GaugeColumn> {
-    let (force, mass, flux) = (S::MEAN_FORCE.unit, S::MASS_CROSSED.unit, S::FLUX_UNIT);
+    let (force, mass, flux) = (S::FORCE_UNIT, S::MASS_UNIT, S::FLUX_UNIT);
     let column = |what: &str, axis: &str, unit: &str| GaugeColumn {
         heading: format!("{what} [{unit}]"),
         axis: format!("{axis} [{unit}]"),
@@ -88,7 +88,7 @@ pub(crate) fn tables<S: Dimension<D>, const D: usize>(
     parameters: &SceneParameters<S, D>,
     records: &[SceneRecord<S, D>],
 ) -> Vec<Table> {
-    let mass = format!("mass in the scene [{}]", S::MASS_CROSSED.unit);
+    let mass = format!("mass in the scene [{}]", S::MASS_UNIT);
     let of_run = |(run, record): &SceneRecord<S, D>| {
         let (data, series) = (&record.data, of_run(parameters, &record.data));
         let heading = |gauge: &str, column: &GaugeColumn| format!("{gauge}: {}", column.heading);

@@ -2,9 +2,9 @@
 
 use super::PlaneParameters;
 use crate::enclosed::Measurand;
-use crate::enclosed::figures::picture_axes;
-use crate::enclosed::setting::{SceneGauge, SceneInlet, SceneWall};
-use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::enclosed::figures::{add_inlets, picture_axes, start_panel};
+use crate::enclosed::setting::{SceneGauge, SceneWall};
+use crate::figure::{Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
@@ -33,15 +33,7 @@ pub(super) fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure
 
 /// The sites in the colours of their values between walls, inlets and the lines of gauges, each by its name.
 pub(super) fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {
-    let (lower, upper) = parameters.extent();
-    let margin = 4.0 * parameters.spacing;
-    let axis = |label: &str, k: usize| Axis::linear(label).between(lower[k] - margin, upper[k] + margin);
-    let mut panel = Panel::new(&parameters.name, axis("x [m]", 0), axis("y [m]", 1));
-    let points = sites.iter().map(|(place, _)| (place[0], place[1]));
-    let values = sites.iter().map(|(_, value)| *value);
-    if !sites.is_empty() {
-        panel.field = Some(Field::new("behind [-]", parameters.spacing, (0.0, 1.0), points, values));
-    }
+    let mut panel = start_panel(parameters, &parameters.name, [0, 1], sites);
     let point = |place: &Vector<2>| (place[0], place[1]);
     for (slot, wall) in parameters.walls.iter().enumerate() {
         let facets = wall.facet_wall().facets;
@@ -59,11 +51,7 @@ pub(super) fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) ->
             panel.series.push(Series::new("", Mark::Line, slot, stroke));
         }
     }
-    let walls = parameters.walls.len();
-    for (k, inlet) in parameters.inlets.iter().enumerate() {
-        let points = inlet.corners().iter().map(point).collect();
-        panel.series.push(Series::new(inlet.name(), Mark::LinePoints, walls + k, points));
-    }
+    add_inlets(&mut panel, parameters, [0, 1]);
     for gauge in &parameters.gauges {
         let points = match gauge.measure(&parameters.direction_of(gauge)) {
             Measurand::Front(line) => vec![point(&line.from), point(&line.to)],
@@ -72,7 +60,7 @@ pub(super) fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) ->
                 vec![point(&opening.corner), point(&end)]
             }
             Measurand::Depth(depth) => {
-                let way = depth.direction * (0.5 * margin);
+                let way = depth.direction * (2.0 * parameters.spacing);
                 vec![point(&(depth.at - way)), point(&(depth.at + way))]
             }
             Measurand::Probe(probe) => vec![point(&probe.at)],

@@ -1,9 +1,9 @@
 //! Pictures of the material from the side and from above, between the edges of its walls.
 
 use super::SpaceParameters;
-use crate::enclosed::figures::picture_axes;
-use crate::enclosed::setting::{SceneInlet, SceneWall};
-use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::enclosed::figures::{add_inlets, picture_axes, start_panel};
+use crate::enclosed::setting::SceneWall;
+use crate::figure::{Field, Figure, Mark, Panel, Series};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
@@ -84,23 +84,14 @@ fn material(spacing: f64, frame: &Frame, view: &ViewDirection, fastest: f64) -> 
 
 /// The sites in the colours of their values between the edges of walls and openings, from the side and from above.
 pub(super) fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
-    let (lower, upper) = parameters.extent();
-    let margin = 4.0 * parameters.spacing;
     let view = |view: &ViewDirection| {
-        let axis =
-            |k: usize| Axis::linear(["x [m]", "y [m]", "z [m]"][k]).between(lower[k] - margin, upper[k] + margin);
-        let mut panel = Panel::new(view.name, axis(view.right), axis(view.up));
         let mut order: Vec<&(Vector<3>, f64)> = sites.iter().collect();
         // what is behind walls is seen through the rest
         order.sort_by(|a, b| {
             let nearness = |site: &(Vector<3>, f64)| view.towards.1 * site.0[view.towards.0];
             a.1.total_cmp(&b.1).then(nearness(a).total_cmp(&nearness(b)))
         });
-        let points = order.iter().map(|(place, _)| (place[view.right], place[view.up]));
-        let values = order.iter().map(|(_, value)| *value);
-        if !sites.is_empty() {
-            panel.field = Some(Field::new("behind [-]", parameters.spacing, (0.0, 1.0), points, values));
-        }
+        let mut panel = start_panel(parameters, view.name, [view.right, view.up], order);
         for (slot, wall) in parameters.walls.iter().enumerate() {
             for (k, edge) in sharp_edges(&wall.facet_wall().facets).iter().take(MOST_EDGES).enumerate() {
                 let points = edge.iter().map(|end| (end[view.right], end[view.up])).collect();
@@ -108,16 +99,7 @@ pub(super) fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) ->
                 panel.series.push(Series::new(label, Mark::Line, slot, points));
             }
         }
-        for (k, inlet) in parameters.inlets.iter().enumerate() {
-            let corners = inlet.corners();
-            let points = corners.iter().chain(corners.first()).map(|place| (place[view.right], place[view.up]));
-            panel.series.push(Series::new(
-                inlet.name(),
-                Mark::LinePoints,
-                parameters.walls.len() + k,
-                points.collect(),
-            ));
-        }
+        add_inlets(&mut panel, parameters, [view.right, view.up]);
         panel
     };
     views(parameters).iter().map(view).collect()
