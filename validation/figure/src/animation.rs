@@ -41,7 +41,6 @@ pub struct AnimationFrame {
 
 impl Animation {
     /// The figure of one picture.
-    #[must_use]
     pub fn figure(&self, frame: &AnimationFrame) -> Figure {
         let mut panel = Panel::new(&frame.title, self.x.clone(), self.y.clone());
         panel.field = Some(Field {

@@ -4,33 +4,28 @@ use super::{Axis, AxisRatio, Band, Field, Figure, Mark, Panel, Scale, Series};
 
 impl Axis {
     /// A linear axis that fits its data.
-    #[must_use]
     pub fn linear(label: &str) -> Self {
         Self { label: label.to_owned(), scale: Scale::Linear, limits: None, ratio: None, names: Vec::new() }
     }
 
     /// A logarithmic axis that fits its data.
-    #[must_use]
     pub fn logarithmic(label: &str) -> Self {
         Self { label: label.to_owned(), scale: Scale::Logarithmic, limits: None, ratio: None, names: Vec::new() }
     }
 
     /// A vertical axis with a name for each of the places 1, 2, …, and a row of text for each.
-    #[must_use]
     pub fn named(names: Vec<String>) -> Self {
         let end = names.len() as f64 + 0.6;
         Self { names, ..Self::linear("").between(0.4, end) }
     }
 
     /// The same axis between fixed limits.
-    #[must_use]
     pub fn between(self, lower: f64, upper: f64) -> Self {
         Self { limits: Some((lower, upper)), ..self }
     }
 
     /// The same axis as the ratio of a quantity to a scale in a unit, if there is one scale: of several that differ, or none, it
     /// stays without.
-    #[must_use]
     pub fn over(self, name: &str, unit: &str, scales: impl IntoIterator<Item = f64>) -> Self {
         let mut scales = scales.into_iter();
         let scale =
@@ -127,14 +122,12 @@ impl Series {
 
 impl Figure {
     /// Panels, two per row.
-    #[must_use]
     pub fn new(name: &str, caption: &str, panels: Vec<Panel>) -> Self {
         let columns = panels.len().clamp(1, 2);
         Self { name: name.to_owned(), caption: caption.to_owned(), panels, columns }
     }
 
     /// The same panels, so many a row.
-    #[must_use]
     pub fn in_columns(self, columns: usize) -> Self {
         Self { columns, ..self }
     }

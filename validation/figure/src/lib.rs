@@ -60,6 +60,7 @@ use std::path::{Path, PathBuf};
 
 /// One coordinate axis.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[must_use]
 pub struct Axis {
     /// Label with unit, such as `u [m/s]`.
     pub label: String,
@@ -169,6 +170,7 @@ pub struct Panel {
 
 /// A figure: one or more panels on one sheet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[must_use]
 pub struct Figure {
     /// File name without ending, kebab-case, unique within its folder.
     pub name: String,

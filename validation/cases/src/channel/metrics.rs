@@ -48,7 +48,6 @@ impl ChannelObservation {
 }
 
 /// A quantity from an average in other units, which may drift by its statistical error.
-#[must_use]
 pub fn observed(quantity: Quantity, variant: &Variant, estimate: FittedValue, factor: f64) -> Metric {
     let noise = (SNAPSHOT_ERRORS * factor * estimate.standard_error).abs();
     let scatter = (factor * estimate.standard_error).abs();
@@ -60,7 +59,6 @@ pub fn observed(quantity: Quantity, variant: &Variant, estimate: FittedValue, fa
 }
 
 /// The number of particles that ended below the floor or far above the surface, gated at 0.
-#[must_use]
 pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
     PARTICLES_LOST
         .of(variant, record.data.particles_lost as f64)
@@ -69,7 +67,6 @@ pub fn particles_lost(variant: &Variant, record: &Recorded<ChannelObservation>) 
 }
 
 /// How far momentum along the floor closes over the averaging window, over the impulse of the slope `[-]`, gated.
-#[must_use]
 pub fn momentum_residual(variant: &Variant, record: &Recorded<ChannelObservation>) -> Metric {
     MOMENTUM_RESIDUAL
         .of(variant, record.data.momentum.residual())
@@ -94,7 +91,6 @@ pub fn iterations(variant: &Variant, data: &ChannelObservation, known: [Option<f
 }
 
 /// Mean height over half the depth, less 1 `[%]`, with why it matters.
-#[must_use]
 pub fn height_change(variant: &Variant, data: &ChannelObservation, source: &str) -> Metric {
     let height = data.average(&data.series.relative_height);
     let change = FittedValue { value: height.value - 1.0, ..height };
@@ -102,21 +98,18 @@ pub fn height_change(variant: &Variant, data: &ChannelObservation, source: &str)
 }
 
 /// Relative L2 of the pressure `[%]`.
-#[must_use]
 pub fn pressure_l2(variant: &Variant, data: &ChannelObservation) -> Metric {
     let source = "hydrostatic pressure ρ g (h − z) at every particle";
     observed(PRESSURE_L2, variant, data.average(&data.series.pressure_error), 100.0).exactly(0.0, source)
 }
 
 /// Friction of the bed over the weight's part along it, which is given `[Pa]`.
-#[must_use]
 pub fn bed_shear(variant: &Variant, data: &ChannelObservation, weight: f64) -> Metric {
     let shear = data.average(&data.series.bed_shear);
     observed(BED_SHEAR, variant, shear, 1.0 / weight).exactly(1.0, "ρ g h i")
 }
 
 /// Relative change `[-]` of the velocity of `what` over U/(2 g i).
-#[must_use]
 pub fn velocity_drift(variant: &Variant, change: f64, what: &str) -> Metric {
     let source = format!("change of the {what} over U/(2 g i), by a line through the window");
     VELOCITY_DRIFT.of(variant, 100.0 * change).exactly(0.0, &source).with_snapshot_tolerance(0.2, 0.1)

@@ -80,7 +80,6 @@ impl ValidatedComparison {
     }
 
     /// The regime of its flow.
-    #[must_use]
     pub const fn regime(&self) -> FlowRegime {
         FlowRegime {
             aspect_ratio: self.aspect_ratio,

@@ -186,6 +186,7 @@ pub const COVERAGE: f64 = 2.0;
 
 /// One judged or observed number.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[must_use]
 pub struct Metric {
     /// Stable snake_case name, such as `velocity_l2`.
     pub name: String,
@@ -221,7 +222,6 @@ pub struct Metric {
 
 impl Metric {
     /// An observed verification metric; the `with_…` methods and fields refine it.
-    #[must_use]
     pub fn observed(name: &str, variant: &Variant, value: f64, unit: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -241,7 +241,6 @@ impl Metric {
     }
 
     /// Adds a gate with its reason.
-    #[must_use]
     pub fn gated(mut self, limit: Limit, reason: &str) -> Self {
         self.gate = Some(Gate { limit, reason: reason.to_owned(), owner: GateOwner::Case, statistical: None });
         self
@@ -249,7 +248,6 @@ impl Metric {
 
     /// Says that its gate, if it has one, is as wide as scatter alone makes it: half its width, in the metric's unit. Where the
     /// spacing is known to move the value by more, the gate does not judge it.
-    #[must_use]
     pub fn as_wide_as_scatter(mut self, half_width: Option<f64>) -> Self {
         if let Some(gate) = &mut self.gate {
             gate.statistical = half_width;
@@ -266,7 +264,6 @@ impl Metric {
     }
 
     /// Makes its gate, if it has one, one that the user states.
-    #[must_use]
     pub fn of_user(mut self) -> Self {
         if let Some(gate) = &mut self.gate {
             gate.owner = GateOwner::User;
@@ -281,7 +278,6 @@ impl Metric {
     }
 
     /// Adds a gate where there is a limit; else it stays observed.
-    #[must_use]
     pub fn gated_by(self, limit: Option<Limit>, reason: &str) -> Self {
         match limit {
             Some(limit) => self.gated(limit, reason),
@@ -290,28 +286,24 @@ impl Metric {
     }
 
     /// Adds a reference.
-    #[must_use]
     pub fn against(mut self, value: Option<f64>, source: &str, confidence: Confidence) -> Self {
         self.reference = Some(Reference { value, source: source.to_owned(), confidence });
         self
     }
 
     /// Adds a reference that is exact for the model: what its equations, a conservation law or its definition give.
-    #[must_use]
     pub fn exactly(self, value: f64, source: &str) -> Self {
         self.against(Some(value), source, Confidence::Exact)
     }
 
     /// Adds a part of what value and reference are known to, as a standard uncertainty in the metric's unit, with the
     /// sentence that it comes from. What is not known, or is not a positive number, adds nothing.
-    #[must_use]
     pub fn known_to(mut self, origin: Origin, standard: Option<f64>, source: &str) -> Self {
         self.uncertainty.add(origin, standard, source);
         self
     }
 
     /// Says that a part of what value and reference are known to is known to be nothing beside the others, and why.
-    #[must_use]
     pub fn known_exactly(mut self, origin: Origin, source: &str) -> Self {
         self.uncertainty.add_none(origin, source);
         self
@@ -327,20 +319,17 @@ impl Metric {
     }
 
     /// Adds where the true value lies, if that can be told.
-    #[must_use]
     pub fn predicted(self, prediction: Option<PredictionInterval>) -> Self {
         Self { prediction, ..self }
     }
 
     /// Lets a page open with it.
-    #[must_use]
     pub fn leading(mut self) -> Self {
         self.leads = true;
         self
     }
 
     /// Adds all that is known of the uncertainty of a metric that this one is read from.
-    #[must_use]
     pub fn known_as(mut self, other: &Uncertainty) -> Self {
         for part in other.parts() {
             self.uncertainty.add(part.origin, Some(part.standard), &part.source);
@@ -349,7 +338,6 @@ impl Metric {
     }
 
     /// Takes its value away where there is a reason why it is not that of a steady state: a gate then does not hold.
-    #[must_use]
     pub fn unless(mut self, not_steady: Option<&String>) -> Self {
         if let Some(reason) = not_steady {
             (self.value, self.not_steady) = (f64::NAN, Some(reason.clone()));
@@ -365,14 +353,12 @@ impl Metric {
     }
 
     /// Sets what the verdict rests on.
-    #[must_use]
     pub fn of_kind(mut self, kind: MetricKind) -> Self {
         self.kind = kind;
         self
     }
 
     /// Sets the drift snapshot's relative tolerance `[-]` and absolute floor (metric's unit).
-    #[must_use]
     pub fn with_snapshot_tolerance(mut self, relative: f64, floor: f64) -> Self {
         self.snapshot_tolerance = relative;
         // what has no value has no scatter either, and JSON has no word for it

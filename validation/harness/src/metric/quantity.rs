@@ -8,6 +8,7 @@ use super::{Metric, MetricKind, Variant};
 /// Every metric of a case begins as one of its quantities, `RUN_OUT.of(&variant, value)`, so that the list is where a
 /// reader finds what there is, and a name that is not in it can be refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[must_use]
 pub struct Quantity {
     /// Stable snake_case name.
     pub name: &'static str,
@@ -21,31 +22,26 @@ pub struct Quantity {
 
 impl Quantity {
     /// A quantity of the run's own account.
-    #[must_use]
     pub const fn accounted(name: &'static str, unit: &'static str, description: &'static str) -> Self {
         Self { name, unit, kind: MetricKind::Bookkeeping, description }
     }
 
     /// A quantity that one of the two papers says something about.
-    #[must_use]
     pub const fn stated(name: &'static str, unit: &'static str, description: &'static str) -> Self {
         Self { name, unit, kind: MetricKind::Statement, description }
     }
 
     /// A quantity that is checked against the model's own equations.
-    #[must_use]
     pub const fn verified(name: &'static str, unit: &'static str, description: &'static str) -> Self {
         Self { name, unit, kind: MetricKind::Verification, description }
     }
 
     /// A quantity that is compared with an experiment or a published fit.
-    #[must_use]
     pub const fn validated(name: &'static str, unit: &'static str, description: &'static str) -> Self {
         Self { name, unit, kind: MetricKind::Validation, description }
     }
 
     /// Its observed metric for a run, in the quantity's unit; the metric's methods add reference and gate.
-    #[must_use]
     pub fn of(&self, variant: &Variant, value: f64) -> Metric {
         Metric::observed(self.name, variant, value, self.unit).of_kind(self.kind)
     }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A flow's place among flows. What a run does not tell is absent.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[must_use]
 pub struct FlowRegime {
     /// Height over half width, or length, at the start `[-]`.
     pub aspect_ratio: Option<f64>,
@@ -21,7 +22,6 @@ pub const REGIME_NUMBERS: [&str; 4] = ["a = h/r", "θ [°]", "I", "d/h"];
 
 impl FlowRegime {
     /// That of a stream of a depth `[m]` on a slope tanθ `[-]`, over grains of a diameter `[m]`.
-    #[must_use]
     pub fn of_stream(slope: f64, depth: f64, diameter: f64) -> Self {
         let slope_angle = Some(libm::atan(slope).to_degrees());
         Self { slope_angle, grain_ratio: Some(diameter / depth), ..Self::default() }
@@ -29,7 +29,6 @@ impl FlowRegime {
 
     /// Adds what grains of a diameter `[m]` make of a flow that has the height `[m]` at the start and moves at the speed U
     /// `[m/s]` at its fastest, under gravity `[m/s²]`.
-    #[must_use]
     pub fn of_grains(self, diameter: Option<f64>, height: f64, speed: f64, gravity: f64) -> Self {
         let positive = |value: f64| Some(value).filter(|value| value.is_finite() && *value > 0.0);
         let over_height = |diameter: f64| positive(diameter / height);

@@ -37,7 +37,6 @@ impl Energies<'_> {
 }
 
 /// One panel per run: energy released, kinetic, and the rest, over the energy released at the end.
-#[must_use]
 pub fn figure(name: &str, caption: &str, runs: &[(String, f64, Energies<'_>)]) -> Figure {
     let panels = runs.iter().filter_map(|(title, time_scale, energies)| {
         let (whole, start) = (energies.released()?, energies.potential.first()?);

@@ -103,7 +103,6 @@ fn moving(motion: &MotionSequence) -> impl Iterator<Item = &MotionFrame> {
 }
 
 /// Speed on the left and pressure on the right of the plane of symmetry, one panel a frame, on the same scales.
-#[must_use]
 pub fn halves(name: &str, caption: &str, frames: &[&Frame], view: &View) -> Figure {
     let unit = view.unit_length;
     let places = |frame: &Frame, side: f64| -> Vec<(f64, f64)> {

@@ -8,18 +8,12 @@ pub mod front;
 mod lattice;
 pub mod rules;
 
+pub use bagnold_solver::weakly_compressible::walls::wall::rows as wall_rows;
 pub use bulk::Bulk;
 pub use filling::{displaced, displaced_flow, hydrostatic_pressure};
 pub use lattice::Lattice;
 
 use bagnold_solver::weakly_compressible::numerics::Numerics;
-use bagnold_solver::weakly_compressible::walls::wall;
-
-/// Rows of dummy particles that the kernel reaches behind a wall, and one for what moves between two searches.
-#[must_use]
-pub fn wall_rows(smoothing_ratio: f64) -> usize {
-    wall::rows(smoothing_ratio)
-}
 
 /// Acoustic bound of the time step `[s]` at a spacing `[m]` and a speed of sound `[m/s]`, for estimates before a run.
 #[must_use]

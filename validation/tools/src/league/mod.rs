@@ -186,7 +186,6 @@ impl LeagueRow {
     }
 
     /// Name of our run without its numerics.
-    #[must_use]
     pub fn variant(&self) -> Variant {
         physics(&self.own.variant)
     }

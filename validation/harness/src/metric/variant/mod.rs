@@ -18,26 +18,24 @@ use std::str::FromStr;
 /// A value is a word, a number, several of them joined by `_` (the runs behind a metric) or a range `3..8` (a part of a
 /// single run). In files and on the page a variant is its text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[must_use]
 pub struct Variant {
     parts: Vec<(String, Value)>,
 }
 
 impl Variant {
     /// The variant with a single key.
-    #[must_use]
     pub fn of(key: &str, value: impl Into<Value>) -> Self {
         Self::default().and(key, value)
     }
 
     /// With another key at the end.
-    #[must_use]
     pub fn and(mut self, key: &str, value: impl Into<Value>) -> Self {
         self.parts.push((key.to_owned(), value.into()));
         self
     }
 
     /// With all keys of another variant at the end.
-    #[must_use]
     pub fn followed_by(mut self, other: &Self) -> Self {
         self.parts.extend(other.parts.iter().cloned());
         self
