@@ -260,7 +260,7 @@ fn a_state_that_does_not_fit_is_refused_by_field_and_rule() {
     for (target, state, settings, message) in [
         (&level, "nowhere", vec!["duration=0.1"], "`--from`: \"nowhere\": it cannot be read"),
         (&level, "cut", vec!["duration=0.1"], "it is damaged"),
-        (&level, "text", vec!["duration=0.1"], "it is no checkpoint"),
+        (&level, "text", vec!["duration=0.1"], "it is no bagnold checkpoint"),
         (&level, &of_model_b.display().to_string(), vec!["duration=0.1"], "it does not hold the state of a scene"),
         (&coarse, &state, vec!["duration=0.1"], "`spacing` is 0.005, but must be 0.0025"),
         (&level, &state, vec!["duration=0.1", "stiffness=60"], "`stiffness` is 60.0, but must be 50.0"),

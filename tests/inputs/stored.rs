@@ -194,12 +194,9 @@ fn layer(folder: &Path) -> (PathBuf, [PathBuf; 2]) {
     (scene, kept)
 }
 
-/// A file whose checksum over what follows it fits again; `start` is where the checksum is, of what precedes it if `whole`.
-fn sealed(bytes: &[u8], start: usize, whole: bool) -> Vec<u8> {
-    let (head, rest) = bytes.split_at(start);
-    let contents = &rest[32..];
-    let hash = Sha256::new().chain_update(if whole { head } else { &[] }).chain_update(contents).finalize();
-    [head, hash.as_slice(), contents].concat()
+/// A file of this head whose checksum over these contents fits again.
+fn sealed(head: &[u8], contents: &[u8]) -> Vec<u8> {
+    [head, Sha256::digest(contents).as_slice(), contents].concat()
 }
 
 /// The stored run of a scene, damaged before or after its checksum was taken: it is taken or simulated again.
@@ -209,11 +206,10 @@ fn a_stored_run_is_read_or_simulated_again() {
     let (scene, [stored, _]) = layer(folder.path());
     let whole = std::fs::read(&stored).expect("stored");
     // title, version, length of the key, 64 digits
-    let start = 16 + 4 + 4 + 64;
+    let start = 15 + 4 + 8 + 64;
     let store = Store::at(&folder.path().join("store"), StorePolicy::Use);
     read_damaged(&[whole.clone(), whole[start + 32..].to_vec()], |which, wrong| {
-        let wrong =
-            if which == 0 { wrong.to_vec() } else { sealed(&[&whole[..start + 32], wrong].concat(), start, true) };
+        let wrong = if which == 0 { wrong.to_vec() } else { sealed(&whole[..start], wrong) };
         std::fs::write(&stored, wrong).expect("writable");
         let file = CaseFile::read(&scene).expect("a scene");
         let changes = Changes { file: Some((&scene, file.fields)), ..Changes::default() };
@@ -232,8 +228,7 @@ fn a_kept_state_is_continued_or_refused() {
     let start = 19 + 4 + 8 + 64;
     let state = folder.path().join("state");
     read_damaged(&[whole.clone(), whole[start + 32..].to_vec()], |which, wrong| {
-        let wrong =
-            if which == 0 { wrong.to_vec() } else { sealed(&[&whole[..start + 32], wrong].concat(), start, false) };
+        let wrong = if which == 0 { wrong.to_vec() } else { sealed(&whole[..start], wrong) };
         std::fs::write(&state, wrong).expect("writable");
         let Ok(StoredState { digest, .. }) = StoredState::read(&state) else { return };
         let file = CaseFile::read(&scene).expect("a scene");

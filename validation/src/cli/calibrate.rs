@@ -8,7 +8,6 @@ use crate::calibration::{
     CalibrationFolder, CalibrationMonitor, CalibrationPlan, CalibrationResult, EvaluationCost, calibrate, write,
 };
 use crate::number::aligned_digits;
-use crate::output::OutputFolder;
 use indicatif::HumanDuration;
 use std::path::Path;
 use std::time::Duration;
@@ -19,9 +18,6 @@ pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Re
     let folder = command.out.clone().unwrap_or_else(|| {
         Path::new("reports/calibrations").join(command.file.file_stem().unwrap_or_else(|| "calibration".as_ref()))
     });
-    if command.out.is_none() {
-        OutputFolder::adopt(Path::new("reports"))?;
-    }
     let kept = CalibrationFolder::begin(&folder, &command.file, session.registry.origin(), command.resume)?;
     if plan.choices.is_empty() {
         // other starts may take as many evaluations again, and so does a search among runs that scatter

@@ -22,9 +22,6 @@ pub(super) fn judge(command: &JudgeArguments, session: &mut Session<'_>) -> Resu
     }
     let CaseSubmissions { prepared, entries } = CaseSubmissions::read(&command.files, session.registry)?;
     let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/judged/{}", prepared.name())));
-    if command.out.is_none() {
-        OutputFolder::adopt(Path::new("reports"))?;
-    }
     let claimed = OutputFolder::claim(&folder)?;
     let results = simulation::simulate(vec![prepared], &command.work.open_store(), session.quiet, None)?;
     let exit = Exit::of(&results, |_, _| true);

@@ -9,7 +9,7 @@ use super::simulation::{announce, simulate};
 use super::{Exit, controls, say, summary, tell, unchanged};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
 use crate::evidence::{ValidatedComparison, ValidationSet};
-use crate::output::{FileError, FolderError, OutputFolder, write_whole};
+use crate::output::{FileError, OutputFolder, write_whole};
 use crate::report::{self, Baseline, CaseReport, GateList, Report, ReportProvenance};
 use crate::store::provenance;
 use crate::study::{Study, Suite};
@@ -43,7 +43,7 @@ pub(super) fn report(
         None => cases.iter().map(|case| (case.name().to_owned(), command.tier.unwrap_or(Tier::Quick))).collect(),
     };
     let mut baseline = baseline(command, &places, &named)?;
-    let out = folder(command)?;
+    let out = folder(command);
     let inputs = unchanged::inputs(command, &places);
     if let Some((exit, text)) = inputs.as_ref().and_then(|inputs| unchanged::said(&out, inputs)) {
         if !quiet {
@@ -138,16 +138,12 @@ pub(super) fn report(
 }
 
 /// The folder to write.
-fn folder(command: &ReportArguments) -> Result<PathBuf, FolderError> {
-    let by_itself = |folder: &Path| {
-        OutputFolder::adopt(Path::new("reports"))?;
-        Ok(Path::new("reports").join("suites").join(name_of(folder)))
+fn folder(command: &ReportArguments) -> PathBuf {
+    let own = || match &command.suite {
+        Some(suite) => Path::new("reports").join("suites").join(name_of(suite)),
+        None => PathBuf::from("reports"),
     };
-    match (&command.out, &command.suite) {
-        (Some(folder), _) => Ok(folder.clone()),
-        (None, Some(suite)) => by_itself(suite),
-        (None, None) => Ok(PathBuf::from("reports")),
-    }
+    command.out.clone().unwrap_or_else(own)
 }
 
 /// The last part of a folder's path, also of `.`.

@@ -87,9 +87,6 @@ pub(super) fn run(
         overlay.iter().chain(&command.overlay).map(|file| Measurements::read(file)).collect::<Result<_, _>>()?;
     let folder =
         command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", prepared.name())));
-    if command.out.is_none() {
-        OutputFolder::adopt(Path::new("reports"))?;
-    }
     introduce(std::slice::from_ref(&prepared), quiet || command.json, command.deny_warnings)?;
     let claimed = OutputFolder::claim(&folder)?;
     let store = command.work.open_store().with_ends();

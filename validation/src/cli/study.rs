@@ -34,9 +34,6 @@ pub(super) fn run(
     let tier = command.tier.unwrap_or(study.tier());
     let cases = study.prepare(registry, command.tier, &command.settings, command.allowance.limits())?;
     let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", study.name())));
-    if command.out.is_none() {
-        OutputFolder::adopt(Path::new("reports"))?;
-    }
     introduce(&cases, quiet || command.json, command.deny_warnings)?;
     let claimed = OutputFolder::claim(&folder)?;
     let store = command.work.open_store();

@@ -5,7 +5,6 @@ use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, Session};
 use crate::evaluation::EvaluationRecord;
-use crate::output::OutputFolder;
 use crate::sweep::{
     SweepFolder, SweepMonitor, SweepPlan, SweepProgress, SweepRun, gather, run_entry, run_locally, slurm,
 };
@@ -39,9 +38,6 @@ fn begin(file: &Path, command: &SweepArguments, session: &mut Session<'_>) -> Re
         .out
         .clone()
         .unwrap_or_else(|| Path::new("reports/sweeps").join(file.file_stem().unwrap_or_else(|| "sweep".as_ref())));
-    if command.out.is_none() {
-        OutputFolder::adopt(Path::new("reports"))?;
-    }
     if command.engine == Engine::Slurm {
         slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::SlurmRequest::default()))?;
         slurm::available()?;

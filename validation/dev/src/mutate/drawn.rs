@@ -27,9 +27,6 @@ struct Trial<'a, 'b> {
 }
 
 pub(super) fn drawn(command: &DrawnArguments, workspace: &Path, session: &mut Session<'_>) -> Result<Exit, DevError> {
-    if command.out.starts_with("reports") {
-        OutputFolder::adopt(Path::new("reports"))?;
-    }
     let claimed = OutputFolder::claim(&command.out)?;
     let draw = Draw::new(workspace, command.seed)?;
     let (mut progress, kept) = DrawProgress::open(workspace, &draw);

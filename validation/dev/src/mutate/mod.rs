@@ -93,9 +93,6 @@ fn all(command: &MutateArguments, session: &mut Session<'_>) -> Result<Exit, Dev
     } else {
         command.errors.iter().map(|name| named(&mutations, name.trim())).collect::<Result<_, _>>()?
     };
-    if command.out.starts_with("reports") {
-        OutputFolder::adopt(Path::new("reports"))?;
-    }
     let claimed = OutputFolder::claim(&command.out)?;
     let started = Instant::now();
     session.note("building a copy of the program that holds all mutations");

@@ -1,14 +1,12 @@
 //! Checkpoints of unfinished runs: written at intervals and when the program is asked to end, the last two of each run
 //! kept, and continued by the next command that wants the same run of the same program.
 
-mod file;
 mod stored;
 
 pub use stored::{Likeness, StoredState};
 
 use crate::interruption;
-use crate::output::FirstWarning;
-use file::Refused;
+use crate::output::{FirstWarning, SealedFormat};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -25,6 +23,9 @@ const LONGEST_INTERVAL: Duration = Duration::from_secs(120);
 
 /// Checkpoints of a run that are kept.
 const KEPT: usize = 2;
+
+/// The state of a run in a file; the version is that of what a state consists of.
+const STATE: SealedFormat = SealedFormat { title: "bagnold checkpoint\n", version: 1, most: 1 << 40 };
 
 /// Ends the names of checkpoints.
 const EXTENSION: &str = "checkpoint";
@@ -73,14 +74,14 @@ impl Checkpoints {
         let mut state = self.lock();
         let left = state.left.take().unwrap_or_else(|| self.whole());
         state.left = Some(Vec::new());
-        left.into_iter().find_map(|found| self.decoded(&found, &mut decode))
+        left.into_iter().find_map(|found| Self::decoded(&found, &mut decode))
     }
 
     /// The same without taking it: the first that `decode` does not refuse stays, alone, for the next caller.
     pub fn look<T>(&self, mut decode: impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
         let mut state = self.lock();
         let left = state.left.take().unwrap_or_else(|| self.whole());
-        let seen = left.into_iter().find_map(|found| Some((self.decoded(&found, &mut decode)?, found)));
+        let seen = left.into_iter().find_map(|found| Some((Self::decoded(&found, &mut decode)?, found)));
         let (decoded, found) = seen.map_or((None, None), |(decoded, found)| (Some(decoded), Some(found)));
         state.left = Some(found.into_iter().collect());
         decoded
@@ -91,9 +92,9 @@ impl Checkpoints {
         self.whole().iter().map(|found| &found.contents[..]).find_map(decode)
     }
 
-    fn decoded<T>(&self, found: &CheckpointFile, decode: &mut impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
-        let refuse = |reason| self.warn(&found.path, &Refused::State(reason));
-        decode(&found.contents).map_err(refuse).ok()
+    fn decoded<T>(found: &CheckpointFile, decode: &mut impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
+        let refuse = |reason| format!("does not hold the state of this run ({reason})");
+        decode(&found.contents).map_err(|reason| warn(&found.path, &refuse(reason))).ok()
     }
 
     /// File of the newest checkpoint.
@@ -107,22 +108,10 @@ impl Checkpoints {
         numbers.reverse();
         let read = |number: u64| {
             let path = self.path(number);
-            match file::read(&path, Some(&self.key)) {
-                Ok(contents) => Some(CheckpointFile { path, contents }),
-                Err(refused) => {
-                    self.warn(&path, &refused);
-                    None
-                }
-            }
+            let contents = STATE.read(&path, Some(&self.key)).map_err(|refused| warn(&path, &refused)).ok()?;
+            Some(CheckpointFile { path, contents })
         };
         numbers.into_iter().filter_map(read).collect()
-    }
-
-    fn warn(&self, path: &Path, refused: &Refused) {
-        tracing::warn!(
-            "checkpoint {}: not continued: {refused}; the one before it is used, or the run begins anew",
-            path.display()
-        );
     }
 
     /// Whether it is time for a checkpoint.
@@ -156,10 +145,9 @@ impl Checkpoints {
     }
 
     fn write(&self, contents: &[u8]) -> io::Result<()> {
-        std::fs::create_dir_all(&self.folder)?;
         let numbers = self.numbers();
         let next = numbers.last().map_or(0, |last| last + 1);
-        file::write(&self.path(next), &self.key, contents)?;
+        STATE.write(&self.path(next), &self.key, contents)?;
         for old in numbers.iter().rev().skip(KEPT - 1) {
             // another program may have been faster
             let _ = std::fs::remove_file(self.path(*old));
@@ -192,6 +180,11 @@ impl Checkpoints {
     fn path(&self, number: u64) -> PathBuf {
         self.folder.join(format!("{number}.{EXTENSION}"))
     }
+}
+
+fn warn(path: &Path, refused: &impl std::fmt::Display) {
+    let path = path.display();
+    tracing::warn!("checkpoint {path}: not continued: it {refused}; the one before it is used, or the run begins anew");
 }
 
 /// Number of runs in progress at an interruption.

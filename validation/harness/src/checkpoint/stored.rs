@@ -1,6 +1,6 @@
 //! States in files, from which scenes start that need not be the scene that has left them.
 
-use super::file;
+use super::STATE;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -22,7 +22,7 @@ impl StoredState {
     /// # Errors
     /// A file that holds no whole state, in words.
     pub fn read(path: &Path) -> Result<Self, String> {
-        let contents = file::read(path, None).map_err(|refused| refused.to_string())?;
+        let contents = STATE.read(path, None).map_err(|refused| format!("it {refused}"))?;
         let digest = Sha256::digest(&contents).iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(Self { contents, digest })
     }

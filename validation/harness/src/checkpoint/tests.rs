@@ -43,24 +43,24 @@ fn damaged_checkpoint_gives_way_to_the_previous_one() {
     let refused = |bytes: &[u8]| {
         std::fs::write(&newest, bytes).expect("writable");
         assert_eq!(left(&folder, "a").as_deref(), Some("one"));
-        file::read(&newest, Some("a")).expect_err("refused").to_string()
+        STATE.read(&newest, Some("a")).expect_err("refused").to_string()
     };
-    assert_eq!(refused(&whole[..whole.len() - 1]), "it is damaged");
-    assert_eq!(refused(&whole[..10]), "it is damaged");
-    assert_eq!(refused(&[]), "it is damaged");
+    assert_eq!(refused(&whole[..whole.len() - 1]), "is damaged");
+    assert_eq!(refused(&whole[..10]), "is damaged");
+    assert_eq!(refused(&[]), "is damaged");
     let changed = |place: usize| {
         let mut bytes = whole.clone();
         bytes[place] ^= 1;
         bytes
     };
-    assert_eq!(refused(&changed(whole.len() - 1)), "it is damaged");
-    assert_eq!(refused(&changed(0)), "it is no checkpoint");
-    assert_eq!(refused(&changed(19)), "it has the form 0 of checkpoints, this program reads the form 1");
-    assert_eq!(refused(&changed(31)), "it belongs to another run, or to another version of the program");
+    assert_eq!(refused(&changed(whole.len() - 1)), "is damaged");
+    assert_eq!(refused(&changed(0)), "is no bagnold checkpoint");
+    assert_eq!(refused(&changed(19)), "has the form 0, this program reads the form 1");
+    assert_eq!(refused(&changed(31)), "belongs to another run, or to another version of the program");
     std::fs::remove_file(&newest).expect("removable");
     std::fs::create_dir(&newest).expect("writable");
     assert_eq!(left(&folder, "a").as_deref(), Some("one"));
-    assert_eq!(file::read(&newest, Some("a")).expect_err("refused").to_string(), "it is no plain file");
+    assert_eq!(STATE.read(&newest, Some("a")).expect_err("refused").to_string(), "cannot be read (is a directory)");
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn a_checkpoint_that_cannot_be_written_leaves_those_before_it() {
     assert!(keep(&writing, "one"));
     // no rename replaces a folder that is not empty
     std::fs::create_dir_all(writing.path(1).join("x")).expect("writable");
-    assert!(file::write(&writing.path(1), "a", b"two").is_err());
+    assert!(STATE.write(&writing.path(1), "a", b"two").is_err());
     assert_eq!(left(&folder, "a").as_deref(), Some("one"));
     assert_eq!(std::fs::read_dir(&folder).expect("readable").count(), 2, "nothing half written stays");
     let file = root.path().join("file");

@@ -1,17 +1,15 @@
 //! The folder that a command writes: claimed before the work, filled at once after it.
 
 use super::error::{FileError, FolderError};
-use super::lock::FolderLock;
-use super::marker::{self, MARKER, STAGING_PREFIX, write_marker};
-use super::publication;
+use super::lock::{FolderLock, LOCK};
+use super::publication::{self, COMMITTED, MARKER, STAGING, remove, write_marker};
+use super::whole::OWN_PREFIX;
 use std::collections::BTreeSet;
-use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Entries of `reports/` in a fresh checkout, and those of commands that were run before a report: they make no folder
-/// foreign.
-const COMMITTED: [&str; 12] = [
+/// Entries of `reports/` in a fresh checkout, and those of other commands than a report: they make no folder foreign.
+const OF_REPORTS: [&str; 12] = [
     "README.md",
     "gallery",
     "history.csv",
@@ -26,20 +24,16 @@ const COMMITTED: [&str; 12] = [
     "mutation-drawn",
 ];
 
-/// Begins the names of all that Bagnold puts into a folder beside its results: marker, lock, staging, halves of them.
-const OWN_PREFIX: &str = MARKER;
-
 /// A folder that is ours alone to write. What it held stays until [`OutputFolder::publish`]; without
 /// that, dropping it leaves the folder as it was. Entries that Bagnold did not write always stay.
 #[derive(Debug)]
 pub struct OutputFolder {
     folder: PathBuf,
     staging: PathBuf,
-    /// Marker that the claim made, and folders that it made, from the inside out; removed if nothing is published.
-    marker: Option<PathBuf>,
-    made: Vec<PathBuf>,
+    /// Whether the claim has marked the folder; without a publication it is then unmarked again.
+    is_new: bool,
     /// Until this is dropped no other command writes the folder.
-    lock: Option<FolderLock>,
+    _lock: FolderLock,
 }
 
 impl OutputFolder {
@@ -49,55 +43,28 @@ impl OutputFolder {
     /// A folder with foreign files, one that another command writes, a link to nothing, or one that cannot be made or
     /// written.
     pub fn claim(folder: &Path) -> Result<Self, FolderError> {
-        let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
-        FolderError::refuse_dangling(folder)?;
-        refuse_foreign(folder)?;
-        let missing = folder.ancestors().filter(|path| !path.as_os_str().is_empty());
-        let made = missing.take_while(|path| !path.exists()).map(Path::to_owned).collect();
-        let mut claimed = Self {
-            folder: folder.to_owned(),
-            // The process's number tells what a killed one has left.
-            staging: folder.join(format!("{STAGING_PREFIX}{}", std::process::id())),
-            marker: None,
-            made,
-            lock: None,
-        };
-        // another command that makes the folder at this moment is refused, or refuses this one, by the lock
-        match FolderLock::take(folder, || std::fs::create_dir_all(folder)) {
-            Ok(lock) => claimed.lock = Some(lock),
-            Err(error) => {
-                if let FolderError::Locked { .. } = &error {
-                    let made = std::mem::take(&mut claimed.made).len();
-                    if made > 0 {
-                        marker::hand_over(folder, made);
-                    }
-                }
-                return Err(error);
-            }
-        }
-        let marker = folder.join(MARKER);
-        if !marker.exists() {
-            // At once, so that what an interrupted run leaves behind is recognised by the next one.
-            write_marker(folder, &BTreeSet::new()).map_err(unwritable)?;
-            claimed.marker = Some(marker);
-        }
-        publication::tidy(folder).map_err(unwritable)?;
-        std::fs::create_dir_all(&claimed.staging).map_err(unwritable)?;
+        refuse_foreign(folder, MARKER)?;
+        let lock = FolderLock::take(folder)?;
+        let (staging, is_new) = (folder.join(STAGING), !Self::is_one(folder));
+        let claimed = Self { folder: folder.to_owned(), staging, is_new, _lock: lock };
+        claimed.begin().map_err(|error| FileError::unwritable(folder, &error))?;
         Ok(claimed)
     }
 
-    /// Makes a folder ours if it is new or empty, so that folders inside it do not make it foreign. Any number of
-    /// commands may do so at the same time.
-    ///
-    /// # Errors
-    /// A folder that cannot be made or written.
-    pub fn adopt(folder: &Path) -> Result<(), FolderError> {
-        FolderError::refuse_dangling(folder)?;
-        if std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some()) {
-            return Ok(());
+    /// Marks the folder, so that it is known after a kill, and clears up after a command that was killed.
+    fn begin(&self) -> io::Result<()> {
+        if self.is_new {
+            write_marker(&self.folder, &BTreeSet::new())?;
         }
-        let marked = std::fs::create_dir_all(folder).and_then(|()| write_marker(folder, &BTreeSet::new()));
-        Ok(marked.map_err(|error| FileError::unwritable(folder, &error))?)
+        for entry in std::fs::read_dir(&self.folder)? {
+            let path = entry?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if name.starts_with(OWN_PREFIX) && ![MARKER, LOCK, COMMITTED].contains(&&*name) {
+                remove(&path)?;
+            }
+        }
+        publication::finish(&self.folder)?;
+        std::fs::create_dir(&self.staging)
     }
 
     /// Whether a folder is ours.
@@ -118,51 +85,39 @@ impl OutputFolder {
         &self.staging
     }
 
-    /// Puts the new contents in place of the old ones, after the disk has all of them; by one rename where it can.
+    /// Puts the new contents in place of the old ones, after the disk has all of them.
     ///
     /// # Errors
     /// Files that cannot be moved; what a kill leaves undone is done by the next command that claims the folder.
     pub fn publish(mut self) -> Result<(), FolderError> {
-        self.marker = None;
-        self.made.clear();
-        marker::handed_over(&self.folder);
-        publication::publish(&self.folder, &self.staging)
-            .map_err(|error| FileError::unwritable(&self.folder, &error).into())
+        self.is_new = false;
+        let published = publication::publish(&self.folder, &self.staging);
+        published.map_err(|error| FileError::unwritable(&self.folder, &error).into())
     }
 }
 
 impl Drop for OutputFolder {
     fn drop(&mut self) {
         // Best effort: whatever stays behind is inside a folder that the marker declares ours.
-        if self.lock.is_some() {
-            let _ = std::fs::remove_dir_all(&self.staging);
-        }
-        if let Some(marker) = &self.marker {
-            let _ = std::fs::remove_file(marker);
-        }
-        let made = if self.lock.is_some() { marker::handed_over(&self.folder) } else { 0 };
-        let made_by_others = self.folder.ancestors().take(made).skip(self.made.len()).map(Path::to_owned);
-        self.made.extend(made_by_others.collect::<Vec<_>>());
-        // its file lies in the folder; one that another command has locked since is not empty and stays
-        self.lock = None;
-        for folder in &self.made {
-            let _ = std::fs::remove_dir(folder);
+        let _ = remove(&self.staging);
+        if self.is_new {
+            let _ = remove(&self.folder.join(MARKER));
         }
     }
 }
 
-/// Refuses a folder that holds anything and is not marked as Bagnold's.
-fn refuse_foreign(folder: &Path) -> Result<(), FolderError> {
+/// Refuses a link to nothing, and a folder that holds anything of others and no marker of this name.
+pub(super) fn refuse_foreign(folder: &Path, marker: &str) -> Result<(), FolderError> {
+    FolderError::refuse_dangling(folder)?;
     let mut entries = match std::fs::read_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
         entries => entries.map_err(|error| FileError::unwritable(folder, &error))?,
     };
     let is_reports = folder.file_name().is_some_and(|name| name == "reports");
-    let is_committed = |name: &OsStr| is_reports && COMMITTED.iter().any(|kept| name == *kept);
-    let is_own = |name: &OsStr| name.to_str().is_some_and(|name| name.starts_with(OWN_PREFIX)) || is_committed(name);
-    let has_foreign = entries.any(|entry| entry.is_ok_and(|entry| !is_own(&entry.file_name())));
+    let is_own = |name: &str| name.starts_with(OWN_PREFIX) || (is_reports && OF_REPORTS.contains(&name));
+    let has_foreign = entries.any(|entry| entry.is_ok_and(|entry| !is_own(&entry.file_name().to_string_lossy())));
     // looked for after the entries were read: another command may have put them there meanwhile, and marks before it does
-    if has_foreign && !folder.join(MARKER).is_file() {
+    if has_foreign && !folder.join(marker).is_file() {
         return Err(FolderError::Foreign { folder: folder.to_owned() });
     }
     Ok(())
@@ -249,7 +204,7 @@ mod tests {
             let claimed = OutputFolder::claim(&folder).expect("claimable");
             let refused = OutputFolder::claim(&folder).expect_err("in use").to_string();
             assert!(refused.contains(&format!("running (process {})", std::process::id())), "{refused}");
-            assert!(names(&folder).contains(&super::super::lock::LOCK.to_owned()));
+            assert!(names(&folder).contains(&".bagnold-output-lock".to_owned()));
             std::fs::write(claimed.staging().join("x"), "").expect("writable");
             if others {
                 std::fs::create_dir(folder.join("mine")).expect("writable");
@@ -257,20 +212,6 @@ mod tests {
             claimed.publish().expect("publishable");
         }
         assert_eq!(names(&folder), [MARKER, "mine", "x"]);
-    }
-
-    #[test]
-    fn the_lock_stays_with_the_folders_name_when_its_contents_are_exchanged() {
-        let root = tempfile::tempdir().expect("temporary folder");
-        let folder = root.path().join("out");
-        let mut claimed = OutputFolder::claim(&folder).expect("claimable");
-        std::fs::write(claimed.staging().join("x"), "").expect("writable");
-        publication::publish(&folder, &claimed.staging).expect("publishable");
-        assert!(matches!(OutputFolder::claim(&folder), Err(FolderError::Locked { .. })));
-        (claimed.marker, claimed.made) = (None, Vec::new());
-        drop(claimed);
-        assert_eq!(names(&folder), [MARKER, "x"]);
-        publish(&folder, &["y"]);
     }
 
     #[test]
@@ -295,28 +236,11 @@ mod tests {
                     .all(|error| matches!(error, FolderError::Locked { .. }))
             );
             drop(claims);
-            assert!(!folder.exists(), "nothing has happened");
+            // one that was refused may have made it
+            assert!(!folder.exists() || names(&folder).is_empty(), "nothing has happened");
         }
     }
 
-    #[test]
-    fn many_adopt_a_folder_and_what_lies_in_it_stays() {
-        let root = tempfile::tempdir().expect("temporary folder");
-        let folder = root.path().join("reports");
-        std::thread::scope(|scope| {
-            for k in 0..8 {
-                let folder = &folder;
-                scope.spawn(move || {
-                    OutputFolder::adopt(folder).expect("adoptable");
-                    publish(&folder.join(k.to_string()), &["x"]);
-                });
-            }
-        });
-        assert_eq!(names(&folder), [MARKER, "0", "1", "2", "3", "4", "5", "6", "7"]);
-        publish(&folder, &["index.html"]);
-    }
-
-    #[cfg(unix)]
     #[test]
     fn a_link_to_nothing_is_refused_with_where_it_points() {
         let root = tempfile::tempdir().expect("temporary folder");
@@ -331,11 +255,23 @@ mod tests {
                 target.display()
             );
             assert_eq!(OutputFolder::claim(&folder).expect_err("dangling").to_string(), expected);
-            assert_eq!(OutputFolder::adopt(&folder).expect_err("dangling").to_string(), expected);
         }
         std::fs::create_dir(&target).expect("writable");
         publish(&link, &["x"]);
         assert_eq!(names(&target), [MARKER, "x"]);
+    }
+
+    #[test]
+    fn remains_of_a_kill_at_the_start_are_not_foreign() {
+        let root = tempfile::tempdir().expect("temporary folder");
+        for name in [".bagnold-output-01.partial", LOCK, STAGING] {
+            std::fs::write(root.path().join(name), "half").expect("writable");
+        }
+        assert!(refuse_foreign(root.path(), "manifest.json").is_ok());
+        drop(OutputFolder::claim(root.path()).expect("claimable"));
+        assert_eq!(names(root.path()), [""; 0]);
+        std::fs::write(root.path().join("thesis.tex"), "").expect("writable");
+        assert!(refuse_foreign(root.path(), "manifest.json").is_err());
     }
 
     #[test]

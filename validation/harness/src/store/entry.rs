@@ -1,27 +1,13 @@
-//! One stored record as a file: what it is, whose it is, a checksum, and the record in postcard.
-//!
-//! ```text
-//! "bagnold record\n\0"   16 bytes
-//! version               u32, little endian
-//! length of the key     u32, little endian
-//! key                   UTF-8
-//! SHA-256               32 bytes, over all of the above and the record
-//! record                postcard
-//! ```
+//! One stored record as a file, in postcard.
 
-use crate::input::{STORED, read_own};
-use crate::output::write_whole;
+use crate::input::STORED;
+use crate::output::{Refused, SealedFormat};
 use serde::{Serialize, de::DeserializeOwned};
-use sha2::{Digest, Sha256};
 use std::io::{Error, ErrorKind, Result};
 use std::path::Path;
 
-const TITLE: &[u8; 16] = b"bagnold record\n\0";
-
-/// Changes with the layout above; what the record holds is identified by the sources' hash in its key.
-const VERSION: u32 = 1;
-
-const CHECKSUM_BYTES: usize = 32;
+/// What the record holds is identified by the sources' hash in its key.
+const RECORD: SealedFormat = SealedFormat { title: "bagnold record\n", version: 2, most: STORED };
 
 /// The record of a key in a file; `None` if there is no such file.
 ///
@@ -37,28 +23,10 @@ pub(crate) fn read<R: DeserializeOwned>(path: &Path, key: &str) -> Result<Option
 /// # Errors
 /// As for [`read`].
 pub(crate) fn read_bytes(path: &Path, key: &str) -> Result<Option<Vec<u8>>> {
-    let bytes = match read_own(path, STORED) {
-        Ok(bytes) => bytes,
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(error),
-    };
-    let refused = |reason: &str| Error::new(ErrorKind::InvalidData, reason);
-    let damaged = || refused("is damaged");
-    let rest = bytes.strip_prefix(TITLE).ok_or_else(|| refused("is no record of bagnold, or is damaged"))?;
-    let (version, rest) = number(rest).ok_or_else(damaged)?;
-    if version != VERSION {
-        return Err(refused(&format!("has the layout {version}, not {VERSION}")));
+    match RECORD.read(path, Some(key)) {
+        Err(Refused::Unreadable(error)) if error.kind() == ErrorKind::NotFound => Ok(None),
+        record => record.map(Some).map_err(Error::other),
     }
-    let (length, rest) = number(rest).ok_or_else(damaged)?;
-    let (own, rest) = rest.split_at_checked(length as usize).ok_or_else(damaged)?;
-    let (checksum, record) = rest.split_at_checked(CHECKSUM_BYTES).ok_or_else(damaged)?;
-    if digest(own, record).as_slice() != checksum {
-        return Err(damaged());
-    }
-    if own != key.as_bytes() {
-        return Err(refused("belongs to another run or drawing"));
-    }
-    Ok(Some(record.to_vec()))
 }
 
 /// Writes a key's record so that a reader sees all of it or nothing, also when several processes write it.
@@ -68,28 +36,7 @@ pub(crate) fn write<R: Serialize>(path: &Path, key: &str, record: &R) -> Result<
 
 /// The same for a record that is bytes.
 pub(crate) fn write_bytes(path: &Path, key: &str, record: &[u8]) -> Result<()> {
-    let mut bytes = header(key.as_bytes());
-    bytes.extend(digest(key.as_bytes(), record));
-    bytes.extend(record);
-    write_whole(path, &bytes)
-}
-
-fn header(key: &[u8]) -> Vec<u8> {
-    // a key is a few dozen digits
-    let length = u32::try_from(key.len()).unwrap_or(u32::MAX);
-    [&TITLE[..], &VERSION.to_le_bytes(), &length.to_le_bytes(), key].concat()
-}
-
-fn digest(key: &[u8], record: &[u8]) -> Vec<u8> {
-    let mut hash = Sha256::new();
-    hash.update(header(key));
-    hash.update(record);
-    hash.finalize().to_vec()
-}
-
-fn number(bytes: &[u8]) -> Option<(u32, &[u8])> {
-    let (number, rest) = bytes.split_first_chunk::<4>()?;
-    Some((u32::from_le_bytes(*number), rest))
+    RECORD.write(path, key, record)
 }
 
 #[cfg(test)]
@@ -108,7 +55,7 @@ mod tests {
         write(&path, "a", &"record").expect("writable");
         assert_eq!(read(&path, "a").expect("readable"), Some("record".to_owned()));
         std::fs::rename(&path, &moved).expect("movable");
-        assert_eq!(refused(&moved, "b"), "belongs to another run or drawing");
+        assert_eq!(refused(&moved, "b"), "belongs to another run, or to another version of the program");
         let whole = std::fs::read(&moved).expect("readable");
         for bit in 0..8 * whole.len() {
             let mut flipped = whole.clone();
@@ -124,9 +71,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("temporary folder");
         let link = folder.path().join("a");
         std::os::unix::fs::symlink("/dev/zero", &link).expect("a link");
-        assert_eq!(refused(&link, "a"), "is a link, not a file of its own");
+        assert_eq!(refused(&link, "a"), "cannot be read (is a link, not a file of its own)");
         std::fs::remove_file(&link).expect("removable");
         std::fs::create_dir(&link).expect("writable");
-        assert_eq!(refused(&link, "a"), "is a directory");
+        assert_eq!(refused(&link, "a"), "cannot be read (is a directory)");
     }
 }

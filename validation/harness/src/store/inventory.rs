@@ -1,16 +1,13 @@
 //! Contents of a store, and their reduction on request.
 
 use super::{DRAWN, ENDED, UNFINISHED, is_version};
-use std::io::Result;
+use std::fs::DirEntry;
+use std::io::{ErrorKind, Result};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
-/// Ends the names of entries, and of what a killed process left half written.
-const ENDINGS: [&str; 2] = ["postcard", "partial"];
-/// The same of checkpoints.
-const CHECKPOINTS: [&str; 2] = ["checkpoint", "partial"];
-/// The same of drawings.
-const DRAWINGS: [&str; 4] = ["svg", "png", "gif", "partial"];
+/// Ends the names of entries, checkpoints and drawings, and of what a killed process left half written.
+const ENDINGS: [&str; 6] = ["postcard", "checkpoint", "svg", "png", "gif", "partial"];
 
 /// By how much the clocks of machines that share a store may differ.
 const CLOCKS_DIFFER: Duration = Duration::from_secs(86_400);
@@ -63,15 +60,14 @@ pub struct Pruned {
 pub fn versions(root: &Path) -> Result<Vec<Version>> {
     let mut versions = Vec::new();
     for folder in folders(root)? {
-        let (stored, unfinished) = (stored_in(&folder, &ENDINGS)?, checkpoints_in(&folder.join(UNFINISHED))?);
-        let (drawn, ended) = (drawn_in(&folder)?, checkpoints_in(&folder.join(ENDED))?);
-        let others = unfinished.iter().chain(&ended).flatten().chain(&drawn);
-        let Some(newest) = stored.iter().chain(others.clone()).map(|entry| entry.modified).max() else { continue };
+        let (entries, all) = (stored_in(&folder)?.len(), stored_below(&folder)?);
+        let Some(newest) = all.iter().map(|file| file.modified).max() else { continue };
+        let runs = folders_in(&folder.join(UNFINISHED))?;
         versions.push(Version {
             name: folder.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            entries: stored.len(),
-            unfinished: unfinished.iter().filter(|checkpoints| !checkpoints.is_empty()).count(),
-            bytes: stored.iter().chain(others).map(|entry| entry.bytes).sum(),
+            entries,
+            unfinished: runs.iter().filter(|run| stored_in(run).is_ok_and(|files| !files.is_empty())).count(),
+            bytes: all.iter().map(|file| file.bytes).sum(),
             newest,
         });
     }
@@ -87,11 +83,7 @@ pub fn prune(root: &Path, keep: RetentionPolicy, now: SystemTime) -> Result<Prun
     let folders = folders(root)?;
     let mut stored = Vec::new();
     for folder in &folders {
-        stored.extend(stored_in(folder, &ENDINGS)?);
-        for runs in [UNFINISHED, ENDED] {
-            stored.extend(checkpoints_in(&folder.join(runs))?.into_iter().flatten());
-        }
-        stored.extend(drawn_in(folder)?);
+        stored.extend(stored_below(folder)?);
     }
     for entry in &mut stored {
         entry.modified = dated(entry.modified, now);
@@ -110,16 +102,11 @@ pub fn prune(root: &Path, keep: RetentionPolicy, now: SystemTime) -> Result<Prun
             pruned.bytes += entry.bytes;
         }
     }
-    // fails where something is left, which is what is wanted
-    for folder in folders {
-        for runs in [UNFINISHED, ENDED].map(|runs| folder.join(runs)) {
-            for run in runs_in(&runs)? {
-                let _ = std::fs::remove_dir(run);
-            }
-            let _ = std::fs::remove_dir(runs);
+    for folder in folders.iter().rev() {
+        for below in places(folder)?.iter().rev() {
+            // fails where something is left, which is what is wanted
+            let _ = std::fs::remove_dir(below);
         }
-        let _ = std::fs::remove_dir(folder.join(DRAWN));
-        let _ = std::fs::remove_dir(folder);
     }
     Ok(pruned)
 }
@@ -130,29 +117,43 @@ fn dated(modified: SystemTime, now: SystemTime) -> SystemTime {
     if modified > now + CLOCKS_DIFFER { SystemTime::UNIX_EPOCH } else { modified.min(now) }
 }
 
-/// The folders of versions; no links, which may lead out of the store.
-fn folders(root: &Path) -> Result<Vec<PathBuf>> {
-    let entries = match std::fs::read_dir(root) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        entries => entries?,
-    };
-    let mut folders = Vec::new();
-    for entry in entries {
-        let entry = entry?;
-        if entry.file_type()?.is_dir() && is_version(&entry.file_name().to_string_lossy()) {
-            folders.push(entry.path());
-        }
-    }
+/// The folders of versions.
+pub(super) fn folders(root: &Path) -> Result<Vec<PathBuf>> {
+    let mut folders = folders_in(root)?;
+    folders.retain(|folder| folder.file_name().is_some_and(|name| is_version(&name.to_string_lossy())));
     Ok(folders)
 }
 
-/// Files of a folder with such endings.
-fn stored_in(folder: &Path, endings: &[&str]) -> Result<Vec<StoredFile>> {
+/// A version's folder and those below it that hold files of the store; each after the one that it lies in.
+fn places(version: &Path) -> Result<Vec<PathBuf>> {
+    let mut places = vec![version.to_owned()];
+    places.extend([DRAWN, UNFINISHED, ENDED].map(|name| version.join(name)));
+    for runs in [UNFINISHED, ENDED] {
+        places.extend(folders_in(&version.join(runs))?);
+    }
+    Ok(places)
+}
+
+/// All files of a version.
+fn stored_below(version: &Path) -> Result<Vec<StoredFile>> {
+    let files: Result<Vec<_>> = places(version)?.iter().map(|place| stored_in(place)).collect();
+    Ok(files?.concat())
+}
+
+/// Entries of a folder; none where it is missing.
+fn entries(folder: &Path) -> Result<Vec<DirEntry>> {
+    match std::fs::read_dir(folder) {
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+        entries => entries?.collect(),
+    }
+}
+
+/// Files of the store in a folder.
+fn stored_in(folder: &Path) -> Result<Vec<StoredFile>> {
     let mut stored = Vec::new();
-    for entry in std::fs::read_dir(folder)? {
-        let entry = entry?;
+    for entry in entries(folder)? {
         let path = entry.path();
-        let is_entry = path.extension().is_some_and(|ending| endings.iter().any(|own| ending == *own));
+        let is_entry = path.extension().is_some_and(|ending| ENDINGS.iter().any(|own| ending == *own));
         // not followed: a link that a user put here is the user's
         let metadata = entry.metadata()?;
         if is_entry && metadata.is_file() {
@@ -162,42 +163,22 @@ fn stored_in(folder: &Path, endings: &[&str]) -> Result<Vec<StoredFile>> {
     Ok(stored)
 }
 
-/// The drawings of a version.
-fn drawn_in(folder: &Path) -> Result<Vec<StoredFile>> {
-    let folder = folder.join(DRAWN);
-    if folder.is_dir() { stored_in(&folder, &DRAWINGS) } else { Ok(Vec::new()) }
+/// Folders in a folder; no links, which may lead out of the store.
+pub(super) fn folders_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    let folders = entries(folder)?.into_iter().filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
+    Ok(folders.map(|entry| entry.path()).collect())
 }
 
-/// Deletes the folders of all runs but the newest so many.
-pub(super) fn keep_newest(folder: &Path, most: usize) {
-    let age = |run: PathBuf| Some((run.metadata().and_then(|data| data.modified()).ok()?, run));
-    let mut runs: Vec<_> = runs_in(folder).unwrap_or_default().into_iter().filter_map(age).collect();
-    runs.sort_by(|a, b| b.cmp(a));
-    for (_, run) in runs.iter().skip(most) {
-        // another program may have been faster
-        let _ = std::fs::remove_dir_all(run);
-    }
-}
-
-/// The folders of runs in a folder.
-fn runs_in(folder: &Path) -> Result<Vec<PathBuf>> {
-    let entries = match std::fs::read_dir(folder) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
-        entries => entries?,
-    };
-    let mut runs = Vec::new();
-    for entry in entries {
-        let entry = entry?;
-        if entry.file_type()?.is_dir() {
-            runs.push(entry.path());
+/// Deletes the folders among some but the newest so many. Best effort: another program may have been faster.
+pub(super) fn keep_newest(folders: impl IntoIterator<Item = PathBuf>, most: usize) {
+    let age = |folder: PathBuf| Some((folder.metadata().and_then(|data| data.modified()).ok()?, folder));
+    let mut folders: Vec<_> = folders.into_iter().filter_map(age).collect();
+    folders.sort_by(|a, b| b.cmp(a));
+    for (_, folder) in folders.iter().skip(most) {
+        if let Err(error) = std::fs::remove_dir_all(folder) {
+            tracing::debug!("old stored results {}: not deleted: {error}", folder.display());
         }
     }
-    Ok(runs)
-}
-
-/// The checkpoints of every run in a folder.
-fn checkpoints_in(folder: &Path) -> Result<Vec<Vec<StoredFile>>> {
-    runs_in(folder)?.iter().map(|run| stored_in(run, &CHECKPOINTS)).collect()
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ use etcetera::BaseStrategy;
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, SystemTime};
+use std::time::Duration;
 
 /// Folders of this many versions of the sources are kept.
 const KEPT_VERSIONS: usize = 3;
@@ -122,7 +122,7 @@ impl Store {
     #[must_use]
     pub fn ends(&self, key: &StoreKey) -> Checkpoints {
         let all = self.folder.join(ENDED);
-        inventory::keep_newest(&all, MOST_ENDED);
+        inventory::keep_newest(inventory::folders_in(&all).unwrap_or_default(), MOST_ENDED);
         let ends = Checkpoints::at(&all.join(&key.0), &key.0, None);
         if self.policy == StorePolicy::Refresh {
             ends.discard();
@@ -201,30 +201,14 @@ impl Store {
         }
         Checkpoints::at(&self.checkpoint_folder(key), &key.0, None).discard();
         if new {
-            self.prune();
+            let mut others = inventory::folders(self.root()).unwrap_or_default();
+            others.retain(|folder| *folder != self.folder);
+            inventory::keep_newest(others, KEPT_VERSIONS - 1);
         }
     }
 
     fn path(&self, key: &StoreKey) -> PathBuf {
         self.folder.join(format!("{}.postcard", key.0))
-    }
-
-    /// Deletes the oldest versions. Only folders with the store's own kind of name are touched.
-    fn prune(&self) {
-        let Some(root) = self.folder.parent() else { return };
-        let mut others: Vec<(SystemTime, PathBuf)> = std::fs::read_dir(root)
-            .into_iter()
-            .flatten()
-            .flatten()
-            .filter(|entry| is_version(&entry.file_name().to_string_lossy()) && entry.path() != self.folder)
-            .filter_map(|entry| Some((entry.metadata().ok()?.modified().ok()?, entry.path())))
-            .collect();
-        others.sort_by_key(|other| std::cmp::Reverse(other.0));
-        for (_, folder) in others.iter().skip(KEPT_VERSIONS - 1) {
-            if let Err(error) = std::fs::remove_dir_all(folder) {
-                tracing::debug!("old stored results {}: not deleted: {error}", folder.display());
-            }
-        }
     }
 }
 
@@ -242,17 +226,14 @@ fn is_version(name: &str) -> bool {
 /// Lower-case hexadecimal digits of some bytes.
 #[must_use]
 pub fn hexadecimal(bytes: &[u8]) -> String {
-    bytes
-        .iter()
-        .flat_map(|byte| [byte >> 4, byte & 15])
-        .filter_map(|digit| char::from_digit(digit.into(), 16))
-        .collect()
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::observation::Outcome;
+    use std::time::SystemTime;
 
     fn record(data: f64) -> Recorded<f64> {
         Recorded {

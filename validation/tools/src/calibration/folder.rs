@@ -2,7 +2,7 @@
 
 use super::error::CalibrationError;
 use crate::input::{WRITTEN_BY_HAND, read_text};
-use crate::output::{FileError, FolderLock, Owner, claim, is_claimed, owner_of};
+use crate::output::{FileError, FolderLock, Owner, claim, owner_of};
 use crate::store::{CodeOrigin, identity_or_unique, is_of_this_program};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -41,9 +41,8 @@ impl CalibrationFolder {
         // what is unfinished is resumed; the result is written last
         let own = Belongs { source_hash: identity_or_unique(origin).to_owned(), plan };
         let unfinished = !folder.join("result.json").exists()
-            && is_claimed::<Belongs>(folder)
-            && owner_of::<Belongs>(folder).is_ok_and(|other| other == own);
-        let (_, lock) = claim(folder, own, resume || unfinished)?;
+            && owner_of::<Belongs>(folder).is_ok_and(|other| other.as_ref() == Some(&own));
+        let lock = claim(folder, &own, resume || unfinished)?;
         let begun = Self { folder: folder.to_owned(), _lock: lock };
         let evaluations = begun.evaluations();
         std::fs::create_dir_all(&evaluations).map_err(|error| FileError::unwritable(&evaluations, &error))?;

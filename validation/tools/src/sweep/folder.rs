@@ -3,7 +3,7 @@
 use super::error::SweepError;
 use super::manifest::{Manifest, SweepRun};
 use crate::evaluation::EvaluationRecord;
-use crate::output::{FolderError, Owner, claim, is_claimed, owner_of};
+use crate::output::{FolderError, Owner, claim, owner_of};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -39,9 +39,9 @@ impl SweepFolder {
     pub fn begin(folder: &Path, manifest: &Manifest) -> Result<Self, SweepError> {
         let begun = Instant::now();
         loop {
-            match claim(folder, manifest.clone(), true) {
+            match claim(folder, manifest, true) {
                 // the lock ends here
-                Ok((manifest, _)) => return Ok(Self { folder: folder.to_owned(), manifest }),
+                Ok(_) => return Ok(Self { folder: folder.to_owned(), manifest: manifest.clone() }),
                 Err(FolderError::Locked { .. }) if begun.elapsed() < LONGEST_BEGINNING => {
                     std::thread::sleep(Duration::from_millis(20));
                 }
@@ -55,10 +55,7 @@ impl SweepFolder {
     /// # Errors
     /// A folder without a manifest, or a manifest of another version of the program.
     pub fn open(folder: &Path) -> Result<Self, SweepError> {
-        if !is_claimed::<Manifest>(folder) {
-            return Err(SweepError::NoSweep { folder: folder.to_owned() });
-        }
-        let manifest: Manifest = owner_of(folder)?;
+        let manifest: Manifest = owner_of(folder)?.ok_or_else(|| SweepError::NoSweep { folder: folder.to_owned() })?;
         if manifest.is_foreign() {
             return Err(FolderError::OtherPlan { what: "sweep", folder: folder.to_owned(), by_program: true }.into());
         }
