@@ -166,6 +166,39 @@ fn a_sweep_without_slurm_says_what_is_missing() {
     );
 }
 
+/// Commands of Slurm that keep their arguments, a line each, and answer as Slurm does.
+#[test]
+fn requested_options_reach_slurm_as_one_argument_each_and_are_kept() {
+    let place = Place::new();
+    let plan = place.file("plan.toml", &PLAN.replace("[20.0, 25.0, 95.0]", "[20.0]"));
+    std::fs::create_dir(place.path("bin")).expect("writable");
+    for (name, answer) in [("sbatch", "echo '17;cluster'"), ("squeue", "echo '17 2'; echo '18 3'")] {
+        let script = format!("#!/bin/sh\nfor each; do echo \"$each\"; done >{name}-said\n{answer}\n");
+        let file = place.file(&format!("bin/{name}"), &script);
+        assert!(std::process::Command::new("chmod").args(["+x", &file]).status().expect("chmod").success());
+    }
+    let said = |name: &str| std::fs::read_to_string(place.path(name)).expect("called");
+    let path = format!("{}:{}", place.path("bin").display(), std::env::var("PATH").unwrap_or_default());
+    let slurm =
+        ["--engine", "slurm", "--time", "1:00 --wrap=id", "--partition", "a b", "--throttle", "2", "--store", "s"];
+    let arguments = [&["sweep", &plan, "--out", "out $x"][..], &slurm].concat();
+    let submitted = place.bagnold(&arguments).env("PATH", &path).assert().code(0);
+    let text = String::from_utf8_lossy(&submitted.get_output().stdout).into_owned();
+    assert!(text.starts_with("submitted 4 runs as Slurm job 17\n"), "{text}");
+    let options = said("sbatch-said");
+    for line in ["--time=1:00 --wrap=id", "--partition=a b", "--array=1,2,3,4%2", "sweep", "task", "--store", "s"] {
+        assert!(options.lines().any(|other| other == line), "{line} in {options}");
+    }
+    assert!(options.lines().any(|line| line.ends_with("/out $x")), "{options}");
+    // without options those of the last submission count, and what is queued is not submitted again
+    let again = ["sweep", "collect", "out $x", "--resubmit", "--time", "2:00"];
+    place.bagnold(&again).env("PATH", &path).assert().code(1);
+    let options = said("sbatch-said");
+    for line in ["--time=2:00", "--partition=a b", "--array=1,3,4%2", "s"] {
+        assert!(options.lines().any(|other| other == line), "{line} in {options}");
+    }
+}
+
 #[test]
 fn a_folder_that_cannot_be_written_or_holds_a_sweep_is_refused() {
     let place = Place::new();

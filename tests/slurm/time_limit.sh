@@ -5,19 +5,13 @@
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-# shellcheck source=local_cluster.sh
-source "$root/tests/slurm/local_cluster.sh"
-
 program=$(realpath "${1:-$root/target/debug/bagnold}")
 rows=${2:-120}
-[[ -x $program ]] || { echo "time_limit.sh: $program does not exist; cargo build --bin bagnold" >&2; exit 1; }
-
-work=
-trap 'cluster_leave "$work"' EXIT
-
 work=$(mktemp -d)
+# shellcheck source=local_cluster.sh
+source "$root/tests/slurm/local_cluster.sh"
+trap 'cluster_stop "$work"' EXIT
 cd "$work"
-cluster_logs=$work/slurm-sweep/slurm/logs
 cat >sweep.toml <<PLAN
 design = "grid"
 
@@ -30,15 +24,11 @@ path = "material.viscosity"
 values = [1.0]
 PLAN
 
-cluster_install
 cluster_start
 "$program" sweep template | sed "s|^exec|[ ! -e '$work/late' ] \|\| sleep 55\nexec|" >late.sh
 touch late
 "$program" sweep sweep.toml --out slurm-sweep --store slurm-store --engine slurm --time 00:01:00 --memory 500M --template late.sh
-ended() {
-    [[ -z $(squeue --noheader --me) ]]
-}
-cluster_wait 'the time limit' 600 ended
+cluster_wait 'the time limit' 600 cluster_is_empty
 status=0
 "$program" --quiet sweep collect slurm-sweep || status=$?
 ((status == 1)) || cluster_fail "exit code $status of a sweep whose task hit its limit, expected 1"
@@ -48,7 +38,7 @@ grep -rq 'interrupted by SIGTERM' slurm-sweep/slurm/logs || cluster_fail 'the ta
 
 rm late
 "$program" sweep collect slurm-sweep --resubmit --time 00:30:00 --memory 500M || true
-cluster_wait 'end of the second job' 1800 ended
+cluster_wait 'end of the second job' 1800 cluster_is_empty
 "$program" --quiet sweep collect slurm-sweep
 "$program" --quiet sweep sweep.toml --out local-sweep --store local-store
 cmp local-sweep/results.csv slurm-sweep/results.csv || cluster_fail 'the run that was continued gives another table'

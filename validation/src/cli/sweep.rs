@@ -5,10 +5,8 @@ use super::count::CountBar;
 use super::error::ProgramError;
 use super::{Exit, Session};
 use crate::evaluation::EvaluationRecord;
-use crate::sweep::{
-    SweepFolder, SweepMonitor, SweepPlan, SweepProgress, SweepRun, gather, run_entry, run_locally, slurm,
-};
-use std::collections::BTreeSet;
+use crate::sweep::slurm::{self, SlurmRequest};
+use crate::sweep::{SweepFolder, SweepMonitor, SweepPlan, SweepProgress, SweepRun, gather, run_entry, run_locally};
 use std::path::{Path, PathBuf};
 
 /// Plans, runs, submits or gathers.
@@ -39,8 +37,7 @@ fn begin(file: &Path, command: &SweepArguments, session: &mut Session<'_>) -> Re
         .clone()
         .unwrap_or_else(|| Path::new("reports/sweeps").join(file.file_stem().unwrap_or_else(|| "sweep".as_ref())));
     if command.engine == Engine::Slurm {
-        slurm::check(&folder, &asked(&command.cluster, command.work.store.clone(), slurm::SlurmRequest::default()))?;
-        slurm::available()?;
+        request(&command.cluster, command.work.store.clone()).test()?;
     }
     // what is there is resumed, and what is done is shown again
     let sweep = SweepFolder::begin(&folder, &manifest)?;
@@ -57,7 +54,7 @@ fn begin(file: &Path, command: &SweepArguments, session: &mut Session<'_>) -> Re
             finish(&sweep, session)
         }
         Engine::Slurm => {
-            submit(&sweep, &command.cluster, command.work.store.clone(), session)?;
+            submit(&sweep, &request(&command.cluster, command.work.store.clone()), session)?;
             session.say(&format!("then: bagnold sweep collect {}\n", folder.display()));
             Ok(Exit::Held)
         }
@@ -67,41 +64,38 @@ fn begin(file: &Path, command: &SweepArguments, session: &mut Session<'_>) -> Re
 fn collect(folder: &Path, resubmit: bool, cluster: &Cluster, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let sweep = SweepFolder::open(folder)?;
     if resubmit {
-        submit(&sweep, cluster, None, session)?;
+        submit(&sweep, &request(cluster, None), session)?;
     }
     finish(&sweep, session)
 }
 
 /// Submits what is neither done nor queued.
-fn submit(
-    sweep: &SweepFolder,
-    cluster: &Cluster,
-    store: Option<PathBuf>,
-    session: &mut Session<'_>,
-) -> Result<(), ProgramError> {
-    let queued = slurm::queued(sweep)?;
-    let missing: BTreeSet<usize> = sweep.missing().iter().map(|entry| entry.number).collect();
-    let numbers: Vec<usize> = missing.difference(&queued).copied().collect();
-    if numbers.is_empty() {
-        session.say("nothing to submit\n");
-        return Ok(());
-    }
-    let last = slurm::last_request(sweep)?;
-    let jobs = slurm::submit(sweep, &numbers, &asked(cluster, store, last))?;
-    session.say(&format!("submitted {} runs as Slurm job {}\n", numbers.len(), jobs.join(", ")));
+fn submit(sweep: &SweepFolder, request: &SlurmRequest, session: &mut Session<'_>) -> Result<(), ProgramError> {
+    let (jobs, runs): (Vec<String>, Vec<usize>) = slurm::submit(sweep, request)?.into_iter().unzip();
+    let text = match runs.iter().sum() {
+        0 => "nothing to submit\n".to_owned(),
+        runs => format!("submitted {runs} runs as Slurm job {}\n", jobs.join(", ")),
+    };
+    session.say(&text);
     Ok(())
 }
 
-/// Request of the options, completed with the last one.
-fn asked(cluster: &Cluster, store: Option<PathBuf>, last: slurm::SlurmRequest) -> slurm::SlurmRequest {
-    slurm::SlurmRequest {
-        partition: cluster.partition.clone().or(last.partition),
-        time: cluster.time.clone().or(last.time),
-        memory: cluster.memory.clone().or(last.memory),
-        cpus: cluster.cpus.unwrap_or(last.cpus.max(1)),
-        throttle: cluster.throttle.or(last.throttle),
-        template: cluster.template.clone().or(last.template),
-        store: store.or(last.store),
+/// Request of the options.
+fn request(cluster: &Cluster, store: Option<PathBuf>) -> SlurmRequest {
+    let cpus = cluster.cpus.map(|cpus| cpus.to_string());
+    let options = [
+        ("partition", &cluster.partition),
+        ("time", &cluster.time),
+        ("mem", &cluster.memory),
+        ("cpus-per-task", &cpus),
+    ];
+    let given = options.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value.clone()?)));
+    SlurmRequest {
+        options: given.collect(),
+        throttle: cluster.throttle,
+        store,
+        template: cluster.template.clone(),
+        ..SlurmRequest::default()
     }
 }
 

@@ -38,6 +38,6 @@ pub enum SweepError {
         /// Defect, as a clause after the command.
         reason: String,
         /// Remedy.
-        remedy: String,
+        remedy: &'static str,
     },
 }

@@ -18,7 +18,6 @@ mod manifest;
 mod map;
 mod plan;
 pub mod slurm;
-mod slurm_request;
 mod values;
 
 pub use error::SweepError;

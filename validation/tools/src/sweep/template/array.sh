@@ -1,19 +1,7 @@
 #!/bin/bash
-# Written by bagnold; runs one entry of the sweep's manifest a task. Edit a copy of this template and name it with
-# --template; the words in braces are filled in by bagnold.
-#SBATCH --job-name="{{ name }}"
-#SBATCH --array={{ array }}
-#SBATCH --cpus-per-task={{ cpus }}
-#SBATCH --output="{{ logs }}/%A_%a.log"
+# Runs one entry of a sweep per task of a job array. Arguments: number to add to the task's index, then the command of a task.
+# Edit a copy of this script and name it with --template. Options of the command line override those of #SBATCH lines.
 #SBATCH --open-mode=append
-{%- if partition %}
-#SBATCH --partition={{ partition }}
-{%- endif %}
-{%- if time %}
-#SBATCH --time={{ time }}
-{%- endif %}
-{%- if memory %}
-#SBATCH --mem={{ memory }}
-{%- endif %}
+#SBATCH --cpus-per-task=1
 
-exec {{ program }} --quiet sweep task {{ folder }} --entry $((SLURM_ARRAY_TASK_ID + {{ offset }})) --threads {{ cpus }}
+exec "${@:2}" --entry $((SLURM_ARRAY_TASK_ID + $1)) --threads "${SLURM_CPUS_PER_TASK:-1}"
