@@ -255,6 +255,28 @@ impl<I: Items> Items for WithLeast<I> {
     }
 }
 
+/// Items, or none as often as they are wanted.
+impl<I: Items> Items for Option<I> {
+    type Item = Option<I::Item>;
+
+    fn length(&self) -> usize {
+        self.as_ref().map_or(usize::MAX, I::length)
+    }
+
+    fn divided(self, place: usize) -> (Self, Self) {
+        self.map(|items| items.divided(place)).unzip()
+    }
+
+    #[inline(always)]
+    fn sequence(self) -> impl Iterator<Item = Self::Item> {
+        let mut items = self.map(I::sequence);
+        std::iter::from_fn(move || match &mut items {
+            Some(items) => items.next().map(Some),
+            None => Some(None),
+        })
+    }
+}
+
 /// Items side by side, as many as the shortest has.
 #[derive(Debug)]
 pub(crate) struct Zipped<Z>(Z);

@@ -173,18 +173,12 @@ fn shear_energy<const D: usize>(volume: f64, stress: &Tensor<D>, shear_modulus: 
 /// Energy of the compression of a particle `[J/kg]`: ∫ p/ρ² dρ from the density without pressure, ρ0 exp(−e), is exp(e) times the energy that the
 /// equation of state gives at ρ exp(e).
 fn specific_compression_energy<const D: usize>(model: &Model<D>, particles: &Particles<D>, index: usize) -> f64 {
-    let density = particles.density[index];
-    match &particles.field {
-        Some(field) if model.pore_liquid.is_some() => {
-            let growth = particles.memory.as_ref().map_or(0.0, |memory| memory[index][0]);
-            model.pore_energy(model.pressure(density, field[index], growth), field[index]) / density
-        }
-        Some(field) if model.dilates => {
-            let loosening: f64 = model.rheology.loosening(field[index]);
-            loosening * compression_energy(&model.equation_of_state, density * loosening)
-        }
-        _ => compression_energy(&model.equation_of_state, density),
+    let (density, kept) = (particles.density[index], particles.kept(index));
+    if model.pore_liquid.is_some() {
+        return model.pore_energy(model.pressure(density, &kept), kept.value) / density;
     }
+    let loosening = model.rheology.loosening(kept.value);
+    loosening * compression_energy(&model.equation_of_state, density * loosening)
 }
 
 /// ∫ p/ρ² dρ from ρ0 `[J/kg]`.

@@ -1,7 +1,7 @@
 //! Memory that a law keeps of each particle beside its field, an array of a few values per particle.
 
 use crate::lanes::{LANES, Lanes};
-use crate::material::rheology::field::{LawField, MOST_MEMORIES, Memory};
+use crate::material::rheology::field::{FieldStep, LawField, MOST_MEMORIES, Memory};
 
 /// Initial memory of particles; none for a law without a memory.
 pub(crate) fn initial(memories: &[LawField]) -> Option<Memory<f64>> {
@@ -10,6 +10,13 @@ pub(crate) fn initial(memories: &[LawField]) -> Option<Memory<f64>> {
         *value = memory.initial;
     }
     (!memories.is_empty()).then_some(initial)
+}
+
+/// Field and memory at a place of their arrays; zero of a law without.
+#[inline(always)]
+pub(crate) fn kept(field: Option<&[f64]>, memory: Option<&[Memory<f64>]>, index: usize) -> FieldStep<f64> {
+    let memory = memory.map_or(Memory::default(), |memory| memory[index]);
+    FieldStep::alone(field.map_or(0.0, |field| field[index])).with_memory(memory)
 }
 
 /// That of eight particles or fewer; zero in the lanes that are left.

@@ -28,8 +28,6 @@ pub(crate) struct Model<const D: usize> {
     pub(crate) instruction_set: InstructionSet,
     /// Field that the law keeps of each particle.
     pub(crate) field: Option<LawField>,
-    /// Whether it keeps anything beside.
-    pub(crate) keeps_memory: bool,
     /// Σ −2 V F over a lattice `[1/m²]`.
     pub(crate) full_weight: f64,
     /// W(0) where tension is cut, so that grains may fly apart, else 0 `[1/m^D]`.
@@ -111,30 +109,32 @@ impl<const D: usize> Model<D> {
         ElasticModuli { shear: self.shear_modulus(), bulk: self.equation_of_state.bulk_modulus }
     }
 
-    /// Pressure `[Pa]` at a density `[kg/m³]`, a value of the law's field and its first memory: that of the equation of state at ρ exp(e), with the
-    /// plastic volume strain e. With a pore liquid its pressure, the field, and that of the skeleton, K_s (ρ φ_0/(ρ_0 φ) − 1).
+    /// Pressure `[Pa]` at a density `[kg/m³]` and what the law keeps: that of the equation of state at ρ exp(e), with the plastic volume strain e.
+    /// With a pore liquid the sum of its pressure and that of the skeleton, K_s (ρ φ_0/(ρ_0 φ) − 1).
     #[inline(always)]
-    pub(crate) fn pressure<R: Real>(&self, density: R, field: R, growth: R) -> R {
-        if self.pore_liquid.is_some() {
-            let reference = R::splat(self.equation_of_state.reference_density);
-            let strain = (density - reference + density * growth) / reference;
-            R::splat(SKELETON_SHARE * self.equation_of_state.bulk_modulus) * strain + field
-        } else if self.dilates {
-            self.equation_of_state.pressure(density * self.rheology.loosening(field))
-        } else {
-            self.equation_of_state.pressure(density)
+    pub(crate) fn pressure<R: Real>(&self, density: R, kept: &FieldStep<R>) -> R {
+        if self.pore_liquid.is_none() {
+            return self.equation_of_state.pressure(density * self.rheology.loosening(kept.value));
         }
+        let pore = kept.pore();
+        let reference = R::splat(self.equation_of_state.reference_density);
+        let strain = (density - reference + density * pore.growth) / reference;
+        R::splat(SKELETON_SHARE * self.equation_of_state.bulk_modulus) * strain + pore.pressure
+    }
+
+    /// Whether the law changes the pressure in its step, by dilation or through the pore liquid.
+    pub(crate) fn law_moves_pressure(&self) -> bool {
+        self.dilates || self.pore_liquid.is_some()
     }
 
     /// Density `[kg/m³]` below which tension is cut, at a field of the law; zero where it is kept.
     #[inline(always)]
     pub(crate) fn free_density<R: Real>(&self, field: R) -> R {
-        let reference = R::splat(self.equation_of_state.reference_density);
         match self.equation_of_state.tension {
-            _ if self.pore_liquid.is_some() => R::splat(0.0),
-            Tension::Kept => R::splat(0.0),
-            Tension::Cut if self.dilates => reference / self.rheology.loosening(field),
-            Tension::Cut => reference,
+            Tension::Cut if self.pore_liquid.is_none() => {
+                R::splat(self.equation_of_state.reference_density) / self.rheology.loosening(field)
+            }
+            _ => R::splat(0.0),
         }
     }
 

@@ -124,8 +124,7 @@ impl<const D: usize> Particles<D> {
     /// Field and memory of a particle, by its storage index.
     #[inline(always)]
     pub(crate) fn kept(&self, index: usize) -> FieldStep<f64> {
-        let field = self.field.as_ref().map_or(0.0, |field| field[index]);
-        FieldStep::alone(field).with_memory(self.memory.as_ref().map_or(Memory::default(), |memory| memory[index]))
+        memory::kept(self.field.as_deref(), self.memory.as_deref(), index)
     }
 
     /// Field and memory of eight flow particles.

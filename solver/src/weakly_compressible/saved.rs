@@ -35,7 +35,7 @@ pub struct SavedSimulation<'a, const D: usize> {
     time: f64,
     steps: u64,
     largest_speed: f64,
-    kinematic_viscosity: f64,
+    diffusivity: f64,
     displacement: f64,
 }
 
@@ -57,7 +57,7 @@ impl<const D: usize> Simulation<D> {
             time: self.state.time,
             steps: self.state.steps,
             largest_speed: self.state.largest_speed,
-            kinematic_viscosity: self.state.kinematic_viscosity,
+            diffusivity: self.state.diffusivity,
             displacement: self.state.displacement,
         }
     }
@@ -119,7 +119,7 @@ impl<const D: usize> Simulation<D> {
         state.time = saved.time;
         state.steps = saved.steps;
         state.largest_speed = saved.largest_speed;
-        state.kinematic_viscosity = saved.kinematic_viscosity;
+        state.diffusivity = saved.diffusivity;
         state.displacement = saved.displacement;
         state.enclosure.restore(books, saved.time);
         state.enclosure.assign_owners(&state.particles, &state.images);

@@ -217,7 +217,7 @@ impl<const D: usize> Simulation<D> {
         let flow = particles.flow_count();
         let pressure = particles.pressure[..flow].iter().fold(0.0_f64, |most, &p| most.max(p));
         let viscosity = model.rheology.largest_viscosity(pressure) / model.equation_of_state.reference_density;
-        duration / self.state.bounds_with(viscosity.max(self.state.kinematic_viscosity)).step()
+        duration / self.state.bounds_with(viscosity.max(self.state.diffusivity)).step()
     }
 
     /// Time `[s]`.

@@ -43,27 +43,17 @@ impl<const D: usize> Snapshot<D> {
         fn pick<T: Copy>(array: &[T], order: &[usize]) -> Vec<T> {
             order.iter().map(|&index| array[index]).collect()
         }
-        let density = pick(&particles.density, &order);
-        let field = particles.field.as_ref().map_or_else(Vec::new, |field| pick(field, &order));
-        let memory = particles.memory.as_ref().map_or_else(Vec::new, |memory| pick(memory, &order));
         Self {
             time,
             position: pick(&particles.position, &order),
             velocity: pick(&particles.velocity, &order),
             velocity_gradient: pick(&particles.velocity_gradient, &order),
             stress: pick(&particles.stress, &order),
-            pressure: density
-                .iter()
-                .enumerate()
-                .map(|(place, &rho)| {
-                    let growth = memory.get(place).map_or(0.0, |memory| memory[0]);
-                    model.pressure(rho, field.get(place).copied().unwrap_or_default(), growth)
-                })
-                .collect(),
-            density,
+            pressure: order.iter().map(|&index| model.pressure(particles.density[index], &particles.kept(index))).collect(),
+            density: pick(&particles.density, &order),
             mass: pick(&particles.mass, &order),
-            field,
-            memory,
+            field: particles.field.as_ref().map_or_else(Vec::new, |field| pick(field, &order)),
+            memory: particles.memory.as_ref().map_or_else(Vec::new, |memory| pick(memory, &order)),
             support_impulse: pick(&particles.support_impulse, &order),
             energy,
         }

@@ -43,7 +43,8 @@ pub(crate) struct State<const D: usize> {
     pub(crate) time: f64,
     pub(crate) steps: u64,
     pub(crate) largest_speed: f64,
-    pub(crate) kinematic_viscosity: f64,
+    /// Largest diffusivity that bounds an explicit step `[m²/s]`.
+    pub(crate) diffusivity: f64,
     /// Upper bound of any particle's displacement since the neighbour search `[m]`.
     pub(crate) displacement: f64,
 }
@@ -69,7 +70,6 @@ impl<const D: usize> State<D> {
             contact_friction: scene.rheology.contact_friction(),
             instruction_set: InstructionSet::best(),
             field: scene.rheology.field(),
-            keeps_memory: !scene.rheology.memories().is_empty(),
             full_weight: lattice_weight::<D>(&numerics, scene.spacing),
             lone_density_per_mass: match scene.equation_of_state.tension {
                 Tension::Cut => kernel.value_at(0.0),
@@ -97,7 +97,7 @@ impl<const D: usize> State<D> {
             time: 0.0,
             steps: 0,
             largest_speed: 0.0,
-            kinematic_viscosity: 0.0,
+            diffusivity: 0.0,
             displacement: f64::INFINITY,
         }
     }
@@ -129,17 +129,17 @@ impl<const D: usize> State<D> {
 
     /// The bounds of the next step.
     pub(crate) fn time_step_bounds(&self) -> TimeStepBounds {
-        self.bounds_with(self.kinematic_viscosity)
+        self.bounds_with(self.diffusivity)
     }
 
-    /// The bounds of a step with a largest kinematic viscosity `[m²/s]`.
-    pub(crate) fn bounds_with(&self, kinematic_viscosity: f64) -> TimeStepBounds {
+    /// The bounds of a step with a largest diffusivity `[m²/s]`.
+    pub(crate) fn bounds_with(&self, diffusivity: f64) -> TimeStepBounds {
         TimeStepBounds::new(
             &self.model.numerics,
             self.model.kernel.smoothing_length(),
             self.model.equation_of_state.sound_speed(),
             self.largest_speed + self.enclosure.largest_speed(),
-            kinematic_viscosity,
+            diffusivity,
         )
     }
 

@@ -4,6 +4,7 @@ use crate::parallel::prelude::*;
 use crate::run::Divergence;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{DENSITY_RANGE, Quantity};
+use crate::weakly_compressible::memory;
 use crate::weakly_compressible::model::GradientUse;
 use crate::weakly_compressible::neighbours::BLOCK;
 use crate::weakly_compressible::passes::{continuity, geometry, side_walls, wall_stress, wall_velocity};
@@ -38,15 +39,13 @@ impl<const D: usize> State<D> {
     fn update_pressure(&mut self) {
         let (model, particles) = (&self.model, &mut self.particles);
         let flow = particles.flow_count();
-        let field = particles.field.as_deref().filter(|_| model.dilates || model.pore_liquid.is_some());
-        let memory = particles.memory.as_deref().filter(|_| model.pore_liquid.is_some());
+        let (field, memory) = (particles.field.as_deref(), particles.memory.as_deref());
         (&mut particles.pressure[..flow], &mut particles.volume[..flow], &particles.density[..flow], &particles.mass)
             .into_par_iter()
             .with_min_len(4096)
             .enumerate()
             .for_each(|(index, (pressure, volume, density, mass))| {
-                let growth = memory.map_or(0.0, |memory| memory[index][0]);
-                *pressure = model.pressure(*density, field.map_or(0.0, |field| field[index]), growth);
+                *pressure = model.pressure(*density, &memory::kept(field, memory, index));
                 *volume = mass / density;
             });
     }
@@ -107,9 +106,9 @@ impl<const D: usize> State<D> {
     fn update_density_and_stress(&mut self, time_step: f64) -> Result<(), Divergence<D>> {
         let extremes = continuity::run(&self.model, &mut self.particles, &mut self.pairs, time_step);
         self.pairs.close_ledger(&mut self.energy);
-        self.kinematic_viscosity = match self.model.gradient_use() {
+        self.diffusivity = match self.model.gradient_use() {
             GradientUse::None => self.particles.viscosity[0] / self.model.equation_of_state.reference_density,
-            _ => extremes.kinematic_viscosity,
+            _ => extremes.diffusivity,
         };
         match extremes.bad_density {
             Some(bad) => {

@@ -9,20 +9,20 @@ pub struct TimeStepBounds {
     pub acoustic: f64,
     /// C h/v_max `[s]`, infinite at rest.
     pub advective: f64,
-    /// C h² ρ/η_max `[s]`, infinite without an explicit viscosity.
+    /// C h²/ν_max `[s]` with the largest diffusivity, infinite where nothing diffuses explicitly.
     pub viscous: f64,
 }
 
 impl TimeStepBounds {
-    /// The bounds for smoothing length h `[m]`, sound speed c `[m/s]`, largest speed `[m/s]` and largest kinematic
-    /// viscosity `[m²/s]`.
+    /// The bounds for smoothing length h `[m]`, sound speed c `[m/s]`, largest speed `[m/s]` and largest
+    /// diffusivity `[m²/s]`: a kinematic viscosity, or what stands for that of a pore liquid.
     #[must_use]
     pub fn new(
         numerics: &Numerics,
         smoothing_length: f64,
         sound_speed: f64,
         largest_speed: f64,
-        kinematic_viscosity: f64,
+        diffusivity: f64,
     ) -> Self {
         let bound = |coefficient: f64, rate: f64| if rate > 0.0 { coefficient / rate } else { f64::INFINITY };
         Self {
@@ -30,7 +30,7 @@ impl TimeStepBounds {
             advective: bound(numerics.advective_courant * smoothing_length, largest_speed),
             viscous: match numerics.viscous_step {
                 ViscousStep::Explicit => {
-                    bound(numerics.viscous_courant * smoothing_length * smoothing_length, kinematic_viscosity)
+                    bound(numerics.viscous_courant * smoothing_length * smoothing_length, diffusivity)
                 }
                 ViscousStep::Implicit => f64::INFINITY,
             },

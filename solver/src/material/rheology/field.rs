@@ -85,7 +85,33 @@ pub struct FieldStep<R> {
     pub memory: Memory<R>,
 }
 
+/// What a law with a pore liquid keeps of a particle, by name.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PoreState<R> {
+    /// Pressure of the liquid beyond the hydrostatic one `[Pa]`: the law's field.
+    pub pressure: R,
+    /// φ_0/φ − 1 of the plastic solid fraction `[-]`: the first memory.
+    pub growth: R,
+    /// Liquid that has passed to the free surface over the particle's volume `[-]`: the second memory.
+    pub expelled: R,
+}
+
+impl<R: Real> PoreState<R> {
+    /// Its memory beside the field.
+    #[inline(always)]
+    pub(super) fn memory(self) -> Memory<R> {
+        [self.growth, self.expelled, R::splat(0.0)]
+    }
+}
+
 impl<R: Real> FieldStep<R> {
+    /// What is kept, of a law with a pore liquid.
+    #[inline(always)]
+    pub fn pore(&self) -> PoreState<R> {
+        let [growth, expelled, _] = self.memory;
+        PoreState { pressure: self.value, growth, expelled }
+    }
+
     /// A field that nothing is done to.
     #[inline(always)]
     pub fn alone(value: R) -> Self {
@@ -126,7 +152,13 @@ pub struct StateReturn<S, R> {
     pub memory: Memory<R>,
 }
 
-impl<S, R> StateReturn<S, R> {
+impl<S, R: Real> StateReturn<S, R> {
+    /// Field and memory, as the next step starts with them.
+    #[inline(always)]
+    pub fn kept(&self) -> FieldStep<R> {
+        FieldStep::alone(self.field).with_memory(self.memory)
+    }
+
     /// Stress and field, where nothing is kept beside.
     #[inline(always)]
     pub fn stress_and_field(self) -> (S, R) {
@@ -170,7 +202,7 @@ pub trait FieldLaw {
     }
 
     /// Liquid in the pores, if the law's field is its pressure. Then every pressure that the law is given is the total one, the grains' and the
-    /// liquid's; the first memory is the plastic growth of the volume, and the field diffuses by the conductivity over that at the start.
+    /// liquid's; field and memory are a [`PoreState`], and the field diffuses by the conductivity over that at the start.
     fn pore_liquid(&self) -> Option<PoreLiquid> {
         None
     }

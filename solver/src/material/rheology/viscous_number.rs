@@ -17,7 +17,7 @@
 //! constant of glass beads: published values reach from 4 to 40.
 
 use super::TrialStress;
-use super::field::{FieldBoundary, FieldDiffusion, FieldLaw, FieldReturn, FieldStep, LawField, Memory};
+use super::field::{FieldBoundary, FieldDiffusion, FieldLaw, FieldReturn, FieldStep, LawField, Memory, PoreState};
 use super::mu_i::REST_SHEAR_RATE;
 use crate::lanes::Real;
 use crate::material::pore_liquid::{PoreLiquid, SKELETON_SHARE};
@@ -125,12 +125,13 @@ impl ViscousNumber {
     fn skeleton<R: Real>(&self, trial: &TrialStress<R>, field: &FieldStep<R>) -> SkeletonStep<R> {
         let (zero, one, tiny) = (R::splat(0.0), R::splat(1.0), R::splat(f64::MIN_POSITIVE));
         let modulus = R::splat(SKELETON_SHARE * trial.bulk_modulus); // K_s
-        let found = trial.pressure - field.value;
+        let pore = field.pore();
+        let found = trial.pressure - pore.pressure;
         let start = found.max(zero); // p*
         // tension opens the skeleton, until φ_0/φ = ρ_0/ρ
         let kept = one + found.min(zero) / modulus.max(tiny);
-        let volume = ((field.memory[0] + one) / kept.max(tiny)).min(R::splat(MOST_OPEN));
-        let volume = volume.if_less(found, zero, field.memory[0] + one);
+        let volume = ((pore.growth + one) / kept.max(tiny)).min(R::splat(MOST_OPEN));
+        let volume = volume.if_less(found, zero, pore.growth + one);
         let fraction = R::splat(self.solid_fraction) / volume;
         let excess = fraction - R::splat(self.critical_fraction);
         let friction = self.yield_friction(fraction); // m
@@ -163,7 +164,7 @@ impl ViscousNumber {
     /// φ `[-]` of what is kept.
     #[inline(always)]
     fn fraction<R: Real>(&self, field: &FieldStep<R>) -> R {
-        R::splat(self.solid_fraction) / (field.memory[0] + R::splat(1.0))
+        R::splat(self.solid_fraction) / (field.pore().growth + R::splat(1.0))
     }
 }
 
@@ -202,9 +203,9 @@ impl FieldLaw for ViscousNumber {
         if trial.time_step <= 0.0 {
             return field.memory;
         }
-        let [_, expelled, rest] = field.memory;
         let drained = R::splat(trial.time_step) * field.loss * end.field;
-        [self.skeleton(trial, field).volume - R::splat(1.0), expelled + drained, rest]
+        let growth = self.skeleton(trial, field).volume - R::splat(1.0);
+        PoreState { pressure: end.field, growth, expelled: field.pore().expelled + drained }.memory()
     }
 
     fn pore_liquid(&self) -> Option<PoreLiquid> {

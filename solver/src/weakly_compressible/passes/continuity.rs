@@ -2,53 +2,25 @@
 //! it needs is then at hand, the new stress of each particle.
 
 use super::PairData;
+use super::exchange::Exchange;
+use super::field_diffusion::FieldDiffusion;
+use super::layout::Continuity;
 use super::new_state::{Advance, Extremes, Output, RateSums};
-use super::pair_weights::{Weighing, Weights, flush, flush_tensor, widened};
+use super::pair_weights::{Weighing, Weights, flush, flush_tensor};
+use super::pore_pressure::{self, PorePressure};
 use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
-use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load, sum_of};
-use crate::lanes::{LANES, LanePass, Lanes, Real, gather, gather_vectors};
-use crate::material::rheology::field::Memory;
+use super::stress_ratio::{self, StressRatio};
+use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load, sum_of, zero_tensor};
+use crate::lanes::{LANES, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
-use crate::vector::equivalent_shear_stress;
 use crate::weakly_compressible::energy::StressWork;
 use crate::weakly_compressible::model::{GradientUse, Model, PairDiffusion};
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::{continuity, density_coupling, field_diffusion, stress_diffusion};
-use std::marker::PhantomData;
+use crate::weakly_compressible::terms::{continuity, density_coupling};
 
-/// Quantities that diffuse among pairs, as a constant of the loops. The field diffuses beside the stress ratio.
-const NONE: u8 = PairDiffusion::None as u8;
-const STRESS_RATIO: u8 = PairDiffusion::StressRatio as u8;
-const FIELD: u8 = PairDiffusion::Field as u8;
-const PORE_PRESSURE: u8 = PairDiffusion::PorePressure as u8;
-
-/// Places in a record, which begins with a position and, where weights are computed anew, a volume.
-struct Place<P, const D: usize>(PhantomData<P>);
-
-impl<P: Precision, const D: usize> Place<P, D> {
-    const VELOCITY: usize = D + P::VOLUMES;
-    /// Behind it is what the density alone does not take.
-    const PRESSURE: usize = Self::VELOCITY + D;
-    /// Corrected pressure gradient; of a wall particle the velocity that the continuity of a liquid takes.
-    const GRADIENT: usize = Self::PRESSURE + 1;
-    /// Yielding share of the particle `[-]`, followed by s: inputs of the stress-ratio diffusion.
-    const YIELDING: usize = Self::GRADIENT + D;
-    /// The law's field, if it diffuses.
-    const FIELD: usize = Self::YIELDING + 1 + records::deviator_values(D);
-
-    const fn values(diffusion: u8) -> usize {
-        match diffusion {
-            STRESS_RATIO => Self::FIELD,
-            FIELD => Self::FIELD + 1,
-            PORE_PRESSURE => Self::YIELDING + 2,
-            _ => Self::YIELDING,
-        }
-    }
-}
-
-/// Fields that are read of a particle, whichever quantity diffuses.
+/// Fields that are read of a particle, whatever is exchanged.
 struct Partner<V, const D: usize> {
     position: [V; D],
     velocity: [V; D],
@@ -61,9 +33,9 @@ impl<V: Real, const D: usize> Partner<V, D> {
     fn of<P: Precision>(record: &LaneRecord<V>) -> Self {
         Self {
             position: records::vector(record, 0),
-            velocity: records::vector(record, Place::<P, D>::VELOCITY),
-            pressure: records::scalar(record, Place::<P, D>::PRESSURE),
-            pressure_gradient: records::vector(record, Place::<P, D>::GRADIENT),
+            velocity: records::vector(record, Continuity::<P, D>::VELOCITY),
+            pressure: records::scalar(record, Continuity::<P, D>::PRESSURE),
+            pressure_gradient: records::vector(record, Continuity::<P, D>::GRADIENT),
         }
     }
 }
@@ -84,8 +56,6 @@ pub(crate) fn run<const D: usize>(
     }
     pairs.open_ledger(flow);
     let mut energy = std::mem::take(&mut pairs.energy);
-    let mut no_field = std::mem::take(&mut pairs.no_field);
-    let mut no_memory = std::mem::take(&mut pairs.no_memory);
     let shared_pairs = &*pairs;
     let mut density = std::mem::take(&mut particles.density);
     let mut velocity_gradient = std::mem::take(&mut particles.velocity_gradient);
@@ -94,16 +64,6 @@ pub(crate) fn run<const D: usize>(
     let mut artificial_viscosity = std::mem::take(&mut particles.artificial_viscosity);
     let mut field = std::mem::take(&mut particles.field);
     let mut memory = std::mem::take(&mut particles.memory);
-    no_field.resize(flow.div_ceil(BLOCK), 0.0);
-    let fields = match &mut field {
-        Some(field) => field[..flow].par_chunks_mut(BLOCK),
-        None => no_field.par_chunks_mut(1),
-    };
-    no_memory.resize(flow.div_ceil(BLOCK), Memory::default());
-    let memories = match &mut memory {
-        Some(memory) => memory[..flow].par_chunks_mut(BLOCK),
-        None => no_memory.par_chunks_mut(1),
-    };
     let shared = &*particles;
     let extremes = (
         density[..flow].par_chunks_mut(BLOCK),
@@ -111,7 +71,11 @@ pub(crate) fn run<const D: usize>(
         stress[..flow].par_chunks_mut(BLOCK),
         viscosity[..flow].par_chunks_mut(BLOCK),
         artificial_viscosity[..flow].par_chunks_mut(BLOCK),
-        (fields, memories).into_par_iter(),
+        (
+            field.as_mut().map(|field| field[..flow].par_chunks_mut(BLOCK)),
+            memory.as_mut().map(|memory| memory[..flow].par_chunks_mut(BLOCK)),
+        )
+            .into_par_iter(),
         &mut energy,
     )
         .into_par_iter()
@@ -141,7 +105,6 @@ pub(crate) fn run<const D: usize>(
         )
         .reduce(|| Extremes::NONE, Extremes::merge);
     pairs.energy = energy;
-    (pairs.no_field, pairs.no_memory) = (no_field, no_memory);
     (particles.field, particles.memory) = (field, memory);
     particles.density = density;
     particles.velocity_gradient = velocity_gradient;
@@ -158,8 +121,8 @@ fn fill<P: Precision, const D: usize>(
     records: &mut Records<P>,
     in_full: bool,
 ) {
-    let diffusion = model.pair_diffusion();
-    let values = if in_full { Place::<P, D>::values(diffusion as u8) } else { Place::<P, D>::PRESSURE };
+    let exchanged = model.pair_diffusion();
+    let values = if in_full { Continuity::<P, D>::values(exchanged) } else { Continuity::<P, D>::PRESSURE };
     records.fill(particles.position.len(), values, model.kernel.smoothing_length(), |index, record| {
         record.position(&particles.position[index]);
         if P::SINGLE {
@@ -177,19 +140,14 @@ fn fill<P: Precision, const D: usize>(
         } else {
             &particles.pressure_gradient[index]
         });
-        if diffusion == PairDiffusion::PorePressure {
-            let kept = particles.kept(index);
-            record.scalar(kept.value);
-            record.scalar(model.relative_conductivity(kept.memory[0]));
-        } else if diffusion != PairDiffusion::None {
-            let stress = &particles.stress[index];
-            let kept = particles.kept(index);
-            let elasticity = model.elasticity(equivalent_shear_stress(stress), pressure, &kept);
-            record.scalar(stress_diffusion::yielding(elasticity, pressure));
-            record.deviator(stress);
-        }
-        if diffusion == PairDiffusion::Field {
-            record.scalar(particles.field.as_ref().map_or(0.0, |field| field[index]));
+        match exchanged {
+            PairDiffusion::None => {}
+            PairDiffusion::StressRatio => stress_ratio::write(model, particles, index, record),
+            PairDiffusion::Field => {
+                stress_ratio::write(model, particles, index, record);
+                record.scalar(particles.kept(index).value);
+            }
+            PairDiffusion::PorePressure => pore_pressure::write(model, particles, index, record),
         }
     });
 }
@@ -223,7 +181,7 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             if meets_surface {
                 let first = advance.block_start + offset;
                 let last = (first + LANES).min(advance.block_start + count);
-                sums.field.eigenvalue = load::<V>(&pairs.eigenvalues[first..last]);
+                sums.exchanged.field.eigenvalue = load::<V>(&pairs.eigenvalues[first..last]);
             }
             let end = (offset + LANES).min(count);
             advance.particles_at(offset..end, &sums, &mut out, &mut work, extremes);
@@ -241,7 +199,7 @@ struct Inputs<'a, const D: usize> {
     group: NeighbourGroup<'a>,
 }
 
-/// Pair sums of a group, whatever diffuses.
+/// Pair sums of a group, whatever is exchanged.
 #[inline(always)]
 fn sums_of<V: Lanes, P: Precision, const D: usize>(
     inputs: Inputs<'_, D>,
@@ -249,31 +207,28 @@ fn sums_of<V: Lanes, P: Precision, const D: usize>(
     weights: &[Weights<P>],
 ) -> RateSums<V, D> {
     match inputs.model.pair_diffusion() {
-        PairDiffusion::None => pair_sums::<V, P, D, NONE>(inputs, records, weights),
-        PairDiffusion::StressRatio => pair_sums::<V, P, D, STRESS_RATIO>(inputs, records, weights),
-        PairDiffusion::Field => pair_sums::<V, P, D, FIELD>(inputs, records, weights),
-        PairDiffusion::PorePressure => pair_sums::<V, P, D, PORE_PRESSURE>(inputs, records, weights),
+        PairDiffusion::None => pair_sums::<V, P, D, ()>(inputs, records, weights),
+        PairDiffusion::StressRatio => pair_sums::<V, P, D, StressRatio<V, P, D>>(inputs, records, weights),
+        PairDiffusion::Field => pair_sums::<V, P, D, FieldDiffusion<V, P, D>>(inputs, records, weights),
+        PairDiffusion::PorePressure => pair_sums::<V, P, D, PorePressure<V, P>>(inputs, records, weights),
     }
 }
 
 #[inline(always)]
-fn pair_sums<V: Lanes, P: Precision, const D: usize, const DIFFUSION: u8>(
+fn pair_sums<V: Lanes, P: Precision, const D: usize, X: Exchange<V, P, D>>(
     Inputs { model, particles, group }: Inputs<'_, D>,
     records: &Records<P>,
     weights: &[Weights<P>],
 ) -> RateSums<V, D> {
-    let quads = const { Place::<P, D>::values(DIFFUSION).div_ceil(4) };
+    let quads = const { Continuity::<P, D>::values(X::KIND).div_ceil(4) };
     let record = records.load::<V>(quads, &group.own);
     let own = Partner::of::<P>(&record);
-    let own_yields = records::scalar(&record, Place::<P, D>::YIELDING);
-    // of a pore liquid these two places have its pressure and conductivity
-    let own_conductivity = records::scalar(&record, Place::<P, D>::YIELDING + 1);
-    let own_stress: [[_; D]; D] = records::deviator(&record, Place::<P, D>::YIELDING + 1);
+    let mut exchange = X::around(&record, own.pressure);
     let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: own.position };
     let (flow_weights, wall_weights) = weights.split_at(group.flow.len().min(weights.len()));
-    let (mut sums, mut part) = (RateSums::<V, D>::none(), RateSums::<P::Lanes<V>, D>::none());
-    // Σ f p_b of the stress ratio's diffusion
-    let (mut pressures, mut part_pressures) = (V::splat(0.0), P::Lanes::<V>::splat(0.0));
+    let mut sums = RateSums::<V, D>::none();
+    let mut part_gradient = zero_tensor::<P::Lanes<V>, D>();
+    let (mut part_coupling, mut part_compression) = (P::Lanes::<V>::splat(0.0), P::Lanes::<V>::splat(0.0));
     let mut pairs = weighing.pairs(group.flow, flow_weights);
     while let Some(pairs) = pairs.next() {
         for (b, weight) in pairs {
@@ -281,89 +236,36 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize, const DIFFUSION: u8>(
             let other = Partner::of::<P>(&record);
             let r = records.apart::<V, D>(&own.position, &other.position);
             let weight = P::load::<V>(weight);
-            if DIFFUSION == FIELD {
-                part.field.taken = part.field.taken + weight * records::scalar(&record, Place::<P, D>::FIELD);
-                part.field.weights = part.field.weights + weight;
-            }
-            if DIFFUSION == PORE_PRESSURE {
-                let conductivity = records::scalar(&record, Place::<P, D>::YIELDING + 1);
-                let mean = field_diffusion::mean_conductivity(own_conductivity, conductivity);
-                let difference = records::scalar(&record, Place::<P, D>::YIELDING) - own_yields;
-                part.field.taken = part.field.taken + weight * mean * difference;
-                part.field.weights = part.field.weights + weight;
-            }
-            if DIFFUSION == STRESS_RATIO || DIFFUSION == FIELD {
-                let yields = records::scalar(&record, Place::<P, D>::YIELDING);
-                let stress = records::deviator(&record, Place::<P, D>::YIELDING + 1);
-                let pressure_sum = own.pressure + other.pressure;
-                let factor = weight * stress_diffusion::pair_factor(own_yields, yields, pressure_sum);
-                let sum = &mut part.stress_diffusion;
-                if P::SINGLE {
-                    part_pressures = part_pressures + factor * other.pressure;
-                    stress_diffusion::accumulate_stress(sum, factor, &stress);
-                } else {
-                    let (of_a, of_b) = ((&own_stress, own.pressure), (&stress, other.pressure));
-                    stress_diffusion::accumulate_bracket(sum, factor, of_a, of_b);
-                }
-            }
+            exchange.add(weight, &record, other.pressure);
             let sum = sum_of(&own.pressure_gradient, &other.pressure_gradient);
             let bracket = density_coupling::bracket(own.pressure - other.pressure, &sum, &r);
-            part.coupling = part.coupling + weight * bracket;
-            accumulate_outer(&mut part.gradient, weight, &difference(&other.velocity, &own.velocity), &r);
+            part_coupling = part_coupling + weight * bracket;
+            accumulate_outer(&mut part_gradient, weight, &difference(&other.velocity, &own.velocity), &r);
         }
-        flush::<V, P>(&mut sums.coupling, &mut part.coupling);
-        flush_tensor::<V, P, D>(&mut sums.gradient, &mut part.gradient);
-        if DIFFUSION == FIELD || DIFFUSION == PORE_PRESSURE {
-            flush::<V, P>(&mut sums.field.taken, &mut part.field.taken);
-            flush::<V, P>(&mut sums.field.weights, &mut part.field.weights);
-        }
-        if DIFFUSION == STRESS_RATIO || DIFFUSION == FIELD {
-            flush::<V, P>(&mut pressures, &mut part_pressures);
-            flush_tensor::<V, P, D>(&mut sums.stress_diffusion, &mut part.stress_diffusion);
-        }
-    }
-    if DIFFUSION == FIELD {
-        sums.field.given = sums.field.weights;
+        flush::<V, P>(&mut sums.coupling, &mut part_coupling);
+        flush_tensor::<V, P, D>(&mut sums.gradient, &mut part_gradient);
+        exchange.flush();
     }
     let mut walls = weighing.pairs(group.wall, wall_weights);
     while let Some(walls) = walls.next() {
         for (w, weight) in walls {
-            let first = const { Place::<P, D>::YIELDING.div_ceil(4) };
+            let first = const { Continuity::<P, D>::EXCHANGED.div_ceil(4) };
             let wall = Partner::of::<P>(&records.load_start::<V>(quads, first, &w));
             let r = records.apart::<V, D>(&own.position, &wall.position);
             let weight = P::load::<V>(weight);
-            accumulate_outer(&mut part.wall_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
+            accumulate_outer(&mut part_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
             let sliding = difference(&own.velocity, &wall.pressure_gradient);
-            part.wall_compression = part.wall_compression + weight * dot(&sliding, &r);
-            if DIFFUSION == PORE_PRESSURE {
-                sums.field.weights = sums.field.weights + P::widen::<V>(weight);
-            }
-            if DIFFUSION == FIELD {
-                let places = w.places_from(particles.flow_count());
-                let places = places.indices();
-                let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
-                let depth: V = gather(&particles.walls.depth, &places);
-                let smoothness: V = gather(&particles.walls.smoothness, &places);
-                let (weight, r) = (P::widen::<V>(weight), widened::<V, P, D>(&r));
-                let factor = field_diffusion::wall_factor(&r, &normal, depth, smoothness, model.spacing);
-                sums.field.given = sums.field.given + weight * factor;
-                sums.field.weights = sums.field.weights + weight;
-            }
+            part_compression = part_compression + weight * dot(&sliding, &r);
+            exchange.add_wall(weight, &r, &w, (model, particles));
         }
-        flush_tensor::<V, P, D>(&mut sums.wall_gradient, &mut part.wall_gradient);
-        flush::<V, P>(&mut sums.wall_compression, &mut part.wall_compression);
+        flush_tensor::<V, P, D>(&mut sums.wall_gradient, &mut part_gradient);
+        flush::<V, P>(&mut sums.wall_compression, &mut part_compression);
     }
     sums.compression = continuity::compression(&sums.gradient) + sums.wall_compression;
     for i in 0..D {
         accumulate(&mut sums.gradient[i], V::splat(1.0), &sums.wall_gradient[i]);
-        if P::SINGLE && (DIFFUSION == STRESS_RATIO || DIFFUSION == FIELD) {
-            for j in 0..D {
-                let (stress_a, pressure_a) = (P::widen::<V>(own_stress[i][j]), P::widen::<V>(own.pressure));
-                sums.stress_diffusion[i][j] = pressures * stress_a - pressure_a * sums.stress_diffusion[i][j];
-            }
-        }
     }
-    stress_diffusion::complete(&mut sums.stress_diffusion);
+    sums.exchanged = exchange.sums();
     sums
 }
 
@@ -374,7 +276,7 @@ fn divergence_only<V: Lanes, const D: usize>(
     group: &NeighbourGroup<'_>,
     weights: &[Weights<f64>],
 ) -> RateSums<V, D> {
-    let (quads, velocity) = const { (Place::<f64, D>::PRESSURE.div_ceil(4), Place::<f64, D>::VELOCITY) };
+    let (quads, velocity) = const { (Continuity::<f64, D>::PRESSURE.div_ceil(4), Continuity::<f64, D>::VELOCITY) };
     let own = records.load::<V>(quads, &group.own);
     let (place, velocity_a) = (records::vector(&own, 0), records::vector(&own, velocity));
     let mut sums = RateSums::none();

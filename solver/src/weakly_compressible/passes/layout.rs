@@ -1,6 +1,8 @@
 //! Places of numbers in the records that several files read.
 
 use super::precision::Precision;
+use super::records::deviator_values;
+use crate::weakly_compressible::model::PairDiffusion;
 use std::marker::PhantomData;
 
 /// Values of the geometry pass: position, volume, pressure.
@@ -25,4 +27,28 @@ impl<P: Precision, const D: usize> Momentum<P, D> {
     pub(super) const ALPHA: usize = Self::LAST + if P::SINGLE { D * (D + 1) / 2 } else { D * D };
     pub(super) const VALUES: usize = Self::ALPHA + 1 - P::VOLUMES;
     pub(super) const QUADS: usize = Self::VALUES.div_ceil(4);
+}
+
+/// Places in a record of continuity. It begins with a position and, where weights are computed anew, a volume.
+pub(super) struct Continuity<P, const D: usize>(PhantomData<P>);
+
+impl<P: Precision, const D: usize> Continuity<P, D> {
+    pub(super) const VELOCITY: usize = D + P::VOLUMES;
+    /// Behind it is what the density alone does not take.
+    pub(super) const PRESSURE: usize = Self::VELOCITY + D;
+    /// Corrected pressure gradient; of a wall particle the velocity that the continuity of a liquid takes.
+    pub(super) const GRADIENT: usize = Self::PRESSURE + 1;
+    /// What neighbours exchange beside.
+    pub(super) const EXCHANGED: usize = Self::GRADIENT + D;
+
+    /// Values where this is exchanged: a yielding share and a stress, the field behind them; or a pore pressure and a conductivity.
+    pub(super) const fn values(exchanged: PairDiffusion) -> usize {
+        Self::EXCHANGED
+            + match exchanged {
+                PairDiffusion::None => 0,
+                PairDiffusion::StressRatio => 1 + deviator_values(D),
+                PairDiffusion::Field => 2 + deviator_values(D),
+                PairDiffusion::PorePressure => 2,
+            }
+    }
 }

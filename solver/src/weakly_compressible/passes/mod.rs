@@ -3,6 +3,8 @@
 //! law.
 
 pub(crate) mod continuity;
+mod exchange;
+mod field_diffusion;
 mod flow_partner;
 pub(crate) mod geometry;
 pub(crate) mod layout;
@@ -11,10 +13,12 @@ mod new_state;
 mod pair_data;
 mod pair_weights;
 pub(crate) mod pairwise;
+mod pore_pressure;
 mod precision;
 pub(crate) mod records;
 pub(crate) mod shell_impulse;
 pub(crate) mod side_walls;
+mod stress_ratio;
 mod wall_partner;
 pub(crate) mod wall_stress;
 pub(crate) mod wall_velocity;

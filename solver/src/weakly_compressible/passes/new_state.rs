@@ -1,12 +1,13 @@
 //! The new state of particles whose pair sums are known: density, artificial viscosity, velocity gradient and stress, and
 //! what that adds to the energy ledger. Only here does the weakly compressible model ask the law for a stress.
 
+use super::exchange::{Exchanged, FieldSums};
+use super::{field_diffusion, pore_pressure};
 use crate::lanes::algebra::{
-    accumulate, deviatoric_rate, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
+    accumulate, deviatoric_rate, difference, load, load_tensor, matrix_product, store, store_tensor, zero_tensor,
 };
 use crate::lanes::{LANES, Lanes, Real};
-use crate::material::pore_liquid::LARGEST_DIFFUSION;
-use crate::material::rheology::field::{FieldBoundary, FieldStep, MOST_MEMORIES, Memory};
+use crate::material::rheology::field::{FieldStep, Memory, StateReturn};
 use crate::vector::{Tensor, shear_rate};
 use crate::weakly_compressible::divergence::DENSITY_RANGE;
 use crate::weakly_compressible::energy::{CompressionStep, DeformationStep, DilationStep, EnergyLedger, StressWork};
@@ -14,27 +15,32 @@ use crate::weakly_compressible::memory;
 use crate::weakly_compressible::model::{GradientUse, Model};
 use crate::weakly_compressible::numerics::ViscositySwitch;
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::{artificial_viscosity, continuity, field_diffusion};
+use crate::weakly_compressible::terms::{artificial_viscosity, continuity};
 use std::ops::Range;
 
 /// Extremes found by the pass over all blocks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extremes {
-    /// Largest apparent kinematic viscosity of laws with an explicit viscous bound `[m²/s]`.
-    pub(crate) kinematic_viscosity: f64,
+    /// Largest diffusivity that bounds an explicit step `[m²/s]`: the apparent kinematic viscosity of a law that carries no stress along, or
+    /// what stands for a pore liquid's in the same bound.
+    pub(crate) diffusivity: f64,
     /// Flow particle of the lowest storage index whose density left its range or is not a number.
     pub(crate) bad_density: Option<usize>,
 }
 
 impl Extremes {
-    pub(super) const NONE: Self = Self { kinematic_viscosity: 0.0, bad_density: None };
+    pub(super) const NONE: Self = Self { diffusivity: 0.0, bad_density: None };
+
+    fn add_diffusivity(&mut self, diffusivity: f64) {
+        self.diffusivity = self.diffusivity.max(diffusivity);
+    }
 
     pub(super) fn merge(self, other: Self) -> Self {
         let bad_density = match (self.bad_density, other.bad_density) {
             (Some(a), Some(b)) => Some(a.min(b)),
             (a, b) => a.or(b),
         };
-        Self { kinematic_viscosity: self.kinematic_viscosity.max(other.kinematic_viscosity), bad_density }
+        Self { diffusivity: self.diffusivity.max(other.diffusivity), bad_density }
     }
 }
 
@@ -45,10 +51,9 @@ pub(super) struct Output<'a, const D: usize> {
     pub(super) stress: &'a mut [Tensor<D>],
     pub(super) viscosity: &'a mut [f64],
     pub(super) artificial_viscosity: &'a mut [f64],
-    /// The law's field, or one value that is not written.
-    pub(super) field: &'a mut [f64],
-    /// Memory of the law beside its field, or one value that is not written.
-    pub(super) memory: &'a mut [Memory<f64>],
+    /// The law's field, and its memory beside it.
+    pub(super) field: Option<&'a mut [f64]>,
+    pub(super) memory: Option<&'a mut [Memory<f64>]>,
     pub(super) energy: &'a mut EnergyLedger,
 }
 
@@ -64,9 +69,7 @@ pub(super) struct RateSums<V, const D: usize> {
     pub(super) gradient: [[V; D]; D],
     /// Part of the velocity gradient that is due to walls.
     pub(super) wall_gradient: [[V; D]; D],
-    /// The pair sum of the stress ratio's diffusion `[Pa/m²]`.
-    pub(super) stress_diffusion: [[V; D]; D],
-    pub(super) field: FieldSums<V>,
+    pub(super) exchanged: Exchanged<V, D>,
 }
 
 impl<V: Real, const D: usize> RateSums<V, D> {
@@ -79,35 +82,39 @@ impl<V: Real, const D: usize> RateSums<V, D> {
             coupling: zero,
             gradient: none,
             wall_gradient: none,
-            stress_diffusion: none,
-            field: FieldSums { taken: zero, given: zero, weights: zero, eigenvalue: V::splat(1.0) },
+            exchanged: Exchanged { stress_ratio: none, field: FieldSums::none() },
         }
     }
 }
 
-/// The pair sums of a field's diffusion, with the weights V F ≤ 0 `[1/m²]`.
-pub(super) struct FieldSums<V> {
-    /// Σ V F f_b over the flow.
-    pub(super) taken: V,
-    /// Σ V F over the flow, and with their factors over walls.
-    pub(super) given: V,
-    /// Σ V F over all.
-    pub(super) weights: V,
-    /// Smallest eigenvalue of the moment matrix `[-]`, where it is asked for.
-    pub(super) eigenvalue: V,
+/// Eight particles before their step.
+struct Before<V> {
+    mass: V,
+    density: V,
+    pressure: V,
+    kept: FieldStep<V>,
 }
 
-/// Inputs of the law's step: the new density, and the pressure at it with the field before the step.
-#[derive(Clone, Copy)]
-struct LawStep<V> {
-    /// `[kg/m³]`
+/// What eight particles go through in their step: the new density, and the velocity gradients before and after.
+struct LawStep<V, const D: usize> {
     density: V,
-    /// `[Pa]`
+    /// That of the new density with what the law kept before.
     pressure: V,
-    field: V,
-    memory: Memory<V>,
     /// Share by which the volume grows `[-]`.
     growth: V,
+    gradient_before: [[V; D]; D],
+    gradient: [[V; D]; D],
+    /// Correction of gradients `[-]`.
+    correction: [[V; D]; D],
+}
+
+/// What the law has made of eight particles.
+struct LawEnd<V, const D: usize> {
+    stress_before: [[V; D]; D],
+    stress: [[V; D]; D],
+    pressure: V,
+    /// Stress beside the law's that acted, of elastic damping and eddies.
+    added_stress: [[V; D]; D],
 }
 
 /// A block of particles on its way to the next step.
@@ -131,194 +138,276 @@ impl<const D: usize> Advance<'_, D> {
         work: &mut StressWork<V>,
         extremes: &mut Extremes,
     ) {
-        let equation_of_state = &self.model.equation_of_state;
-        let previous = load::<V>(&out.density[places.clone()]);
-        let strength = self.model.density_coupling();
-        let here = self.block_start + places.start..self.block_start + places.end;
-        let pressure_before = load::<V>(&self.particles.pressure[here.clone()]);
-        let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
-        let mass = load::<V>(&self.particles.mass[here]);
-        let density = continuity::held(density, previous, mass, self.model.lone_density_per_mass);
-        let time_step = V::splat(self.time_step);
-        let field_before =
-            if self.model.field.is_some() { load::<V>(&out.field[places.clone()]) } else { V::splat(0.0) };
-        let memory = if self.model.keeps_memory {
-            memory::load(&out.memory[places.clone()])
-        } else {
-            [V::splat(0.0); MOST_MEMORIES]
-        };
-        let pressure = self.model.pressure(density, field_before, memory[0]);
-        let mut compression = CompressionStep {
-            mass,
-            density: (previous, density),
-            pressure: (pressure_before, pressure),
-            by_walls: time_step * previous * sums.wall_compression,
-            by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
-            free: self.model.free_density(field_before),
-        };
-        let follows = self.model.dilates || self.model.pore_liquid.is_some();
-        if !follows {
+        let before = self.before(&places, out);
+        let density = self.new_density(&before, sums);
+        let pressure = self.model.pressure(density, &before.kept);
+        let mut compression = self.compression(&before, density, pressure, sums);
+        let law_moves_pressure = self.model.law_moves_pressure();
+        if !law_moves_pressure {
             compression.add_to(work);
         }
-        let inverse_reference = 1.0 / equation_of_state.reference_density;
+        self.store_density(&places, density, out, extremes);
+        self.switch_artificial_viscosity(&places, sums, out);
+        if self.gradient != GradientUse::None {
+            let step = self.law_step(&places, &before, (density, pressure), sums, out);
+            if self.gradient == GradientUse::Stress {
+                compression.pressure.1 = self.stress_step(&places, &before, &step, sums, out, work);
+            }
+            self.store_viscosity(&places, compression.pressure.1, out, extremes);
+        }
+        if law_moves_pressure {
+            compression.add_to(work);
+        }
+    }
+
+    /// Storage places of particles of the block.
+    #[inline(always)]
+    fn here(&self, places: &Range<usize>) -> Range<usize> {
+        self.block_start + places.start..self.block_start + places.end
+    }
+
+    #[inline(always)]
+    fn before<V: Lanes>(&self, places: &Range<usize>, out: &Output<'_, D>) -> Before<V> {
+        let here = self.here(places);
+        let mut kept = FieldStep::alone(V::splat(0.0));
+        if let Some(field) = &out.field {
+            kept.value = load::<V>(&field[places.clone()]);
+        }
+        if let Some(memory) = &out.memory {
+            kept.memory = memory::load(&memory[places.clone()]);
+        }
+        Before {
+            mass: load::<V>(&self.particles.mass[here.clone()]),
+            density: load::<V>(&out.density[places.clone()]),
+            pressure: load::<V>(&self.particles.pressure[here]),
+            kept,
+        }
+    }
+
+    /// Density (7) with the coupling (27), as low as a lone particle has it at least.
+    #[inline(always)]
+    fn new_density<V: Lanes>(&self, before: &Before<V>, sums: &RateSums<V, D>) -> V {
+        let (previous, strength) = (before.density, self.model.density_coupling());
+        let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
+        continuity::held(density, previous, before.mass, self.model.lone_density_per_mass)
+    }
+
+    #[inline(always)]
+    fn compression<V: Lanes>(
+        &self,
+        before: &Before<V>,
+        density: V,
+        pressure: V,
+        sums: &RateSums<V, D>,
+    ) -> CompressionStep<V> {
+        let (time_step, strength) = (V::splat(self.time_step), self.model.density_coupling());
+        CompressionStep {
+            mass: before.mass,
+            density: (before.density, density),
+            pressure: (before.pressure, pressure),
+            by_walls: time_step * before.density * sums.wall_compression,
+            by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
+            free: self.model.free_density(before.kept.value),
+        }
+    }
+
+    #[inline(always)]
+    fn store_density<V: Lanes>(
+        &self,
+        places: &Range<usize>,
+        density: V,
+        out: &mut Output<'_, D>,
+        extremes: &mut Extremes,
+    ) {
         store(density, &mut out.density[places.clone()]);
+        let inverse_reference = 1.0 / self.model.equation_of_state.reference_density;
         for place in places.clone() {
             let relative = out.density[place] * inverse_reference;
             if !(relative > DENSITY_RANGE.0 && relative < DENSITY_RANGE.1) && extremes.bad_density.is_none() {
                 extremes.bad_density = Some(self.block_start + place);
             }
         }
+    }
+
+    #[inline(always)]
+    fn switch_artificial_viscosity<V: Lanes>(
+        &self,
+        places: &Range<usize>,
+        sums: &RateSums<V, D>,
+        out: &mut Output<'_, D>,
+    ) {
         if self.model.numerics.viscosity_switch == ViscositySwitch::MorrisMonaghan {
-            let decay_rate = equation_of_state.sound_speed() / self.model.kernel.smoothing_length();
+            let decay_rate = self.model.equation_of_state.sound_speed() / self.model.kernel.smoothing_length();
             let alpha = load::<V>(&out.artificial_viscosity[places.clone()]);
             let switched = artificial_viscosity::switched(alpha, -sums.compression, decay_rate, self.time_step);
             store(switched, &mut out.artificial_viscosity[places.clone()]);
         }
-        if self.gradient != GradientUse::None {
-            let start = LawStep {
-                density,
-                pressure,
-                field: field_before,
-                memory,
-                growth: (previous - density) / density.max(V::splat(f64::MIN_POSITIVE)),
-            };
-            compression.pressure.1 = self.stress_of(places, start, sums, out, work, extremes);
-        }
-        if follows {
-            compression.add_to(work);
-        }
     }
 
-    /// Velocity gradient, and the stress or the viscosity that the law gives with it; returns the pressure of the new state.
+    /// New velocity gradient, and with it what the law needs.
     #[inline(always)]
-    fn stress_of<V: Lanes>(
+    fn law_step<V: Lanes>(
         &self,
-        places: Range<usize>,
-        start: LawStep<V>,
+        places: &Range<usize>,
+        before: &Before<V>,
+        (density, pressure): (V, V),
         sums: &RateSums<V, D>,
         out: &mut Output<'_, D>,
-        work: &mut StressWork<V>,
-        extremes: &mut Extremes,
-    ) -> V {
-        let LawStep { density, mut pressure, field: field_before, .. } = start;
-        let law = &self.model.rheology;
-        let particles_here = self.block_start + places.start..self.block_start + places.end;
-        let correction = self.particles.correction.load::<V>(particles_here.start / LANES);
+    ) -> LawStep<V, D> {
+        let correction = self.particles.correction.load::<V>(self.here(places).start / LANES);
         let gradient = matrix_product(&sums.gradient, &correction);
         let gradient_before = load_tensor::<V, D>(&out.velocity_gradient[places.clone()]);
         store_tensor(&gradient, &mut out.velocity_gradient[places.clone()]);
-        if self.gradient == GradientUse::Stress {
-            let before = load_tensor::<V, D>(&out.stress[places.clone()]);
-            let mut diffused = before;
-            if self.model.stress_diffuses() {
-                let strength = V::splat(self.time_step * self.model.stress_diffusivity());
-                for i in 0..D {
-                    accumulate(&mut diffused[i], strength, &sums.stress_diffusion[i]);
-                }
-            }
-            let moduli = self.model.moduli();
-            let volume = load::<V>(&self.particles.volume[particles_here.clone()]);
-            let keeps_memory = self.model.keeps_memory;
-            let mut kept = self.field_step(field_before, start.memory[0], &sums.field);
-            kept.growth = start.growth;
-            kept.memory = start.memory;
-            let end = law.updated_states(&diffused, &gradient, pressure, &kept, moduli, self.time_step);
-            let (stress, field) = (end.stress, end.field);
-            if self.model.field.is_some() {
-                store(field, &mut out.field[places.clone()]);
-            }
-            if keeps_memory {
-                memory::store(&end.memory, &mut out.memory[places.clone()]);
-            }
-            if self.model.dilates {
-                let dilated = self.model.pressure(density, field, end.memory[0]);
-                let strain = law.plastic_volume_strain(field) - law.plastic_volume_strain(field_before);
-                DilationStep { volume, bulk_modulus: moduli.bulk, pressure: (pressure, dilated), strain }.add_to(work);
-                pressure = dilated;
-            }
-            store_tensor(&stress, &mut out.stress[places.clone()]);
-            let pressure_before = load::<V>(&self.particles.pressure[particles_here.clone()]);
-            if let Some(pore) = &self.model.pore_liquid {
-                pressure = self.model.pressure(density, field, end.memory[0]);
-                let mass = load::<V>(&self.particles.mass[particles_here.clone()]);
-                let densities = (mass / volume.max(V::splat(f64::MIN_POSITIVE)), density);
-                let before = self.model.pore_energy(pressure_before, field_before);
-                let stored = (before, self.model.pore_energy(pressure, field));
-                work.add_pore_flow(mass, densities, (pressure_before, pressure), stored);
-                let stable = self.model.numerics.viscous_courant / LARGEST_DIFFUSION;
-                for memory in &out.memory[places.clone()] {
-                    let fraction = pore.solid_fraction / (1.0 + memory[0]);
-                    let diffusivity = stable * pore.diffusivity(fraction, moduli.bulk);
-                    extremes.kinematic_viscosity = extremes.kinematic_viscosity.max(diffusivity);
-                }
-            }
-            let mut added = zero_tensor::<V, D>();
-            let added_viscosity =
-                self.model.added_viscosity(&gradient_before, &before, pressure_before, density, &kept);
-            let rate_before = deviatoric_rate(&gradient_before);
-            if let Some(viscosity) = added_viscosity {
-                for i in 0..D {
-                    accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate_before[i]);
-                }
-            }
-            // as these velocities have it where the particles are now
-            let mut gradient_then = gradient_before;
-            let turned = matrix_product(&gradient_before, &gradient_before);
-            for i in 0..D {
-                accumulate(&mut gradient_then[i], V::splat(-self.time_step), &turned[i]);
-            }
-            let mut flow_gradient = sums.gradient;
-            for i in 0..D {
-                accumulate(&mut flow_gradient[i], V::splat(-1.0), &sums.wall_gradient[i]);
-            }
-            DeformationStep {
-                volume,
-                time_step: self.time_step,
-                shear_modulus: law.is_plastic().then_some(moduli.shear),
-                added_stress: &added,
-                pressure: (pressure_before, pressure),
-                growth: start.growth,
-                divergence: sums.wall_compression - sums.compression,
-                raw_gradient: &flow_gradient,
-                gradient: &sums.gradient,
-                force_correction: &self.particles.force_correction.load::<V>(particles_here.start / LANES),
-                rate: &deviatoric_rate(&gradient),
-                rate_by_walls: &deviatoric_rate(&matrix_product(&sums.wall_gradient, &correction)),
-                rate_before: &deviatoric_rate(&gradient_then),
-                stress_before: &before,
-                stress: &stress,
-            }
-            .add_to(work);
+        let growth = (before.density - density) / density.max(V::splat(f64::MIN_POSITIVE));
+        LawStep { density, pressure, growth, gradient_before, gradient, correction }
+    }
+
+    /// New stress and what the law keeps, with their entries in the ledger; returns the pressure of the new state.
+    #[inline(always)]
+    fn stress_step<V: Lanes>(
+        &self,
+        places: &Range<usize>,
+        before: &Before<V>,
+        step: &LawStep<V, D>,
+        sums: &RateSums<V, D>,
+        out: &mut Output<'_, D>,
+        work: &mut StressWork<V>,
+    ) -> V {
+        let (law, moduli) = (&self.model.rheology, self.model.moduli());
+        let volume = load::<V>(&self.particles.volume[self.here(places)]);
+        let stress_before = load_tensor::<V, D>(&out.stress[places.clone()]);
+        let mut kept = field_diffusion::diffusing(self.model, before.kept, &sums.exchanged.field);
+        kept.growth = step.growth;
+        let diffused = self.diffused(&stress_before, sums);
+        let end = law.updated_states(&diffused, &step.gradient, step.pressure, &kept, moduli, self.time_step);
+        store_state(places, &end, out);
+        let pressure = self.model.pressure(step.density, &end.kept());
+        if self.model.dilates {
+            let strain = law.plastic_volume_strain(end.field) - law.plastic_volume_strain(before.kept.value);
+            let pressure = (step.pressure, pressure);
+            DilationStep { volume, bulk_modulus: moduli.bulk, pressure, strain }.add_to(work);
         }
-        if self.gradient == GradientUse::Viscosity || !law.is_plastic() {
-            let pressures = pressure.to_array();
-            for (lane, place) in places.enumerate() {
-                let viscosity = law.viscosity(shear_rate(&out.velocity_gradient[place]), pressures[lane]);
-                out.viscosity[place] = viscosity;
-                if !law.is_plastic() {
-                    extremes.kinematic_viscosity = extremes.kinematic_viscosity.max(viscosity / out.density[place]);
-                }
-            }
+        if self.model.pore_liquid.is_some() {
+            let densities = (before.mass / volume.max(V::splat(f64::MIN_POSITIVE)), step.density);
+            let stored_before = self.model.pore_energy(before.pressure, before.kept.value);
+            let stored = (stored_before, self.model.pore_energy(pressure, end.field));
+            work.add_pore_flow(before.mass, densities, (before.pressure, pressure), stored);
         }
+        let added_stress = self.added_stress(before, step, &stress_before, &kept);
+        let end = LawEnd { stress_before, stress: end.stress, pressure, added_stress };
+        self.book_deformation(places, (before, volume), step, &end, sums, work);
         pressure
     }
 
-    /// A field with what its diffusion brings and takes.
+    /// Stress after the diffusion of the stress ratio.
     #[inline(always)]
-    fn field_step<V: Lanes>(&self, value: V, growth: V, sums: &FieldSums<V>) -> FieldStep<V> {
-        let Some(diffusion) = self.model.field_diffusion() else { return FieldStep::alone(value) };
-        // V F is negative
-        let strength = V::splat(-2.0 * diffusion.strength);
-        let mut loss = strength * sums.given;
-        if diffusion.surface == FieldBoundary::Vanishing {
-            let weights = V::splat(-2.0) * sums.weights;
-            let sink = field_diffusion::surface_sink(weights, self.model.full_weight, sums.eigenvalue);
-            let sink = match &self.model.pore_liquid {
-                Some(_) => V::lane_by_lane([growth], &|[growth]| self.model.relative_conductivity(growth)) * sink,
-                None => sink,
-            };
-            loss = loss + V::splat(diffusion.strength) * sink;
+    fn diffused<V: Lanes>(&self, stress: &[[V; D]; D], sums: &RateSums<V, D>) -> [[V; D]; D] {
+        let mut diffused = *stress;
+        if self.model.stress_diffuses() {
+            let strength = V::splat(self.time_step * self.model.stress_diffusivity());
+            for i in 0..D {
+                accumulate(&mut diffused[i], strength, &sums.exchanged.stress_ratio[i]);
+            }
         }
-        FieldStep::new(value, strength * sums.taken, loss)
+        diffused
+    }
+
+    /// Stress of elastic damping and eddies that acted in the step.
+    #[inline(always)]
+    fn added_stress<V: Lanes>(
+        &self,
+        before: &Before<V>,
+        step: &LawStep<V, D>,
+        stress: &[[V; D]; D],
+        kept: &FieldStep<V>,
+    ) -> [[V; D]; D] {
+        let mut added = zero_tensor::<V, D>();
+        let gradient = &step.gradient_before;
+        if let Some(viscosity) = self.model.added_viscosity(gradient, stress, before.pressure, step.density, kept) {
+            let rate = deviatoric_rate(gradient);
+            for i in 0..D {
+                accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate[i]);
+            }
+        }
+        added
+    }
+
+    #[inline(always)]
+    fn book_deformation<V: Lanes>(
+        &self,
+        places: &Range<usize>,
+        (before, volume): (&Before<V>, V),
+        step: &LawStep<V, D>,
+        end: &LawEnd<V, D>,
+        sums: &RateSums<V, D>,
+        work: &mut StressWork<V>,
+    ) {
+        // as these velocities have it where the particles are now
+        let mut gradient_then = step.gradient_before;
+        let turned = matrix_product(&step.gradient_before, &step.gradient_before);
+        let mut flow_gradient = sums.gradient;
+        for i in 0..D {
+            accumulate(&mut gradient_then[i], V::splat(-self.time_step), &turned[i]);
+            flow_gradient[i] = difference(&sums.gradient[i], &sums.wall_gradient[i]);
+        }
+        DeformationStep {
+            volume,
+            time_step: self.time_step,
+            shear_modulus: self.model.rheology.is_plastic().then_some(self.model.shear_modulus()),
+            added_stress: &end.added_stress,
+            pressure: (before.pressure, end.pressure),
+            growth: step.growth,
+            divergence: sums.wall_compression - sums.compression,
+            raw_gradient: &flow_gradient,
+            gradient: &sums.gradient,
+            force_correction: &self.particles.force_correction.load::<V>(self.here(places).start / LANES),
+            rate: &deviatoric_rate(&step.gradient),
+            rate_by_walls: &deviatoric_rate(&matrix_product(&sums.wall_gradient, &step.correction)),
+            rate_before: &deviatoric_rate(&gradient_then),
+            stress_before: &end.stress_before,
+            stress: &end.stress,
+        }
+        .add_to(work);
+    }
+
+    /// Apparent viscosity, where it is needed, and the diffusivity that bounds an explicit step.
+    #[inline(always)]
+    fn store_viscosity<V: Lanes>(
+        &self,
+        places: &Range<usize>,
+        pressure: V,
+        out: &mut Output<'_, D>,
+        extremes: &mut Extremes,
+    ) {
+        let law = &self.model.rheology;
+        if let Some(memory) = &out.memory {
+            extremes.add_diffusivity(pore_pressure::diffusivity(self.model, &memory[places.clone()]));
+        }
+        if self.gradient == GradientUse::Viscosity || !law.is_plastic() {
+            let pressures = pressure.to_array();
+            for (lane, place) in places.clone().enumerate() {
+                let viscosity = law.viscosity(shear_rate(&out.velocity_gradient[place]), pressures[lane]);
+                out.viscosity[place] = viscosity;
+                if !law.is_plastic() {
+                    extremes.add_diffusivity(viscosity / out.density[place]);
+                }
+            }
+        }
+    }
+}
+
+/// Writes stress, field and memory.
+#[inline(always)]
+fn store_state<V: Lanes, const D: usize>(
+    places: &Range<usize>,
+    end: &StateReturn<[[V; D]; D], V>,
+    out: &mut Output<'_, D>,
+) {
+    store_tensor(&end.stress, &mut out.stress[places.clone()]);
+    if let Some(field) = &mut out.field {
+        store(end.field, &mut field[places.clone()]);
+    }
+    if let Some(memory) = &mut out.memory {
+        memory::store(&end.memory, &mut memory[places.clone()]);
     }
 }

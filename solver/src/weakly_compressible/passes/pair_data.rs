@@ -2,7 +2,6 @@
 
 use super::records::Records;
 use crate::lanes::LANES;
-use crate::material::rheology::field::Memory;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::neighbours::BLOCK;
@@ -16,10 +15,6 @@ pub(crate) struct PairData<const D: usize> {
     /// Smallest eigenvalue of every particle's moment matrix `[-]`, where a field vanishes at the free surface: made by the first
     /// pass, used by continuity. Elsewhere a value per block without meaning.
     pub(super) eigenvalues: Vec<f64>,
-    /// A value per block, where a law keeps no field and the loop over blocks wants one to write to.
-    pub(super) no_field: Vec<f64>,
-    /// Likewise where the law keeps nothing beside its field.
-    pub(super) no_memory: Vec<Memory<f64>>,
     /// Neighbour records of the pass that runs, where pairs are in single precision.
     pub(super) single: Records<f32>,
     /// Neighbour records of the geometry pass.
@@ -41,8 +36,6 @@ impl<const D: usize> PairData<D> {
         Self {
             weights: Vec::new(),
             eigenvalues: Vec::new(),
-            no_field: Vec::new(),
-            no_memory: Vec::new(),
             single: Records::new(0),
             geometry: Records::new(0),
             momentum: Records::new(0),

@@ -32,7 +32,8 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
     let field = of.field.clone().unwrap_or_else(|| vec![0.0; real]);
     let (mut volume, mut pressure) = (of.volume[..real].to_vec(), vec![0.0; real]);
     for a in 0..flow {
-        (volume[a], pressure[a]) = (of.mass[a] / of.density[a], model.pressure(of.density[a], field[a], 0.0));
+        (volume[a], pressure[a]) =
+            (of.mass[a] / of.density[a], model.pressure(of.density[a], &FieldStep::alone(field[a])));
     }
     let pairs = pairs_of(state, &volume);
     let is_flow = |b: &&Pair<D>| b.source < flow;
@@ -211,7 +212,7 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
             let loss = surface_sink(-2.0 * all, model.full_weight, corrected[a].0) - 2.0 * given;
             FieldStep::new(field[a], -2.0 * spreads.strength * taken, spreads.strength * loss)
         });
-        let pressure = model.pressure(of.density[a] + TIME_STEP * rate, field[a], 0.0);
+        let pressure = model.pressure(of.density[a] + TIME_STEP * rate, &FieldStep::alone(field[a]));
         let end = law.updated_state_of_volume(&before, &gradient, pressure, &kept, model.moduli(), TIME_STEP);
         let alpha = of.artificial_viscosity[a];
         let switched = alpha + TIME_STEP * (compression.max(0.0) - 0.1 * (alpha - 0.1) * c / h);

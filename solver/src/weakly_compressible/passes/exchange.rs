@@ -1,0 +1,84 @@
+//! Quantities that neighbours exchange while continuity sums over them: what stands of one in their records, and its sums.
+
+use super::precision::Precision;
+use super::records::LaneRecord;
+use crate::lanes::algebra::zero_tensor;
+use crate::lanes::{LaneIndices, Lanes, Real};
+use crate::weakly_compressible::model::{Model, PairDiffusion};
+use crate::weakly_compressible::particles::Particles;
+
+/// A quantity that neighbours exchange. In records it stands behind what the density takes.
+pub(super) trait Exchange<V: Lanes, P: Precision, const D: usize>: Sized {
+    /// Its name, by which a record has its length.
+    const KIND: PairDiffusion;
+
+    /// Nothing summed yet around eight particles of these records and pressures `[Pa]`.
+    fn around(own: &LaneRecord<P::Lanes<V>>, pressure: P::Lanes<V>) -> Self;
+
+    /// Adds flow neighbours with their weights V F `[1/m²]`, records and pressures `[Pa]`.
+    fn add(&mut self, weight: P::Lanes<V>, other: &LaneRecord<P::Lanes<V>>, pressure: P::Lanes<V>);
+
+    /// Adds the parts of sums to the sums.
+    fn flush(&mut self);
+
+    /// Adds wall neighbours with their weights `[1/m²]` and the way from them `[m]`.
+    fn add_wall(
+        &mut self,
+        weight: P::Lanes<V>,
+        r: &[P::Lanes<V>; D],
+        wall: &LaneIndices<'_>,
+        of: (&Model<D>, &Particles<D>),
+    );
+
+    /// The sums, when all neighbours are added.
+    fn sums(self) -> Exchanged<V, D>;
+}
+
+/// Pair sums of what is exchanged.
+pub(super) struct Exchanged<V, const D: usize> {
+    /// Of the stress ratio's diffusion `[Pa/m²]`.
+    pub(super) stress_ratio: [[V; D]; D],
+    pub(super) field: FieldSums<V>,
+}
+
+/// Pair sums of a field's diffusion, with the weights V F ≤ 0 `[1/m²]`.
+pub(super) struct FieldSums<V> {
+    /// Σ V F f_b over the flow.
+    pub(super) taken: V,
+    /// Σ V F over the flow, and with their factors over walls.
+    pub(super) given: V,
+    /// Σ V F over all.
+    pub(super) weights: V,
+    /// Smallest eigenvalue of the moment matrix `[-]`, where it is asked for.
+    pub(super) eigenvalue: V,
+}
+
+impl<V: Real> FieldSums<V> {
+    #[inline(always)]
+    pub(super) fn none() -> Self {
+        let zero = V::splat(0.0);
+        Self { taken: zero, given: zero, weights: zero, eigenvalue: V::splat(1.0) }
+    }
+}
+
+/// Nothing is exchanged.
+impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for () {
+    const KIND: PairDiffusion = PairDiffusion::None;
+
+    #[inline(always)]
+    fn around(_: &LaneRecord<P::Lanes<V>>, _: P::Lanes<V>) {}
+
+    #[inline(always)]
+    fn add(&mut self, _: P::Lanes<V>, _: &LaneRecord<P::Lanes<V>>, _: P::Lanes<V>) {}
+
+    #[inline(always)]
+    fn flush(&mut self) {}
+
+    #[inline(always)]
+    fn add_wall(&mut self, _: P::Lanes<V>, _: &[P::Lanes<V>; D], _: &LaneIndices<'_>, _: (&Model<D>, &Particles<D>)) {}
+
+    #[inline(always)]
+    fn sums(self) -> Exchanged<V, D> {
+        Exchanged { stress_ratio: zero_tensor(), field: FieldSums::none() }
+    }
+}
