@@ -124,8 +124,8 @@ class Result:
         return svg
 
     @property
-    def holds(self) -> bool:
-        """Whether all gates hold, known failures not excepted."""
+    def passes(self) -> bool:
+        """Whether no gate fails, expected failures not excepted."""
         return all(metric["verdict"] != "fail" for metric in self.document["metrics"])
 
     def _run(self, name: str | None) -> str:

@@ -27,7 +27,7 @@ class Judgement:
     def metrics(self) -> pd.DataFrame:
         """A row a number and code: the code's value, Bagnold's, the reference, limits and verdict.
 
-        What a code did not give has the verdict "not_given".
+        What a code did not give has the verdict "not_judged".
         """
         frames = []
         for code in self.document["codes"]:
@@ -38,14 +38,14 @@ class Judgement:
 
     @property
     def codes(self) -> pd.DataFrame:
-        """A row a code: gates that hold, that fail, and that nothing was given for."""
-        keys = ["name", "version", "holding", "failing", "not_given"]
+        """A row a code: gates that pass, that fail, and that are not judged."""
+        keys = ["name", "version", "passing", "failing", "not_judged"]
         return pd.DataFrame([{key: code[key] for key in keys} for code in self.document["codes"]])
 
     def __repr__(self) -> str:
         verdicts = [
             f"{code['name']} {code['version']}".strip()
-            + f" {code['holding']} gates hold, {code['failing']} fail, {code['not_given']} not given"
+            + f" {code['passing']} gates pass, {code['failing']} fail, {code['not_judged']} not judged"
             for code in self.document["codes"]
         ]
         return f"<{self.case}: {'; '.join(verdicts)}>"

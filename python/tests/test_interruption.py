@@ -48,4 +48,4 @@ def test_other_threads_go_on_and_an_interrupted_run_goes_on_later(heard):
     assert checkpoints, "what was computed is kept"
     # the interruption is over: the next run is not ended by it
     cheap = {"vary": {"resolution": [10]}}
-    assert bagnold.run("film", **cheap, fresh=True).holds
+    assert bagnold.run("film", **cheap, fresh=True).passes

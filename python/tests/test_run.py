@@ -32,7 +32,7 @@ def test_metrics_in_three_lines():
     error, balance = of["velocity_l2"], of["energy_residual"]
     assert error["unit"] == "%" and error["value"] > 0 and error["verdict"] == "observed", "too coarse to be judged"
     assert balance["verdict"] == "pass" and 0 < balance["value"] <= balance["at_most"]
-    assert metrics["value"].dtype == np.float64 and r.holds
+    assert metrics["value"].dtype == np.float64 and r.passes
 
 
 def test_parameters_are_python_values(film):

@@ -55,8 +55,8 @@ def test_another_code_is_judged(folder):
     metrics = judgement.metrics
     given = metrics[metrics["name"] == "velocity_l2"].iloc[0]
     assert (given["code"], given["value"], given["verdict"]) == ("by hand 1", 0.2, "pass")
-    assert "not_given" in set(metrics["verdict"])
-    assert repr(judgement).startswith("<water-film: by hand 1 1 gates hold, 0 fail, ")
+    assert "not_judged" in set(metrics["verdict"])
+    assert repr(judgement).startswith("<water-film: by hand 1 1 gates pass, 0 fail, ")
     assert (folder / "judged" / "index.html").is_file()
     with pytest.raises(bagnold.Refused, match="nothing.toml"):
         bagnold.judge("nothing.toml")

@@ -31,7 +31,7 @@ mod long {
     use bagnold_harness::store::{Store, StorePolicy};
     use bagnold_tools::calibration::{CalibrationFolder, predict};
 
-    /// Relative difference that counts as the same prediction: the tolerance of accepted values `[-]`.
+    /// Relative difference that counts as the same prediction: the tolerance of baseline values `[-]`.
     const SAME: f64 = 1e-3;
 
     #[test]

@@ -133,7 +133,7 @@ fn a_report_has_the_verdicts_and_is_self_contained() {
     let code = finished.get_output().status.code();
     assert!(matches!(code, Some(0 | 1)), "{finished}");
     let page = std::fs::read_to_string(place.path("report/index.html")).expect("a page");
-    for word in ["film", "Verification", "Validation", "Regression", "velocity_l2", "holds"] {
+    for word in ["film", "Verification", "Validation", "Regression", "velocity_l2", "pass"] {
         assert!(page.contains(word), "the page lacks {word:?}");
     }
     assert_eq!(code == Some(1), page.contains("class=\"banner fail\""), "the page and the exit code agree");
@@ -215,14 +215,14 @@ fn a_report_that_nothing_has_changed_says_again_what_it_said() {
     assert!(told.contains(unchanged), "{told}");
     assert_eq!(first, second);
     // another command, and a page that is gone, make it anew
-    let [_, told] = report(&["--deny", "drift"]);
+    let [_, told] = report(&["--deny", "moved"]);
     assert!(!told.contains(unchanged), "{told}");
     std::fs::remove_file(&page).expect("a page");
-    let [_, told] = report(&["--deny", "drift"]);
+    let [_, told] = report(&["--deny", "moved"]);
     assert!(!told.contains(unchanged) && page.is_file(), "{told}");
     // and so does a page with other words of the same length
     let text = std::fs::read_to_string(&page).expect("a page");
     std::fs::write(&page, text.replacen("water", "wader", 1)).expect("writable");
-    let [_, told] = report(&["--deny", "drift"]);
+    let [_, told] = report(&["--deny", "moved"]);
     assert!(!told.contains(unchanged), "{told}");
 }

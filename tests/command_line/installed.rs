@@ -47,7 +47,7 @@ fn names(folder: PathBuf) -> Vec<String> {
 #[test]
 fn a_report_in_an_empty_folder_compares_with_the_values_that_the_program_carries() {
     let place = Place::new();
-    bagnold(&place, &["report", "--cases", "water-film", "--deny", "drift", "--quiet"]).assert().code(0);
+    bagnold(&place, &["report", "--cases", "water-film", "--deny", "moved", "--quiet"]).assert().code(0);
     assert_eq!(names(place.path(WORK)), ["reports"], "nothing else was written there");
     let page = read(&place, "reports/cases/water-film/index.html");
     assert!(page.contains("velocity_l2"), "{page}");
@@ -56,7 +56,7 @@ fn a_report_in_an_empty_folder_compares_with_the_values_that_the_program_carries
     assert!(carried.contains("velocity_l2 | "), "{carried}");
 
     bagnold(&place, &["report", "--cases", "water-film", "--accept", "--quiet"]).assert().code(0);
-    assert_eq!(names(place.path(WORK)), ["reports", "snapshots"], "accepted values of one's own stand here");
+    assert_eq!(names(place.path(WORK)), ["reports", "snapshots"], "a baseline of one's own stands here");
     let file = "snapshots/quick/water-film.snap";
     let own = read(&place, file);
     let moved =
@@ -64,9 +64,9 @@ fn a_report_in_an_empty_folder_compares_with_the_values_that_the_program_carries
     let other: String = own.lines().map(|line| moved(line) + "\n").collect();
     assert_ne!(own, other);
     std::fs::write(place.path(WORK).join(file), other).expect("writable");
-    let finished = bagnold(&place, &["report", "--cases", "water-film", "--deny", "drift", "--quiet"]).assert().code(1);
+    let finished = bagnold(&place, &["report", "--cases", "water-film", "--deny", "moved", "--quiet"]).assert().code(1);
     let text = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
-    assert!(text.contains("drifted: "), "{text}");
+    assert!(text.contains("moved: "), "{text}");
 }
 
 #[test]

@@ -53,7 +53,7 @@ fn our_own_files_have_the_numbers_of_our_own_run() {
         assert!(of(name, "value").is_f64(), "{name}");
     }
     // six pictures do not tell when the front stopped, and nobody gave a ledger
-    assert_eq!(of("stopping_time", "verdict"), "not_given");
+    assert_eq!(of("stopping_time", "verdict"), "not_judged");
     assert!(!metrics.iter().any(|metric| metric["name"] == "energy_residual"));
     let xml = std::fs::read_to_string(place.path("judged.xml")).expect("written");
     assert!(xml.contains("our own files") && xml.contains("final_height"), "{xml}");
@@ -71,7 +71,7 @@ fn a_code_that_is_wrong_fails_and_a_number_that_is_missing_does_not_pass() {
     place.bagnold(&["judge", "wrong.toml", "--out", "judged", "--quiet"]).assert().code(1);
     let codes = read(&place, "judged/metrics.json")["codes"][0].clone();
     assert_eq!(codes["failing"], 1, "{codes}");
-    assert!(codes["not_given"].as_u64() > Some(0), "{codes}");
+    assert!(codes["not_judged"].as_u64() > Some(0), "{codes}");
     let wrong = place.bagnold(&["judge", "missing.toml"]).assert().code(2);
     let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
     assert!(message.contains("missing.toml: cannot be read"), "{message}");
@@ -243,7 +243,7 @@ fn two_codes_that_are_not_ours_are_judged_from_their_files() {
     // its height at a = 3 misses the law: a foreign code may fail
     let judged = place.bagnold(&["judge", &column, "--out", "column", "--quiet"]).assert().code(1);
     let said = String::from_utf8_lossy(&judged.get_output().stdout).into_owned();
-    assert!(said.contains(" without data (front, kinetic_energy, rest_time)"), "{said}");
+    assert!(said.contains(" are not judged (front, kinetic_energy, rest_time)"), "{said}");
     let code = read(&place, "column/metrics.json")["codes"][0].clone();
     let of = |ratio: &str| {
         let variant = format!("material=lagree,aspect_ratio={ratio},resolution=20");
@@ -253,7 +253,7 @@ fn two_codes_that_are_not_ours_are_judged_from_their_files() {
     };
     // as its own script measures them
     assert!((of("1") - 2.1690).abs() < 1e-4 && (of("3") - 6.9226).abs() < 1e-4, "{} {}", of("1"), of("3"));
-    assert!(code["not_given"].as_u64() > Some(0), "{code}");
+    assert!(code["not_judged"].as_u64() > Some(0), "{code}");
 }
 
 /// Elements within elements, which a parser follows by calling itself.

@@ -1,4 +1,4 @@
-//! Files that the program wrote itself, damaged: results, sweeps, lists of accepted values, records of runs and kept states.
+//! Files that the program wrote itself, damaged: results, sweeps, baselines, records of runs and kept states.
 
 use crate::damage::read_damaged;
 use crate::files::in_repository;
@@ -8,7 +8,7 @@ use bagnold_harness::evaluation::{EvaluationRecord, MetricValue};
 use bagnold_harness::metric::{Variant, Verdict};
 use bagnold_harness::output::OutputFolder;
 use bagnold_harness::store::{AllSpeeds, CodeOrigin, Store, StorePolicy};
-use bagnold_report::{Baseline, GateList, KnownFailures, RemovedGates};
+use bagnold_report::{Baseline, ExpectedFailures, GateList, RemovedGates};
 use bagnold_tools::calibration::CalibrationFolder;
 use bagnold_tools::league::blind;
 use bagnold_tools::sweep::slurm::{self, SlurmRequest};
@@ -105,14 +105,14 @@ fn a_sweep_is_continued_or_refused() {
     });
 }
 
-/// Accepted values, lists of gates and failures, and times.
+/// Baselines, lists of gates and failures, and times.
 #[test]
 fn a_list_is_read_or_refused() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let root = folder.path();
     let lists = [
         ("quick/film.snap", "tests/snapshots/quick/film.snap"),
-        ("known_failures.toml", "tests/snapshots/known_failures.toml"),
+        ("expected_failures.toml", "tests/snapshots/expected_failures.toml"),
         ("gates_removed.toml", "tests/snapshots/gates_removed.toml"),
         ("gates/quick.txt", "tests/snapshots/gates/quick.txt"),
         ("speeds.json", "validation/src/cli/speeds.json"),
@@ -127,7 +127,7 @@ fn a_list_is_read_or_refused() {
     let gates = GateList::default();
     damage(&files, &contents, |which| match which {
         0 => drop(Baseline::read(root, "film", Tier::Quick)),
-        1 => drop(KnownFailures::read(&files[1])),
+        1 => drop(ExpectedFailures::read(&files[1])),
         2 => drop(RemovedGates::read(root).map(|removed| gates.differences(&Baseline::default(), &removed))),
         3 => drop(GateList::read(root, Tier::Quick)),
         4 => {

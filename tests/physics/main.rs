@@ -3,8 +3,8 @@
 //! The runs come from the store that the report uses too, so that none is simulated twice.
 
 mod controls;
+mod expected_failures;
 mod falling_rows;
-mod known_failures;
 mod league;
 mod long_runs;
 mod perturbation;

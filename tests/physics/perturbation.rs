@@ -5,10 +5,10 @@ use bagnold_cases::collapse::Collapse;
 use bagnold_cases::collapse::planar::ColumnPlanarParameters;
 use bagnold_harness::case::{Parameters, Run, Silent, Tier};
 
-/// Relative change that the drift snapshots allow `[-]`.
+/// Relative change that the baseline allows `[-]`.
 const TOLERANCE: f64 = 1e-3;
 /// Allowed relative change of the stopping time `[-]`: the front creeps over its last percent, so that a thousandth of
-/// its way is a hundredth of its time. The drift snapshots repeat to the bit and need no such allowance.
+/// its way is a hundredth of its time. The snapshots repeat to the bit and need no such allowance.
 const STOPPING_TIME_TOLERANCE: f64 = 1e-2;
 
 /// Allowed relative change of the run-out `[-]`: a grain more or less in the toe, which counts by its mass, moves the

@@ -1,11 +1,11 @@
 //! One case at one tier: simulated or taken from the store, then judged.
 
-use crate::known_failures::{self, owing_tier};
+use crate::expected_failures::{self, owing_tier};
 use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_harness::metric::{Limit, Metric, Verdict};
 use bagnold_harness::observation::Outcome;
 use bagnold_harness::store::{Store, StorePolicy};
-use bagnold_report::{KnownFailureStatus, KnownFailures};
+use bagnold_report::{ExpectedFailures, ListStatus};
 use bagnold_validation::REGISTRY;
 use std::sync::{Mutex, PoisonError};
 
@@ -14,7 +14,7 @@ static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// Fails with one line for each thing that is wrong with a case.
 pub(crate) fn assert_gates(case: &str, tier: Tier) {
-    let list = known_failures::read();
+    let list = expected_failures::read();
     let prepared = REGISTRY
         .find(case)
         .and_then(|case| case.prepare(tier, &Changes::default()))
@@ -36,13 +36,13 @@ pub(crate) fn assert_gates(case: &str, tier: Tier) {
     }
 }
 
-/// Complaints about a result, a line each: diverged runs, failed gates, contradictions of the list of known failures.
-pub(crate) fn complaints(result: &CaseResult, list: &KnownFailures, tier: Tier) -> Vec<String> {
+/// Complaints about a result, a line each: diverged runs, failed gates, contradictions of the list of expected failures.
+pub(crate) fn complaints(result: &CaseResult, list: &ExpectedFailures, tier: Tier) -> Vec<String> {
     let diverged = result.unexpected_divergences().map(|run| match &run.outcome {
         Outcome::Diverged { message, .. } => format!("  [{}] {message}", run.variant),
         outcome => format!("  [{}] counts as diverged, but ended as {outcome:?}", run.variant),
     });
-    let gates = result.metrics.iter().filter_map(|metric| complaint(metric, &list.standing(&result.name, metric)));
+    let gates = result.metrics.iter().filter_map(|metric| complaint(metric, &list.status(&result.name, metric)));
     let references = result.metrics.iter().filter_map(excluded_reference);
     let stale = list
         .failures
@@ -52,7 +52,10 @@ pub(crate) fn complaints(result: &CaseResult, list: &KnownFailures, tier: Tier) 
             !result.metrics.iter().any(|metric| metric.name == entry.metric && metric.variant == entry.variant)
         })
         .map(|entry| {
-            format!("  {} [{}] is a known failure, but is not measured: remove the entry", entry.metric, entry.variant)
+            format!(
+                "  {} [{}] is an expected failure, but is not measured: remove the entry",
+                entry.metric, entry.variant
+            )
         });
     diverged.chain(gates).chain(references).chain(stale).collect()
 }
@@ -71,19 +74,17 @@ fn excluded_reference(metric: &Metric) -> Option<String> {
     })
 }
 
-fn complaint(metric: &Metric, standing: &KnownFailureStatus) -> Option<String> {
-    let why = match standing {
-        KnownFailureStatus::Unlisted if metric.verdict() == Verdict::Fail => "the gate fails".to_owned(),
-        KnownFailureStatus::Unlisted | KnownFailureStatus::Known(_) => return None,
-        KnownFailureStatus::PassesAgain(entry) => {
-            format!("a known failure since {} now passes: remove the entry", entry.date)
+fn complaint(metric: &Metric, listed: &ListStatus) -> Option<String> {
+    let why = match listed {
+        ListStatus::Unlisted if metric.verdict() == Verdict::Fail => "the gate fails".to_owned(),
+        ListStatus::Unlisted | ListStatus::AsListed(_) => return None,
+        ListStatus::PassesAgain(entry) => {
+            format!("an expected failure since {} now passes: remove the entry", entry.date)
         }
-        KnownFailureStatus::Worse(entry) => {
-            format!("a known failure became worse than its best value {:e}", entry.best_value)
+        ListStatus::Worse(entry) => {
+            format!("an expected failure became worse than its best value {:e}", entry.best_value)
         }
-        KnownFailureStatus::WithoutGate(_) => {
-            "a known failure, but the metric has no gate: remove the entry".to_owned()
-        }
+        ListStatus::WithoutGate(_) => "an expected failure, but the metric has no gate: remove the entry".to_owned(),
     };
     let Metric { name, variant, value, unit, .. } = metric;
     let limit = metric.gate.as_ref().map_or_else(String::new, |gate| {

@@ -1,4 +1,4 @@
-//! Drift: the quick tier's metrics of every case against the accepted values, `tests/snapshots/quick/CASE.snap`.
+//! The quick tier's metrics of every case against the baseline, `tests/snapshots/quick/CASE.snap`.
 //!
 //! The files are insta snapshots, which the report reads as its baseline: one store, and one comparator for both. A value
 //! may move by its own tolerance. To accept what has moved farther, read the report first, then
@@ -33,7 +33,7 @@ impl Comparator for WithinTolerance {
             .map_or_else(|error| vec![format!("failed to {error}")], |own| own.differences(self.case, &self.metrics));
         if !differences.is_empty() {
             // insta's own difference below also shows what moved within its tolerance
-            eprintln!("{}, not as accepted:\n{}\n", self.case, differences.join("\n"));
+            eprintln!("{}, not as in the baseline:\n{}\n", self.case, differences.join("\n"));
         }
         differences.is_empty()
     }
@@ -43,7 +43,7 @@ impl Comparator for WithinTolerance {
     }
 }
 
-fn assert_as_accepted(name: &'static str) {
+fn assert_as_in_baseline(name: &'static str) {
     let case = REGISTRY.find(name).unwrap_or_else(|error| panic!("{name}: {error}"));
     let prepared = case.prepare(Tier::Quick, &Changes::default()).unwrap_or_else(|error| panic!("{name}: {error}"));
     let results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent);
@@ -64,21 +64,21 @@ fn assert_as_accepted(name: &'static str) {
 }
 
 #[test]
-fn the_metrics_of_every_case_are_as_accepted() {
+fn the_metrics_of_every_case_are_as_in_the_baseline() {
     // One case after the other: each uses all cores.
     let failed: Vec<&str> = REGISTRY
         .iter()
         .map(|case| case.name())
-        .filter(|name| std::panic::catch_unwind(|| assert_as_accepted(name)).is_err())
+        .filter(|name| std::panic::catch_unwind(|| assert_as_in_baseline(name)).is_err())
         .collect();
-    assert!(failed.is_empty(), "not as accepted, see above: {}", failed.join(", "));
+    assert!(failed.is_empty(), "not as in the baseline, see above: {}", failed.join(", "));
     // of the same runs, which are stored by now
     measured_points::assert_enough();
 }
 
 /// `cargo test --test snapshots -- --ignored --nocapture` prints the list.
 #[test]
-#[ignore = "the drift test asks the same; this one shows what judges, of stored runs"]
+#[ignore = "the test above asks the same; this one shows what judges, of stored runs"]
 fn measured_points_are_judged() {
     measured_points::assert_enough();
 }
@@ -87,29 +87,29 @@ fn measured_points_are_judged() {
 fn no_gate_is_lost_without_a_reason() {
     let removed = RemovedGates::read(&folder()).unwrap_or_else(|error| panic!("failed to {error}"));
     for tier in [Tier::Quick, Tier::Paper] {
-        let mut accepted = Baseline::default();
+        let mut baseline = Baseline::default();
         for case in REGISTRY.iter() {
             let own = Baseline::read(&folder(), case.name(), tier).unwrap_or_else(|error| panic!("failed to {error}"));
-            accepted.extend(own);
+            baseline.extend(own);
         }
         let list = GateList::read(&folder(), tier).unwrap_or_else(|error| panic!("failed to {error}"));
-        let differences = list.differences(&accepted, &removed);
+        let differences = list.differences(&baseline, &removed);
         assert!(differences.is_empty(), "{tier} tier:\n{}", differences.join("\n"));
     }
 }
 
 #[test]
-fn the_accepted_comparisons_are_of_the_accepted_values() {
+fn the_comparisons_are_of_the_baseline() {
     let path = folder().join("comparisons").join("quick.csv");
-    let text = std::fs::read_to_string(&path).expect("the accepted comparisons");
+    let text = std::fs::read_to_string(&path).expect("the comparisons");
     let set = ValidationSet::parse(&text).unwrap_or_else(|error| panic!("failed to read {}: {error}", path.display()));
     let mut wrong = Vec::new();
     for row in &set.comparisons {
-        let accepted = Baseline::read(&folder(), &row.case, Tier::Quick);
-        let accepted = accepted.unwrap_or_else(|error| panic!("failed to {error}"));
+        let baseline = Baseline::read(&folder(), &row.case, Tier::Quick);
+        let baseline = baseline.unwrap_or_else(|error| panic!("failed to {error}"));
         let key = MetricKey { case: row.case.clone(), metric: row.quantity.clone(), variant: row.variant.clone() };
-        // accepted values have nine digits
-        if !accepted.value(&key).is_some_and(|value| (value - row.value).abs() <= 1e-8 * value.abs()) {
+        // baseline values have nine digits
+        if !baseline.value(&key).is_some_and(|value| (value - row.value).abs() <= 1e-8 * value.abs()) {
             wrong.push(format!("{} {} [{}]: {}", row.case, row.quantity, row.variant, row.value));
         }
     }
@@ -117,8 +117,8 @@ fn the_accepted_comparisons_are_of_the_accepted_values() {
 }
 
 #[test]
-fn every_accepted_case_is_registered() {
-    for entry in std::fs::read_dir(folder().join("quick")).expect("accepted values") {
+fn every_case_of_the_baseline_is_registered() {
+    for entry in std::fs::read_dir(folder().join("quick")).expect("the baseline") {
         let path = entry.expect("an entry").path();
         let name = path.file_stem().and_then(|name| name.to_str()).expect("a name").to_owned();
         assert!(REGISTRY.find(&name).is_ok(), "{} belongs to no case", path.display());

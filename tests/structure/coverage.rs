@@ -2,7 +2,7 @@
 //! the reason why none does.
 
 use crate::source::workspace;
-use bagnold_harness::case::{Changes, FeatureOption, Features, RunSummary, Tier};
+use bagnold_harness::case::{CaseResult, Changes, FeatureOption, Features, RunSummary, Tier};
 use bagnold_harness::metric::{Limit, Metric, MetricKind, Value, Variant};
 use bagnold_harness::observation::Outcome;
 use bagnold_report::CaseReport;
@@ -72,22 +72,26 @@ fn every_declaration_is_needed_and_names_tests_that_there_are() {
 }
 
 fn case(name: &str, metrics: Vec<Metric>) -> CaseReport {
-    CaseReport {
+    let result = CaseResult {
         name: name.to_owned(),
+        origin: REGISTRY.origin(),
         summary: String::new(),
         description: String::new(),
+        tier: Tier::Quick,
         parameters_toml: String::new(),
         command: String::new(),
         metrics,
-        quantities: &[],
-        controls: Vec::new(),
-        not_judged: Vec::new(),
         figures: Vec::new(),
         animations: Vec::new(),
+        tables: Vec::new(),
         runs: Vec::new(),
         run_parameters: Vec::new(),
-        metrics_json: String::new(),
-    }
+        regimes: Vec::new(),
+        frames: Vec::new(),
+        first_bad: Vec::new(),
+        state_hash: String::new(),
+    };
+    CaseReport::of(result, *REGISTRY)
 }
 
 fn run(kernel: &str) -> RunSummary {
@@ -119,8 +123,8 @@ fn a_gate_counts_for_the_options_of_the_runs_that_it_speaks_of() {
     ];
     let mut film = case("film", metrics);
     for kernel in ["wendland-c2", "cubic-spline"] {
-        film.runs.push(run(kernel));
-        film.run_parameters.push(serde_json::json!({ "numerics": { "kernel": kernel } }));
+        film.result.runs.push(run(kernel));
+        film.result.run_parameters.push(serde_json::json!({ "numerics": { "kernel": kernel } }));
     }
     let rows = coverage(&Features::of(*REGISTRY), &[film, case("other", Vec::new())]);
     let of = |option: &str| {

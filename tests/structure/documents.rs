@@ -61,7 +61,7 @@ fn packages_hold_every_table_and_every_plan() {
     for case in registered() {
         is_packaged(&harness, &format!("snapshots/quick/{case}.snap"));
     }
-    is_packaged(&harness, "snapshots/known_failures.toml");
+    is_packaged(&harness, "snapshots/expected_failures.toml");
     for name in ["sweeps/bed-load-1d-map.toml", "README.md", "build/texts/embed.rs"] {
         is_packaged(&program, name);
     }

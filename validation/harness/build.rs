@@ -1,5 +1,5 @@
 //! Gives the package the texts that an installed program carries: tables of `reference-data`, what is stated of references,
-//! sensitivities to inputs, comparisons that were accepted, and judgements of calibrations.
+//! sensitivities to inputs, comparisons of the baseline, and judgements of calibrations.
 
 #[path = "build/embed.rs"]
 mod embed;
@@ -12,7 +12,7 @@ fn main() {
     embed("reference_data", &texts(&package, &["reference-data"], &["csv"]));
     embed("stated_uncertainties", &texts(&package, &["reference-data"], &["toml"]));
     embed("sensitivities", &texts(&package, &["sensitivities"], &["csv"]));
-    embed("accepted_comparisons", &texts(&package, &["snapshots/comparisons"], &["csv"]));
+    embed("comparisons", &texts(&package, &["snapshots/comparisons"], &["csv"]));
     embed("held_out_judgements", &texts(&package, &["snapshots/calibrations"], &["json"]));
     embed("controls", &texts(&package, &["controls"], &["toml", "csv"]));
     println!("cargo::rerun-if-changed=build.rs");

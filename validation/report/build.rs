@@ -1,4 +1,4 @@
-//! Gives the package the accepted values and known failures that an installed program carries.
+//! Gives the package the baseline and expected failures that an installed program carries.
 
 #[path = "build/embed.rs"]
 mod embed;
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 fn main() {
     let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
-    embed("accepted_values", &texts(&package, &["snapshots"], &["snap", "toml"]));
+    embed("baseline", &texts(&package, &["snapshots"], &["snap", "toml"]));
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=build");
 }

@@ -6,9 +6,10 @@ mod registry;
 pub use registry::REGISTRY;
 
 use bagnold_figure as figure;
+#[cfg(test)]
+use bagnold_harness::observation;
 use bagnold_harness::{
-    case, checkpoint, control, evaluation, evidence, input, interruption, measured, metric, observation, output,
-    result, store,
+    case, checkpoint, control, evaluation, input, interruption, measured, metric, output, result, store,
 };
 use bagnold_number as number;
 use bagnold_report as report;

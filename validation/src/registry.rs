@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn every_case_has_accepted_values() {
+    fn every_case_has_a_baseline() {
         for case in REGISTRY.iter() {
             let baseline =
                 Baseline::shipped(case.name(), Tier::Quick).unwrap_or_else(|error| panic!("failed to {error}"));

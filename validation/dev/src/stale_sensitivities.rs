@@ -28,11 +28,11 @@ fn stale(
     case: &str,
     stated: &StatedUncertainty,
     table: &[SensitivityRow],
-    accepted: &[&ValidatedComparison],
+    baseline: &[&ValidatedComparison],
 ) -> Vec<String> {
     let mut found = Vec::new();
     let own = || table.iter().filter(|row| row.end == RangeEnd::Own && row.repeat == 0);
-    for row in accepted {
+    for row in baseline {
         let metric = Metric::observed(&row.quantity, &row.variant, row.value, &row.unit);
         let is_of_a_range = stated.ranges.iter().any(|range| range.is_of(&row.variant));
         if !is_of_a_range || stated.says(ComparisonPart::Input, &metric) {
@@ -41,28 +41,28 @@ fn stale(
         match own().find(|own| own.quantity == row.quantity && own.variant == row.variant) {
             None => found.push(format!("{case}: {} of {} is not in the table", row.quantity, row.variant)),
             Some(own) if (own.value - row.value).abs() > MOVED * row.value.abs() => found.push(format!(
-                "{case}: {} of {} is {} in the table and {} in the accepted results",
+                "{case}: {} of {} is {} in the table and {} in the baseline",
                 row.quantity, row.variant, own.value, row.value
             )),
             Some(_) => {}
         }
     }
     // columns that only a longer tier has stand in a table too
-    let longer = ValidationSet::parse(PAPER).expect("the accepted comparisons of the paper tier");
+    let longer = ValidationSet::parse(PAPER).expect("the comparisons of the paper tier");
     let of_longer = longer.comparisons.iter().filter(|row| row.case == case);
     let quantities: BTreeSet<&str> =
-        accepted.iter().copied().chain(of_longer).map(|row| row.quantity.as_str()).collect();
+        baseline.iter().copied().chain(of_longer).map(|row| row.quantity.as_str()).collect();
     let unknown: BTreeSet<&str> =
         own().map(|row| row.quantity.as_str()).filter(|name| !quantities.contains(name)).collect();
-    found.extend(unknown.iter().map(|name| format!("{case}: no accepted comparison is called {name}")));
+    found.extend(unknown.iter().map(|name| format!("{case}: no comparison of the baseline is called {name}")));
     found
 }
 
 #[test]
 fn tables_are_of_the_program() {
-    let accepted = ValidationSet::shipped();
+    let baseline = ValidationSet::shipped();
     for (case, stated) in stating() {
-        let rows: Vec<&ValidatedComparison> = accepted.comparisons.iter().filter(|row| row.case == case).collect();
+        let rows: Vec<&ValidatedComparison> = baseline.comparisons.iter().filter(|row| row.case == case).collect();
         let found = stale(case, stated, sensitivity_table(case), &rows);
         assert!(
             found.is_empty(),
@@ -74,10 +74,10 @@ fn tables_are_of_the_program() {
 
 #[test]
 fn a_renamed_metric_and_a_moved_value_make_a_table_stale() {
-    let accepted = ValidationSet::shipped();
+    let baseline = ValidationSet::shipped();
     let case = "incline-collapse";
     let stated = StatedUncertainty::of(case).expect("ranges");
-    let rows: Vec<&ValidatedComparison> = accepted.comparisons.iter().filter(|row| row.case == case).collect();
+    let rows: Vec<&ValidatedComparison> = baseline.comparisons.iter().filter(|row| row.case == case).collect();
     let table = sensitivity_table(case);
     let with = |change: fn(&mut SensitivityRow)| {
         let mut table = table.to_vec();
@@ -86,8 +86,8 @@ fn a_renamed_metric_and_a_moved_value_make_a_table_stale() {
     };
     assert_eq!(with(|_| {}), Vec::<String>::new());
     assert!(with(|row| row.quantity.push('s')).iter().any(|line| line.contains("is not in the table")));
-    assert!(with(|row| row.quantity.push('s')).iter().any(|line| line.contains("no accepted comparison")));
-    assert!(with(|row| row.value *= 1.02).iter().all(|line| line.contains("in the accepted results")));
+    assert!(with(|row| row.quantity.push('s')).iter().any(|line| line.contains("no comparison of the baseline")));
+    assert!(with(|row| row.value *= 1.02).iter().all(|line| line.contains("in the baseline")));
     assert_eq!(with(|row| row.value *= 1.02).len(), rows.len());
     assert_eq!(with(|row| row.value *= 1.001), Vec::<String>::new());
 }

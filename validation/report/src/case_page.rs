@@ -1,16 +1,15 @@
 //! The page of one case: what fails, its figures, then verdicts, parameters and runs. `run` writes it alone, `report` among others.
 
 use super::failures;
-use super::judgement::{JudgedCase, JudgedMetric, Severity};
+use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
 use super::origin::{provenance, seconds};
-use super::power::GatePower;
-use super::rows::{mark, rows, vanished};
+use super::rows::{rows, vanished};
 use super::template::fill;
 use super::view::{VerdictMark, typed};
 use super::{DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
-use crate::metric::{self, Metric, MetricKind, Variant, Verdict};
+use crate::metric::{self, Metric, MetricKind, Variant};
 use crate::number::{count, four_digits};
 use crate::observation::Outcome;
 use serde_json::{Value, json};
@@ -59,7 +58,7 @@ fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> Value {
         "name": case.name,
         "summary": case.summary,
         "description": case.description.split("\n\n").collect::<Vec<_>>(),
-        "mark": if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
+        "mark": VerdictMark::of_rank(judged.rank()),
         "statement": case_statement(judged),
         "failures": failures::of(std::slice::from_ref(judged)),
         "groups": groups(rows, &judged.metrics),
@@ -84,9 +83,9 @@ fn groups(rows: Vec<Value>, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
     let titles = [("judged", "Judged"), ("bookkeeping", "Bookkeeping"), ("observed", "Observed only")];
     let mut groups = titles.map(|title| (title, Vec::new()));
     for (row, judged) in rows.into_iter().zip(metrics) {
-        let place = match (judged.metric.kind, judged.severity()) {
+        let place = match (judged.metric.kind, judged.rank()) {
             (MetricKind::Bookkeeping, _) => 1,
-            (_, Severity::Observed) => 2,
+            (_, Rank::Observed) => 2,
             _ => 0,
         };
         groups[place].1.push(row);
@@ -143,17 +142,20 @@ fn figure(metric: &Metric, drawn: &[DrawnFigure], runs: &[&Variant]) -> String {
     best.filter(|best| is_enough(fit(best))).map(|best| best.name.clone()).unwrap_or_default()
 }
 
-/// Numbers of a case's metrics by status, in words.
+/// Numbers of a case's metrics by severity, in words.
 pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
-    let drifted = judged.metrics.iter().filter(|metric| metric.drift.is_failure()).count();
+    let tally = judged.tally();
+    let observed = judged.metrics.iter().filter(|metric| metric.rank() == Rank::Observed).count();
+    let moved = judged.metrics.iter().filter(|metric| metric.change.has_moved()).count();
+    let of = |severity: Severity| (tally.of(severity), severity.word());
     let parts = [
-        (judged.count(Severity::Failure), "failing"),
-        (judged.count(Severity::KnownFailure), "known to fail"),
-        (judged.metrics.iter().filter(|metric| metric.verdict == Verdict::Pass).count(), "holding"),
-        (judged.count(Severity::Observed), "observed"),
-        (drifted, "drifted"),
-        (judged.case.not_judged.len(), "no longer judged"),
-        (judged.metrics.iter().filter(|metric| metric.power == GatePower::CannotTell).count(), "cannot tell"),
+        of(Severity::NewFailure),
+        (tally.of(Severity::NotJudged) + judged.case.not_judged.len(), Severity::NotJudged.word()),
+        of(Severity::ExpectedFailure),
+        of(Severity::Inconclusive),
+        of(Severity::Pass),
+        (observed, "observed"),
+        (moved, "moved"),
         (judged.vanished.len(), "vanished"),
         (judged.diverged.len(), "diverged"),
     ];

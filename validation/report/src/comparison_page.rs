@@ -65,7 +65,7 @@ fn row(compared: &Comparison<'_>) -> Value {
             format!("at the level {} and no finer", unit(level)),
         ),
         ModelError::AtLeast(least) => (
-            VerdictMark { word: "model error", ..VerdictMark::KNOWN },
+            VerdictMark { word: "model error", ..VerdictMark::EXPECTED },
             format!("model error of at least {}", unit(least)),
         ),
         ModelError::BeyondKnown(by) => {

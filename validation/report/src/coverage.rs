@@ -23,14 +23,14 @@ pub enum Grade {
     Statement,
     /// By the run's own balances.
     Balance,
-    /// Against accepted values alone.
-    Accepted,
+    /// Against the baseline alone.
+    Baseline,
 }
 
 impl Grade {
     /// All, the strongest first.
     pub const ALL: [Self; 6] =
-        [Self::Measured, Self::Converging, Self::Exact, Self::Statement, Self::Balance, Self::Accepted];
+        [Self::Measured, Self::Converging, Self::Exact, Self::Statement, Self::Balance, Self::Baseline];
 
     /// The letter that stands for it in a cell.
     #[must_use]
@@ -41,7 +41,7 @@ impl Grade {
             Self::Exact => 'E',
             Self::Statement => 'S',
             Self::Balance => 'B',
-            Self::Accepted => 'A',
+            Self::Baseline => 'R',
         }
     }
 
@@ -54,7 +54,7 @@ impl Grade {
             Self::Exact => "gates against exact solutions",
             Self::Statement => "gates on what a paper states",
             Self::Balance => "gates on balances of mass, momentum and energy",
-            Self::Accepted => "compared with accepted values only",
+            Self::Baseline => "regression: compared with the baseline only",
         }
     }
 
@@ -78,7 +78,7 @@ impl Grade {
 pub struct CaseCoverage {
     /// Gates of each grade.
     pub gates: BTreeMap<Grade, usize>,
-    /// Gates that do not hold.
+    /// Gates that fail.
     pub failing: usize,
 }
 

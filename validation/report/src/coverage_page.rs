@@ -17,7 +17,7 @@ fn cell(covered: Option<&CaseCoverage>) -> Value {
     };
     let Some(covered) = covered else { return of("", String::new(), String::new()) };
     if covered.gates.is_empty() {
-        let grade = Grade::Accepted;
+        let grade = Grade::Baseline;
         return of("observed", grade.letter().to_string(), grade.meaning().to_owned());
     }
     let letters: String = covered.gates.keys().map(|grade| grade.letter()).collect();
@@ -26,7 +26,7 @@ fn cell(covered: Option<&CaseCoverage>) -> Value {
     if covered.failing > 0 {
         parts.push(format!("{} fail", covered.failing));
     }
-    let (class, failing) = if covered.failing > 0 { ("known", "✗") } else { ("pass", "") };
+    let (class, failing) = if covered.failing > 0 { ("expected", "✗") } else { ("pass", "") };
     of(class, letters + failing, parts.join("; "))
 }
 

@@ -1,6 +1,6 @@
 //! An earlier report's folder as the baseline of a new one.
 
-use super::accepted::{Baseline, MetricKey};
+use super::baseline::{Baseline, MetricKey};
 use super::error::EarlierError;
 use crate::case::Tier;
 use crate::figure::is_file_name;

@@ -2,6 +2,7 @@
 
 use crate::figure::FigureError;
 use crate::input::read_text;
+use crate::output::{FileError, FolderError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -65,6 +66,26 @@ pub enum BaselineError {
         /// The name as given.
         name: String,
     },
+}
+
+/// Reason why a report or a run is not finished.
+#[derive(Debug, thiserror::Error)]
+pub enum ProcessError {
+    /// A folder cannot be used.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The committed baseline or list of expected failures cannot be used.
+    #[error("failed to {0}; correct the file or restore it from version control")]
+    Baseline(#[from] BaselineError),
+    /// The report to compare with cannot be used.
+    #[error("failed to {0}")]
+    Earlier(#[from] EarlierError),
+    /// The pages cannot be written.
+    #[error("failed to {0}; check the folder and its permissions")]
+    Report(#[from] ReportError),
 }
 
 /// The text of a committed file of at most so many bytes; none where there is no file.

@@ -1,9 +1,9 @@
-//! Failures in two lines each, the furthest off first: case, quantity and variant, then the value beside its reference and limit. Why a
-//! known failure fails stands in the metric's row on the page of its case.
+//! Failures in two lines each, the furthest off first: case, quantity and variant, then the value beside its reference and limit. Why an
+//! expected failure fails stands in the metric's row on the page of its case.
 
-use super::judgement::{JudgedCase, JudgedMetric, Severity};
-use super::known_failures::KnownFailureStatus;
-use super::rows::{note, statement, worst_mark};
+use super::expected_failures::ListStatus;
+use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
+use super::rows::statement;
 use super::view::{VerdictMark, anchor};
 use crate::metric::{GateOwner, Limit, Metric, Quantity};
 use crate::number::{two_digits, with_unit};
@@ -27,11 +27,12 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<Value> {
                 "variant": variant.to_string(),
                 "statement": message,
             });
-            items.push(((Severity::Failure, GateOwner::User), f64::INFINITY, item));
+            items.push(((Severity::NewFailure, GateOwner::User), f64::INFINITY, item));
         }
-        for judged in case.metrics.iter().filter(|judged| judged.severity() <= Severity::KnownFailure) {
+        for judged in &case.metrics {
+            let Rank::Failing(severity) = judged.rank() else { continue };
             let item = json!({
-                "mark": worst_mark(judged),
+                "mark": VerdictMark::of(Some(severity)),
                 "case": case.case.name,
                 "anchor": anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
                 "title": title(&case.case.summary),
@@ -43,11 +44,11 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<Value> {
                 "note": short_note(judged),
             });
             // canonical studies are judged as a user's own are, and fail no louder than cases
-            let owner = match judged.severity() {
-                Severity::KnownFailure => GateOwner::Case,
+            let owner = match severity {
+                Severity::ExpectedFailure => GateOwner::Case,
                 _ => judged.metric.gate_owner(),
             };
-            items.push(((judged.severity(), owner), distance(judged.metric), item));
+            items.push(((severity, owner), distance(judged.metric), item));
         }
     }
     // Stable: equal ones keep the order of the page.
@@ -110,11 +111,11 @@ fn off(metric: &Metric) -> String {
     format!("{} is right ({sign}{} %)", with_unit(expected, &metric.unit), two_digits(share))
 }
 
-/// Entry of the list of known failures in words, without its reason.
+/// Entry of the list of expected failures in words, without its reason.
 fn short_note(judged: &JudgedMetric<'_>) -> String {
-    let whole = note(judged);
-    match &judged.standing {
-        KnownFailureStatus::Known(entry) => {
+    let whole = judged.note();
+    match &judged.listed {
+        ListStatus::AsListed(entry) => {
             whole.strip_suffix(&entry.reason).map_or(whole.clone(), |short| short.trim_end_matches(": ").to_owned())
         }
         _ => whole,

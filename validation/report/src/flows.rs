@@ -1,11 +1,12 @@
 //! The four flows that the first page opens with: a figure, its number, and how far each is validated.
 
 use super::comparison::{Comparison, ModelError, comparisons};
-use super::power::{GatePower, rejected_inputs};
+use super::judgement::{Judgement, KINDS, Severity};
+use super::power::rejected_inputs;
 use super::view::VerdictMark;
 use super::{CaseReport, DrawnFigure, Report};
 use crate::figure::Figure;
-use crate::metric::{Metric, MetricKind, Origin, Variant, Verdict};
+use crate::metric::{Metric, MetricKind, Origin, Variant};
 use crate::number::two_digits;
 use serde_json::{Value, json};
 
@@ -121,11 +122,21 @@ pub(super) fn figure_of(case: &CaseReport) -> Option<&Figure> {
 
 /// The flows that the report has a case of. `drawn` holds the figures of the cases in the report's order, `small` those of the
 /// table of cases.
-pub(super) fn panels(report: &Report, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Vec<Value> {
-    FLOWS.iter().filter_map(|flow| panel(flow, report, drawn, small)).collect()
+pub(super) fn panels(
+    report: &Report,
+    judgement: &Judgement<'_>,
+    drawn: &[Vec<DrawnFigure>],
+    small: &[DrawnFigure],
+) -> Vec<Value> {
+    FLOWS.iter().filter_map(|flow| panel(flow, (report, judgement), drawn, small)).collect()
 }
 
-fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Option<Value> {
+fn panel(
+    flow: &Flow,
+    (report, judgement): (&Report, &Judgement<'_>),
+    drawn: &[Vec<DrawnFigure>],
+    small: &[DrawnFigure],
+) -> Option<Value> {
     let place = |name: &str| report.cases.iter().position(|case| case.name == name);
     let places: Vec<usize> = flow.figures.iter().filter_map(|(name, _)| place(name)).collect();
     let cases: Vec<&CaseReport> = places.iter().map(|&place| &report.cases[place]).collect();
@@ -146,7 +157,7 @@ fn panel(flow: &Flow, report: &Report, drawn: &[Vec<DrawnFigure>], small: &[Draw
         "figure": figure,
         "small": small,
         "sentences": flow.claims.iter().filter_map(|claim| sentence(claim, &cases)).collect::<Vec<_>>(),
-        "verdict": verdict(&compared, &cases),
+        "verdict": verdict(&compared, &cases, judgement),
         "controls": cases.iter().filter_map(|case| Some(json!({ "case": case.name, "text": rejected_inputs(case)? }))).collect::<Vec<_>>(),
         "cases": cases.iter().map(|case| &case.name).collect::<Vec<_>>(),
     }))
@@ -178,8 +189,8 @@ fn span(values: impl Iterator<Item = f64>, digits: fn(f64) -> String) -> Option<
     Some(if least == most { most } else { format!("{least} to {most}") })
 }
 
-/// Verdict on the model by comparisons with published results, and the number of gates that hold.
-fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
+/// Verdict on the model by comparisons with published results, and the number of gates that pass.
+fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport], judgement: &Judgement<'_>) -> Vec<Value> {
     let mut lines = Vec::new();
     let mut add = |mark: VerdictMark, text: String| lines.push(json!({ "mark": mark, "text": text }));
     // how many comparisons say something, and the part of the reference that it is about
@@ -203,7 +214,7 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
         those(|error| if let ModelError::AtLeast(least) = error { Some(least) } else { None })
     {
         add(
-            VerdictMark::KNOWN,
+            VerdictMark::EXPECTED,
             format!("{number} miss by more than their uncertainty: the model is wrong by at least {least}"),
         );
     }
@@ -216,28 +227,22 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport]) -> Vec<Value> {
     if all == 0 {
         add(VerdictMark::OBSERVED, "no comparison whose uncertainty is known".to_owned());
     }
-    for (kind, what) in [
-        (MetricKind::Validation, "experiments"),
-        (MetricKind::Statement, "statements of the papers"),
-        (MetricKind::Verification, "exact solutions and other codes"),
-    ] {
-        let judged = cases.iter().flat_map(|case| &case.metrics).filter(|metric| metric.kind == kind);
-        let verdicts: Vec<Verdict> = judged.map(Metric::verdict).filter(|own| *own != Verdict::Observed).collect();
-        let holding = verdicts.iter().filter(|own| **own == Verdict::Pass).count();
-        if !verdicts.is_empty() {
-            let mark = if holding == verdicts.len() { VerdictMark::PASS } else { VerdictMark::KNOWN };
-            add(mark, format!("{holding} of {} gates against {what} hold", verdicts.len()));
+    let own = judgement.metrics().filter(|(judged, _)| cases.iter().any(|case| case.name == judged.case.name));
+    let gates: Vec<(MetricKind, Severity)> =
+        own.filter_map(|(_, judged)| Some((judged.metric.kind, judged.severity?))).collect();
+    let number = |kind, severities: &[Severity]| {
+        gates.iter().filter(|(own, severity)| *own == kind && severities.contains(severity)).count()
+    };
+    for (kind, what) in
+        KINDS.into_iter().zip(["experiments", "statements of the papers", "exact solutions and other codes"])
+    {
+        let (all, passing) = (number(kind, &Severity::ALL), number(kind, &[Severity::Pass]));
+        let inconclusive = number(kind, &[Severity::Inconclusive]);
+        let inconclusive = if inconclusive > 0 { format!(", {inconclusive} inconclusive") } else { String::new() };
+        if all > 0 {
+            let mark = if passing == all { VerdictMark::PASS } else { VerdictMark::EXPECTED };
+            add(mark, format!("{passing} of {all} gates against {what} pass{inconclusive}"));
         }
-    }
-    let powers = cases.iter().flat_map(|case| case.metrics.iter().map(|metric| GatePower::of(case, metric)));
-    let blind = powers.filter(GatePower::is_blind).count();
-    if blind > 0 {
-        add(
-            VerdictMark::KNOWN,
-            format!(
-                "{blind} of the gates that hold cannot tell: they reject none of the deliberate errors, or the value is less certain than the gate is wide"
-            ),
-        );
     }
     lines
 }

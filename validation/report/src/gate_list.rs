@@ -1,7 +1,7 @@
 //! The list of gates, `tests/snapshots/gates/TIER.txt`: every gate that a tier has ever had, a line each. A gate that is no longer
 //! judged stays in the list, and `gates_removed.toml` has to say why it went: a limit cannot be lost in a change of something else.
 
-use super::accepted::{Baseline, MetricKey};
+use super::baseline::{Baseline, MetricKey};
 use super::error::{BaselineError, read_if_there};
 use crate::case::Tier;
 use crate::input::{DOCUMENT, WRITTEN_BY_HAND};
@@ -23,7 +23,7 @@ pub struct GateList {
 }
 
 impl GateList {
-    /// The file of a tier in the folder of all accepted values.
+    /// The file of a tier in the folder of the baseline.
     #[must_use]
     pub fn path(folder: &Path, tier: Tier) -> PathBuf {
         folder.join("gates").join(format!("{}.txt", tier.name()))
@@ -45,9 +45,9 @@ impl GateList {
         Ok(list)
     }
 
-    /// Adds the gates among accepted values.
-    pub fn add(&mut self, accepted: &Baseline) {
-        self.gates.extend(accepted.gates().cloned());
+    /// Adds the gates of a baseline.
+    pub fn add(&mut self, baseline: &Baseline) {
+        self.gates.extend(baseline.gates().cloned());
     }
 
     /// Writes the list, sorted.
@@ -69,8 +69,8 @@ impl GateList {
     /// Contradictions between the list, the gates among all baseline values of the tier and the gates that went, a line each:
     /// gates that went without a reason, and gates that are not in the list.
     #[must_use]
-    pub fn differences(&self, accepted: &Baseline, removed: &RemovedGates) -> Vec<String> {
-        let now: BTreeSet<&MetricKey> = accepted.gates().collect();
+    pub fn differences(&self, baseline: &Baseline, removed: &RemovedGates) -> Vec<String> {
+        let now: BTreeSet<&MetricKey> = baseline.gates().collect();
         let is_explained = |gate: &MetricKey| removed.removed.iter().any(|removed| removed.names(gate));
         let name = |gate: &MetricKey| format!("{} {} [{}]", gate.case, gate.metric, gate.variant);
         let gone = self.gates.iter().filter(|gate| !now.contains(gate) && !is_explained(gate));
@@ -139,7 +139,7 @@ mod tests {
         Metric::observed(name, &variant.parse().expect("a variant"), 0.5, "-").gated(Limit::AtMost(1.0), "a reason")
     }
 
-    fn accepted(metrics: &[Metric]) -> Baseline {
+    fn baseline(metrics: &[Metric]) -> Baseline {
         Baseline::of("film", metrics)
     }
 
@@ -148,9 +148,9 @@ mod tests {
         let (one, other) =
             (metric("flux", "fluid=water,resolution=20"), metric("velocity", "fluid=water,resolution=20"));
         let mut list = GateList::default();
-        list.add(&accepted(&[one.clone(), other.clone()]));
+        list.add(&baseline(&[one.clone(), other.clone()]));
         let none = RemovedGates::default();
-        assert_eq!(list.differences(&accepted(&[one.clone(), other.clone()]), &none), [""; 0]);
+        assert_eq!(list.differences(&baseline(&[one.clone(), other.clone()]), &none), [""; 0]);
 
         // a metric that vanishes, one that keeps its value and loses its limit, and one whose reference loses its confidence
         let unverified = other.clone().against(None, "a source", crate::metric::Confidence::Unverified);
@@ -161,7 +161,7 @@ mod tests {
                 let text = format!(
                     "[[removed]]\ncase = '{case}'\nmetric = '{metric}'\nvariant = '{variant}'\nreason = 'of no use'"
                 );
-                list.differences(&accepted(&without), &toml::from_str(&text).expect("TOML"))
+                list.differences(&baseline(&without), &toml::from_str(&text).expect("TOML"))
             };
             for other in [("film", "flux", ""), ("other", "velocity", ""), ("film", "velocity", "fluid=honey")] {
                 let said = lost(other.0, other.1, other.2);
@@ -172,21 +172,21 @@ mod tests {
             assert_eq!(lost("film", "velocity", ""), [""; 0]);
         }
         let new = list.differences(
-            &accepted(&[one, metric("velocity", "fluid=water,resolution=20"), metric("drift", "")]),
+            &baseline(&[one, metric("velocity", "fluid=water,resolution=20"), metric("shift", "")]),
             &none,
         );
-        assert!(new.len() == 1 && new[0].starts_with("film drift [] is not in the list"), "{new:?}");
+        assert!(new.len() == 1 && new[0].starts_with("film shift [] is not in the list"), "{new:?}");
     }
 
     #[test]
     fn a_list_is_read_back_and_keeps_what_went() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut list = GateList::read(folder.path(), Tier::Quick).expect("nothing there");
-        list.add(&accepted(&[metric("flux", "fluid=water"), metric("drift", "")]));
+        list.add(&baseline(&[metric("flux", "fluid=water"), metric("shift", "")]));
         list.write(folder.path(), Tier::Quick).expect("written");
         let mut read = GateList::read(folder.path(), Tier::Quick).expect("readable");
         assert_eq!(read, list);
-        read.add(&accepted(&[metric("velocity", "")]));
+        read.add(&baseline(&[metric("velocity", "")]));
         assert_eq!(read.gates.len(), 3);
         std::fs::write(GateList::path(folder.path(), Tier::Quick), "film | flux\n").expect("written");
         let error = GateList::read(folder.path(), Tier::Quick).expect_err("damaged").to_string();

@@ -1,24 +1,80 @@
-//! Every metric against its gate, the baseline and the list of known failures; every run against divergence.
+//! The verdict, computed once: the severity of every gate by its limit, its controls and the list of expected failures, every value
+//! beside the baseline, every run, and the exit code that follows. Pages, JUnit and commands read it.
 
-use super::accepted::{Drift, MetricKey};
-use super::known_failures::{KnownFailure, KnownFailureStatus};
+use super::baseline::{Change, MetricKey};
+use super::expected_failures::{ExpectedFailure, ListStatus};
 use super::papers::PaperSummary;
-use super::power::GatePower;
-use super::{CaseReport, Report};
+use super::power::Doubt;
+use super::{CaseReport, Exit, Report};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
+use crate::number::with_unit;
 use crate::observation::Outcome;
 
-/// Severity of a result; the order is that of the page.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+/// Severity of a gate, the one that weighs most first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// A gate fails that is not listed, or the list of known failures contradicts the result.
-    Failure,
-    /// A listed gate fails as expected.
-    KnownFailure,
-    /// No gate fails, but the value has drifted from the baseline.
-    Drifted,
-    /// The gate holds.
+    /// Outside its limit and not listed, or at odds with the list of expected failures.
+    NewFailure,
+    /// Without a value, or of a run that cannot be judged.
+    NotJudged,
+    /// Outside its limit, as listed.
+    ExpectedFailure,
+    /// Within its limit, but no control makes its value fail, or two standard uncertainties exceed its half width.
+    Inconclusive,
+    /// Within its limit.
     Pass,
+}
+
+impl Severity {
+    /// All, the one that weighs most first.
+    pub const ALL: [Self; 5] =
+        [Self::NewFailure, Self::NotJudged, Self::ExpectedFailure, Self::Inconclusive, Self::Pass];
+
+    /// Its word on pages, in files and on the terminal.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::NewFailure => "new failure",
+            Self::NotJudged => "not judged",
+            Self::ExpectedFailure => "expected failure",
+            Self::Inconclusive => "inconclusive",
+            Self::Pass => "pass",
+        }
+    }
+
+    /// Whether it changes the exit code.
+    #[must_use]
+    pub fn is_error(self) -> bool {
+        self <= Self::NotJudged
+    }
+
+    /// Severity of the gate of a metric; none without a gate that judges, unless the list names it.
+    pub(super) fn of(metric: &Metric, listed: &ListStatus, doubt: Option<Doubt>) -> Option<Self> {
+        Some(match metric.verdict() {
+            Verdict::Observed if !listed.is_error() => return None,
+            Verdict::Fail if !metric.value.is_finite() => Self::NotJudged,
+            Verdict::Fail if matches!(listed, ListStatus::AsListed(_)) => Self::ExpectedFailure,
+            Verdict::Pass if !listed.is_error() && doubt.is_some() => Self::Inconclusive,
+            Verdict::Pass if !listed.is_error() => Self::Pass,
+            _ => Self::NewFailure,
+        })
+    }
+}
+
+/// Kinds of gate in the order of a page.
+pub(super) const KINDS: [MetricKind; 4] =
+    [MetricKind::Validation, MetricKind::Statement, MetricKind::Verification, MetricKind::Bookkeeping];
+
+/// Rank of a metric or a case on a page: the severities that fail, then values that have moved, other gates, and what is only
+/// observed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Rank {
+    /// A gate that is a new or an expected failure, or not judged.
+    Failing(Severity),
+    /// No gate fails, but a value has moved from the baseline.
+    Moved,
+    /// Gates are within their limits.
+    Within,
     /// There is no gate.
     Observed,
 }
@@ -28,27 +84,54 @@ pub enum Severity {
 pub struct JudgedMetric<'r> {
     /// The metric.
     pub metric: &'r Metric,
-    /// Against its gate.
-    pub verdict: Verdict,
-    /// Against the list of known failures.
-    pub standing: KnownFailureStatus,
+    /// Severity of its gate; none without one that judges.
+    pub severity: Option<Severity>,
+    /// Against the list of expected failures.
+    pub listed: ListStatus,
     /// Against the baseline.
-    pub drift: Drift,
-    /// Power of its gate.
-    pub power: GatePower,
+    pub change: Change,
+    /// Reason for which it is inconclusive, where it is within its limit.
+    pub doubt: Option<Doubt>,
 }
 
-impl JudgedMetric<'_> {
-    /// The worst of the three verdicts.
+impl<'r> JudgedMetric<'r> {
+    fn of(report: &Report, case: &CaseReport, metric: &'r Metric) -> Self {
+        let listed = report.expected_failures.status(&case.name, metric);
+        let (change, doubt) = (report.baseline.change(&case.name, metric), Doubt::of(case, metric));
+        Self { metric, severity: Severity::of(metric, &listed, doubt), listed, change, doubt }
+    }
+
+    /// Its rank on a page.
     #[must_use]
-    pub fn severity(&self) -> Severity {
-        match (&self.standing, self.verdict) {
-            (standing, _) if standing.is_error() => Severity::Failure,
-            (KnownFailureStatus::Known(_), _) => Severity::KnownFailure,
-            (_, Verdict::Fail) => Severity::Failure,
-            _ if self.drift.is_failure() => Severity::Drifted,
-            (_, Verdict::Pass) => Severity::Pass,
-            (_, Verdict::Observed) => Severity::Observed,
+    pub fn rank(&self) -> Rank {
+        match self.severity {
+            Some(severity) if severity <= Severity::ExpectedFailure => Rank::Failing(severity),
+            _ if self.change.has_moved() => Rank::Moved,
+            Some(_) => Rank::Within,
+            None => Rank::Observed,
+        }
+    }
+
+    /// Remark of the list of expected failures, in a sentence.
+    #[must_use]
+    pub fn note(&self) -> String {
+        let best = |value: f64| with_unit(value, &self.metric.unit);
+        match &self.listed {
+            ListStatus::Unlisted => String::new(),
+            ListStatus::AsListed(entry) => {
+                let (now, best) = (with_unit(self.metric.value, &self.metric.unit), best(entry.best_value));
+                let best = if now == best { String::new() } else { format!(" (best {best})") };
+                format!("Expected since {}{best}: {}", entry.date, entry.reason)
+            }
+            ListStatus::PassesAgain(_) => {
+                "Listed as an expected failure, but the gate passes: remove the entry.".to_owned()
+            }
+            ListStatus::Worse(entry) => {
+                format!("Expected since {}, but worse than its best value {}.", entry.date, best(entry.best_value))
+            }
+            ListStatus::WithoutGate(_) => {
+                "Listed as an expected failure, but there is no gate: remove the entry.".to_owned()
+            }
         }
     }
 }
@@ -67,49 +150,61 @@ pub struct JudgedCase<'r> {
     pub diverged: Vec<(&'r Variant, &'r str)>,
 }
 
-impl JudgedCase<'_> {
-    /// The worst of the case; an empty case is observed.
+impl<'r> JudgedCase<'r> {
+    fn of(report: &'r Report, case: &'r CaseReport) -> Self {
+        let metrics = case.metrics.iter().map(|metric| JudgedMetric::of(report, case, metric));
+        let mut metrics: Vec<JudgedMetric<'r>> = metrics.collect();
+        let first_of_name = |name: &str| case.metrics.iter().position(|metric| metric.name == name);
+        metrics.sort_by_key(|judged| {
+            let (metric, rank) = (judged.metric, judged.rank());
+            let is_behind = rank >= Rank::Moved && !metric.leads;
+            let kind = KINDS.iter().position(|kind| *kind == metric.kind);
+            (is_behind, rank, metric.gate_owner(), kind, first_of_name(&metric.name))
+        });
+        let diverged = case.runs.iter().filter_map(|run| match &run.outcome {
+            Outcome::Diverged { message, expected: false } => Some((&run.variant, message.as_str())),
+            _ => None,
+        });
+        let vanished = report.baseline.vanished(&case.name, &case.metrics);
+        Self { case, metrics, vanished, diverged: diverged.collect() }
+    }
+
+    /// Its rank on a page; an empty case is observed.
     #[must_use]
-    pub fn severity(&self) -> Severity {
-        let worst = self.metrics.iter().map(JudgedMetric::severity).min().unwrap_or(Severity::Observed);
+    pub fn rank(&self) -> Rank {
+        let worst = self.metrics.iter().map(JudgedMetric::rank).min().unwrap_or(Rank::Observed);
         if !self.diverged.is_empty() || !self.case.not_judged.is_empty() {
-            Severity::Failure
+            Rank::Failing(Severity::NewFailure)
         } else if !self.vanished.is_empty() {
-            worst.min(Severity::Drifted)
+            worst.min(Rank::Moved)
         } else {
             worst
         }
     }
 
-    /// Number of metrics with this severity.
+    /// Its gates.
     #[must_use]
-    pub fn count(&self, severity: Severity) -> usize {
-        self.metrics.iter().filter(|judged| judged.severity() == severity).count()
+    pub fn tally(&self) -> Tally {
+        Tally(self.metrics.iter().filter_map(|judged| judged.severity).collect())
     }
 }
 
-/// Gates of one kind.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct GateTally {
-    /// Gates that hold and reject a control, or that none was asked of.
-    pub hold: usize,
-    /// Gates that hold and reject no control, or whose value is less certain than they are wide.
-    pub cannot_tell: usize,
-    /// Gates that fail and are not listed.
-    pub fail: usize,
-    /// Gates that fail and are listed.
-    pub known: usize,
-}
+/// Severities of some gates.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Tally(Vec<Severity>);
 
-/// Comparisons with the baseline.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct DriftTally {
-    /// Values within their tolerance.
-    pub unchanged: usize,
-    /// Values outside, in another unit, or vanished.
-    pub drifted: usize,
-    /// Values without a baseline.
-    pub new: usize,
+impl Tally {
+    /// Number of all.
+    #[must_use]
+    pub fn all(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Number of those of a severity.
+    #[must_use]
+    pub fn of(&self, severity: Severity) -> usize {
+        self.0.iter().filter(|own| **own == severity).count()
+    }
 }
 
 /// A judged report.
@@ -117,163 +212,83 @@ pub struct DriftTally {
 pub struct Judgement<'r> {
     /// Cases, the worst first, else in the report's order.
     pub cases: Vec<JudgedCase<'r>>,
-    /// Gates of the runs' own account.
-    pub bookkeeping: GateTally,
-    /// Gates against exact solutions.
-    pub verification: GateTally,
-    /// Gates against experiments and published fits.
-    pub validation: GateTally,
-    /// Gates against what the papers say; a known failure there is a statement that is not reproduced.
-    pub statements: GateTally,
-    /// Comparisons with the baseline.
-    pub drift: DriftTally,
-    /// Entries of the list of known failures that contradict the results.
-    pub contradictions: usize,
-    /// Listed known failures whose metric this report does not have: of other tiers or other cases.
-    pub known_elsewhere: usize,
-    /// Runs that diverged without having declared it.
-    pub diverged: usize,
-    /// Gates of the baseline that are not judged.
-    pub not_judged: usize,
+    /// Expected failures whose metric this report does not have: of other tiers or other cases.
+    pub listed_elsewhere: usize,
+    /// Entries of the list of expected failures that contradict the results, each in a sentence.
+    pub contradictions: Vec<(&'r ExpectedFailure, String)>,
     /// Status of the elements of each paper.
     pub papers: Vec<PaperSummary<'r>>,
 }
 
-impl Judgement<'_> {
-    /// The tallies of all kinds.
-    #[must_use]
-    pub fn tallies(&self) -> [GateTally; 4] {
-        [self.bookkeeping, self.verification, self.validation, self.statements]
+impl<'r> Judgement<'r> {
+    /// All metrics, each with its case.
+    pub fn metrics(&self) -> impl Iterator<Item = (&JudgedCase<'r>, &JudgedMetric<'r>)> {
+        self.cases.iter().flat_map(|case| case.metrics.iter().map(move |judged| (case, judged)))
     }
 
-    /// Whether anything failed that is not a known failure: a gate, the list itself, or a run. Drift is not counted:
-    /// it is the snapshot's verdict, not the gate's.
+    /// Gates of one kind, or of all.
     #[must_use]
-    pub fn has_unexpected_failure(&self) -> bool {
-        let fails = self.tallies().iter().any(|tally| tally.fail > 0);
-        fails || self.contradictions > 0 || self.diverged > 0 || self.not_judged > 0
+    pub fn tally(&self, kind: Option<MetricKind>) -> Tally {
+        let own = self.metrics().filter(|(_, judged)| kind.is_none_or(|kind| kind == judged.metric.kind));
+        Tally(own.filter_map(|(_, judged)| judged.severity).collect())
     }
 
-    /// Whether a value has left its tolerance, its unit or its side of a gate, or is no longer measured. New values have
-    /// nothing to have drifted from.
+    /// Gates without a verdict: those of this report, and those of the baseline that it does not judge.
     #[must_use]
-    pub fn has_drift(&self) -> bool {
-        self.drift.drifted > 0
+    pub fn not_judged(&self) -> usize {
+        let gone: usize = self.cases.iter().map(|case| case.case.not_judged.len()).sum();
+        self.tally(None).of(Severity::NotJudged) + gone
     }
 
-    /// Gates of any kind that fail, listed or not.
+    /// Runs that diverged without having declared it.
     #[must_use]
-    pub fn failing_gates(&self) -> usize {
-        self.tallies().iter().map(|tally| tally.fail + tally.known).sum()
+    pub fn diverged(&self) -> usize {
+        self.cases.iter().map(|case| case.diverged.len()).sum()
     }
 
-    /// Gates of any kind that hold and cannot tell a right value from a wrong one.
+    /// Values that have left their tolerance, their unit or their side of a gate, or are no longer measured. New values have
+    /// nothing to have moved from.
     #[must_use]
-    pub fn blind_gates(&self) -> usize {
-        self.tallies().iter().map(|tally| tally.cannot_tell).sum()
+    pub fn moved(&self) -> usize {
+        let vanished: usize = self.cases.iter().map(|case| case.vanished.len()).sum();
+        vanished + self.metrics().filter(|(_, judged)| judged.change.has_moved()).count()
     }
 
-    /// Gates of any kind that hold.
+    /// The exit code. A divergence weighs more than a gate, since its metrics mean nothing. Moved values do not count: they are
+    /// the baseline's verdict, not the gate's.
     #[must_use]
-    pub fn holding_gates(&self) -> usize {
-        self.tallies().iter().map(|tally| tally.hold).sum()
-    }
-
-    /// Whether every gate holds, nothing drifted, and there was a gate at all.
-    #[must_use]
-    pub fn is_green(&self) -> bool {
-        self.holding_gates() + self.blind_gates() > 0
-            && self.failing_gates() == 0
-            && self.drift.drifted == 0
-            && !self.has_unexpected_failure()
+    pub fn exit(&self) -> Exit {
+        let is_error = |case: &JudgedCase<'_>| matches!(case.rank(), Rank::Failing(severity) if severity.is_error());
+        if self.diverged() > 0 {
+            Exit::Diverged
+        } else if self.cases.iter().any(is_error) || !self.contradictions.is_empty() {
+            Exit::GateFailed
+        } else {
+            Exit::Held
+        }
     }
 }
 
 /// Judges every case of `report`.
 #[must_use]
 pub fn judge(report: &Report) -> Judgement<'_> {
-    let mut cases: Vec<JudgedCase<'_>> = report.cases.iter().map(|case| judge_case(report, case)).collect();
+    let mut cases: Vec<JudgedCase<'_>> = report.cases.iter().map(|case| JudgedCase::of(report, case)).collect();
+    // Stable: cases of one rank keep the registry's order.
+    cases.sort_by_key(JudgedCase::rank);
     let papers = report.papers.iter().map(|paper| PaperSummary::of(paper, &report.cases)).collect();
-    let mut judgement = Judgement { papers, ..Judgement::default() };
-    let listed_here = |failure: &&KnownFailure| {
-        let is_it = |metric: &Metric| metric.name == failure.metric && metric.variant == failure.variant;
-        report.cases.iter().any(|case| case.name == failure.case && case.metrics.iter().any(is_it))
-    };
-    let known = &report.known_failures.failures;
-    judgement.known_elsewhere = known.len() - known.iter().filter(listed_here).count();
-    for case in &cases {
-        judgement.diverged += case.diverged.len();
-        judgement.drift.drifted += case.vanished.len();
-        judgement.not_judged += case.case.not_judged.len();
-        for judged in &case.metrics {
-            judgement.count(judged);
-        }
-    }
-    // Stable: cases of one severity keep the registry's order.
-    cases.sort_by_key(JudgedCase::severity);
-    judgement.cases = cases;
-    judgement
-}
-
-impl Judgement<'_> {
-    fn count(&mut self, judged: &JudgedMetric<'_>) {
-        let tally = match judged.metric.kind {
-            MetricKind::Bookkeeping => &mut self.bookkeeping,
-            MetricKind::Verification => &mut self.verification,
-            MetricKind::Validation => &mut self.validation,
-            MetricKind::Statement => &mut self.statements,
+    let mut judgement = Judgement { cases, papers, ..Judgement::default() };
+    for failure in &report.expected_failures.failures {
+        let found =
+            judgement.metrics().find(|(case, judged)| MetricKey::of(&case.case.name, judged.metric) == failure.key());
+        let contradiction = match found {
+            Some((_, judged)) => judged.listed.is_error().then(|| judged.note()),
+            None => {
+                judgement.listed_elsewhere += 1;
+                let is_unknown = report.listed_in_vain.contains(&failure.key());
+                is_unknown.then(|| "no study measures this; correct or delete the entry".to_owned())
+            }
         };
-        match (judged.verdict, &judged.standing) {
-            (Verdict::Observed, _) => {}
-            (Verdict::Pass, _) if judged.power.is_blind() => tally.cannot_tell += 1,
-            (Verdict::Pass, _) => tally.hold += 1,
-            (Verdict::Fail, KnownFailureStatus::Known(_)) => tally.known += 1,
-            (Verdict::Fail, _) => tally.fail += 1,
-        }
-        if judged.standing.is_error() {
-            self.contradictions += 1;
-        }
-        match judged.drift {
-            Drift::New => self.drift.new += 1,
-            Drift::Unchanged { .. } => self.drift.unchanged += 1,
-            Drift::Drifted { .. } | Drift::UnitChanged { .. } | Drift::VerdictChanged { .. } => self.drift.drifted += 1,
-        }
+        judgement.contradictions.extend(contradiction.map(|words| (failure, words)));
     }
-}
-
-fn judge_case<'r>(report: &'r Report, case: &'r CaseReport) -> JudgedCase<'r> {
-    let mut metrics: Vec<JudgedMetric<'r>> = case
-        .metrics
-        .iter()
-        .map(|metric| JudgedMetric {
-            metric,
-            verdict: metric.verdict(),
-            standing: report.known_failures.standing(&case.name, metric),
-            drift: report.baseline.drift(&case.name, metric),
-            power: GatePower::of(case, metric),
-        })
-        .collect();
-    let first_of_name = |name: &str| case.metrics.iter().position(|metric| metric.name == name);
-    let weight = |kind: MetricKind| match kind {
-        MetricKind::Validation => 0,
-        MetricKind::Statement => 1,
-        MetricKind::Verification => 2,
-        MetricKind::Bookkeeping => 3,
-    };
-    metrics.sort_by_key(|judged| {
-        let metric = judged.metric;
-        let severity = judged.severity();
-        let is_behind = severity > Severity::KnownFailure && !metric.leads;
-        (is_behind, severity, metric.gate_owner(), weight(metric.kind), first_of_name(&metric.name))
-    });
-    let diverged = case.runs.iter().filter_map(|run| match &run.outcome {
-        Outcome::Diverged { message, expected: false } => Some((&run.variant, message.as_str())),
-        _ => None,
-    });
-    JudgedCase {
-        case,
-        metrics,
-        vanished: report.baseline.vanished(&case.name, &case.metrics),
-        diverged: diverged.collect(),
-    }
+    judgement
 }

@@ -1,12 +1,10 @@
 //! Verdicts as JUnit's XML, which CI systems show as tests: one per gate, and one for every run that should not have diverged.
 
 use super::Report;
-use super::judgement::{JudgedCase, JudgedMetric, Judgement};
-use super::known_failures::KnownFailureStatus;
-use super::rows::{note, statement};
+use super::judgement::{JudgedCase, JudgedMetric, Judgement, Severity};
+use super::rows::statement;
 use super::view::typed;
 use crate::input::FieldError;
-use crate::metric::Verdict;
 use quick_junit::{NonSuccessKind, Property, TestCase, TestCaseStatus, TestSuite};
 use std::fs::File;
 use std::io::Read;
@@ -28,8 +26,8 @@ pub fn check_junit(path: &Path) -> Result<(), FieldError> {
     Err(FieldError::new("--junit", path.display(), "a new file, or one of JUnit's XML", remedy))
 }
 
-/// A report as text. A known failure is skipped, with the reason of its entry; a gate that disagrees with the list of
-/// known failures fails, as it fails the report.
+/// A report as text. An expected failure is skipped, with the reason of its entry; a gate that disagrees with the list of
+/// expected failures fails, as it fails the report.
 pub(super) fn text(report: &Report, judgement: &Judgement<'_>) -> String {
     let mut document = quick_junit::Report::new(report.title.as_str());
     for case in &judgement.cases {
@@ -62,36 +60,36 @@ fn cases(case: &JudgedCase<'_>) -> Vec<TestCase> {
         test.set_system_out(reason(judged));
         Some(test)
     });
-    diverged.chain(gates).collect()
+    let gone = case.case.not_judged.iter().map(|(key, reason)| {
+        let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+        status.set_type(Severity::NotJudged.word()).set_message(reason.as_str());
+        named(&key.metric, key.variant.to_string(), status)
+    });
+    diverged.chain(gates).chain(gone).collect()
 }
 
 /// Test status of a gate; none for a metric that is only observed.
 fn status(judged: &JudgedMetric<'_>) -> Option<TestCaseStatus> {
-    let failed = |kind: &str, message: String| {
-        let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-        status.set_type(kind).set_message(message).set_description(reason(judged));
-        status
+    let severity = judged.severity?;
+    let mut status = match severity {
+        Severity::Pass | Severity::Inconclusive => return Some(TestCaseStatus::success()),
+        Severity::ExpectedFailure => TestCaseStatus::skipped(),
+        Severity::NewFailure | Severity::NotJudged => TestCaseStatus::non_success(NonSuccessKind::Failure),
     };
-    match (&judged.standing, judged.verdict) {
-        (KnownFailureStatus::Known(_), _) => {
-            let mut status = TestCaseStatus::skipped();
-            status.set_type("known failure").set_message(format!("{}. {}", statement(judged), note(judged)));
-            Some(status)
-        }
-        (standing, _) if standing.is_error() => {
-            Some(failed("list of known failures", format!("{}. {}", statement(judged), note(judged))))
-        }
-        (_, Verdict::Fail) => Some(failed("gate", statement(judged))),
-        (_, Verdict::Pass) => Some(TestCaseStatus::success()),
-        (_, Verdict::Observed) => None,
+    let message = [statement(judged), judged.note()].join(". ");
+    status.set_type(severity.word()).set_message(message.trim_end_matches(". "));
+    if severity.is_error() {
+        status.set_description(reason(judged));
     }
+    Some(status)
 }
 
 /// Value and limit, why the limit stands where it does, and what the value is compared with.
 fn reason(judged: &JudgedMetric<'_>) -> String {
+    let doubt = judged.doubt.map_or_else(String::new, |doubt| format!("; inconclusive: {}", doubt.words()));
     let why = judged.metric.gate.as_ref().map(|gate| format!("; {}", gate.reason)).unwrap_or_default();
     let source = judged.metric.reference.as_ref().map(|reference| format!("; reference: {}", reference.source));
-    format!("{}{why}{}", statement(judged), source.unwrap_or_default())
+    format!("{}{why}{}{doubt}", statement(judged), source.unwrap_or_default())
 }
 
 #[cfg(test)]
@@ -113,21 +111,21 @@ mod tests {
             "{xml}"
         );
         assert!(xml.contains("name=\"wall_slip [resolution=40]\" classname=\"bagnold.film\""), "{xml}");
-        assert!(xml.contains("<failure message=\"0.9\u{202f}%, limit ≤ 0.7\u{202f}%\" type=\"gate\">"), "{xml}");
+        assert!(xml.contains("<failure message=\"0.9\u{202f}%, limit ≤ 0.7\u{202f}%\" type=\"new failure\">"), "{xml}");
         assert!(xml.contains("prototype reached 0.56 %; reference: Eq. (36)"), "{xml}");
         assert!(!xml.contains("height"));
     }
 
     #[test]
-    fn a_known_failure_is_skipped_with_its_reason_and_one_that_holds_again_fails() {
+    fn an_expected_failure_is_skipped_with_its_reason_and_one_that_passes_again_fails() {
         let mut report = report(vec![case("film", vec![gated("velocity_l2", 0.9)])]);
-        report.known_failures = known("film", "velocity_l2", 0.9);
+        report.expected_failures = known("film", "velocity_l2", 0.9);
         let listed = xml(&report);
         assert!(listed.contains("failures=\"0\"") && listed.contains("<skipped message=\"0.9\u{202f}%"), "{listed}");
         assert!(listed.contains("two attempts"), "{listed}");
-        report.cases[0].metrics = vec![gated("velocity_l2", 0.5)];
-        let holds = xml(&report);
-        assert!(holds.contains("failures=\"1\"") && holds.contains("remove the entry"), "{holds}");
+        report.cases[0].result.metrics = vec![gated("velocity_l2", 0.5)];
+        let passes = xml(&report);
+        assert!(passes.contains("failures=\"1\"") && passes.contains("remove the entry"), "{passes}");
     }
 
     #[test]

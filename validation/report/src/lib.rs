@@ -1,22 +1,24 @@
-//! Verdicts beside accepted values → one self-contained folder with pages, figures and the numbers behind them.
+//! Verdicts beside the baseline → one self-contained folder with pages, figures and the numbers behind them.
 
-pub mod accepted;
+mod baseline;
 mod case_page;
+mod committed;
 pub mod comparison;
 mod comparison_figure;
 mod comparison_page;
 pub mod coverage;
 mod coverage_page;
 mod drawing;
-pub mod drift;
 mod earlier;
 mod error;
+mod exit;
+mod expected_failures;
 mod failures;
 mod flows;
 mod gate_list;
-pub mod judgement;
+mod judgement;
 mod junit;
-pub mod known_failures;
+mod moved;
 mod origin;
 mod overview;
 mod page;
@@ -24,11 +26,15 @@ pub mod papers;
 mod papers_page;
 mod power;
 mod print;
+mod process;
 mod rows;
 pub mod scatter;
 mod shipped;
+mod single;
 mod snapshot_text;
+mod summary;
 mod template;
+mod unchanged;
 mod validated_page;
 mod view;
 mod width;
@@ -40,26 +46,36 @@ mod tests;
 
 use print::Chapter;
 
-pub use accepted::{Baseline, Drift, MetricKey};
-pub use error::{BaselineError, EarlierError, ReportError};
+pub use baseline::{Baseline, Change, MetricKey};
+pub use committed::CommittedValues;
+pub use error::{BaselineError, EarlierError, ProcessError, ReportError};
+pub use exit::Exit;
+pub use expected_failures::{ExpectedFailure, ExpectedFailures, ListStatus};
 pub use gate_list::{GateList, RemovedGates};
-pub use judgement::{Judgement, judge};
+pub use judgement::{JudgedCase, JudgedMetric, Judgement, Rank, Severity, Tally, judge};
 pub use junit::check_junit;
-pub use known_failures::{KnownFailure, KnownFailureStatus, KnownFailures};
-pub use power::GatePower;
+pub use power::Doubt;
+pub use process::{ReportOutcome, ReportProcess, ReportRequest};
+pub use single::{SingleOutcome, SingleRun};
 pub use snapshot_text::description;
+pub use summary::{of_case, of_metrics};
 
 use bagnold_figure as figure;
-use bagnold_harness::{case, control, evidence, input, metric, observation, page as pages, result, store};
+use bagnold_harness::{
+    case, control, evaluation, evidence, input, measured, metric, observation, output, page as pages, result, store,
+};
 use bagnold_inference::statistics;
 use bagnold_number as number;
-use case::{Features, Tier};
+use case::{CaseResult, Features, Registry, Tier};
 use control::ControlTrial;
 use evidence::Paper;
-use figure::{Animation, Figure, FigureError};
-use metric::{Metric, Quantity};
+use figure::{Figure, FigureError};
+use measured::Measurements;
+use metric::Quantity;
 use rayon::prelude::*;
+use result::MetricsDocument;
 use serde::Serialize;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 use store::{Drawings, provenance};
@@ -75,16 +91,37 @@ pub struct Report {
     pub generated: ReportProvenance,
     /// The cases in the order of their registry.
     pub cases: Vec<CaseReport>,
-    /// The values to compare with, accepted ones or those of an earlier report; may be empty.
+    /// The values to compare with, committed ones or those of an earlier report; may be empty.
     pub baseline: Baseline,
-    /// Folder of the earlier report that the baseline is; none where it is the accepted values.
+    /// Folder of the earlier report that the baseline is; none where it is the committed values.
     pub against: Option<String>,
-    /// The gates that are known to fail; may be empty.
-    pub known_failures: KnownFailures,
+    /// The gates that are expected to fail; may be empty.
+    pub expected_failures: ExpectedFailures,
+    /// Those of them that no study measures, at any tier.
+    pub listed_in_vain: Vec<MetricKey>,
     /// The papers whose elements are accounted for; none for no page of them.
     pub papers: &'static [Paper],
     /// The options whose coverage is shown; none for no page of them.
     pub features: Option<Features>,
+}
+
+impl Report {
+    /// A report of some cases without anything to compare with.
+    #[must_use]
+    pub fn of(title: String, tier: Tier, cases: Vec<CaseReport>) -> Self {
+        Self {
+            title,
+            tier,
+            generated: ReportProvenance::default(),
+            cases,
+            baseline: Baseline::default(),
+            against: None,
+            expected_failures: ExpectedFailures::default(),
+            listed_in_vain: Vec::new(),
+            papers: &[],
+            features: None,
+        }
+    }
 }
 
 /// Provenance of a report.
@@ -119,37 +156,36 @@ impl ReportProvenance {
     }
 }
 
-/// One case of a report.
+/// One case of a report: its result, and what the report adds to it.
 #[derive(Debug, Clone)]
 pub struct CaseReport {
-    /// Name, also of its folders.
-    pub name: String,
-    /// One line.
-    pub summary: String,
-    /// A paragraph: what is simulated and what it is judged against.
-    pub description: String,
-    /// The parameters as run; written as `case.toml`.
-    pub parameters_toml: String,
-    /// The command that reproduces the case.
-    pub command: String,
-    /// Judged and observed numbers.
-    pub metrics: Vec<Metric>,
-    /// Their descriptions, as far as the case declares them.
+    /// The finished case.
+    pub result: CaseResult,
+    /// Descriptions of its metrics, as far as the case declares them.
     pub quantities: &'static [Quantity],
-    /// Accepted gates that do not judge it, with what took each away.
+    /// Gates of the baseline that do not judge it, with what took each away.
     pub not_judged: Vec<(MetricKey, String)>,
     /// Results of its controls; empty where none was tried.
     pub controls: Vec<ControlTrial>,
-    /// Figures in reading order.
-    pub figures: Vec<Figure>,
-    /// Moving pictures, shown after the figures.
-    pub animations: Vec<Animation>,
-    /// The simulations behind the metrics.
-    pub runs: Vec<crate::case::RunSummary>,
-    /// Values that each run depends on, by field name.
-    pub run_parameters: Vec<serde_json::Value>,
-    /// The text of `metrics.json`, written as it is.
-    pub metrics_json: String,
+    /// Measurements of which its folder receives copies.
+    pub measured: Vec<Measurements>,
+}
+
+impl CaseReport {
+    /// A finished case of a registry.
+    #[must_use]
+    pub fn of(result: CaseResult, registry: Registry) -> Self {
+        let quantities = registry.find(&result.name).map_or(&[][..], |case| case.quantities());
+        Self { result, quantities, not_judged: Vec::new(), controls: Vec::new(), measured: Vec::new() }
+    }
+}
+
+impl Deref for CaseReport {
+    type Target = CaseResult;
+
+    fn deref(&self) -> &CaseResult {
+        &self.result
+    }
 }
 
 /// A figure or animation as the page refers to it.
@@ -176,6 +212,15 @@ struct DrawnFigure {
 /// # Errors
 /// If a case name is no folder name, or a file cannot be written.
 pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
+    write_judged(report, &judge(report), folder, drawings)
+}
+
+fn write_judged(
+    report: &Report,
+    judgement: &Judgement<'_>,
+    folder: &Path,
+    drawings: &Drawings,
+) -> Result<(), ReportError> {
     if let Some(case) = report.cases.iter().find(|case| !figure::is_file_name(&case.name)) {
         return Err(ReportError::Name { name: case.name.clone() });
     }
@@ -185,7 +230,6 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
         .par_iter()
         .map(|case| draw(case, &folder.join("figures").join(&case.name), drawings))
         .collect::<Result<_, _>>()?;
-    let judgement = judge(report);
     let mut chapters = Vec::new();
     for judged in &judgement.cases {
         let name = &judged.case.name;
@@ -224,19 +268,21 @@ pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), 
     put(folder.join("metrics.json"), &scatter::json(&quantities))?;
     let comparisons = scatter::rows(&quantities, &compared);
     let small = draw_small(report, &folder.join("figures").join(overview::FOLDER), drawings)?;
-    let overview = page::render(report, &judgement, (&drawn, &small), comparisons)?;
+    let overview = page::render(report, judgement, (&drawn, &small), comparisons)?;
     chapters.insert(0, Chapter::of("index", &overview));
     put(folder.join("print.html"), &print::render(&report.title, &chapters)?)?;
     put(folder.join("index.html"), &overview)
 }
 
-/// Writes the page of each case of `report`, which is one as a rule, straight into `folder`: what [`write()`] puts into
+/// Writes the page of each case, which is one as a rule, straight into `folder`: what [`write()`] puts into
 /// `cases/CASE/`, and the figures in `figures/NAME.{svg,png,pdf,csv,gif}`.
-///
-/// # Errors
-/// If a file cannot be written.
-pub fn write_alone(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
-    for judged in &judge(report).cases {
+fn write_alone(
+    report: &Report,
+    judgement: &Judgement<'_>,
+    folder: &Path,
+    drawings: &Drawings,
+) -> Result<(), ReportError> {
+    for judged in &judgement.cases {
         let drawn = draw(judged.case, &folder.join("figures"), drawings)?;
         put_case(judged.case, folder)?;
         put(folder.join("index.html"), &case_page::render(report, judged, &drawn, None)?)?;
@@ -245,27 +291,25 @@ pub fn write_alone(report: &Report, folder: &Path, drawings: &Drawings) -> Resul
 }
 
 /// Writes the verdicts as JUnit's XML, for programs that show tests: one per gate.
-///
-/// # Errors
-/// If the file cannot be written.
-pub fn write_junit(report: &Report, path: &Path) -> Result<(), ReportError> {
+fn write_junit(report: &Report, judgement: &Judgement<'_>, path: &Path) -> Result<(), ReportError> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         make(folder)?;
     }
-    put(path.to_owned(), &junit::text(report, &judge(report)))
+    put(path.to_owned(), &junit::text(report, judgement))
 }
 
-/// A case's numbers and parameters, and the tables of reference data that it has.
+/// A case's numbers, parameters and measurements, and the tables of reference data that it has.
 fn put_case(case: &CaseReport, folder: &Path) -> Result<(), ReportError> {
     make(folder)?;
-    put(folder.join("metrics.json"), &case.metrics_json)?;
+    put(folder.join("metrics.json"), &MetricsDocument::of(case, rayon::current_num_threads()).text())?;
     put(folder.join("case.toml"), &case.parameters_toml)?;
     for (name, text) in case_page::tables(&case.name) {
         let path = folder.join("reference").join(name);
         make(path.parent().unwrap_or(folder))?;
         put(path, text)?;
     }
-    Ok(())
+    let kept = case.measured.iter().try_for_each(|own| own.keep(folder));
+    kept.map_err(|source| ReportError::Write { path: folder.to_owned(), source })
 }
 
 /// The cases before and after one, in the report's order.

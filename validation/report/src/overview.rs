@@ -2,8 +2,8 @@
 
 use super::DrawnFigure;
 use super::case_page::case_statement;
-use super::judgement::{JudgedCase, JudgedMetric, Judgement, Severity};
-use super::rows::{margin_share, mark, row, whole};
+use super::judgement::{JudgedCase, JudgedMetric, Judgement, Rank};
+use super::rows::{margin_share, row, whole};
 use super::view::VerdictMark;
 use crate::metric::MetricKind;
 use serde_json::{Value, json};
@@ -21,14 +21,13 @@ pub(super) fn case_lines(judged: &[JudgedCase<'_>], small: &[DrawnFigure]) -> Ve
 /// A case's least margin, infinite without gates, and its line.
 fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> (f64, Value) {
     let case = judged.case;
-    // what is exact holds by nothing
-    let counts = |judged: &&JudgedMetric<'_>| {
-        judged.metric.kind != MetricKind::Bookkeeping || judged.severity() <= Severity::KnownFailure
-    };
+    // what is exact passes by nothing
+    let counts =
+        |judged: &&JudgedMetric<'_>| judged.metric.kind != MetricKind::Bookkeeping || judged.rank() < Rank::Moved;
     let gates = judged.metrics.iter().filter(counts);
     let least = gates.filter_map(|judged| margin_share(judged.metric)).min_by(f64::total_cmp);
     let line = json!({
-        "mark": if case.metrics.is_empty() { VerdictMark::OBSERVED } else { mark(judged.severity()) },
+        "mark": VerdictMark::of_rank(judged.rank()),
         "picture": small.iter().find(|drawn| drawn.name == case.name && drawn.failure.is_none()),
         "name": case.name,
         "summary": case.summary,
@@ -41,12 +40,8 @@ fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> (f64, Value) {
     (least.unwrap_or(f64::INFINITY), line)
 }
 
-/// Every metric that is judged or has drifted; what is only observed stands on its case's page.
+/// Every metric that is judged or has moved; what is only observed stands on its case's page.
 pub(super) fn gates(judgement: &Judgement<'_>) -> Vec<Value> {
-    let judged = metrics(judgement).filter(|(_, judged)| judged.severity() != Severity::Observed);
+    let judged = judgement.metrics().filter(|(_, judged)| judged.rank() != Rank::Observed);
     judged.map(|(case, judged)| json!({ "case": case.case.name, "row": row(&case.case.name, judged) })).collect()
-}
-
-fn metrics<'a, 'r>(judgement: &'a Judgement<'r>) -> impl Iterator<Item = (&'a JudgedCase<'r>, &'a JudgedMetric<'r>)> {
-    judgement.cases.iter().flat_map(|case| case.metrics.iter().map(move |judged| (case, judged)))
 }

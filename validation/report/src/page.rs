@@ -1,15 +1,16 @@
 //! The first page: judged report → text → template.
 
+use super::baseline::Change;
 use super::failures;
 use super::flows;
-use super::judgement::{GateTally, Judgement};
+use super::judgement::{Judgement, KINDS, Severity};
 use super::origin::provenance;
 use super::overview;
 use super::papers::{self, Status};
 use super::papers_page;
 use super::template::fill;
 use super::view::{VerdictMark, typed};
-use super::{CaseReport, DrawnFigure, Report, comparison, drift};
+use super::{CaseReport, DrawnFigure, Exit, Report, comparison, moved};
 use serde_json::{Value, json};
 
 /// Fills the template; `drawn` holds the figures of the report's cases in the report's order, `small` a picture a case.
@@ -24,10 +25,10 @@ pub(super) fn render(
         "tier": report.tier.name(),
         "banner": banner(judgement),
         "counts": counts(judgement),
-        "flows": flows::panels(report, drawn, small),
+        "flows": flows::panels(report, judgement, drawn, small),
         "cases": overview::case_lines(&judgement.cases, small),
         "gates": overview::gates(judgement),
-        "drift": drift::table(report, judgement),
+        "moved": moved::table(report, judgement),
         "scatter": scatter,
         "has_papers": !judgement.papers.is_empty(),
         "has_coverage": report.features.is_some(),
@@ -53,123 +54,113 @@ fn banner(judgement: &Judgement<'_>) -> Value {
     json!({ "mark": mark, "headline": headline, "detail": detail, "weakest": weakest, "items": items })
 }
 
+/// Headline of the report and what it is made up of.
 fn headline(judgement: &Judgement<'_>) -> (VerdictMark, String, String) {
-    let failing = judgement.failing_gates();
-    let holding = judgement.holding_gates();
-    let blind = judgement.blind_gates();
-    let all = failing + holding + blind;
-    let not_reproduced = judgement.statements.known;
-    let known = judgement.tallies().iter().map(|tally| tally.known).sum::<usize>() - not_reproduced;
-    let mut details = Vec::new();
-    if known > 0 {
-        details.push(format!("{known} are known defects"));
-    }
-    let open: usize = [Status::NotReproduced, Status::Contradicted]
-        .map(|status| papers::count(&judgement.papers, status))
-        .iter()
-        .sum();
-    if not_reproduced > 0 {
-        details.push(format!("{} of the papers not reproduced", plural(not_reproduced, "statement")));
-    }
-    if open > 0 {
-        details.push(format!("{open} of the papers' elements not reproduced or contradicted"));
-    }
-    if judgement.known_elsewhere > 0 {
-        details.push(format!("{} at other tiers or cases", plural(judgement.known_elsewhere, "known failure")));
-    }
-    if judgement.contradictions > 0 {
-        details.push(format!("{} at odds with the list of known failures", plural(judgement.contradictions, "result")));
-    }
-    if blind > 0 {
-        details.push(format!("{} would hold with wrong physics as well", plural(blind, "gate")));
-    }
-    if judgement.not_judged > 0 {
-        details.push(format!("{} no longer judged", plural(judgement.not_judged, "gate")));
-    }
-    if judgement.diverged > 0 {
-        details.push(format!("{} diverged", plural(judgement.diverged, "run")));
-    }
-    if judgement.drift.drifted > 0 {
-        details.push(format!("{} drifted from the baseline", plural(judgement.drift.drifted, "value")));
-    }
-    let detail = details.join(" · ");
-    if judgement.has_unexpected_failure() || failing > 0 {
+    let tally = judgement.tally(None);
+    let [new, expected] = [Severity::NewFailure, Severity::ExpectedFailure].map(|severity| tally.of(severity));
+    let (failing, all) = (new + expected, plural(tally.all(), "gate"));
+    let is_error = judgement.exit() != Exit::Held;
+    if failing > 0 || is_error {
         let verb = if failing == 1 { "fails" } else { "fail" };
-        let headline =
-            if failing == 0 { "Failed".to_owned() } else { format!("{failing} of {} {verb}", plural(all, "gate")) };
-        // Known failures are red as well: a gate that does not hold is not green for being expected.
-        (if judgement.has_unexpected_failure() { VerdictMark::FAIL } else { VerdictMark::KNOWN }, headline, detail)
-    } else if judgement.drift.drifted > 0 {
-        (
-            VerdictMark::DRIFT,
-            format!("{} drifted", plural(judgement.drift.drifted, "value")),
-            format!("all {} hold", plural(all, "gate")),
-        )
-    } else if judgement.is_green() {
-        let unchanged = judgement.drift.unchanged;
-        if unchanged > 0 {
-            details.insert(0, format!("{} as in the baseline", plural(unchanged, "value")));
-        }
-        let detail = details.join(" · ");
-        let headline = format!("All {} hold", plural(all, "gate"));
-        (if blind > 0 { VerdictMark::KNOWN } else { VerdictMark::PASS }, headline, detail)
-    } else {
-        (VerdictMark::OBSERVED, "Nothing was judged".to_owned(), "no metric of this report has a gate".to_owned())
+        let headline = if failing == 0 { "Failed".to_owned() } else { format!("{failing} of {all} {verb}") };
+        // Expected failures are red as well: a gate outside its limit is not green for being expected.
+        let mark = if is_error { VerdictMark::FAIL } else { VerdictMark::EXPECTED };
+        return (mark, headline, details(judgement).join(" · "));
     }
+    if judgement.moved() > 0 {
+        let headline = format!("{} moved", plural(judgement.moved(), "value"));
+        return (VerdictMark::MOVED, headline, format!("all {all} are within their limits"));
+    }
+    if tally.all() == 0 {
+        let detail = "no metric of this report has a gate".to_owned();
+        return (VerdictMark::OBSERVED, "Nothing was judged".to_owned(), detail);
+    }
+    let mut details = details(judgement);
+    let unchanged = unchanged(judgement);
+    if unchanged > 0 {
+        details.insert(0, format!("{} as in the baseline", plural(unchanged, "value")));
+    }
+    let inconclusive = tally.of(Severity::Inconclusive);
+    if inconclusive > 0 {
+        let headline = format!("{} of {all} pass", tally.of(Severity::Pass));
+        return (VerdictMark::INCONCLUSIVE, headline, details.join(" · "));
+    }
+    (VerdictMark::PASS, format!("All {all} pass"), details.join(" · "))
+}
+
+/// Values that are as in the baseline.
+fn unchanged(judgement: &Judgement<'_>) -> usize {
+    judgement.metrics().filter(|(_, judged)| matches!(judged.change, Change::Unchanged { .. })).count()
+}
+
+fn details(judgement: &Judgement<'_>) -> Vec<String> {
+    let tally = judgement.tally(None);
+    let open = [Status::NotReproduced, Status::Contradicted].map(|status| papers::count(&judgement.papers, status));
+    let parts = [
+        (tally.of(Severity::ExpectedFailure), "expected failure", ""),
+        (open.iter().sum(), "element", " of the papers not reproduced or contradicted"),
+        (judgement.listed_elsewhere, "expected failure", " at other tiers or cases"),
+        (judgement.contradictions.len(), "result", " at odds with the list of expected failures"),
+        (tally.of(Severity::Inconclusive), "inconclusive gate", ""),
+        (judgement.not_judged(), "gate", " not judged"),
+        (judgement.diverged(), "run", " diverged"),
+        (judgement.moved(), "value", " moved from the baseline"),
+    ];
+    let words = parts.iter().filter(|(number, ..)| *number > 0);
+    words.map(|(number, what, more)| format!("{}{more}", plural(*number, what))).collect()
 }
 
 fn counts(judgement: &Judgement<'_>) -> Vec<Value> {
-    let gates = |name: &str, meaning: &str, tally: GateTally, known: &str| {
-        let all = tally.hold + tally.cannot_tell + tally.fail + tally.known;
-        let mut details = Vec::new();
-        if tally.fail > 0 {
-            details.push(format!("{} {}", tally.fail, if tally.fail == 1 { "fails" } else { "fail" }));
-        }
-        if tally.known > 0 {
-            details.push(format!("{} {known}", tally.known));
-        }
-        if tally.cannot_tell > 0 {
-            details.push(format!(
-                "{} cannot tell: they reject no control, or are narrower than the uncertainty",
-                tally.cannot_tell
-            ));
-        }
-        let mark = match tally {
-            GateTally { hold: 0, cannot_tell: 0, fail: 0, known: 0 } => VerdictMark::OBSERVED,
-            GateTally { cannot_tell: 0, fail: 0, known: 0, .. } => VerdictMark::PASS,
-            GateTally { fail: 0, .. } => VerdictMark::KNOWN,
-            GateTally { .. } => VerdictMark::FAIL,
+    let meanings = [
+        "against experiments and published fits",
+        "against what the two papers say",
+        "against exact solutions",
+        "nothing lost; mass, momentum and energy add up",
+    ];
+    let names = ["Validation", "Statements", "Verification", "Bookkeeping"];
+    let gates = |place: usize| {
+        let tally = judgement.tally(Some(KINDS[place]));
+        // the worst of them, in the order of severities
+        let found = Severity::ALL.into_iter().filter(|severity| tally.of(*severity) > 0);
+        let details = found.clone().filter(|severity| *severity != Severity::Pass);
+        let details: Vec<String> = details.map(|own| format!("{} {}", tally.of(own), own.word())).collect();
+        let statement = match tally.all() {
+            0 => "no gates".to_owned(),
+            all => format!("{} of {all} gates pass", tally.of(Severity::Pass)),
         };
-        let statement = if all == 0 { "no gates".to_owned() } else { format!("{} of {all} gates hold", tally.hold) };
-        let detail = details.join(" · ");
-        json!({ "mark": mark, "name": name, "meaning": meaning, "statement": statement, "detail": detail })
+        json!({
+            "mark": VerdictMark::of(found.min()),
+            "name": names[place],
+            "meaning": meanings[place],
+            "statement": statement,
+            "detail": details.join(" · "),
+        })
     };
-    let Judgement { bookkeeping, verification, validation, statements, drift, .. } = judgement;
-    let compared = drift.unchanged + drift.drifted;
-    let changes = [(drift.drifted, "drifted"), (drift.new, "new")].into_iter().filter(|(count, _)| *count > 0);
-    let regression = json!({
-        "mark": match (drift.drifted, compared) {
+    let mut counts: Vec<Value> = (0..KINDS.len()).map(gates).collect();
+    counts.push(regression(judgement));
+    counts.extend(papers_page::count(&judgement.papers));
+    counts
+}
+
+/// The card of the changes from the baseline.
+fn regression(judgement: &Judgement<'_>) -> Value {
+    let (moved, unchanged) = (judgement.moved(), unchanged(judgement));
+    let new = judgement.metrics().filter(|(_, judged)| judged.change == Change::New).count();
+    let changes = [(moved, "moved"), (new, "new")].into_iter().filter(|(count, _)| *count > 0);
+    json!({
+        "mark": match (moved, unchanged) {
             (0, 0) => VerdictMark::OBSERVED,
             (0, _) => VerdictMark::PASS,
-            _ => VerdictMark::DRIFT,
+            _ => VerdictMark::MOVED,
         },
         "name": "Regression",
         "meaning": "against the committed baseline",
-        "statement": match compared {
+        "statement": match moved + unchanged {
             0 => "no baseline".to_owned(),
-            _ => format!("{} of {compared} values unchanged", drift.unchanged),
+            compared => format!("{unchanged} of {compared} values unchanged"),
         },
         "detail": changes.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(" · "),
-    });
-    let mut counts = vec![
-        gates("Validation", "against experiments and published fits", *validation, "known to fail"),
-        gates("Statements", "against what the two papers say", *statements, "not reproduced"),
-        gates("Verification", "against exact solutions", *verification, "known to fail"),
-        gates("Bookkeeping", "nothing lost; mass, momentum and energy add up", *bookkeeping, "known to fail"),
-        regression,
-    ];
-    counts.extend(papers_page::count(&judgement.papers));
-    counts
+    })
 }
 
 fn plural(number: usize, word: &str) -> String {

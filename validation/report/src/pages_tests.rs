@@ -37,9 +37,10 @@ pub(super) fn links(folder: &Path) -> usize {
 fn a_case_alone_has_the_same_page_beside_its_figures() {
     let folder = tempfile::tempdir().expect("folder");
     let mut film = case("film", vec![gated("velocity_l2", 0.5), gated("wall_slip", 0.3)]);
-    film.figures = vec![drawing("wall-slip"), drawing("velocity-profile")];
-    film.command = "bagnold run bagnold --tier paper".to_owned();
-    write_alone(&report(vec![film]), folder.path(), &Drawings::default()).expect("written");
+    film.result.figures = vec![drawing("wall-slip"), drawing("velocity-profile")];
+    film.result.command = "bagnold run bagnold --tier paper".to_owned();
+    let report = report(vec![film]);
+    write_alone(&report, &judge(&report), folder.path(), &Drawings::default()).expect("written");
     let page = std::fs::read_to_string(folder.path().join("index.html")).expect("a page");
     assert!(page.contains("src=\"figures/velocity-profile.png\"") && !page.contains("../"));
     assert!(page.contains("cargo run -- run bagnold --tier paper"), "as it is typed in a checkout");
@@ -73,7 +74,7 @@ fn the_first_page_leads_with_what_is_furthest_off_and_the_farthest_moves() {
 fn a_failure_is_named_in_words_before_its_name() {
     const FRONT: Quantity = Quantity::validated("front", "m", "how far the front has come");
     let mut grains = case("grains", vec![gated("front", 0.9), gated("run_out", 0.8)]);
-    grains.summary = "grains on a slope: front against experiments".to_owned();
+    grains.result.summary = "grains on a slope: front against experiments".to_owned();
     grains.quantities = &[FRONT];
     let page = html(&report(vec![grains]));
     for (words, name) in [("how far the front has come", "front"), ("run out", "run_out")] {
@@ -86,12 +87,14 @@ fn a_failure_is_named_in_words_before_its_name() {
 fn a_reason_stands_on_the_page_of_its_case_only() {
     let folder = tempfile::tempdir().expect("folder");
     let mut report = report(vec![case("film", vec![gated("front", 0.9)])]);
-    report.known_failures = known("film", "front", 0.9);
+    report.expected_failures = known("film", "front", 0.9);
     write(&report, folder.path(), &Drawings::default()).expect("written");
     let read = |path: &str| std::fs::read_to_string(folder.path().join(path)).expect(path);
     let (overview, page) = (read("index.html"), read("cases/film/index.html"));
     for text in [&overview, &page] {
-        assert!(text.contains("0.9\u{202f}%, limit ≤ 0.7\u{202f}%</span> <span class=\"note\">Known since 2025-01-31"));
+        assert!(
+            text.contains("0.9\u{202f}%, limit ≤ 0.7\u{202f}%</span> <span class=\"note\">Expected since 2025-01-31")
+        );
     }
     assert!(!overview.contains("two attempts"));
     assert!(page.find("What fails") < page.find("two attempts"), "in short first");
@@ -104,7 +107,7 @@ fn figures_stand_above_tables_and_bookkeeping_is_folded() {
     let mut metrics = vec![gated("mass", 0.1).of_kind(MetricKind::Bookkeeping), gated("velocity_l2", 0.9)];
     metrics.extend((0..20).map(|n| Metric::observed(&format!("height_{n}"), &Variant::default(), 1.0, "m")));
     let mut film = case("film", metrics);
-    film.figures = vec![drawing("velocity-profile")];
+    film.result.figures = vec![drawing("velocity-profile")];
     let report = report(vec![film]);
     write(&report, folder.path(), &Drawings::default()).expect("written");
     let page = std::fs::read_to_string(folder.path().join("cases/film/index.html")).expect("a page");
@@ -130,7 +133,7 @@ fn overview_of(names: &[&str]) -> String {
         let measured = run_out.against(Some(2.0), "an experiment", Confidence::Medium);
         let known = measured.known_to(Origin::Repeat, Some(0.5), "seeds");
         let mut own = case(name, vec![gated("velocity_l2", 0.25), known]);
-        own.figures = vec![drawing("first"), drawing("scaling")];
+        own.result.figures = vec![drawing("first"), drawing("scaling")];
         own
     };
     write(&report(names.iter().map(of).collect()), folder.path(), &Drawings::default()).expect("written");
@@ -178,8 +181,8 @@ fn labels_captions_and_messages_of_runs_are_text_and_not_markup() {
         panel.x.label = evil.to_owned();
         panel.line(evil, 0, [(0.0, 0.0), (1.0, 1.0)]);
     }
-    film.figures = vec![figure];
-    film.runs = vec![crate::case::RunSummary {
+    film.result.figures = vec![figure];
+    film.result.runs = vec![crate::case::RunSummary {
         variant: Variant::of("law", evil),
         outcome: crate::observation::Outcome::Diverged { message: evil.to_owned(), expected: false },
         particles: 1,
@@ -192,8 +195,8 @@ fn labels_captions_and_messages_of_runs_are_text_and_not_markup() {
         from_store: false,
     }];
     let mut report = report(vec![film]);
-    report.known_failures = known("film", "velocity_l2", 0.9);
-    report.known_failures.failures[0].reason = evil.to_owned();
+    report.expected_failures = known("film", "velocity_l2", 0.9);
+    report.expected_failures.failures[0].reason = evil.to_owned();
     write(&report, folder.path(), &Drawings::default()).expect("written");
     let mut folders = vec![folder.path().to_owned()];
     let mut read = 0;

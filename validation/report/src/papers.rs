@@ -3,7 +3,7 @@
 use super::CaseReport;
 use super::width::share_of_gate;
 use crate::case::RunSummary;
-use crate::evidence::{Element, ElementStatus, MetricName, PAPERS, Paper, RunName};
+use crate::evidence::{Element, MetricName, PAPERS, Paper, RunName};
 use crate::metric::{Metric, Verdict};
 use crate::observation::Outcome;
 
@@ -14,33 +14,19 @@ pub enum Status {
     Contradicted,
     /// A gate on it fails, or our number falls short of what the paper shows.
     NotReproduced,
-    /// It would count as reproduced with wrong physics or a wrong input as well, by a control that it is meant to feel, or its value is
-    /// less certain than the gate is wide.
+    /// It would count as reproduced with wrong physics or a wrong input as well, by a control that it is meant to feel, or two standard
+    /// uncertainties of its value exceed the gate's half width.
     NotShown,
-    /// Gates hold, numbers agree, or tests hold it, and every control that it is meant to feel makes it fall.
+    /// Gates pass, numbers agree, or tests hold it, and every control that it is meant to feel makes it fall.
     Reproduced,
-    /// Something else stands in its place.
-    Replaced,
-    /// The paper, or what is left of it, can be read in more than one way.
-    NotStatedClearly,
-    /// Nothing here speaks of it.
+    /// Nothing here speaks of it, for a stated reason or because its metrics or runs are not part of the tier.
     NotCovered,
-    /// Metrics or runs that show it are not run, or not judged, at this tier.
-    NotInThisTier,
 }
 
 impl Status {
     /// All, in the order of the page.
-    pub const ALL: [Self; 8] = [
-        Self::Reproduced,
-        Self::NotShown,
-        Self::NotReproduced,
-        Self::Contradicted,
-        Self::Replaced,
-        Self::NotStatedClearly,
-        Self::NotCovered,
-        Self::NotInThisTier,
-    ];
+    pub const ALL: [Self; 5] =
+        [Self::Reproduced, Self::NotShown, Self::NotReproduced, Self::Contradicted, Self::NotCovered];
 
     /// Its name.
     #[must_use]
@@ -50,10 +36,7 @@ impl Status {
             Self::NotReproduced => "not reproduced",
             Self::NotShown => "not shown",
             Self::Reproduced => "reproduced",
-            Self::Replaced => "replaced",
-            Self::NotStatedClearly => "not stated clearly",
             Self::NotCovered => "not covered",
-            Self::NotInThisTier => "not in this tier",
         }
     }
 
@@ -138,9 +121,7 @@ impl<'r> ElementOutcome<'r> {
         };
         let ended: Vec<Ended<'r>> = element.runs.iter().flat_map(of_run).collect();
         let status = match &element.settled {
-            Some((ElementStatus::Replaced, _)) => Status::Replaced,
-            Some((ElementStatus::NotStatedClearly, _)) => Status::NotStatedClearly,
-            Some((ElementStatus::NotCovered, _)) => Status::NotCovered,
+            Some(_) => Status::NotCovered,
             None if element.metrics.is_empty() && element.runs.is_empty() => Status::Reproduced,
             None => Self::computed(element, &shown, &ended),
         };
@@ -182,9 +163,9 @@ impl<'r> ElementOutcome<'r> {
         let has_run = |name: &RunName| ended.iter().any(|ended| ended.name == name);
         let is_whole = element.metrics.iter().all(is_judged) && element.runs.iter().all(has_run);
         match judged.min() {
-            Some(Status::Reproduced) | None if !is_whole => Status::NotInThisTier,
+            Some(Status::Reproduced) | None if !is_whole => Status::NotCovered,
             Some(worst) => worst,
-            None => Status::NotInThisTier,
+            None => Status::NotCovered,
         }
     }
 

@@ -15,13 +15,10 @@ fn mark(status: Status) -> VerdictMark {
     let of = |look: VerdictMark, symbol| VerdictMark { symbol, word: status.word(), ..look };
     match status {
         Status::Reproduced => of(VerdictMark::PASS, "✓"),
-        Status::NotShown => of(VerdictMark::KNOWN, "○"),
-        Status::NotReproduced => of(VerdictMark::KNOWN, "✗"),
+        Status::NotShown => of(VerdictMark::EXPECTED, "○"),
+        Status::NotReproduced => of(VerdictMark::EXPECTED, "✗"),
         Status::Contradicted => of(VerdictMark::FAIL, "✗"),
-        Status::Replaced => of(VerdictMark::DRIFT, "⇄"),
-        Status::NotStatedClearly => of(VerdictMark::OBSERVED, "?"),
         Status::NotCovered => of(VerdictMark::OBSERVED, "–"),
-        Status::NotInThisTier => of(VerdictMark::OBSERVED, "○"),
     }
 }
 
@@ -34,7 +31,7 @@ pub(super) fn count(accounts: &[PaperSummary<'_>]) -> Option<Value> {
     let details: Vec<String> = rest.map(|status| format!("{} {}", of(status), status.word())).collect();
     (all > 0).then(|| {
         json!({
-            "mark": if open > 0 { VerdictMark::KNOWN } else { VerdictMark::PASS },
+            "mark": if open > 0 { VerdictMark::EXPECTED } else { VerdictMark::PASS },
             "name": "Papers",
             "meaning": "both papers, element by element",
             "statement": format!("{} of {all} elements reproduced", of(Status::Reproduced)),
@@ -81,7 +78,7 @@ fn element(paper: &str, fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Valu
         "statement": element.statement,
         "implemented": element.implemented,
         "mark": mark(fate.status),
-        "reason": element.settled.as_ref().map(|(_, reason)| reason.clone()).unwrap_or_else(|| stands_under(fate)),
+        "reason": reason(fate),
         "note": element.note,
         "values": fate.shown.iter().map(value).chain(fate.ended.iter().map(run)).collect::<Vec<_>>(),
         // names of metrics and runs that are not in this report
@@ -93,10 +90,17 @@ fn element(paper: &str, fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Valu
     })
 }
 
-/// The controls under which it would count as reproduced too.
-fn stands_under(fate: &ElementOutcome<'_>) -> String {
+/// Reason of a status: what is written where it is settled, or the controls under which it would count as reproduced too.
+fn reason(fate: &ElementOutcome<'_>) -> String {
     let names: Vec<String> = fate.accepts.iter().map(|(case, control)| format!("{control} of {case}")).collect();
-    if names.is_empty() { String::new() } else { format!("it stands with wrong physics as well: {}", names.join(", ")) }
+    match (&fate.element.settled, fate.status) {
+        (Some(reason), _) => reason.clone(),
+        (None, Status::NotCovered) => {
+            "a metric or run that shows it is not part of this tier, or not judged".to_owned()
+        }
+        _ if names.is_empty() => String::new(),
+        _ => format!("it stands with wrong physics as well: {}", names.join(", ")),
+    }
 }
 
 /// A link to a place on a case's page.
@@ -169,7 +173,7 @@ pub(super) fn json(tier: Tier, accounts: &[PaperSummary<'_>]) -> String {
             let elements: Vec<Value> = account
                 .elements
                 .iter()
-                .map(|fate| json!({ "id": fate.element.id, "status": fate.status.word() }))
+                .map(|fate| json!({ "id": fate.element.id, "status": fate.status.word(), "reason": reason(fate) }))
                 .collect();
             json!({ "paper": account.paper.name, "counts": counts, "elements": elements })
         })

@@ -1,10 +1,10 @@
 //! Statuses follow from the numbers; every row is on the page, and its links land.
 
-use super::super::{Report, judge, papers_page, tests, write};
+use super::super::{Report, Severity, judge, papers_page, tests, write};
 use super::*;
 use crate::control::{Control, ControlKind, ControlTrial, Found};
 use crate::figure::Figure;
-use crate::metric::{Limit, Variant};
+use crate::metric::{Limit, MetricKind, Variant};
 use crate::store::Drawings;
 
 const ROWS: &str = r#"
@@ -70,7 +70,8 @@ fn thickness(value: f64) -> Metric {
 fn report(metrics: Vec<Metric>) -> Report {
     let paper = Paper::parse("made-up", ROWS).expect("readable");
     let figure = Figure { name: "operators".to_owned(), caption: String::new(), panels: Vec::new(), columns: 1 };
-    let film = CaseReport { figures: vec![figure], ..tests::case("film", metrics) };
+    let mut film = tests::case("film", metrics);
+    film.result.figures = vec![figure];
     Report { papers: vec![paper].leak(), ..tests::report(vec![film]) }
 }
 
@@ -81,26 +82,21 @@ fn statuses(metrics: Vec<Metric>) -> Vec<&'static str> {
 
 #[test]
 fn statuses_are_computed_from_gates_and_printed_numbers() {
-    let good = ["reproduced", "reproduced", "reproduced", "reproduced", "reproduced", "replaced"];
+    let good = ["reproduced", "reproduced", "reproduced", "reproduced", "reproduced", "not covered"];
     assert_eq!(statuses(vec![gated(0.5), thickness(5.2)]), good);
-    let off = ["not reproduced", "contradicted", "reproduced", "contradicted", "reproduced", "replaced"];
+    let off = ["not reproduced", "contradicted", "reproduced", "contradicted", "reproduced", "not covered"];
     assert_eq!(statuses(vec![gated(2.0), thickness(6.1)]), off, "the worst of several counts");
-    let short = ["reproduced", "contradicted", "not reproduced", "reproduced", "reproduced", "replaced"];
+    let short = ["reproduced", "contradicted", "not reproduced", "reproduced", "reproduced", "not covered"];
     assert_eq!(statuses(vec![gated(0.5), thickness(4.0)]), short);
-    let lost = ["reproduced", "not reproduced", "not reproduced", "not reproduced", "reproduced", "replaced"];
+    let lost = ["reproduced", "not reproduced", "not reproduced", "not reproduced", "reproduced", "not covered"];
     assert_eq!(statuses(vec![gated(0.5), thickness(f64::NAN)]), lost, "no number contradicts nothing");
-    let absent =
-        ["not in this tier", "not in this tier", "not in this tier", "not in this tier", "reproduced", "replaced"];
+    let absent = ["not covered", "not covered", "not covered", "not covered", "reproduced", "not covered"];
     assert_eq!(statuses(Vec::new()), absent);
     let half = statuses(vec![gated(0.5)]);
-    assert_eq!(
-        (half[0], half[3]),
-        ("reproduced", "not in this tier"),
-        "half of what a row names does not reproduce it"
-    );
+    assert_eq!((half[0], half[3]), ("reproduced", "not covered"), "half of what a row names does not reproduce it");
     assert_eq!(statuses(vec![gated(2.0)])[3], "not reproduced", "but half of it can fail it");
     let observed = Metric { gate: None, ..gated(0.5) };
-    assert_eq!(statuses(vec![observed])[0], "not in this tier", "what is only observed judges nothing");
+    assert_eq!(statuses(vec![observed])[0], "not covered", "what is only observed judges nothing");
 }
 
 #[test]
@@ -131,13 +127,13 @@ runs = [{ case = "film", variant = "numerics=paper" }]
     let diverged = |expected| Outcome::Diverged { message: "diverged at t = 0.2 s".to_owned(), expected };
     let papers: &[Paper] = vec![Paper::parse("made-up", rows).expect("readable")].leak();
     for (runs, expected) in [
-        (Vec::new(), Status::NotInThisTier),
+        (Vec::new(), Status::NotCovered),
         (vec![run(Outcome::Finished)], Status::Reproduced),
         (vec![run(diverged(true))], Status::NotReproduced),
         (vec![run(Outcome::Finished), run(diverged(false))], Status::NotReproduced),
     ] {
         let mut report = Report { papers, ..report(Vec::new()) };
-        report.cases[0].runs = runs;
+        report.cases[0].result.runs = runs;
         let judgement = judge(&report);
         assert_eq!(judgement.papers[0].elements[0].status, expected);
         let page = papers_page::render(&report, &judgement.papers).expect("a page");
@@ -165,8 +161,8 @@ fn the_page_has_every_row_and_its_links_land() {
     }
     assert!(overview.contains("href=\"papers.html\"") && overview.contains("2 of 6 elements reproduced"));
     assert!(
-        overview.contains("3 of the papers&#x27; elements not reproduced or contradicted"),
-        "beside the known failures"
+        overview.contains("3 elements of the papers not reproduced or contradicted"),
+        "beside the expected failures"
     );
     assert!(!page.contains("http"), "nothing is loaded from elsewhere");
     let json: serde_json::Value = serde_json::from_str(&read("papers.json")).expect("json");
@@ -187,7 +183,7 @@ fn a_report_without_papers_has_no_page_of_them() {
 fn the_papers_are_accounted_for_where_their_cases_run() {
     let film = report(Vec::new()).cases;
     assert_eq!(accounted(&film).len(), 2);
-    let own = CaseReport { name: "own".to_owned(), ..film[0].clone() };
+    let own = tests::case("own", Vec::new());
     assert!(accounted(&[own]).is_empty());
     for paper in PAPERS.iter() {
         let account = PaperSummary::of(paper, &film);
@@ -219,16 +215,16 @@ fn an_element_that_stands_under_a_control_of_its_metric_is_not_shown() {
 }
 
 #[test]
-fn a_gate_that_rejects_no_control_does_not_count_as_holding() {
+fn a_gate_that_rejects_no_control_is_inconclusive() {
     let tally = |controls: Vec<ControlTrial>| {
         let mut report = report(vec![gated(0.5)]);
         report.cases[0].controls = controls;
-        let tally = judge(&report).verification;
-        (tally.hold, tally.cannot_tell)
+        let tally = judge(&report).tally(Some(MetricKind::Verification));
+        [Severity::Pass, Severity::Inconclusive].map(|severity| tally.of(severity))
     };
-    assert_eq!(tally(Vec::new()), (1, 0), "not asked");
-    assert_eq!(tally(vec![trial("velocity_l2", &gated(2.0))]), (1, 0));
-    assert_eq!(tally(vec![trial("velocity_l2", &gated(0.6))]), (0, 1));
+    assert_eq!(tally(Vec::new()), [1, 0], "not asked");
+    assert_eq!(tally(vec![trial("velocity_l2", &gated(2.0))]), [1, 0]);
+    assert_eq!(tally(vec![trial("velocity_l2", &gated(0.6))]), [0, 1]);
 }
 
 #[test]

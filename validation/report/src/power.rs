@@ -1,68 +1,51 @@
-//! Power of a gate: the controls that it rejects, and the table of gates and controls of a case.
+//! Doubt about a gate: whether any control makes it fail, and the table of gates and controls of a case.
 
 use super::CaseReport;
 use super::width::share_of_gate;
 use crate::control::{Answer, ControlKind, ControlTrial, ErrorSeries};
-use crate::metric::{Metric, MetricKind, Variant, Verdict};
+use crate::metric::{Metric, MetricKind, Verdict};
 use serde_json::{Value, json};
 
-/// Power of a gate that holds.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum GatePower {
-    /// It needs no control: it is the run's own account or no gate, or the report has no controls of its case.
-    NotAsked,
-    /// It rejects so many controls.
-    Rejects(usize),
-    /// It is no part of a control's runs; the same gate of this variant rejects some.
-    By(Variant),
-    /// It rejects none.
-    CannotTell,
-    /// The stated uncertainty of its value is larger than the gate's half width.
+/// Reason for which a gate within its limit is inconclusive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Doubt {
+    /// No control of its case makes the quantity fail.
+    NoControl,
+    /// Two standard uncertainties of its value exceed the gate's half width.
     Uncertain,
 }
 
-impl GatePower {
-    /// Power of the gate of a metric, by the controls of its case.
-    pub(super) fn of(case: &CaseReport, metric: &Metric) -> Self {
-        if metric.verdict() == Verdict::Pass && share_of_gate(metric).is_some_and(|share| share > 1.0) {
-            return Self::Uncertain;
+impl Doubt {
+    /// Doubt about the gate of a metric, by the controls of its case. The run's own account needs no control, and a variant that no
+    /// control rejects is shown by another of the same quantity.
+    pub(super) fn of(case: &CaseReport, metric: &Metric) -> Option<Self> {
+        if metric.verdict() != Verdict::Pass {
+            return None;
         }
-        if case.controls.is_empty() || metric.kind == MetricKind::Bookkeeping || metric.verdict() != Verdict::Pass {
-            return Self::NotAsked;
+        if share_of_gate(metric).is_some_and(|share| share > 1.0) {
+            return Some(Self::Uncertain);
         }
-        match rejecting(&case.controls, metric) {
-            0 => {
-                let of_name = case.metrics.iter().filter(|other| other.name == metric.name);
-                let by = of_name.filter(|other| other.verdict() == Verdict::Pass);
-                let mut by = by.filter(|other| rejecting(&case.controls, other) > 0);
-                by.next().map_or(Self::CannotTell, |other| Self::By(other.variant.clone()))
-            }
-            number => Self::Rejects(number),
+        if case.controls.is_empty() || metric.kind == MetricKind::Bookkeeping {
+            return None;
         }
+        let mut of_name = case.metrics.iter().filter(|other| other.name == metric.name);
+        let is_shown = of_name.any(|other| other.verdict() == Verdict::Pass && is_rejected(&case.controls, other));
+        (!is_shown).then_some(Self::NoControl)
     }
 
-    /// Whether the gate holds and shows nothing.
-    pub(super) fn is_blind(&self) -> bool {
-        matches!(self, Self::CannotTell | Self::Uncertain)
-    }
-
-    /// In a few words; nothing where it was not asked.
-    pub(super) fn words(&self) -> String {
+    /// In a few words.
+    pub(super) fn words(self) -> &'static str {
         match self {
-            Self::NotAsked => String::new(),
-            Self::Rejects(1) => "rejects 1 control".to_owned(),
-            Self::Rejects(number) => format!("rejects {number} controls"),
-            Self::By(variant) => format!("controls by {variant}"),
-            Self::CannotTell => "cannot tell: it rejects no control".to_owned(),
-            Self::Uncertain => "cannot tell: the stated uncertainty is larger than the gate's half width".to_owned(),
+            Self::NoControl => "no control makes it fail",
+            Self::Uncertain => "two standard uncertainties exceed the gate's half width",
         }
     }
 }
 
-/// Number of controls that a gate rejects.
-fn rejecting(controls: &[ControlTrial], metric: &Metric) -> usize {
-    let answers = controls.iter().filter_map(|trial| trial.answer(metric));
-    answers.filter(|answer| matches!(answer, Answer::Rejects | Answer::NotJudged)).count()
+/// Whether a gate rejects any of these controls.
+fn is_rejected(controls: &[ControlTrial], metric: &Metric) -> bool {
+    let mut answers = controls.iter().filter_map(|trial| trial.answer(metric));
+    answers.any(|answer| matches!(answer, Answer::Rejects | Answer::NotJudged))
 }
 
 /// The controls of a case and what its gates say of them; none where there are none.
@@ -88,7 +71,7 @@ pub(super) fn table(case: &CaseReport) -> Option<Value> {
                 _ => String::new(),
             },
             // metrics that are meant to feel it and accept it, and why
-            "cannot_tell": control.accepted_by.iter().map(|entry| (&entry.metric, &entry.because)).collect::<Vec<_>>(),
+            "accepted_by": control.accepted_by.iter().map(|entry| (&entry.metric, &entry.because)).collect::<Vec<_>>(),
         })
     };
     let of_series = |series: &&ErrorSeries| {
@@ -122,7 +105,7 @@ fn sizes(case: &CaseReport, series: &[&ErrorSeries], sized: &[&ControlTrial]) ->
             match answers.iter().find(|(_, answer)| rejects(answer)) {
                 Some((factor, _)) => ("pass", format!("× {factor}")),
                 None if answers.iter().any(|(_, answer)| *answer == Answer::Accepts) => {
-                    ("known", "none of them".to_owned())
+                    ("expected", "none of them".to_owned())
                 }
                 None => ("", String::new()),
             }
@@ -140,10 +123,8 @@ const MOST_NAMED: usize = 3;
 /// Number of wrong inputs that the gates of a case reject, and the names of a few that they do not, for its panel on the first page; none
 /// where no control was tried.
 pub(super) fn rejected_inputs(case: &CaseReport) -> Option<String> {
-    let is_rejected = |trial: &&ControlTrial| {
-        let answers = case.metrics.iter().filter_map(|metric| trial.answer(metric));
-        answers.into_iter().any(|answer| matches!(answer, Answer::Rejects | Answer::NotJudged))
-    };
+    let is_rejected =
+        |trial: &&ControlTrial| case.metrics.iter().any(|metric| is_rejected(std::slice::from_ref(*trial), metric));
     let named: Vec<&ControlTrial> = case.controls.iter().filter(|trial| trial.control.size().is_none()).collect();
     let escaped = named.iter().filter(|trial| !is_rejected(trial)).map(|trial| trial.control.name.as_str());
     let escaped: Vec<&str> = escaped.collect();
@@ -158,7 +139,7 @@ fn cell(trial: &ControlTrial, metric: &Metric) -> Value {
     let (class, symbol, word) = match trial.answer(metric) {
         Some(Answer::Rejects) => ("pass", "✓", "rejects"),
         Some(Answer::NotJudged) => ("pass", "✓", "not judged"),
-        Some(Answer::Accepts) if is_named => ("known", "○", "cannot tell"),
+        Some(Answer::Accepts) if is_named => ("expected", "○", "accepts"),
         Some(Answer::Accepts) => ("observed", "○", "accepts"),
         Some(Answer::Nothing) => ("observed", "–", "shows nothing"),
         None => ("observed", "", ""),

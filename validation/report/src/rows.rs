@@ -1,24 +1,13 @@
 //! One judged metric in words: the cells of its row and its line in the banner.
 
-use super::accepted::{Drift, MetricKey};
-use super::judgement::{JudgedMetric, Severity};
-use super::known_failures::KnownFailureStatus;
+use super::baseline::{Change, MetricKey};
+use super::judgement::{JudgedMetric, Rank, Severity};
+use super::power::Doubt;
 use super::view::{VerdictMark, anchor};
 use super::width::width;
 use crate::metric::{Confidence, Gate, Limit, Metric, MetricKind, PredictionInterval, Verdict};
 use crate::number::{distinct_digits, four_digits, in_unit, two_digits, with_unit};
 use serde_json::{Value, json};
-
-/// The mark of a severity.
-pub(super) fn mark(severity: Severity) -> VerdictMark {
-    match severity {
-        Severity::Failure => VerdictMark::FAIL,
-        Severity::KnownFailure => VerdictMark::KNOWN,
-        Severity::Drifted => VerdictMark::DRIFT,
-        Severity::Pass => VerdictMark::PASS,
-        Severity::Observed => VerdictMark::OBSERVED,
-    }
-}
 
 /// The rows of a case; reasons and sources that stand in the row above are marked as repeated.
 pub(super) fn rows(case: &str, metrics: &[JudgedMetric<'_>]) -> Vec<Value> {
@@ -41,11 +30,11 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> Value {
     let metric = judged.metric;
     let reference = metric.reference.as_ref();
     let gate = metric.gate.as_ref();
-    let (drift, change, relative_change) = drift(judged);
+    let (moved, change, relative_change) = change(judged);
     let expected = reference.and_then(|reference| reference.value);
     json!({
         "anchor": anchor(case, &metric.name, &metric.variant),
-        "mark": gate_mark(judged),
+        "mark": VerdictMark::of(judged.severity),
         // what is known of the uncertainty, over the width of the gate
         "width": width(metric),
         "metric": metric.name,
@@ -63,12 +52,12 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> Value {
         "relative_margin": relative_margin(metric),
         // numbers to sort by: the margin's share of the limit, and the change in tolerances
         "margin_key": margin_share(metric).map(sort_key).unwrap_or_default(),
-        "change_key": judged.drift.in_tolerances().map(sort_key).unwrap_or_default(),
-        "drift": drift,
+        "change_key": judged.change.in_tolerances().map(sort_key).unwrap_or_default(),
+        "moved": moved,
         "change": change,
         "relative_change": relative_change,
-        "note": note(judged),
-        "power": judged.power.words(),
+        "note": judged.note(),
+        "doubt": judged.severity.filter(|own| *own == Severity::Inconclusive).and(judged.doubt).map(Doubt::words),
     })
 }
 
@@ -87,61 +76,17 @@ fn reason(metric: &Metric, gate: &Gate) -> String {
     gate.reason.clone()
 }
 
-/// The mark of the worst verdict; a statement of a paper that is known not to hold is not reproduced.
-pub(super) fn worst_mark(judged: &JudgedMetric<'_>) -> VerdictMark {
-    match judged.severity() {
-        Severity::KnownFailure if judged.metric.kind == MetricKind::Statement => {
-            VerdictMark { word: "not reproduced", ..VerdictMark::KNOWN }
-        }
-        severity => mark(severity),
-    }
-}
-
-/// The mark of the gate alone: drift has a column of its own.
-fn gate_mark(judged: &JudgedMetric<'_>) -> VerdictMark {
-    match judged.severity() {
-        Severity::Pass | Severity::Drifted if judged.verdict == Verdict::Pass && judged.power.is_blind() => {
-            VerdictMark::CANNOT_TELL
-        }
-        Severity::Drifted if judged.verdict == Verdict::Observed => VerdictMark::OBSERVED,
-        Severity::Drifted => VerdictMark::PASS,
-        _ => worst_mark(judged),
-    }
-}
-
-/// Remark of the list of known failures, in a sentence.
-pub(super) fn note(judged: &JudgedMetric<'_>) -> String {
-    let best = |value: f64| with_unit(value, &judged.metric.unit);
-    match &judged.standing {
-        KnownFailureStatus::Unlisted => String::new(),
-        KnownFailureStatus::Known(entry) => {
-            let (now, best) = (with_unit(judged.metric.value, &judged.metric.unit), best(entry.best_value));
-            let best = if now == best { String::new() } else { format!(" (best {best})") };
-            format!("Known since {}{best}: {}", entry.date, entry.reason)
-        }
-        KnownFailureStatus::PassesAgain(_) => {
-            "Listed as a known failure, but the gate holds: remove the entry.".to_owned()
-        }
-        KnownFailureStatus::Worse(entry) => {
-            format!("Known since {}, but worse than its best value {}.", entry.date, best(entry.best_value))
-        }
-        KnownFailureStatus::WithoutGate(_) => {
-            "Listed as a known failure, but there is no gate: remove the entry.".to_owned()
-        }
-    }
-}
-
 /// `value limit` of a metric, for the banner.
 pub(super) fn statement(judged: &JudgedMetric<'_>) -> String {
     let metric = judged.metric;
     let value = with_unit(metric.value, &metric.unit);
-    match (judged.severity(), &metric.gate, &judged.drift) {
-        (Severity::Drifted, _, Drift::Drifted { baseline, tolerance, .. }) => {
+    match (judged.rank(), &metric.gate, &judged.change) {
+        (Rank::Moved, _, Change::Moved { baseline, tolerance, .. }) => {
             let (value, was) = value_and_baseline(metric, *baseline);
             format!("{value}, baseline {was} ± {}", two_digits(*tolerance))
         }
-        (Severity::Drifted, _, Drift::UnitChanged { unit }) => format!("{value}, baseline in {unit}"),
-        (Severity::Drifted, _, Drift::VerdictChanged { verdict }) => format!("{value}, verdict was {}", verdict.word()),
+        (Rank::Moved, _, Change::UnitChanged { unit }) => format!("{value}, baseline in {unit}"),
+        (Rank::Moved, _, Change::VerdictChanged { verdict }) => format!("{value}, verdict was {}", verdict.word()),
         (_, Some(gate), _) => format!("{value}, limit {}", limit(gate.limit, &metric.unit)),
         _ => value,
     }
@@ -210,7 +155,7 @@ fn residual(difference: f64, expected: f64) -> String {
     format!("{}{}{relative}", sign(difference), two_digits(difference))
 }
 
-fn drift(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
+fn change(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
     let signed = |change: f64| match change {
         c if c.is_nan() => "not a number".to_owned(),
         c if c > 0.0 => format!("+{}", two_digits(c)),
@@ -221,15 +166,15 @@ fn drift(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
         let sign = if share > 0.0 { "+" } else { "" };
         if share.is_finite() && change != 0.0 { format!("{sign}{} %", two_digits(share)) } else { String::new() }
     };
-    match &judged.drift {
-        Drift::New => (VerdictMark { word: "new", ..VerdictMark::OBSERVED }, "new".to_owned(), String::new()),
-        Drift::Unchanged { change, baseline, .. } => {
+    match &judged.change {
+        Change::New => (VerdictMark { word: "new", ..VerdictMark::OBSERVED }, "new".to_owned(), String::new()),
+        Change::Unchanged { change, baseline, .. } => {
             (VerdictMark { word: "unchanged", ..VerdictMark::PASS }, signed(*change), relative(*change, *baseline))
         }
-        Drift::Drifted { change, baseline, .. } => (VerdictMark::DRIFT, signed(*change), relative(*change, *baseline)),
-        Drift::UnitChanged { unit } => (VerdictMark::DRIFT, format!("unit was {unit}"), String::new()),
-        Drift::VerdictChanged { verdict } => {
-            (VerdictMark::DRIFT, format!("verdict was {}", verdict.word()), String::new())
+        Change::Moved { change, baseline, .. } => (VerdictMark::MOVED, signed(*change), relative(*change, *baseline)),
+        Change::UnitChanged { unit } => (VerdictMark::MOVED, format!("unit was {unit}"), String::new()),
+        Change::VerdictChanged { verdict } => {
+            (VerdictMark::MOVED, format!("verdict was {}", verdict.word()), String::new())
         }
     }
 }

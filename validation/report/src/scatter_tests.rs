@@ -48,7 +48,7 @@ fn comparisons_of_one_name_are_one_quantity_over_all_cases() {
 #[test]
 fn a_known_uncertainty_of_the_reference_gives_a_deviation_and_bands() {
     let mut report = example();
-    for metric in report.cases.iter_mut().flat_map(|case| &mut case.metrics) {
+    for metric in report.cases.iter_mut().flat_map(|case| &mut case.result.metrics) {
         let reference = metric.reference.as_ref().and_then(|reference| reference.value);
         let experiment = reference.map(|value| 0.06 * value);
         *metric = metric.clone().known_to(Origin::Experiment, experiment, "its authors").known_to(

@@ -1,10 +1,10 @@
-//! The accepted values and known failures that the program carries, for where no checkout is.
+//! The baseline and expected failures that the program carries, for where no checkout is.
 
 use std::path::Path;
 
-include!(concat!(env!("OUT_DIR"), "/accepted_values.rs"));
+include!(concat!(env!("OUT_DIR"), "/baseline.rs"));
 
-/// The text of a file by its path in the folder of accepted values, such as `quick/film.snap`.
+/// The text of a file by its path in the folder of the baseline, such as `quick/film.snap`.
 pub(super) fn text(path: &Path) -> Option<&'static str> {
     FILES.iter().find(|(own, _)| Path::new(own) == path).map(|(_, text)| *text)
 }
@@ -13,10 +13,10 @@ pub(super) fn text(path: &Path) -> Option<&'static str> {
 mod tests {
     use super::*;
     use crate::case::Tier;
-    use crate::{Baseline, KnownFailures};
+    use crate::{Baseline, ExpectedFailures};
 
     #[test]
-    fn every_file_of_accepted_values_is_read() {
+    fn every_file_of_the_baseline_is_read() {
         for (name, _) in FILES {
             let Some((tier, file)) = name.split_once('/') else { continue };
             let tier = [Tier::Quick, Tier::Paper, Tier::Fine]
@@ -27,8 +27,8 @@ mod tests {
             let read = Baseline::shipped(case, tier).unwrap_or_else(|error| panic!("failed to {error}"));
             assert!(!read.is_empty(), "{name}");
         }
-        let known = KnownFailures::shipped().unwrap_or_else(|error| panic!("failed to {error}"));
-        assert!(!known.failures.is_empty());
+        let list = ExpectedFailures::shipped().unwrap_or_else(|error| panic!("failed to {error}"));
+        assert!(!list.failures.is_empty());
         assert_eq!(text(Path::new("quick/no-such-case.snap")), None);
     }
 }

@@ -1,4 +1,4 @@
-//! Accepted values as text: an insta snapshot, whose content is a line of column names and a line `name | variant | value |
+//! A baseline as text: an insta snapshot, whose content is a line of column names and a line `name | variant | value |
 //! unit | verdict` for each metric.
 
 use crate::metric::{Variant, Verdict};

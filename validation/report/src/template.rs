@@ -6,7 +6,7 @@ use serde::Serialize;
 const TEMPLATES: [(&str, &str); 15] = [
     ("head.html", include_str!("template/head.html")),
     ("index.html", include_str!("template/index.html")),
-    ("drift.html", include_str!("template/drift.html")),
+    ("moved.html", include_str!("template/moved.html")),
     ("scatter.html", include_str!("template/scatter.html")),
     ("failures.html", include_str!("template/failures.html")),
     ("gates.html", include_str!("template/gates.html")),

@@ -158,7 +158,7 @@ fn held_out((name, judgement): &(&str, HeldOutJudgement)) -> Value {
             four_digits(datum.model),
             datum.predicted.map(interval).unwrap_or_default(),
             two_digits(datum.deviation).to_string(),
-            datum.agrees().map_or("○ cannot tell", |agrees| if agrees { "✓ agrees" } else { "✗ differs" }).to_owned(),
+            datum.agrees().map_or("○ inconclusive", |agrees| if agrees { "✓ agrees" } else { "✗ differs" }).to_owned(),
         ]
     };
     let sources: BTreeSet<&str> = judgement.data.iter().map(|datum| datum.source.as_str()).collect();

@@ -1,5 +1,6 @@
 //! Data of the templates: nothing but text, made by `page` and `rows`.
 
+use super::judgement::{Rank, Severity};
 use crate::metric::Variant;
 use crate::store::provenance::workspace;
 use serde::Serialize;
@@ -14,12 +15,36 @@ pub(super) struct VerdictMark {
 }
 
 impl VerdictMark {
-    pub(super) const FAIL: Self = Self { class: "fail", symbol: "✗", word: "fails" };
-    pub(super) const KNOWN: Self = Self { class: "known", symbol: "✗", word: "known failure" };
-    pub(super) const DRIFT: Self = Self { class: "drift", symbol: "≠", word: "drifted" };
-    pub(super) const PASS: Self = Self { class: "pass", symbol: "✓", word: "holds" };
-    pub(super) const CANNOT_TELL: Self = Self { class: "known", symbol: "○", word: "cannot tell" };
+    pub(super) const FAIL: Self = Self { class: "fail", symbol: "✗", word: Severity::NewFailure.word() };
+    pub(super) const NOT_JUDGED: Self = Self { class: "fail", symbol: "–", word: Severity::NotJudged.word() };
+    pub(super) const EXPECTED: Self = Self { class: "expected", symbol: "✗", word: Severity::ExpectedFailure.word() };
+    pub(super) const INCONCLUSIVE: Self =
+        Self { class: "expected", symbol: "○", word: Severity::Inconclusive.word() };
+    pub(super) const PASS: Self = Self { class: "pass", symbol: "✓", word: Severity::Pass.word() };
+    pub(super) const MOVED: Self = Self { class: "moved", symbol: "≠", word: "moved" };
     pub(super) const OBSERVED: Self = Self { class: "observed", symbol: "○", word: "observed" };
+
+    /// The mark of a gate; of a metric without one it is observed.
+    pub(super) fn of(severity: Option<Severity>) -> Self {
+        match severity {
+            Some(Severity::NewFailure) => Self::FAIL,
+            Some(Severity::NotJudged) => Self::NOT_JUDGED,
+            Some(Severity::ExpectedFailure) => Self::EXPECTED,
+            Some(Severity::Inconclusive) => Self::INCONCLUSIVE,
+            Some(Severity::Pass) => Self::PASS,
+            None => Self::OBSERVED,
+        }
+    }
+
+    /// The mark of a case by its rank.
+    pub(super) fn of_rank(rank: Rank) -> Self {
+        match rank {
+            Rank::Failing(severity) => Self::of(Some(severity)),
+            Rank::Moved => Self::MOVED,
+            Rank::Within => Self::PASS,
+            Rank::Observed => Self::OBSERVED,
+        }
+    }
 }
 
 /// Link target of a metric's row: letters, digits, points and dashes.

@@ -31,7 +31,7 @@ const EXAMPLES: &str = "Examples:
   bagnold judge mine.toml                      results of another code under the same gates
   bagnold examples                             sample calibrations, scenes, sweeps
 
-Exit codes: 0 all gates pass except known failures, 1 a gate fails or is missing, 2 bad input, 3 a run diverged.";
+Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.";
 
 const RUN_EXAMPLES: &str = "Examples:
   bagnold run film
@@ -76,18 +76,18 @@ runs start anew.
 The folder receives index.html, case.toml, metrics.json, provenance.json, tables/*.csv, reference/*.csv, figures/ and
 snapshots/*.pvd for ParaView.
 
-Exit codes: 0 all gates pass except known failures, 1 a gate fails or is missing, 2 bad input, 3 a run diverged.";
+Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.";
 
 const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
   bagnold report --tier paper --cases film,bagnold --out paper-report
-  bagnold report --against yesterday --deny drift
+  bagnold report --against yesterday --deny moved
   bagnold report --figure 85mm,9pt,300dpi      figures for a column of a journal
   bagnold report --suite my-flume
 
 The report is one self-contained folder. Its index.html links to a page of every case; failures come first.
 
-Exit codes: 0 all gates pass except known failures, 1 a gate fails or is missing or, with --deny drift, a value moved,
+Exit codes: 0 no new failure, 1 a new failure or a gate not judged or, with --deny moved, a value moved,
 2 bad input, 3 a run diverged.";
 
 const CALIBRATE_EXAMPLES: &str = "Examples:
@@ -324,7 +324,7 @@ pub struct ReportArguments {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Denied {
     /// A value differs from its baseline by more than its tolerance, or is missing.
-    Drift,
+    Moved,
 }
 
 /// `bagnold calibrate`

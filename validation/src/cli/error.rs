@@ -6,7 +6,7 @@ use crate::compare::CompareError;
 use crate::evaluation::PlanError;
 use crate::judge::JudgeError;
 use crate::output::{FileError, FolderError, reason};
-use crate::report::{BaselineError, EarlierError, ReportError};
+use crate::report::{ProcessError, ReportError};
 use crate::sweep::SweepError;
 
 /// Input that is refused, or output that cannot be written: each message names file, field, value, rule and remedy.
@@ -52,12 +52,9 @@ pub enum ProgramError {
         /// Their number.
         count: usize,
     },
-    /// The committed baseline or list of known failures cannot be used.
-    #[error("failed to {0}; correct the file or restore it from version control")]
-    Baseline(#[from] BaselineError),
-    /// The report to compare with cannot be used.
-    #[error("failed to {0}")]
-    Earlier(#[from] EarlierError),
+    /// A report or a run that is not finished.
+    #[error(transparent)]
+    Process(#[from] ProcessError),
     /// A report cannot be written.
     #[error("failed to {0}; check the folder and its permissions")]
     Report(#[from] ReportError),

@@ -2,12 +2,13 @@
 
 use super::arguments::{ExportArguments, JudgeArguments, LeagueArguments};
 use super::error::ProgramError;
-use super::{Exit, Session, decks, simulation, summary};
+use super::{Exit, Session, decks, simulation};
 use crate::case::{Changes, ParameterError};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
 use crate::metric::Verdict;
 use crate::output::{FileError, OutputFolder, write_whole};
+use crate::report;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -24,7 +25,7 @@ pub(super) fn judge(command: &JudgeArguments, session: &mut Session<'_>) -> Resu
     let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/judged/{}", prepared.name())));
     let claimed = OutputFolder::claim(&folder)?;
     let results = simulation::simulate(vec![prepared], &command.work.open_store(), session.quiet, None)?;
-    let exit = Exit::of(&results, |_, _| true);
+    let exit = Exit::of_runs(&results);
     let Some(own) = results.into_iter().next() else { return Ok(exit) };
     let judgement = judge::judge(own, &entries)?;
     judge::write(&judgement, claimed.staging(), command.junit.as_deref())?;
@@ -74,12 +75,12 @@ pub(super) fn league(command: &LeagueArguments, session: &mut Session<'_>) -> Re
 /// A line for each code, and a table of its gates that fail.
 fn verdicts(judgement: &CodeComparison) -> String {
     let line = |judged: &judge::JudgedCode| {
-        let (holding, failing, not_given) = judged.counts();
+        let (passing, failing, not_judged) = judged.counts();
         let name = format!("{} {}", judged.code.name, judged.code.version);
         let failed =
             judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
-        let table = summary::of_metrics(failed);
-        let nothing = if holding + failing == 0 && not_given > 0 {
+        let table = report::of_metrics(failed);
+        let nothing = if passing + failing == 0 && not_judged > 0 {
             "no gate was judged: the page names the data that each needs\n"
         } else {
             ""
@@ -92,7 +93,7 @@ fn verdicts(judgement: &CodeComparison) -> String {
         let open = if open.is_empty() { String::new() } else { format!(" ({}{more})", open.join(", ")) };
         let moved = judged.moved.as_ref().map(|notice| format!("{notice}\n")).unwrap_or_default();
         format!(
-            "{}: {holding} gates pass, {failing} fail, {not_given} without data{open}\n{moved}{nothing}{table}",
+            "{}: {passing} gates pass, {failing} fail, {not_judged} are not judged{open}\n{moved}{nothing}{table}",
             name.trim()
         )
     };
@@ -110,7 +111,7 @@ pub(super) fn export(command: &ExportArguments, session: &mut Session<'_>) -> Re
     } else {
         Vec::new()
     };
-    let exit = Exit::of(&results, |_, _| true);
+    let exit = Exit::of_runs(&results);
     judge::export(case, &*prepared, command.tier, results.first(), claimed.staging())?;
     for (name, text) in deck {
         write_whole(&claimed.staging().join(name), text.as_bytes())

@@ -10,14 +10,12 @@ mod decks;
 mod display;
 mod error;
 mod examples;
-mod exit;
 mod expectation;
 mod judge;
 mod logging;
 mod machine;
 mod new;
 mod panels;
-mod places;
 mod profile;
 mod progress;
 mod publication;
@@ -27,20 +25,17 @@ mod setup;
 mod simulation;
 mod store;
 mod study;
-mod summary;
 mod sweep;
 mod terminal;
 #[cfg(test)]
 mod tests;
 mod ticker;
-mod unchanged;
 
+pub use crate::report::Exit;
 pub use arguments::{Arguments, Command, ExecutionOptions, ResourceLimits, Verbosity};
 pub use count::CountBar;
 pub use error::ProgramError;
-pub use exit::Exit;
 pub use simulation::{simulate_announced, warn_of_fast};
-pub use summary::of_case as table_of_case;
 pub use terminal::tell;
 
 use crate::case::{Limits, ParameterError, Registry};

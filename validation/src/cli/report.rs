@@ -2,23 +2,16 @@
 
 use super::arguments::{Denied, ReportArguments};
 use super::error::ProgramError;
-use super::places::CommittedValues;
 use super::profile::StageTimer;
-use super::publication::{case_report, is_known};
 use super::simulation::{announce, simulate};
-use super::{Exit, controls, say, summary, tell, unchanged};
+use super::{Exit, controls, say, tell};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
-use crate::evidence::{ValidatedComparison, ValidationSet};
-use crate::output::{FileError, OutputFolder, write_whole};
-use crate::report::{self, Baseline, CaseReport, GateList, Report, ReportProvenance};
-use crate::store::provenance;
-use crate::study::{Study, Suite};
-use std::fmt::Write as _;
+use crate::report::{CaseReport, CommittedValues, ReportRequest};
+use crate::study::Suite;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
-/// Simulates and judges the cases, writes the page and prints what fails.
+/// Simulates the cases and says what the report says.
 pub(super) fn report(
     command: &ReportArguments,
     registry: Registry,
@@ -26,115 +19,90 @@ pub(super) fn report(
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
     let suite = command.suite.as_ref().map(|folder| Suite::read(folder, registry)).transpose()?;
-    let (cases, places) = match (&suite, &command.suite) {
-        (Some(suite), Some(folder)) => {
-            let cases = suite.prepare(registry, command.tier, command.allowance.limits())?;
-            let places = CommittedValues::OfSuite(folder.clone());
-            places.refuse_orphans(suite.studies())?;
-            (cases, places)
-        }
-        _ => (prepare(command, registry)?, CommittedValues::OfCases),
+    let cases = match &suite {
+        Some(suite) => suite.prepare(registry, command.tier, command.allowance.limits())?,
+        None => prepare(command, registry)?,
     };
-    let named: Vec<(String, Tier)> = match &suite {
-        Some(suite) => {
-            let tier = |study: &Study| command.tier.unwrap_or(study.tier());
-            suite.studies().iter().map(|study| (study.name().to_owned(), tier(study))).collect()
+    let process = match request(command, registry, suite.as_ref(), &cases)?.begin()? {
+        Ok(process) => process,
+        Err(earlier) => {
+            if !quiet {
+                tell("nothing has changed since this report was made; `--fresh` makes it anew");
+            }
+            say(output, &earlier.text);
+            return Ok(earlier.exit);
         }
-        None => cases.iter().map(|case| (case.name().to_owned(), command.tier.unwrap_or(Tier::Quick))).collect(),
     };
-    let mut baseline = baseline(command, &places, &named)?;
-    let out = folder(command);
-    let inputs = unchanged::inputs(command, &places);
-    if let Some((exit, text)) = inputs.as_ref().and_then(|inputs| unchanged::said(&out, inputs)) {
-        if !quiet {
-            tell("nothing has changed since this report was made; `--fresh` makes it anew");
-        }
-        say(output, &text);
-        return Ok(exit);
-    }
-    let claimed = OutputFolder::claim(&out)?;
-    let known = places.known_failures()?;
-    let tiers = suite.iter().flat_map(|suite| suite.studies().iter().map(Study::tier));
-    let tier = command.tier.or_else(|| tiers.min_by_key(|tier| tier.name() != "quick")).unwrap_or(Tier::Quick);
     let store = command.work.open_store();
     let expectation = announce("report", &cases, &store, quiet);
-    let started = Instant::now();
     let mut profile = StageTimer::begin();
-    let simulated = simulate(cases, &store, quiet, Some(&expectation))?;
-    let results = match &suite {
-        Some(suite) => suite.judge(simulated)?,
-        None => simulated,
-    };
+    let mut results = simulate(cases, &store, quiet, Some(&expectation))?;
+    if let Some(suite) = &suite {
+        results = suite.judge(results)?;
+    }
     profile.over("runs and their figures");
-    if command.accept {
-        baseline = accept(&places, &results)?;
-    }
     let limits = command.allowance.limits();
-    let mut controls =
+    let mut trials =
         if suite.is_none() { controls::of_results(&results, registry, limits, &store, quiet)? } else { Vec::new() };
-    controls.resize_with(results.len(), Vec::new);
-    profile.over("controls");
-    let of_case = |(result, controls): (&CaseResult, _)| CaseReport {
-        controls,
-        not_judged: baseline.not_judged(&result.name, &result.metrics),
-        ..case_report(result, registry)
-    };
-    let cases: Vec<CaseReport> = results.iter().zip(controls).map(of_case).collect();
-    let page = Report {
-        title: command.suite.as_ref().map_or_else(|| "Bagnold validation report".to_owned(), |folder| name_of(folder)),
-        tier,
-        generated: ReportProvenance::of_this_program(started.elapsed(), repeated(command)),
-        features: suite.is_none().then(|| Features::of(registry)),
-        papers: if suite.is_none() { report::papers::accounted(&cases) } else { &[] },
-        cases,
-        baseline,
-        against: command.against.as_ref().map(|folder| folder.display().to_string()),
-        known_failures: known.clone(),
-    };
-    report::write(&page, claimed.staging(), &store.drawings().in_format(command.figures.format()))?;
-    for (study, result) in suite.iter().flat_map(Suite::studies).zip(&results) {
+    trials.resize_with(results.len(), Vec::new);
+    let mut cases: Vec<CaseReport> = results.into_iter().map(|result| CaseReport::of(result, registry)).collect();
+    for (case, trials) in cases.iter_mut().zip(trials) {
+        case.controls = trials;
+    }
+    for (case, study) in cases.iter_mut().zip(suite.iter().flat_map(Suite::studies)) {
         // what its case.toml compares with
-        let folder = claimed.staging().join("cases").join(&result.name);
-        let kept = study.measurements().try_for_each(|measured| measured.keep(&folder));
-        kept.map_err(|error| FileError::unwritable(&folder, &error))?;
+        case.measured = study.measurements().cloned().collect();
     }
-    let mut text = String::new();
-    for result in &results {
-        text.push_str(&summary::heading(result));
-        text.push_str(&summary::failures(result, |metric| is_known(&known, result, metric)));
-    }
-    let _ = writeln!(text, "written to {}", out.join("index.html").display());
-    for case in &page.cases {
-        text.push_str(&summary::not_judged(&case.name, &case.not_judged));
-    }
-    let contradictions = places.contradictions(&page);
-    text.push_str(&contradictions);
-    let is_whole = contradictions.is_empty() && page.cases.iter().all(|case| case.not_judged.is_empty());
-    let exit = Exit::of(&results, |result, metric| is_known(&known, result, metric)).unless_whole(is_whole);
-    let drifted = drifted(&page);
-    text.push_str(&drifted);
-    if exit == Exit::Held && command.deny.is_none() {
-        text.push_str(&not_denied(&drifted));
-    }
-    let denied = command.deny == Some(Denied::Drift) && !drifted.is_empty();
-    let exit = if denied && exit == Exit::Held { Exit::GateFailed } else { exit };
-    if let Some(inputs) = inputs {
-        let kept = unchanged::keep(claimed.staging(), inputs, exit, &text);
-        kept.map_err(|error| FileError::unwritable(claimed.staging(), &error))?;
-    }
-    claimed.publish()?;
+    profile.over("controls");
+    let outcome = process.finish(cases, &store.drawings().in_format(command.figures.format()))?;
+    profile.over("pages");
+    let results: Vec<CaseResult> = outcome.cases.into_iter().map(|case| case.result).collect();
     if suite.is_none() {
         expectation.learn(&results, store.root(), rayon::current_num_threads());
     }
-    profile.over("pages");
-    if let Some(path) = &command.junit {
-        report::write_junit(&page, path)?;
-    }
-    say(output, &text);
+    say(output, &outcome.text);
     if command.profile {
         tell(profile.in_words(&results, rayon::current_num_threads()).trim_end_matches('\n'));
     }
-    Ok(exit)
+    Ok(outcome.exit)
+}
+
+/// What the command asks of a report.
+fn request(
+    command: &ReportArguments,
+    registry: Registry,
+    suite: Option<&Suite>,
+    cases: &[Box<dyn PreparedCase>],
+) -> Result<ReportRequest, ProgramError> {
+    let (title, committed, named) = match (suite, &command.suite) {
+        (Some(suite), Some(folder)) => {
+            let named = |study: &crate::study::Study| (study.name().to_owned(), command.tier.unwrap_or(study.tier()));
+            (name_of(folder), CommittedValues::OfSuite(folder.clone()), suite.studies().iter().map(named).collect())
+        }
+        _ => {
+            let tier = command.tier.unwrap_or(Tier::Quick);
+            let named = cases.iter().map(|case| (case.name().to_owned(), tier)).collect();
+            ("Bagnold validation report".to_owned(), CommittedValues::OfCases, named)
+        }
+    };
+    if let Some(suite) = suite {
+        committed.refuse_orphans(&suite.studies().iter().map(crate::study::Study::name).collect::<Vec<_>>())?;
+    }
+    let writes_elsewhere = command.accept || command.junit.is_some() || command.profile;
+    let is_repeated = !writes_elsewhere && !command.work.fresh && command.against.is_none() && suite.is_none();
+    Ok(ReportRequest {
+        title,
+        committed,
+        named,
+        features: suite.is_none().then(|| Features::of(registry)),
+        against: command.against.clone(),
+        accept: command.accept,
+        deny_moved: command.deny == Some(Denied::Moved),
+        junit: command.junit.clone(),
+        folder: folder(command),
+        command: repeated(command),
+        options: is_repeated.then(|| format!("{command:?}")),
+    })
 }
 
 /// The folder to write.
@@ -150,74 +118,6 @@ fn folder(command: &ReportArguments) -> PathBuf {
 fn name_of(folder: &Path) -> String {
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     whole.file_name().map_or_else(|| "suite".to_owned(), |name| name.to_string_lossy().into_owned())
-}
-
-/// Accepts the values of these results.
-fn accept(places: &CommittedValues, results: &[CaseResult]) -> Result<Baseline, ProgramError> {
-    let mut baseline = Baseline::default();
-    for result in results {
-        let fresh = Baseline::of(&result.name, &result.metrics);
-        fresh.write(&places.accepted_folder(), &result.name, result.tier, provenance::commit())?;
-        if *places == CommittedValues::OfCases {
-            let mut gates = GateList::read(&places.accepted_folder(), result.tier)?;
-            gates.add(&fresh);
-            gates.write(&places.accepted_folder(), result.tier)?;
-            accepted_comparisons(&places.accepted_folder(), result)?;
-        }
-        baseline.extend(fresh);
-    }
-    Ok(baseline)
-}
-
-/// Accepts the comparisons of a case with measurements, with the regimes of its flows.
-fn accepted_comparisons(folder: &Path, result: &CaseResult) -> Result<(), ProgramError> {
-    let path = folder.join("comparisons").join(format!("{}.csv", result.tier));
-    let unwritable = |error: &std::io::Error| ProgramError::from(FileError::unwritable(&path, error));
-    let text = match std::fs::read_to_string(&path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
-        text => text.map_err(|error| unwritable(&error))?,
-    };
-    let malformed = |error: csv::Error| unwritable(&std::io::Error::other(error));
-    let mut set = ValidationSet::parse(&text).map_err(malformed)?;
-    let runs: Vec<_> = result.runs.iter().map(|run| run.variant.clone()).zip(result.regimes.iter().copied()).collect();
-    set.replace(&result.name, ValidatedComparison::all(&result.name, &result.metrics, &runs));
-    let text = set.text().map_err(malformed)?;
-    std::fs::create_dir_all(path.parent().unwrap_or(folder)).map_err(|error| unwritable(&error))?;
-    write_whole(&path, text.as_bytes()).map_err(|error| unwritable(&error))
-}
-
-/// Baseline of the report: values of an earlier report, or the accepted ones. Read before anything is simulated.
-fn baseline(
-    command: &ReportArguments,
-    places: &CommittedValues,
-    named: &[(String, Tier)],
-) -> Result<Baseline, ProgramError> {
-    if let Some(folder) = &command.against {
-        let names: Vec<String> = named.iter().map(|(name, _)| name.clone()).collect();
-        let tier = named.first().map_or(Tier::Quick, |(_, tier)| *tier);
-        return Ok(Baseline::of_report(folder, &names, tier)?);
-    }
-    let mut baseline = Baseline::default();
-    for (name, tier) in named {
-        baseline.extend(places.accepted(name, *tier)?);
-    }
-    Ok(baseline)
-}
-
-/// A line for each value that has drifted, the farthest first.
-fn drifted(page: &Report) -> String {
-    let moved = report::drift::moved(&report::judge(page), &page.baseline);
-    moved.iter().filter(|moved| moved.has_drifted).map(|moved| format!("drifted: {moved}\n")).collect()
-}
-
-/// Reason for exit code 0 despite values that have drifted; empty if none has.
-fn not_denied(drifted: &str) -> String {
-    let (values, change) = match drifted.lines().count() {
-        0 => return String::new(),
-        1 => ("1 value has".to_owned(), "it does"),
-        number => (format!("{number} values have"), "they do"),
-    };
-    format!("{values} drifted, but every gate holds: {change} not change the exit code unless --deny drift is given\n")
 }
 
 fn prepare(command: &ReportArguments, registry: Registry) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {

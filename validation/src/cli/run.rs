@@ -4,15 +4,14 @@ use super::Exit;
 use super::arguments::RunArguments;
 use super::error::ProgramError;
 use super::panels::add_panels;
-use super::places::CommittedValues;
 use super::profile::StageTimer;
-use super::publication::{Publication, ResultPublication};
+use super::publication::Publication;
 use super::simulation::{announce, introduce, reject_fast, simulate_showing};
-use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError, settings_to_vary};
+use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError, Tier, settings_to_vary};
 use crate::checkpoint::{Checkpoints, StoredState};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
-use crate::report::Baseline;
+use crate::report::{Baseline, CommittedValues, ProcessError, SingleRun};
 use crate::result::States;
 use crate::store::StorePolicy;
 use std::io::Write;
@@ -91,45 +90,50 @@ pub(super) fn run(
     let claimed = OutputFolder::claim(&folder)?;
     let store = command.work.open_store().with_ends();
     let expectation = announce("run", std::slice::from_ref(&prepared), &store, quiet || command.json);
-    let known = CommittedValues::OfCases.known_failures()?;
-    // accepted values are those of the case as it comes; a study in a file has none
-    let own = registry.find(prepared.name()).ok().filter(|case| !case.is_study() || case.name() == command.target);
-    let as_it_comes = own.map(|case| case.prepare(tier, &Changes::default())).transpose()?;
-    let accepted = match &as_it_comes {
-        Some(case) => CommittedValues::OfCases.accepted(case.name(), tier)?,
-        None => Baseline::default(),
-    };
-    let all_runs = as_it_comes.iter().flat_map(|case| (0..case.run_count()).map(|run| case.variant(run))).collect();
-    let baseline = if changed { Baseline::default() } else { accepted.clone() };
-    let started = Instant::now();
+    let judged_by = judged_by(prepared.name(), tier, changed, command, registry)?;
+    let judged_by = SingleRun { has_own_parameters, ..judged_by };
     let mut profile = StageTimer::begin();
     let states = wanted.as_ref().map(|plan| States::of(prepared.as_ref(), plan, &claimed.staging().join("states")));
-    let mut results = simulate_showing(vec![prepared], &store, quiet, states.as_ref(), Some(&expectation))?;
+    let results = simulate_showing(vec![prepared], &store, quiet, states.as_ref(), Some(&expectation))?;
     reject_fast(&results, command.deny_warnings)?;
     states.map_or(Ok(()), States::finish).map_err(|error| FileError::unwritable(&folder, &error))?;
     profile.over("runs and their figures");
-    for result in &mut results {
-        draw_measured(result, &overlay)?;
-        add_panels(&mut result.figures, &command.panels)?;
-        if let Some(plan) = &wanted {
-            result.parameters_toml += &format!("\n{}", plan.text());
-            "bagnold run case.toml".clone_into(&mut result.command);
-        }
+    let Some(mut result) = results.into_iter().next() else { return Ok(Exit::Held) };
+    draw_measured(&mut result, &overlay)?;
+    add_panels(&mut result.figures, &command.panels)?;
+    if let Some(plan) = &wanted {
+        result.parameters_toml += &format!("\n{}", plan.text());
+        "bagnold run case.toml".clone_into(&mut result.command);
     }
+    // states on the way take a time of their own
+    let expectation = Some(expectation).filter(|_| wanted.is_none());
+    let publication =
+        Publication { command, registry, claimed, store: &store, expectation, profile, measured: overlay };
+    publication.publish(judged_by, result, output)
+}
 
-    let written = ResultPublication {
-        command,
-        title: results.first().map(|result| result.name.clone()).unwrap_or_default(),
-        tier,
-        baseline,
-        accepted,
-        all_runs,
+/// What a case is judged by: the baseline of the case as it comes, of which a study in a file has none.
+fn judged_by(
+    name: &str,
+    tier: Tier,
+    changed: bool,
+    command: &RunArguments,
+    registry: Registry,
+) -> Result<SingleRun, ProgramError> {
+    let committed = CommittedValues::OfCases;
+    let expected_failures = committed.expected_failures().map_err(ProcessError::from)?;
+    let own = registry.find(name).ok().filter(|case| !case.is_study() || case.name() == command.target);
+    let as_it_comes = own.map(|case| case.prepare(tier, &Changes::default())).transpose()?;
+    let gates = as_it_comes.as_ref().map(|case| committed.baseline(case.name(), tier)).transpose();
+    let gates = gates.map_err(ProcessError::from)?.unwrap_or_default();
+    Ok(SingleRun {
+        started: Instant::now(),
+        baseline: if changed { Baseline::default() } else { gates.clone() },
+        expected_failures,
+        gates,
+        all_runs: as_it_comes.iter().flat_map(|case| (0..case.run_count()).map(|run| case.variant(run))).collect(),
         is_whole: !changed,
-        has_own_parameters,
-        known,
-        measured: overlay.iter().collect(),
-        // states on the way take a time of their own
-        learns: wanted.is_none(),
-    };
-    written.publish(&results, Publication { claimed, store: &store, registry, expectation, started, profile }, output)
+        has_own_parameters: false,
+        junit: command.junit.clone(),
+    })
 }

@@ -3,13 +3,12 @@
 use super::Exit;
 use super::arguments::RunArguments;
 use super::error::ProgramError;
-use super::places::CommittedValues;
 use super::profile::StageTimer;
-use super::publication::{Publication, ResultPublication};
+use super::publication::Publication;
 use super::simulation::{announce, introduce, reject_fast, simulate};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
-use crate::report::Baseline;
+use crate::report::{Baseline, CommittedValues, ProcessError, SingleRun};
 use crate::study::{Study, is_study};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -38,31 +37,28 @@ pub(super) fn run(
     let claimed = OutputFolder::claim(&folder)?;
     let store = command.work.open_store();
     let expectation = announce("run", &cases, &store, quiet || command.json);
-    let places = CommittedValues::OfSuite(file.parent().unwrap_or(Path::new("")).to_owned());
-    let known = places.known_failures()?;
-    // accepted values are those of the study as it stands
-    let is_changed = !command.settings.is_empty();
-    let baseline = if is_changed { Baseline::default() } else { places.accepted(study.name(), tier)? };
-    let started = Instant::now();
+    let committed = CommittedValues::OfSuite(file.parent().unwrap_or(Path::new("")).to_owned());
+    // the baseline is that of the study as it stands
+    let own =
+        if command.settings.is_empty() { committed.baseline(study.name(), tier) } else { Ok(Baseline::default()) };
+    let judged_by = SingleRun {
+        started: Instant::now(),
+        baseline: own.map_err(ProcessError::from)?,
+        expected_failures: committed.expected_failures().map_err(ProcessError::from)?,
+        gates: Baseline::default(),
+        all_runs: Vec::new(),
+        is_whole: true,
+        has_own_parameters: false,
+        junit: command.junit.clone(),
+    };
     let mut profile = StageTimer::begin();
     let results = simulate(cases, &store, quiet, Some(&expectation))?;
     reject_fast(&results, command.deny_warnings)?;
     profile.over("runs and their figures");
     let result = study.judge(results)?;
-    let written = ResultPublication {
-        command,
-        title: study.name().to_owned(),
-        tier,
-        accepted: Baseline::default(),
-        all_runs: Vec::new(),
-        has_own_parameters: false,
-        is_whole: true,
-        baseline,
-        known,
-        measured: study.measurements().collect(),
-        learns: false,
-    };
-    written.publish(&[result], Publication { claimed, store: &store, registry, expectation, started, profile }, output)
+    let measured = study.measurements().cloned().collect();
+    let publication = Publication { command, registry, claimed, store: &store, expectation: None, profile, measured };
+    publication.publish(judged_by, result, output)
 }
 
 /// Options that mean one case.

@@ -5,15 +5,16 @@ mod program;
 mod through_tests;
 
 use crate::arguments::{MutateAction, MutateArguments};
-use crate::case::share_out_for;
+use crate::case::{Tier, share_out_for};
 use crate::error::DevError;
 use crate::mutation::{
     CHOICE, Detection, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, page, run_trial,
     table,
 };
 use crate::output::{FileError, OutputFolder};
+use crate::report::{self, CaseReport, Report};
 use crate::store::provenance::workspace;
-use bagnold_validation::cli::{CountBar, Exit, Session, in_pool, table_of_case};
+use bagnold_validation::cli::{CountBar, Exit, Session, in_pool};
 use drawn::going_on;
 pub(crate) use program::Program;
 use program::{NONE, trial};
@@ -41,11 +42,14 @@ pub(crate) fn mutate(command: &MutateArguments, session: &mut Session<'_>) -> Re
             let scope = Scope { case: case.clone(), settings: settings.clone() };
             in_pool(*threads, || {
                 let (results, sighting) = run_trial(&scope, session.registry)?;
+                let cases = results.into_iter().map(|result| CaseReport::of(result, session.registry)).collect();
+                let report = Report::of(String::new(), Tier::Quick, cases);
+                let judgement = report::judge(&report);
                 match result {
                     Some(file) => sighting.write(file).map_err(|error| FileError::unwritable(file, &error))?,
-                    None => results.iter().for_each(|result| session.say(&table_of_case(result, |_| false))),
+                    None => judgement.cases.iter().for_each(|case| session.say(&report::of_case(case))),
                 }
-                Ok(Exit::of(&results, |_, _| false))
+                Ok(judgement.exit())
             })
         }
         Some(MutateAction::Trial { error, case, settings, threads, .. }) => {

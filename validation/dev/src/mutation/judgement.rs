@@ -82,9 +82,9 @@ pub fn judge(error: &Mutation, comparisons: &[MutationComparison<'_>]) -> Mutati
                 wall_seconds += wrong.wall_seconds;
                 stops.extend(wrong.diverged.iter().map(|message| format!("{case}: {message}")));
                 broken.extend(broken_gates(case, right, wrong));
-                let accepted = Baseline::of(case, &right.metrics);
+                let baseline = Baseline::of(case, &right.metrics);
                 drifts.extend(
-                    accepted.differences(case, &wrong.metrics).into_iter().map(|text| format!("{case}: {text}")),
+                    baseline.differences(case, &wrong.metrics).into_iter().map(|text| format!("{case}: {text}")),
                 );
             }
         }

@@ -49,13 +49,13 @@ pub struct Control {
     /// Metrics that are meant to feel it and reject it.
     pub rejected_by: Vec<String>,
     /// Metrics that are meant to feel it and accept it nevertheless.
-    pub accepted_by: Vec<CannotTell>,
+    pub accepted_by: Vec<AcceptingMetric>,
 }
 
 /// A metric that is meant to feel an error and accepts it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CannotTell {
+pub struct AcceptingMetric {
     /// Its name.
     pub metric: String,
     /// Reason for accepting it.
@@ -66,12 +66,12 @@ impl Control {
     /// Whether a metric is meant to feel the error.
     #[must_use]
     pub fn is_named_by(&self, metric: &str) -> bool {
-        self.rejected_by.iter().any(|name| name == metric) || self.cannot_tell(metric).is_some()
+        self.rejected_by.iter().any(|name| name == metric) || self.accepts_because(metric).is_some()
     }
 
     /// Reason for which a metric that should detect the error accepts it.
     #[must_use]
-    pub fn cannot_tell(&self, metric: &str) -> Option<&str> {
+    pub fn accepts_because(&self, metric: &str) -> Option<&str> {
         self.accepted_by.iter().find(|entry| entry.metric == metric).map(|entry| entry.because.as_str())
     }
 

@@ -1,6 +1,6 @@
 //! A file of controls → controls; every rule that one can break.
 
-use super::{CannotTell, Control, ControlKind, ErrorSeries};
+use super::{AcceptingMetric, Control, ControlKind, ErrorSeries};
 use crate::metric::Variant;
 use serde::Deserialize;
 
@@ -33,7 +33,7 @@ struct Row {
     #[serde(default)]
     rejected_by: Vec<String>,
     #[serde(default)]
-    accepted_by: Vec<CannotTell>,
+    accepted_by: Vec<AcceptingMetric>,
 }
 
 /// Controls that cannot be read; the message completes "failed to …".

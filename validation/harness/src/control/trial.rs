@@ -10,7 +10,7 @@ pub enum Answer {
     Rejects,
     /// It is no longer judged, which fails a report as well.
     NotJudged,
-    /// It holds: it cannot tell this error from the right case.
+    /// It passes, as with the right case.
     Accepts,
     /// Nothing: it fails on the right run also, or the control's run diverged.
     Nothing,

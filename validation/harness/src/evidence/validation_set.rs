@@ -1,4 +1,4 @@
-//! The validation set: every accepted comparison with a measurement or a published fit, with the regime of its flow, which
+//! The validation set: every comparison of the baseline with a measurement or a published fit, with the regime of its flow, which
 //! `tests/snapshots/comparisons/TIER.csv` holds. Bias and scatter over it predict how far a value of the user's own is off.
 
 use super::StatedUncertainty;
@@ -8,7 +8,7 @@ use crate::statistics::{Comparison, ModelBias, model_bias};
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
-include!(concat!(env!("OUT_DIR"), "/accepted_comparisons.rs"));
+include!(concat!(env!("OUT_DIR"), "/comparisons.rs"));
 
 /// Quantities that are the way of a front from where it stood.
 pub const WAY_OF_FRONT: [&str; 2] = ["run_out", "front_displacement"];
@@ -24,7 +24,7 @@ pub struct ValidatedComparison {
     pub variant: Variant,
     /// Unit of value and reference.
     pub unit: String,
-    /// The accepted value.
+    /// The baseline value.
     pub value: f64,
     /// The reference's.
     pub reference: f64,
@@ -110,11 +110,11 @@ pub struct ValidationSet {
 
 static SHIPPED: LazyLock<ValidationSet> = LazyLock::new(|| {
     let text = FILES.iter().find(|(name, _)| *name == "quick.csv").map_or("", |(_, text)| *text);
-    ValidationSet::parse(text).unwrap_or_else(|error| panic!("failed to read the accepted comparisons: {error}"))
+    ValidationSet::parse(text).unwrap_or_else(|error| panic!("failed to read the comparisons of the baseline: {error}"))
 });
 
 impl ValidationSet {
-    /// The accepted one of the quick tier, which the program carries.
+    /// The one of the quick tier, which the program carries.
     ///
     /// # Panics
     /// If it is malformed, which a test would find.

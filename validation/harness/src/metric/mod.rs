@@ -214,7 +214,7 @@ pub struct Metric {
     /// comparisons.
     #[serde(default)]
     pub prediction: Option<PredictionInterval>,
-    /// Relative tolerance of the drift snapshot: how far the value may move before a change is reported `[-]`.
+    /// Relative tolerance of the baseline: how far the value may move before a change is reported `[-]`.
     pub snapshot_tolerance: f64,
     /// Absolute floor of that tolerance, in the metric's unit: the value's own noise.
     pub snapshot_floor: f64,
@@ -358,7 +358,7 @@ impl Metric {
         self
     }
 
-    /// Sets the drift snapshot's relative tolerance `[-]` and absolute floor (metric's unit).
+    /// Sets the baseline's relative tolerance `[-]` and absolute floor (metric's unit).
     pub fn with_snapshot_tolerance(mut self, relative: f64, floor: f64) -> Self {
         self.snapshot_tolerance = relative;
         // what has no value has no scatter either, and JSON has no word for it

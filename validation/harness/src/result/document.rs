@@ -92,7 +92,7 @@ pub struct MetricEntry {
     /// comparisons.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prediction: Option<PredictionInterval>,
-    /// Relative tolerance of the drift snapshot `[-]`.
+    /// Relative tolerance of the baseline `[-]`.
     pub snapshot_tolerance: f64,
     /// Absolute floor of that tolerance, in the metric's unit.
     pub snapshot_floor: f64,

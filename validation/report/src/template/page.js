@@ -18,8 +18,8 @@
       select.name = name;
       select.setAttribute("aria-label", name);
       for (const value of ["", ...values]) select.add(new Option(value || `any ${name}`, value));
-      if (name === "verdict" && rows.some((row) => row.matches(".fail, .known, .drifted"))) {
-        select.add(new Option("fails or drifted", "!"), 1);
+      if (name === "verdict" && rows.some((row) => row.matches(".fail, .expected, .has-moved"))) {
+        select.add(new Option("fails or moved", "!"), 1);
       }
       selects.push([select, selector]);
       form.append(select);
@@ -28,7 +28,7 @@
     form.append(found);
     const words = new Map(rows.map((row) => [row, row.textContent.toLowerCase()]));
     const wanted = (row, select, selector) => select.value === ""
-      || (select.value === "!" ? row.matches(".fail, .known, .drifted") : text(row, selector) === select.value);
+      || (select.value === "!" ? row.matches(".fail, .expected, .has-moved") : text(row, selector) === select.value);
     const apply = () => {
       const parts = search.value.toLowerCase().split(/\s+/).filter(Boolean);
       let shown = 0;

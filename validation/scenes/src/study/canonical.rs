@@ -1,7 +1,7 @@
 //! Canonical studies: studies that the program carries and judges like any case.
 //!
 //! A study is a case whose runs are those of other cases and whose gates are its checks. It is found by its name, is part of the
-//! report, and has accepted values, a list of gates and known failures.
+//! report, and has a baseline, a list of gates and expected failures.
 
 use super::file::StudyText;
 use super::{Study, schema};

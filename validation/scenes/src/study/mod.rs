@@ -75,7 +75,7 @@ impl Study {
         // a canonical study may be printed, changed and run from its file
         if registry.find(study.name()).is_ok_and(|case| !case.is_study()) {
             let value = format!("\"{}\"", study.name());
-            let remedy = "choose another name: pages and accepted values are kept by it";
+            let remedy = "choose another name: pages and the baseline are kept by it";
             return Err(FieldError::new("study", value, "unlike the name of a case", remedy).in_file(file).into());
         }
         Ok(study)

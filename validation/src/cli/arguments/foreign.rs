@@ -11,7 +11,7 @@ const JUDGE_EXAMPLES: &str = "Examples:
 
 A submission names the case, the code, its runs and the data of each run: particles at several times (tables or VTK),
 time series, a profile, or single numbers. Metrics are computed from them as from our own runs. A metric without data
-reads \"not given\" and neither passes nor fails. The folder receives index.html, metrics.json, figures/ and tables/.
+reads \"not judged\" and neither passes nor fails. The folder receives index.html, metrics.json, figures/ and tables/.
 
 Exit codes: 0 all gates with data pass, 1 one fails or none has data, 2 bad input, 3 a run of ours diverged.";
 

@@ -19,7 +19,7 @@ pub struct Difference {
     pub unit: String,
     /// The number in every folder; none where the folder has no such number.
     pub entries: Vec<Option<MetricEntry>>,
-    /// Largest difference from the first folder that has it, in tolerances of its drift; none where fewer than two have it.
+    /// Largest difference from the first folder that has it, in its tolerances; none where fewer than two have it.
     pub tolerances: Option<f64>,
 }
 

@@ -45,7 +45,7 @@ fn line(one: &Difference) -> Value {
         "values": one.entries.iter().map(|entry| entry.as_ref().and_then(|entry| entry.value)).collect::<Vec<_>>(),
         // from the first, over its size; null where that is zero, missing or the same
         "relative_changes": (0..one.entries.len()).map(|folder| one.change(folder)?.1).collect::<Vec<_>>(),
-        // largest difference from the first in tolerances of its drift; null where it is not finite or one folder has it only
+        // largest difference from the first in its tolerances; null where it is not finite or one folder has it only
         "tolerances": one.tolerances.filter(|tolerances| tolerances.is_finite()),
     })
 }

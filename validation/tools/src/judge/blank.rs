@@ -12,7 +12,7 @@ pub fn blank(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Parameter
     let (form, (gates, limits)) = (case.form(), super::gates::digests(&prepared.asked().metrics));
     let mut text = format!(
         "# What another code gives of the case `{name}`, for `bagnold judge`.\n# {summary}\n#\n# Leave out what the code does not \
-         give: it reads \"not given\" and is never judged.\n# `bagnold show {name} --tier {tier}` prints geometry and \
+         give: it reads \"not judged\".\n# `bagnold show {name} --tier {tier}` prints geometry and \
          material; `bagnold export {name} --tier {tier} --out DIR`\n# writes them with initial particles, references and definitions.\n\n\
          case = \"{name}\"\ntier = \"{tier}\"\n# base = \"my-case.toml\"  # a case file with the parameters, such as a scene of one's own\n\
          # with = {{ … }}          # parameters that differ from the tier's, or from those of `base`\n\n\

@@ -2,6 +2,7 @@
 
 use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::metric::{Metric, Verdict};
+use crate::report::Severity;
 use crate::report::scatter::{QuantityBias, quantities_of};
 use crate::result::gates_digest;
 use quick_junit::{NonSuccessKind, TestCase, TestCaseStatus, TestSuite};
@@ -9,7 +10,7 @@ use serde_json::{Value, json};
 
 /// The word of a verdict in `metrics.json`.
 pub(super) fn word(verdict: Option<Verdict>) -> &'static str {
-    verdict.map_or("not_given", Verdict::word)
+    verdict.map_or("not_judged", Verdict::word)
 }
 
 /// Bias and scatter of what a code gives.
@@ -26,7 +27,7 @@ pub(super) fn given(judged: &JudgedCode) -> impl Iterator<Item = &Metric> {
 pub(super) fn document(judgement: &CodeComparison) -> Value {
     let case = &judgement.own.name;
     let code = |judged: &JudgedCode| {
-        let (holding, failing, not_given) = judged.counts();
+        let (passing, failing, not_judged) = judged.counts();
         let bias = |bias: &QuantityBias| {
             json!({
                 "quantity": bias.quantity,
@@ -43,9 +44,9 @@ pub(super) fn document(judgement: &CodeComparison) -> Value {
             "law": judged.law,
             // null where it was made for today's gates, or does not say
             "moved": judged.moved,
-            "holding": holding,
+            "passing": passing,
             "failing": failing,
-            "not_given": not_given,
+            "not_judged": not_judged,
             "quantities": biases(case, given(judged)).iter().map(bias).collect::<Vec<_>>(),
             "metrics": judged.metrics.iter().map(entry).collect::<Vec<_>>(),
         })
@@ -97,13 +98,15 @@ pub(super) fn junit(judgement: &CodeComparison) -> String {
                 Some(Verdict::Fail) => {
                     let value = one.foreign.as_ref().map_or(f64::NAN, |foreign| foreign.value);
                     let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-                    status.set_type("gate").set_message(format!("{value} {}, limit {:?}", one.own.unit, gate.limit));
+                    status
+                        .set_type(Severity::NewFailure.word())
+                        .set_message(format!("{value} {}, limit {:?}", one.own.unit, gate.limit));
                     status
                 }
                 Some(Verdict::Observed) => return None,
                 None => {
                     let mut status = TestCaseStatus::skipped();
-                    status.set_message("not given");
+                    status.set_message("not judged: nothing was given");
                     status
                 }
             };

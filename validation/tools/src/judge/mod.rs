@@ -106,7 +106,7 @@ pub struct CodeComparison {
 }
 
 impl JudgedCode {
-    /// Gates that hold, that fail, and that nothing was given for.
+    /// Gates that pass, that fail, and that are not judged, for nothing was given.
     #[must_use]
     pub fn counts(&self) -> (usize, usize, usize) {
         let gated = self.metrics.iter().filter(|one| one.own.verdict() != Verdict::Observed);

@@ -5,7 +5,7 @@ use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
 use crate::page::{self, PageFigure};
-use crate::report::ReportError;
+use crate::report::{ReportError, Severity};
 use crate::result::pretty;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -50,17 +50,17 @@ fn render(judgement: &CodeComparison, pictures: Vec<PageFigure>) -> Result<Strin
 }
 
 fn code_row(judged: &JudgedCode) -> Value {
-    let (holding, failing, not_given) = judged.counts();
+    let (passing, failing, not_judged) = judged.counts();
     json!({
         "name": judged.code.name,
         "version": judged.code.version,
         "law": judged.law,
         "file": judged.file.display().to_string(),
         "moved": judged.moved,
-        "holding": holding,
+        "passing": passing,
         "failing": failing,
-        "not_given": not_given,
-        "class": if failing > 0 { "fail" } else if holding > 0 { "pass" } else { "observed" },
+        "not_judged": not_judged,
+        "class": if failing > 0 { "fail" } else if passing > 0 { "pass" } else { "observed" },
     })
 }
 
@@ -109,10 +109,10 @@ pub(crate) fn other_limit(own: &Metric, foreign: &Metric) -> Option<String> {
 /// Class of the style sheet, symbol and word of a verdict; none where nothing was given.
 pub(crate) fn mark(verdict: Option<Verdict>) -> [&'static str; 3] {
     match verdict {
-        Some(Verdict::Pass) => ["pass", "✓", "holds"],
-        Some(Verdict::Fail) => ["fail", "✗", "fails"],
+        Some(Verdict::Pass) => ["pass", "✓", Severity::Pass.word()],
+        Some(Verdict::Fail) => ["fail", "✗", Severity::NewFailure.word()],
         Some(Verdict::Observed) => ["observed", "○", "observed"],
-        None => ["observed", "–", "not given"],
+        None => ["observed", "–", Severity::NotJudged.word()],
     }
 }
 

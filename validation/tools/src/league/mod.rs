@@ -44,7 +44,7 @@ pub struct League {
     pub codes: Vec<String>,
     /// The cases.
     pub cases: Vec<String>,
-    /// Gates that hold, that fail, and that lack data, of a code (first) and a case (second).
+    /// Gates that pass, that fail, and that lack data, of a code (first) and a case (second).
     pub counts: Vec<(usize, usize, (usize, usize, usize))>,
     /// The quantities in the order of the cases.
     pub rows: Vec<LeagueRow>,
@@ -153,7 +153,7 @@ fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, judged: &JudgedCode
 }
 
 impl League {
-    /// Gates of a code and a case that hold, that fail, and that lack data; none without a submission.
+    /// Gates of a code and a case that pass, that fail, and that lack data; none without a submission.
     #[must_use]
     pub fn count(&self, code: usize, case: usize) -> Option<(usize, usize, usize)> {
         let own = self.counts.iter().filter(|(own, of, _)| (*own, *of) == (code, case));

@@ -64,7 +64,7 @@ pub fn orders(league: &League) -> Vec<[String; 8]> {
 fn document(league: &League, blind: &[BlindComparison]) -> Value {
     let count = |code: usize, case: usize| {
         let counts = league.count(code, case);
-        counts.map(|(holding, failing, open)| json!({ "holding": holding, "failing": failing, "not_given": open }))
+        counts.map(|(passing, failing, open)| json!({ "passing": passing, "failing": failing, "not_judged": open }))
     };
     let matrix = league.codes.iter().enumerate().map(|(code, name)| {
         json!({ "code": name, "cells": (0..league.cases.len()).map(|case| count(code, case)).collect::<Vec<_>>() })

@@ -1,7 +1,7 @@
 //! A file of `reference-data/papers` → a paper; every rule that a row can break.
 
 use super::super::ReferenceError;
-use super::{Element, ElementStatus, FigureName, MetricName, Paper, Printed, RunName, TestName};
+use super::{Element, FigureName, MetricName, Paper, Printed, RunName, TestName};
 use crate::metric::Variant;
 use serde::Deserialize;
 
@@ -56,12 +56,9 @@ struct MetricRow {
 /// Kinds of element, by the beginning of its name.
 const KINDS: [&str; 5] = ["eq-", "table-", "fig-", "number-", "claim-"];
 
-/// Statuses that are written; the others are computed.
-const SETTLED: [(&str, ElementStatus); 3] = [
-    ("replaced", ElementStatus::Replaced),
-    ("not stated clearly", ElementStatus::NotStatedClearly),
-    ("not covered", ElementStatus::NotCovered),
-];
+/// Statuses that are written, all of them *not covered* in a report; the others are computed.
+const SETTLED: [&str; 3] = ["replaced", "not stated clearly", NOT_COVERED];
+const NOT_COVERED: &str = "not covered";
 
 /// Words for a number outside of what is printed; the first is meant where none is given.
 const OUTSIDE: [(&str, bool); 2] = [("contradicted", true), ("not reproduced", false)];
@@ -126,28 +123,27 @@ fn element(row: ElementRow, place: &RowPlace<'_>) -> Result<Element, ReferenceEr
     let metrics = row.metrics.into_iter().map(|metric| metric_name(metric, place)).collect::<Result<Vec<_>, _>>()?;
     let figures = row.figures.iter().map(|figure| figure_name(figure, place)).collect::<Result<Vec<_>, _>>()?;
     if settled.is_none() && tests.is_empty() && metrics.is_empty() && row.runs.is_empty() {
-        let words = SETTLED.map(|(word, _)| word).join(", ");
-        let rule = format!("one of {words}, where no metric, run or test says what became of the element");
+        let rule =
+            format!("one of {}, where no metric, run or test says what became of the element", SETTLED.join(", "));
         return Err(place.refuse("status", "", rule));
     }
     let ElementRow { id, place, says, note, control, runs, .. } = row;
     Ok(Element { id, place, statement: says, implemented, tests, control, metrics, runs, figures, settled, note })
 }
 
-fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<(ElementStatus, String)>, ReferenceError> {
+/// Reason for which an element is not covered; begins with the written status where that says more.
+fn settled(row: &ElementRow, place: &RowPlace<'_>) -> Result<Option<String>, ReferenceError> {
     match (&row.status, &row.because) {
         (None, None) => Ok(None),
         (None, Some(reason)) => Err(place.refuse("because", reason, "absent where no `status` is written")),
-        (Some(word), reason) => {
-            let found = SETTLED.iter().find(|(known, _)| known == word).map(|(_, settled)| *settled);
-            let words = SETTLED.map(|(word, _)| word).join(", ");
-            let rule = format!("one of {words}; every other status is computed");
-            let settled = found.ok_or_else(|| place.refuse("status", word, rule))?;
-            match reason {
-                Some(reason) if !reason.trim().is_empty() => Ok(Some((settled, reason.clone()))),
-                _ => Err(place.refuse("because", "", "the reason for the `status`; write one")),
-            }
+        (Some(word), _) if !SETTLED.contains(&word.as_str()) => {
+            let rule = format!("one of {}; every other status is computed", SETTLED.join(", "));
+            Err(place.refuse("status", word, rule))
         }
+        (Some(word), Some(reason)) if !reason.trim().is_empty() => {
+            Ok(Some(if word == NOT_COVERED { reason.clone() } else { format!("{word}: {reason}") }))
+        }
+        (Some(_), _) => Err(place.refuse("because", "", "the reason for the `status`; write one")),
     }
 }
 

@@ -45,21 +45,10 @@ pub struct Element {
     pub runs: Vec<RunName>,
     /// Figures that draw it.
     pub figures: Vec<FigureName>,
-    /// Status of the element with its reason, if neither a metric nor a test determines it.
-    pub settled: Option<(ElementStatus, String)>,
+    /// Reason for which it is not covered, if neither a metric nor a test determines its status.
+    pub settled: Option<String>,
     /// Note for the reader; may be empty.
     pub note: String,
-}
-
-/// Status of an element that is not computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum ElementStatus {
-    /// Something else stands in its place.
-    Replaced,
-    /// The paper, or what is left of it, can be read in more than one way.
-    NotStatedClearly,
-    /// Nothing here speaks of it.
-    NotCovered,
 }
 
 /// A test by its file and function.

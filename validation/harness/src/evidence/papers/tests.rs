@@ -38,7 +38,7 @@ note = "a note"
     assert_eq!((printed.value, printed.lowest, printed.highest, printed.contradicts), (Some(5.0), 4.5, 5.5, true));
     assert!(printed.agrees(4.5) && !printed.agrees(5.6) && !printed.agrees(f64::NAN));
     let second = &paper.elements[1];
-    assert_eq!(second.settled, Some((ElementStatus::Replaced, "by something else".to_owned())));
+    assert_eq!(second.settled.as_deref(), Some("replaced: by something else"));
     assert_eq!(second.tests[0].function, "a_deviator_has_no_trace");
     assert_eq!(second.figures[0], FigureName { case: "film".to_owned(), figure: "operators".to_owned() });
     assert!(second.runs[0].names(&"fluid=newtonian,numerics=paper".parse().expect("a variant")));

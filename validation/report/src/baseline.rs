@@ -1,5 +1,5 @@
-//! The accepted values, `tests/snapshots/TIER/CASE.snap`: what every metric was, and whether it has drifted since. The
-//! report and the drift test read the same files and compare in the same way.
+//! The baseline, `tests/snapshots/TIER/CASE.snap`: what every metric was, and whether it has moved since. The report and
+//! the snapshot test read the same files and compare in the same way.
 
 use super::error::{BaselineError, read_if_there};
 use super::shipped;
@@ -32,16 +32,16 @@ impl MetricKey {
     }
 }
 
-/// Accepted values of any number of cases at one tier.
+/// Baseline values of any number of cases at one tier.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Baseline {
-    values: BTreeMap<MetricKey, AcceptedValue>,
+    values: BTreeMap<MetricKey, BaselineValue>,
     /// Commits at which the values of cases were made, as far as they are known.
     commits: BTreeMap<String, String>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct AcceptedValue {
+struct BaselineValue {
     value: f64,
     unit: String,
     verdict: Verdict,
@@ -49,10 +49,10 @@ struct AcceptedValue {
     line: usize,
 }
 
-/// Regression status of a metric: its change from the baseline value.
+/// Change of a metric from its baseline value.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Drift {
-    /// There is no baseline value: nothing can have drifted.
+pub enum Change {
+    /// There is no baseline value: nothing can have moved.
     New,
     /// Within the metric's snapshot tolerance.
     Unchanged {
@@ -64,7 +64,7 @@ pub enum Drift {
         tolerance: f64,
     },
     /// Outside it.
-    Drifted {
+    Moved {
         /// value − baseline, in the metric's unit; NaN where one of them is.
         change: f64,
         /// The baseline's value.
@@ -84,11 +84,11 @@ pub enum Drift {
     },
 }
 
-impl Drift {
-    /// Whether this is a failed regression verdict.
+impl Change {
+    /// Whether the value has moved: by more than it may, to another unit or to the other side of its gate.
     #[must_use]
-    pub fn is_failure(&self) -> bool {
-        matches!(self, Self::Drifted { .. } | Self::UnitChanged { .. } | Self::VerdictChanged { .. })
+    pub fn has_moved(&self) -> bool {
+        matches!(self, Self::Moved { .. } | Self::UnitChanged { .. } | Self::VerdictChanged { .. })
     }
 
     /// Change of the value in tolerances `[-]`; infinite if it cannot be compared, none if it is new.
@@ -97,7 +97,7 @@ impl Drift {
         match *self {
             Self::New => None,
             Self::Unchanged { change: 0.0, .. } => Some(0.0),
-            Self::Unchanged { change, tolerance, .. } | Self::Drifted { change, tolerance, .. } => {
+            Self::Unchanged { change, tolerance, .. } | Self::Moved { change, tolerance, .. } => {
                 let moved = change.abs() / tolerance;
                 Some(if moved.is_nan() { f64::INFINITY } else { moved })
             }
@@ -121,7 +121,7 @@ impl Baseline {
     pub(super) fn add(&mut self, key: MetricKey, value: f64, unit: &str, verdict: Verdict) {
         let line = self.values.len();
         let value = snapshot_text::rounded(value);
-        self.values.insert(key, AcceptedValue { value, unit: unit.to_owned(), verdict, line });
+        self.values.insert(key, BaselineValue { value, unit: unit.to_owned(), verdict, line });
     }
 
     /// Adds the values of another case.
@@ -160,7 +160,7 @@ impl Baseline {
         self.commits.get(case).map_or_else(String::new, |commit| short_commit(commit))
     }
 
-    /// The path of a case's file in the folder of all accepted values.
+    /// The path of a case's file in the folder of the baseline.
     #[must_use]
     pub fn path(folder: &Path, case: &str, tier: Tier) -> PathBuf {
         folder.join(tier.name()).join(format!("{case}.snap"))
@@ -198,7 +198,7 @@ impl Baseline {
         read.made_at(case, commit);
         for (line, row) in lines.into_iter().enumerate() {
             let key = MetricKey { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.clone() };
-            let entry = AcceptedValue { value: row.value, unit: row.unit.to_owned(), verdict: row.verdict, line };
+            let entry = BaselineValue { value: row.value, unit: row.unit.to_owned(), verdict: row.verdict, line };
             if read.values.insert(key, entry).is_some() {
                 return Err(refuse(format!("`{} | {}` stands there twice", row.name, row.variant)));
             }
@@ -213,7 +213,7 @@ impl Baseline {
     }
 
     fn lines(&self, case: &str) -> impl Iterator<Item = SnapshotLine<'_>> {
-        let mut entries: Vec<(&MetricKey, &AcceptedValue)> =
+        let mut entries: Vec<(&MetricKey, &BaselineValue)> =
             self.values.iter().filter(|(key, _)| key.case == case).collect();
         entries.sort_by_key(|(_, entry)| entry.line);
         entries.into_iter().map(|(key, entry)| SnapshotLine {
@@ -248,40 +248,40 @@ impl Baseline {
         Ok(path)
     }
 
-    /// Whether `metric` of `case` has drifted: |value − baseline| > tolerance · |baseline| + floor, by more than the
+    /// Change of `metric` of `case`, which has moved where |value − baseline| > tolerance · |baseline| + floor, by more than the
     /// rounding in the file; or its unit or verdict is another.
     #[must_use]
-    pub fn drift(&self, case: &str, metric: &Metric) -> Drift {
-        let Some(entry) = self.values.get(&MetricKey::of(case, metric)) else { return Drift::New };
+    pub fn change(&self, case: &str, metric: &Metric) -> Change {
+        let Some(entry) = self.values.get(&MetricKey::of(case, metric)) else { return Change::New };
         if entry.unit != metric.unit {
-            return Drift::UnitChanged { unit: entry.unit.clone() };
+            return Change::UnitChanged { unit: entry.unit.clone() };
         }
         let baseline = entry.value;
         let change = metric.value - baseline;
         let tolerance = snapshot_tolerance(metric, baseline) + snapshot_text::rounding(baseline);
         let same = metric.value == baseline || (metric.value.is_nan() && baseline.is_nan());
         if !same && (change.is_nan() || change.abs() > tolerance) {
-            return Drift::Drifted { change, baseline, tolerance };
+            return Change::Moved { change, baseline, tolerance };
         }
         if entry.verdict != metric.verdict() {
-            return Drift::VerdictChanged { verdict: entry.verdict };
+            return Change::VerdictChanged { verdict: entry.verdict };
         }
-        Drift::Unchanged { change: if same { 0.0 } else { change }, baseline, tolerance }
+        Change::Unchanged { change: if same { 0.0 } else { change }, baseline, tolerance }
     }
 
-    /// Everything in which `metrics` of `case` are not as accepted, a sentence each: drifted, new and vanished.
+    /// Everything in which `metrics` of `case` differ from the baseline, a sentence each: moved, new and vanished.
     #[must_use]
     pub fn differences(&self, case: &str, metrics: &[Metric]) -> Vec<String> {
         let difference = |metric: &Metric| {
-            let what = match self.drift(case, metric) {
-                Drift::Unchanged { .. } => return None,
-                Drift::New => "is not among the accepted values".to_owned(),
-                Drift::UnitChanged { unit } => format!("was in {unit}, is in {}", metric.unit),
-                Drift::VerdictChanged { verdict } => {
+            let what = match self.change(case, metric) {
+                Change::Unchanged { .. } => return None,
+                Change::New => "is not in the baseline".to_owned(),
+                Change::UnitChanged { unit } => format!("was in {unit}, is in {}", metric.unit),
+                Change::VerdictChanged { verdict } => {
                     let now = metric.verdict().word();
                     format!("is within its tolerance, but the verdict was {}, is {now}", verdict.word())
                 }
-                Drift::Drifted { change, baseline, tolerance } => format!(
+                Change::Moved { change, baseline, tolerance } => format!(
                     "was {}, is {}: change {change:.3e}, tolerance {tolerance:.3e}",
                     with_unit(baseline, &metric.unit),
                     with_unit(metric.value, &metric.unit),
@@ -294,7 +294,7 @@ impl Baseline {
         metrics.iter().filter_map(difference).chain(vanished).collect()
     }
 
-    /// Gates of `case` that do not judge `metrics`, with what took each away: a gate that vanishes is a failure.
+    /// Gates of `case` in the baseline that do not judge `metrics`, with what took each away: a gate that vanishes is a failure.
     #[must_use]
     pub fn not_judged(&self, case: &str, metrics: &[Metric]) -> Vec<(MetricKey, String)> {
         let own = self.gates().filter(|key| key.case == case);
@@ -332,5 +332,5 @@ pub(super) fn snapshot_tolerance(metric: &Metric, from: f64) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "accepted_tests.rs"]
+#[path = "baseline_tests.rs"]
 mod tests;

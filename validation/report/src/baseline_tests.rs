@@ -1,4 +1,4 @@
-//! Tests of the accepted values: what the file keeps, what counts as drift.
+//! Tests of the baseline: what the file keeps, what counts as moved.
 
 use super::*;
 use crate::metric::Limit;
@@ -31,48 +31,48 @@ fn values_survive_the_file_and_other_tiers_stay_apart() {
 }
 
 #[test]
-fn a_value_drifts_beyond_its_relative_tolerance_and_floor() {
+fn a_value_moves_beyond_its_relative_tolerance_and_floor() {
     let baseline = Baseline::of("bagnold", &[metric("velocity_l2", 0.5)]);
     // 0.01 · 0.5 + 0.001 = 0.006
-    assert!(!baseline.drift("bagnold", &metric("velocity_l2", 0.5059)).is_failure());
-    assert!(!baseline.drift("bagnold", &metric("velocity_l2", 0.4941)).is_failure());
-    assert!(baseline.drift("bagnold", &metric("velocity_l2", 0.5061)).is_failure());
-    assert!(baseline.drift("bagnold", &metric("velocity_l2", 0.4939)).is_failure());
-    assert!(baseline.drift("bagnold", &metric("velocity_l2", f64::NAN)).is_failure());
-    assert!(baseline.drift("bagnold", &metric("velocity_l2", f64::INFINITY)).is_failure());
-    assert_eq!(baseline.drift("bagnold", &metric("other", 1.0)), Drift::New);
-    assert_eq!(baseline.drift("film", &metric("velocity_l2", 1.0)), Drift::New);
+    assert!(!baseline.change("bagnold", &metric("velocity_l2", 0.5059)).has_moved());
+    assert!(!baseline.change("bagnold", &metric("velocity_l2", 0.4941)).has_moved());
+    assert!(baseline.change("bagnold", &metric("velocity_l2", 0.5061)).has_moved());
+    assert!(baseline.change("bagnold", &metric("velocity_l2", 0.4939)).has_moved());
+    assert!(baseline.change("bagnold", &metric("velocity_l2", f64::NAN)).has_moved());
+    assert!(baseline.change("bagnold", &metric("velocity_l2", f64::INFINITY)).has_moved());
+    assert_eq!(baseline.change("bagnold", &metric("other", 1.0)), Change::New);
+    assert_eq!(baseline.change("film", &metric("velocity_l2", 1.0)), Change::New);
     let mut other_unit = metric("velocity_l2", 0.5);
     other_unit.unit = "-".to_owned();
-    assert!(baseline.drift("bagnold", &other_unit).is_failure());
+    assert!(baseline.change("bagnold", &other_unit).has_moved());
 }
 
 #[test]
 fn a_metric_without_tolerance_is_compared_to_the_ninth_figure() {
     let exact = |value: f64| metric("mass", value).with_snapshot_tolerance(0.0, 0.0);
     let baseline = Baseline::of("film", &[exact(0.123_456_789_4)]);
-    assert!(!baseline.drift("film", &exact(0.123_456_789_4)).is_failure());
-    assert!(baseline.drift("film", &exact(0.123_456_790_1)).is_failure());
+    assert!(!baseline.change("film", &exact(0.123_456_789_4)).has_moved());
+    assert!(baseline.change("film", &exact(0.123_456_790_1)).has_moved());
     let zero = Baseline::of("film", &[exact(0.0)]);
-    assert!(!zero.drift("film", &exact(-0.0)).is_failure());
-    assert!(zero.drift("film", &exact(1e-300)).is_failure());
+    assert!(!zero.change("film", &exact(-0.0)).has_moved());
+    assert!(zero.change("film", &exact(1e-300)).has_moved());
 }
 
 #[test]
-fn a_value_that_is_not_a_number_drifts_only_by_becoming_one() {
+fn a_value_that_is_not_a_number_moves_only_by_becoming_one() {
     let baseline = Baseline::of("bagnold", &[metric("gci", f64::NAN), metric("order", f64::INFINITY)]);
-    assert!(!baseline.drift("bagnold", &metric("gci", f64::NAN)).is_failure());
-    assert!(baseline.drift("bagnold", &metric("gci", 1.0)).is_failure());
-    assert!(!baseline.drift("bagnold", &metric("order", f64::INFINITY)).is_failure());
-    assert!(baseline.drift("bagnold", &metric("order", f64::NAN)).is_failure());
+    assert!(!baseline.change("bagnold", &metric("gci", f64::NAN)).has_moved());
+    assert!(baseline.change("bagnold", &metric("gci", 1.0)).has_moved());
+    assert!(!baseline.change("bagnold", &metric("order", f64::INFINITY)).has_moved());
+    assert!(baseline.change("bagnold", &metric("order", f64::NAN)).has_moved());
 }
 
 #[test]
 fn a_gate_that_changes_sides_within_the_tolerance_is_a_change() {
     let gated = |value: f64| metric("velocity_l2", value).gated(Limit::AtMost(1.0), "for the test");
     let baseline = Baseline::of("film", &[gated(1.0)]);
-    assert_eq!(baseline.drift("film", &gated(1.001)), Drift::VerdictChanged { verdict: Verdict::Pass });
-    assert!(baseline.drift("film", &metric("velocity_l2", 1.0)).is_failure(), "the gate has gone");
+    assert_eq!(baseline.change("film", &gated(1.001)), Change::VerdictChanged { verdict: Verdict::Pass });
+    assert!(baseline.change("film", &metric("velocity_l2", 1.0)).has_moved(), "the gate has gone");
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn differences_are_told_in_words() {
         [
             "velocity_l2 [resolution=40] was 0.548\u{202f}%, is 0.56\u{202f}%: change 1.200e-2, tolerance 6.480e-3",
             "gci [resolution=40] was in %, is in -",
-            "new [resolution=40] is not among the accepted values",
+            "new [resolution=40] is not in the baseline",
         ]
     );
     assert_eq!(
@@ -125,10 +125,10 @@ fn a_damaged_or_foreign_file_is_refused_with_its_path() {
 fn gates_that_are_not_judged_are_named_with_the_reason() {
     let metric = |name: &str| Metric::observed(name, &Variant::of("a", 3), 1.0, "m");
     let gated = |name: &str| metric(name).gated(crate::metric::Limit::AtMost(2.0), "a reason");
-    let accepted = Baseline::of("heap", &[gated("front"), gated("height"), gated("width"), metric("angle")]);
-    assert!(accepted.not_judged("heap", &[gated("front"), gated("height"), gated("width")]).is_empty());
+    let before = Baseline::of("heap", &[gated("front"), gated("height"), gated("width"), metric("angle")]);
+    assert!(before.not_judged("heap", &[gated("front"), gated("height"), gated("width")]).is_empty());
     let unsteady = gated("speed").unless(Some(&"it still rises".to_owned()));
-    let gone = accepted.not_judged("heap", &[gated("front"), metric("height"), unsteady]);
+    let gone = before.not_judged("heap", &[gated("front"), metric("height"), unsteady]);
     let lines: Vec<String> = gone.iter().map(|(key, reason)| format!("{}: {reason}", key.metric)).collect();
     assert_eq!(
         lines,

@@ -1,8 +1,6 @@
 //! A report that nothing has changed since it was made: the next one says what it said.
 
-use super::Exit;
-use super::arguments::ReportArguments;
-use super::places::CommittedValues;
+use super::{CommittedValues, Exit};
 use crate::observation::state_hash;
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -22,16 +20,11 @@ struct Made {
     text: String,
 }
 
-/// Digest of all that a report of the program's cases is made from: the program, the command, the committed values. None for
-/// one that is made anyway.
-pub(super) fn inputs(command: &ReportArguments, places: &CommittedValues) -> Option<String> {
-    let writes_elsewhere = command.accept || command.junit.is_some() || command.profile;
-    if writes_elsewhere || command.work.fresh || command.against.is_some() || command.suite.is_some() {
-        return None;
-    }
+/// Digest of all that a report of the program's cases is made from: the program, the command, the committed values.
+pub(super) fn inputs(command: &str, places: &CommittedValues) -> Option<String> {
     let mut all = fs::read(std::env::current_exe().ok()?).ok()?;
-    all.extend(format!("{command:?}").bytes());
-    let folder = places.accepted_folder();
+    all.extend(command.bytes());
+    let folder = places.folder();
     for path in files_below(&folder).unwrap_or_default() {
         all.extend(path.to_string_lossy().bytes());
         all.extend(fs::read(folder.join(&path)).ok()?);

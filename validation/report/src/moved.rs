@@ -1,7 +1,7 @@
-//! Regressions since the baseline: the changes in tolerances.
+//! Changes from the baseline, in tolerances.
 
 use super::Report;
-use super::accepted::{Baseline, Drift, MetricKey};
+use super::baseline::{Baseline, Change, MetricKey};
 use super::judgement::{JudgedMetric, Judgement};
 use super::rows::value_and_baseline;
 use super::view::{VerdictMark, anchor};
@@ -9,21 +9,21 @@ use crate::number::{two_digits, with_unit};
 use serde_json::{Value, json};
 use std::fmt;
 
-/// Rows of the table; what has drifted is always in it.
+/// Rows of the table; what has moved beyond its tolerance is always in it.
 const ROWS: usize = 25;
 
 /// Least change that is worth a row `[tolerances]`; smaller changes are rounding noise.
 const LEAST: f64 = 0.05;
 
-/// A value that has moved.
+/// A value that differs from its baseline.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Moved {
+pub(super) struct MovedValue {
     /// Key of the metric.
-    pub key: MetricKey,
+    pub(super) key: MetricKey,
     /// By how many tolerances `[-]`; infinite for a change of unit or verdict, and for what is gone.
-    pub tolerances: f64,
-    /// Whether that is a drift.
-    pub has_drifted: bool,
+    pub(super) tolerances: f64,
+    /// Whether it has moved beyond its tolerance.
+    pub(super) is_beyond: bool,
     /// Whether it is still measured.
     is_measured: bool,
     /// Value and baseline in words.
@@ -32,7 +32,7 @@ pub struct Moved {
     commit: String,
 }
 
-impl fmt::Display for Moved {
+impl fmt::Display for MovedValue {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let MetricKey { case, metric, variant } = &self.key;
         let (value, baseline) = &self.statement;
@@ -47,44 +47,44 @@ impl fmt::Display for Moved {
     }
 }
 
-/// Everything that has moved, the farthest first, then in the order of the cases. What has drifted comes before what has
+/// Every change, the farthest first, then in the order of the cases. What has moved beyond its tolerance comes before what has
 /// not.
 #[must_use]
-pub fn moved(judgement: &Judgement<'_>, baseline: &Baseline) -> Vec<Moved> {
+pub(super) fn moved(judgement: &Judgement<'_>, baseline: &Baseline) -> Vec<MovedValue> {
     let mut all = Vec::new();
     for case in &judgement.cases {
         let of_metric = |judged: &JudgedMetric<'_>| of_metric(&case.case.name, judged, baseline);
         all.extend(case.metrics.iter().filter_map(of_metric));
-        all.extend(case.vanished.iter().map(|key| Moved {
+        all.extend(case.vanished.iter().map(|key| MovedValue {
             key: key.clone(),
             tolerances: f64::INFINITY,
-            has_drifted: true,
+            is_beyond: true,
             is_measured: false,
             statement: ("no longer measured".to_owned(), String::new()),
             commit: baseline.commit(&key.case),
         }));
     }
-    all.retain(|moved| moved.has_drifted || moved.tolerances >= LEAST);
+    all.retain(|moved| moved.is_beyond || moved.tolerances >= LEAST);
     // Stable: equal ones keep the order of the page.
-    all.sort_by(|a, b| b.has_drifted.cmp(&a.has_drifted).then(b.tolerances.total_cmp(&a.tolerances)));
+    all.sort_by(|a, b| b.is_beyond.cmp(&a.is_beyond).then(b.tolerances.total_cmp(&a.tolerances)));
     all
 }
 
-fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Option<Moved> {
+fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Option<MovedValue> {
     let metric = judged.metric;
     let value = with_unit(metric.value, &metric.unit);
-    let statement = match &judged.drift {
-        Drift::New => return None,
-        Drift::Unchanged { baseline, tolerance, .. } | Drift::Drifted { baseline, tolerance, .. } => {
+    let statement = match &judged.change {
+        Change::New => return None,
+        Change::Unchanged { baseline, tolerance, .. } | Change::Moved { baseline, tolerance, .. } => {
             let (value, was) = value_and_baseline(metric, *baseline);
             (value, format!("{was} ± {}", two_digits(*tolerance)))
         }
-        Drift::UnitChanged { unit } => (value, format!("in {unit}")),
-        Drift::VerdictChanged { verdict } => (value, format!("{}, now {}", verdict.word(), judged.verdict.word())),
+        Change::UnitChanged { unit } => (value, format!("in {unit}")),
+        Change::VerdictChanged { verdict } => (value, format!("{}, now {}", verdict.word(), metric.verdict().word())),
     };
-    Some(Moved {
-        tolerances: judged.drift.in_tolerances()?,
-        has_drifted: judged.drift.is_failure(),
+    Some(MovedValue {
+        tolerances: judged.change.in_tolerances()?,
+        is_beyond: judged.change.has_moved(),
         is_measured: true,
         statement,
         commit: baseline.commit(case),
@@ -96,23 +96,23 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Opti
 pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> Value {
     let against = match &report.against {
         Some(folder) => format!("the report in {folder}"),
-        None => "the accepted values".to_owned(),
+        None => "the baseline".to_owned(),
     };
     table_of(&moved(judgement, &report.baseline), against)
 }
 
-fn table_of(all: &[Moved], against: String) -> Value {
-    let drifted = all.iter().filter(|moved| moved.has_drifted).count();
-    let shown = all.len().min(ROWS.max(drifted));
+fn table_of(all: &[MovedValue], against: String) -> Value {
+    let beyond = all.iter().filter(|moved| moved.is_beyond).count();
+    let shown = all.len().min(ROWS.max(beyond));
     let rows: Vec<Value> = all[..shown].iter().map(row).collect();
     json!({ "against": against, "rows": rows, "omitted": all.len() - shown })
 }
 
-fn row(moved: &Moved) -> Value {
+fn row(moved: &MovedValue) -> Value {
     let key = &moved.key;
     let unchanged = VerdictMark { word: "within", ..VerdictMark::PASS };
     json!({
-        "mark": if moved.has_drifted { VerdictMark::DRIFT } else { unchanged },
+        "mark": if moved.is_beyond { VerdictMark::MOVED } else { unchanged },
         "case": key.case,
         "metric": key.metric,
         "variant": key.variant.to_string(),
@@ -126,5 +126,5 @@ fn row(moved: &Moved) -> Value {
 }
 
 #[cfg(test)]
-#[path = "drift_tests.rs"]
+#[path = "moved_tests.rs"]
 mod tests;

@@ -1,21 +1,21 @@
-//! The list of gates that are known to fail: every entry must speak of something that is still measured.
+//! The list of gates that are expected to fail: every entry must speak of something that is still measured.
 
 use crate::verdict::complaints;
 use bagnold_harness::case::{CaseResult, Changes, RunSummary, Tier};
 use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
 use bagnold_harness::observation::Outcome;
-use bagnold_report::{KnownFailure, KnownFailures};
+use bagnold_report::{ExpectedFailure, ExpectedFailures};
 use bagnold_validation::REGISTRY;
 use std::path::Path;
 
 /// The committed list.
-pub(crate) fn read() -> KnownFailures {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots/known_failures.toml");
-    KnownFailures::read(&path).unwrap_or_else(|error| panic!("failed to {error}"))
+pub(crate) fn read() -> ExpectedFailures {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots/expected_failures.toml");
+    ExpectedFailures::read(&path).unwrap_or_else(|error| panic!("failed to {error}"))
 }
 
 /// The cheapest tier that has all runs an entry's variant speaks of; it has to measure the metric.
-pub(crate) fn owing_tier(entry: &KnownFailure) -> Option<Tier> {
+pub(crate) fn owing_tier(entry: &ExpectedFailure) -> Option<Tier> {
     let case = REGISTRY.find(&entry.case).ok()?;
     [Tier::Quick, Tier::Paper, Tier::Fine].into_iter().find(|&tier| {
         case.prepare(tier, &Changes::default()).is_ok_and(|prepared| {
@@ -52,7 +52,7 @@ fn has_all(run: &Variant, wanted: &Variant) -> bool {
 }
 
 #[test]
-fn every_known_failure_names_runs_of_a_case() {
+fn every_expected_failure_names_runs_of_a_case() {
     let stale: Vec<String> = read()
         .failures
         .iter()
@@ -63,7 +63,7 @@ fn every_known_failure_names_runs_of_a_case() {
 }
 
 #[test]
-fn every_known_failure_is_of_a_quantity_that_its_case_declares() {
+fn every_expected_failure_is_of_a_quantity_that_its_case_declares() {
     for entry in read().failures {
         let case = REGISTRY.find(&entry.case).expect("a case");
         let known = case.quantities();
@@ -76,8 +76,8 @@ fn every_known_failure_is_of_a_quantity_that_its_case_declares() {
     }
 }
 
-fn entry(metric: &str, variant: &str, best_value: f64) -> KnownFailure {
-    KnownFailure {
+fn entry(metric: &str, variant: &str, best_value: f64) -> ExpectedFailure {
+    ExpectedFailure {
         case: "film".to_owned(),
         metric: metric.to_owned(),
         variant: variant.parse().expect("a variant"),
@@ -142,10 +142,10 @@ fn result(value: f64, outcome: Outcome) -> CaseResult {
 #[test]
 fn the_verdict_can_fail_in_every_way() {
     let variant = "fluid=bingham,particles=jittered,resolution=20";
-    let none = KnownFailures::default();
-    let listed = KnownFailures { failures: vec![entry("velocity_l2", variant, 2.0)] };
-    let stale = KnownFailures { failures: vec![entry("gone", variant, 2.0)] };
-    let judged = |value, list: &KnownFailures| complaints(&result(value, Outcome::Finished), list, Tier::Quick);
+    let none = ExpectedFailures::default();
+    let listed = ExpectedFailures { failures: vec![entry("velocity_l2", variant, 2.0)] };
+    let stale = ExpectedFailures { failures: vec![entry("gone", variant, 2.0)] };
+    let judged = |value, list: &ExpectedFailures| complaints(&result(value, Outcome::Finished), list, Tier::Quick);
     assert_eq!(judged(0.9, &none), [""; 0]);
     assert_eq!(judged(2.0, &listed), [""; 0]);
     assert_eq!(

@@ -1,6 +1,6 @@
 //! Gates that honest attempts did not reach. They stay red on the page, but only a change of them is an error.
 
-use super::accepted::{MetricKey, snapshot_tolerance};
+use super::baseline::{MetricKey, snapshot_tolerance};
 use super::error::{BaselineError, read_if_there};
 use super::shipped;
 use crate::input::WRITTEN_BY_HAND;
@@ -11,7 +11,7 @@ use std::path::Path;
 /// One listed gate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct KnownFailure {
+pub struct ExpectedFailure {
     /// Case name.
     pub case: String,
     /// Metric name.
@@ -26,31 +26,31 @@ pub struct KnownFailure {
     pub reason: String,
 }
 
-/// The list of `tests/snapshots/known_failures.toml`.
+/// The list of `tests/snapshots/expected_failures.toml`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct KnownFailures {
+pub struct ExpectedFailures {
     /// The listed gates.
     #[serde(default, rename = "failure")]
-    pub failures: Vec<KnownFailure>,
+    pub failures: Vec<ExpectedFailure>,
 }
 
-/// Status of a metric in the list of known failures.
+/// Status of a metric in the list of expected failures.
 #[derive(Debug, Clone, PartialEq)]
-pub enum KnownFailureStatus {
+pub enum ListStatus {
     /// Not listed: the gate's own verdict counts.
     Unlisted,
     /// Listed and failing as expected: shown red, no error.
-    Known(KnownFailure),
-    /// Listed, but the gate holds: the entry must go. An error.
-    PassesAgain(KnownFailure),
+    AsListed(ExpectedFailure),
+    /// Listed, but the gate passes: the entry must go. An error.
+    PassesAgain(ExpectedFailure),
     /// Listed and failing by more than the best value's snapshot tolerance beyond it. An error.
-    Worse(KnownFailure),
+    Worse(ExpectedFailure),
     /// Listed, but the metric has no gate (or an unverified reference): the entry means nothing. An error.
-    WithoutGate(KnownFailure),
+    WithoutGate(ExpectedFailure),
 }
 
-impl KnownFailureStatus {
+impl ListStatus {
     /// Whether the list and the result contradict each other.
     #[must_use]
     pub fn is_error(&self) -> bool {
@@ -59,17 +59,17 @@ impl KnownFailureStatus {
 
     /// The list's entry, if there is one.
     #[must_use]
-    pub fn entry(&self) -> Option<&KnownFailure> {
+    pub fn entry(&self) -> Option<&ExpectedFailure> {
         match self {
             Self::Unlisted => None,
-            Self::Known(entry) | Self::PassesAgain(entry) | Self::Worse(entry) | Self::WithoutGate(entry) => {
+            Self::AsListed(entry) | Self::PassesAgain(entry) | Self::Worse(entry) | Self::WithoutGate(entry) => {
                 Some(entry)
             }
         }
     }
 }
 
-impl KnownFailures {
+impl ExpectedFailures {
     /// Reads the list; a missing file is an empty list.
     ///
     /// # Errors
@@ -85,7 +85,7 @@ impl KnownFailures {
     /// # Errors
     /// If it is malformed, which a test excludes.
     pub fn shipped() -> Result<Self, BaselineError> {
-        let path = Path::new("known_failures.toml");
+        let path = Path::new("expected_failures.toml");
         shipped::text(path).map_or_else(|| Ok(Self::default()), |text| Self::parse(path, text))
     }
 
@@ -117,32 +117,32 @@ impl KnownFailures {
 
     /// The entry for `metric` of `case`.
     #[must_use]
-    pub fn entry(&self, case: &str, metric: &Metric) -> Option<&KnownFailure> {
+    pub fn entry(&self, case: &str, metric: &Metric) -> Option<&ExpectedFailure> {
         let key = MetricKey::of(case, metric);
         self.failures.iter().find(|failure| failure.key() == key)
     }
 
     /// Status of `metric` of `case` in the list.
     #[must_use]
-    pub fn standing(&self, case: &str, metric: &Metric) -> KnownFailureStatus {
-        let Some(entry) = self.entry(case, metric).cloned() else { return KnownFailureStatus::Unlisted };
+    pub fn status(&self, case: &str, metric: &Metric) -> ListStatus {
+        let Some(entry) = self.entry(case, metric).cloned() else { return ListStatus::Unlisted };
         match (metric.verdict(), &metric.gate) {
-            (Verdict::Pass, _) => KnownFailureStatus::PassesAgain(entry),
+            (Verdict::Pass, _) => ListStatus::PassesAgain(entry),
             (Verdict::Fail, Some(gate)) => {
                 // The margin knows which direction is worse; what is not a number is worse than anything.
                 let lost = gate.limit.margin(entry.best_value) - gate.limit.margin(metric.value);
                 if metric.value.is_finite() && lost <= snapshot_tolerance(metric, entry.best_value) {
-                    KnownFailureStatus::Known(entry)
+                    ListStatus::AsListed(entry)
                 } else {
-                    KnownFailureStatus::Worse(entry)
+                    ListStatus::Worse(entry)
                 }
             }
-            _ => KnownFailureStatus::WithoutGate(entry),
+            _ => ListStatus::WithoutGate(entry),
         }
     }
 }
 
-impl KnownFailure {
+impl ExpectedFailure {
     /// The gate that it names.
     #[must_use]
     pub fn key(&self) -> MetricKey {
@@ -165,11 +165,11 @@ date = "2025-01-31"
 reason = "slip at the wall"
 "#;
 
-    fn read(text: &str) -> Result<KnownFailures, BaselineError> {
+    fn read(text: &str) -> Result<ExpectedFailures, BaselineError> {
         let folder = tempfile::tempdir().expect("folder");
-        let path = folder.path().join("known_failures.toml");
+        let path = folder.path().join("expected_failures.toml");
         std::fs::write(&path, text).expect("file");
-        KnownFailures::read(&path)
+        ExpectedFailures::read(&path)
     }
 
     fn metric(value: f64, limit: Limit) -> Metric {
@@ -179,33 +179,33 @@ reason = "slip at the wall"
     }
 
     #[test]
-    fn a_listed_gate_is_known_until_it_passes_or_gets_worse() {
+    fn a_listed_gate_is_expected_until_it_passes_or_gets_worse() {
         let list = read(LIST).expect("list");
-        let standing = |value| list.standing("bagnold", &metric(value, Limit::AtMost(0.7)));
-        assert!(matches!(standing(0.9), KnownFailureStatus::Known(_)));
-        assert!(matches!(standing(0.94), KnownFailureStatus::Known(_)), "within 5 % of the best value");
-        assert!(matches!(standing(0.8), KnownFailureStatus::Known(_)), "better, but still failing");
-        assert!(matches!(standing(0.95), KnownFailureStatus::Worse(_)));
-        assert!(matches!(standing(f64::NAN), KnownFailureStatus::Worse(_)));
-        assert!(matches!(standing(0.69), KnownFailureStatus::PassesAgain(_)));
-        assert!(!standing(0.9).is_error() && standing(0.95).is_error() && standing(0.69).is_error());
+        let status = |value| list.status("bagnold", &metric(value, Limit::AtMost(0.7)));
+        assert!(matches!(status(0.9), ListStatus::AsListed(_)));
+        assert!(matches!(status(0.94), ListStatus::AsListed(_)), "within 5 % of the best value");
+        assert!(matches!(status(0.8), ListStatus::AsListed(_)), "better, but still failing");
+        assert!(matches!(status(0.95), ListStatus::Worse(_)));
+        assert!(matches!(status(f64::NAN), ListStatus::Worse(_)));
+        assert!(matches!(status(0.69), ListStatus::PassesAgain(_)));
+        assert!(!status(0.9).is_error() && status(0.95).is_error() && status(0.69).is_error());
     }
 
     #[test]
     fn worse_follows_the_direction_of_the_gate() {
         let list = read(LIST).expect("list");
-        let standing = |value| list.standing("bagnold", &metric(value, Limit::AtLeast(1.5)));
-        assert!(matches!(standing(0.84), KnownFailureStatus::Worse(_)));
-        assert!(matches!(standing(1.2), KnownFailureStatus::Known(_)));
+        let status = |value| list.status("bagnold", &metric(value, Limit::AtLeast(1.5)));
+        assert!(matches!(status(0.84), ListStatus::Worse(_)));
+        assert!(matches!(status(1.2), ListStatus::AsListed(_)));
     }
 
     #[test]
     fn other_metrics_are_unlisted_and_an_entry_without_a_gate_is_an_error() {
         let list = read(LIST).expect("list");
         let gated = metric(0.9, Limit::AtMost(0.7));
-        assert_eq!(list.standing("film", &gated), KnownFailureStatus::Unlisted);
+        assert_eq!(list.status("film", &gated), ListStatus::Unlisted);
         let observed = Metric { gate: None, ..gated };
-        assert!(matches!(list.standing("bagnold", &observed), KnownFailureStatus::WithoutGate(_)));
+        assert!(matches!(list.status("bagnold", &observed), ListStatus::WithoutGate(_)));
     }
 
     #[test]
@@ -219,9 +219,9 @@ reason = "slip at the wall"
             (LIST.replace("date = \"2025-01-31\"\n", ""), "date"),
         ] {
             let error = read(&text).expect_err("refused").to_string();
-            assert!(error.contains(expected) && error.contains("known_failures.toml"), "{error}");
+            assert!(error.contains(expected) && error.contains("expected_failures.toml"), "{error}");
         }
-        assert_eq!(read("").expect("empty"), KnownFailures::default());
-        assert!(KnownFailures::read(Path::new("no/such/file.toml")).expect("missing").failures.is_empty());
+        assert_eq!(read("").expect("empty"), ExpectedFailures::default());
+        assert!(ExpectedFailures::read(Path::new("no/such/file.toml")).expect("missing").failures.is_empty());
     }
 }

@@ -1,18 +1,32 @@
 //! Results as a compact table for the terminal.
 
-use crate::case::CaseResult;
+use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
+use super::{CaseReport, ListStatus, MetricKey};
 use crate::metric::{Metric, PredictionInterval, Variant, Verdict};
 use crate::number::{aligned_digits, in_unit};
 use crate::observation::Outcome;
-use crate::report::MetricKey;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 /// A case's metrics, one per line, what went wrong in its runs, and what is predicted.
-pub fn of_case(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
-    let table = table(result.metrics.iter().map(|metric| row(metric, is_known(metric))).collect());
-    let is_sound = result.runs.iter().all(|run| !matches!(run.outcome, Outcome::Diverged { .. }));
-    heading(result) + &table + &if is_sound { predictions(&result.metrics) } else { String::new() }
+#[must_use]
+pub fn of_case(judged: &JudgedCase<'_>) -> String {
+    let case = judged.case;
+    let is_sound = case.runs.iter().all(|run| !matches!(run.outcome, Outcome::Diverged { .. }));
+    let predictions = if is_sound { predictions(&case.metrics) } else { String::new() };
+    heading(case) + &table(rows(judged, |_| true)) + &predictions
+}
+
+/// What went wrong in the runs of a case, and its gates that fail.
+pub(super) fn failures(judged: &JudgedCase<'_>) -> String {
+    heading(judged.case) + &table(rows(judged, |judged| matches!(judged.rank(), Rank::Failing(_))))
+}
+
+/// Rows of metrics in the order of their case.
+fn rows(judged: &JudgedCase<'_>, is_shown: impl Fn(&JudgedMetric<'_>) -> bool) -> Vec<[String; 7]> {
+    let mut shown: Vec<&JudgedMetric<'_>> = judged.metrics.iter().filter(|judged| is_shown(judged)).collect();
+    shown.sort_by_key(|judged| std::ptr::from_ref(judged.metric));
+    shown.into_iter().map(|judged| row(judged.metric, judged.severity)).collect()
 }
 
 /// Intervals of the true values of user-defined materials, a line each.
@@ -62,20 +76,17 @@ fn without_interval(metrics: &[Metric]) -> String {
     over_runs.collect::<String>() + if names.is_empty() { "" } else { &line }
 }
 
-/// The metrics of a case whose gates do not hold; empty if all hold.
-pub(super) fn failures(result: &CaseResult, is_known: impl Fn(&Metric) -> bool) -> String {
-    table(result.failures().map(|metric| row(metric, is_known(metric))).collect())
-}
-
 /// Metrics of another code as a table.
-pub(super) fn of_metrics<'a>(metrics: impl Iterator<Item = &'a Metric>) -> String {
-    table(metrics.map(|metric| row(metric, false)).collect())
+pub fn of_metrics<'a>(metrics: impl Iterator<Item = &'a Metric>) -> String {
+    let severity = |metric: &Metric| Severity::of(metric, &ListStatus::Unlisted, None);
+    table(metrics.map(|metric| row(metric, severity(metric))).collect())
 }
 
 /// Gates of a case that are no longer judged, a line each.
-pub(super) fn not_judged(case: &str, gates: &[(MetricKey, String)]) -> String {
-    let line =
-        |(key, reason): &(MetricKey, String)| format!("NOT JUDGED: {case} {} {}: {reason}\n", key.metric, key.variant);
+pub(super) fn not_judged(gates: &[(MetricKey, String)]) -> String {
+    let line = |(key, reason): &(MetricKey, String)| {
+        format!("NOT JUDGED: {} {} {}: {reason}\n", key.case, key.metric, key.variant)
+    };
     gates.iter().map(line).collect()
 }
 
@@ -107,7 +118,7 @@ fn table(mut rows: Vec<[String; 7]>) -> String {
 }
 
 /// One line about a case, and one for each run that did not end as it should.
-pub(super) fn heading(result: &CaseResult) -> String {
+fn heading(result: &CaseReport) -> String {
     let stored = result.runs.iter().filter(|run| run.from_store).count();
     let mut text = format!("{}, {} tier: {} runs", result.name, result.tier, result.runs.len());
     // Writing to a string cannot fail.
@@ -136,17 +147,14 @@ pub(super) fn heading(result: &CaseResult) -> String {
     text
 }
 
-fn row(metric: &Metric, is_known: bool) -> [String; 7] {
-    let verdict = match metric.verdict() {
-        Verdict::Pass => "pass",
-        Verdict::Fail if is_known => "fail (known)",
-        Verdict::Fail => "FAIL",
-        Verdict::Observed => "observed",
-    };
+fn row(metric: &Metric, severity: Option<Severity>) -> [String; 7] {
+    let verdict = severity.map_or("observed", Severity::word);
+    // what changes the exit code is seen first
+    let verdict = if severity.is_some_and(Severity::is_error) { verdict.to_uppercase() } else { verdict.to_owned() };
     // Only a limit that judges is shown, so that the line agrees with its verdict.
     let limit = metric.gate.as_ref().map(|gate| gate.limit).filter(|_| metric.verdict() != Verdict::Observed);
     [
-        verdict.to_owned(),
+        verdict,
         metric.name.clone(),
         metric.variant.to_string(),
         metric.without_value().map_or_else(|| aligned_digits(metric.value), str::to_owned),
@@ -164,9 +172,10 @@ mod tests {
     #[test]
     fn an_observed_metric_shows_no_limit() {
         let metric = Metric::observed("run_out", &Variant::of("a", 1), 0.5, "m");
-        assert_eq!(row(&metric, false), ["observed", "run_out", "a=1", "0.5000", "m", "", ""].map(str::to_owned));
+        assert_eq!(row(&metric, None), ["observed", "run_out", "a=1", "0.5000", "m", "", ""].map(str::to_owned));
         let failed = metric.gated(Limit::AtMost(0.25), "reason");
-        assert_eq!(row(&failed, false)[0], "FAIL");
-        assert_eq!(row(&failed, true)[..], ["fail (known)", "run_out", "a=1", "0.5000", "m", "≤ 0.2500", "-0.2500"]);
+        assert_eq!(row(&failed, Some(Severity::NewFailure))[0], "NEW FAILURE");
+        let expected = row(&failed, Some(Severity::ExpectedFailure));
+        assert_eq!(expected[..], ["expected failure", "run_out", "a=1", "0.5000", "m", "≤ 0.2500", "-0.2500"]);
     }
 }

@@ -1,0 +1,206 @@
+//! The process of a report: the committed values are read before anything is simulated; afterwards cases are judged, pages are
+//! written, and the exit code follows.
+
+use super::baseline::Baseline;
+use super::error::ProcessError;
+use super::judgement::{Judgement, judge};
+use super::moved::{MovedValue, moved};
+use super::{
+    CaseReport, CommittedValues, Exit, ExpectedFailures, GateList, Report, ReportProvenance, papers, summary, unchanged,
+};
+use crate::case::{Features, Tier};
+use crate::evidence::{ValidatedComparison, ValidationSet};
+use crate::output::{FileError, OutputFolder, write_whole};
+use crate::store::{Drawings, provenance};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// What a report is made of, and what is asked of it.
+#[derive(Debug, Clone)]
+pub struct ReportRequest {
+    /// Heading of the first page.
+    pub title: String,
+    /// Values to compare with.
+    pub committed: CommittedValues,
+    /// Names of the cases or studies, with their tiers.
+    pub named: Vec<(String, Tier)>,
+    /// The options whose coverage is shown; none for a suite.
+    pub features: Option<Features>,
+    /// Folder of an earlier report to compare with instead.
+    pub against: Option<PathBuf>,
+    /// Whether the values become the baseline.
+    pub accept: bool,
+    /// Whether a value that has moved is an error.
+    pub deny_moved: bool,
+    /// File for the verdicts as JUnit's XML.
+    pub junit: Option<PathBuf>,
+    /// Folder to write.
+    pub folder: PathBuf,
+    /// The command that makes it again.
+    pub command: String,
+    /// Every option, where a report that was made by the same from the same need not be made again.
+    pub options: Option<String>,
+}
+
+/// A report whose cases are being simulated.
+#[derive(Debug)]
+pub struct ReportProcess {
+    request: ReportRequest,
+    baseline: Baseline,
+    expected_failures: ExpectedFailures,
+    claimed: OutputFolder,
+    /// Digest of what it is made from.
+    inputs: Option<String>,
+    started: Instant,
+}
+
+/// A finished report.
+#[derive(Debug)]
+pub struct ReportOutcome {
+    /// The exit code.
+    pub exit: Exit,
+    /// The verdicts in words.
+    pub text: String,
+    /// The cases; empty where nothing has changed since the report was made.
+    pub cases: Vec<CaseReport>,
+}
+
+impl ReportRequest {
+    /// Reads the committed values and claims the folder; or says what the report there said, if nothing has changed since.
+    ///
+    /// # Errors
+    /// Committed values or an earlier report that are malformed, a folder that cannot be written.
+    pub fn begin(self) -> Result<Result<ReportProcess, ReportOutcome>, ProcessError> {
+        let baseline = self.baseline()?;
+        let inputs = self.options.as_ref().and_then(|options| unchanged::inputs(options, &self.committed));
+        if let Some((exit, text)) = inputs.as_ref().and_then(|inputs| unchanged::said(&self.folder, inputs)) {
+            return Ok(Err(ReportOutcome { exit, text, cases: Vec::new() }));
+        }
+        let claimed = OutputFolder::claim(&self.folder)?;
+        let expected_failures = self.committed.expected_failures()?;
+        let started = Instant::now();
+        Ok(Ok(ReportProcess { request: self, baseline, expected_failures, claimed, inputs, started }))
+    }
+
+    /// Values of an earlier report, or the committed ones.
+    fn baseline(&self) -> Result<Baseline, ProcessError> {
+        if let Some(folder) = &self.against {
+            let names: Vec<String> = self.named.iter().map(|(name, _)| name.clone()).collect();
+            let tier = self.named.first().map_or(Tier::Quick, |(_, tier)| *tier);
+            return Ok(Baseline::of_report(folder, &names, tier)?);
+        }
+        let mut baseline = Baseline::default();
+        for (name, tier) in &self.named {
+            baseline.extend(self.committed.baseline(name, *tier)?);
+        }
+        Ok(baseline)
+    }
+}
+
+impl ReportProcess {
+    /// Judges the cases, writes the pages and says what fails.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn finish(mut self, cases: Vec<CaseReport>, drawings: &Drawings) -> Result<ReportOutcome, ProcessError> {
+        if self.request.accept {
+            self.baseline = accept(&self.request.committed, &cases)?;
+        }
+        let report = self.report(cases);
+        let judgement = judge(&report);
+        super::write_judged(&report, &judgement, self.claimed.staging(), drawings)?;
+        let (exit, text) = self.said(&report, &judgement);
+        if let Some(inputs) = self.inputs {
+            let kept = unchanged::keep(self.claimed.staging(), inputs, exit, &text);
+            kept.map_err(|error| FileError::unwritable(self.claimed.staging(), &error))?;
+        }
+        self.claimed.publish()?;
+        if let Some(path) = &self.request.junit {
+            super::write_junit(&report, &judgement, path)?;
+        }
+        drop(judgement);
+        Ok(ReportOutcome { exit, text, cases: report.cases })
+    }
+
+    fn report(&mut self, mut cases: Vec<CaseReport>) -> Report {
+        for case in &mut cases {
+            case.not_judged = self.baseline.not_judged(&case.name, &case.metrics);
+        }
+        let request = &self.request;
+        // a suite may have several
+        let tiers = request.named.iter().map(|(_, tier)| *tier);
+        let tier = tiers.min_by_key(|tier| *tier != Tier::Quick).unwrap_or(Tier::Quick);
+        Report {
+            generated: ReportProvenance::of_this_program(self.started.elapsed(), request.command.clone()),
+            features: request.features.clone(),
+            papers: if request.committed == CommittedValues::OfCases { papers::accounted(&cases) } else { &[] },
+            baseline: std::mem::take(&mut self.baseline),
+            against: request.against.as_ref().map(|folder| folder.display().to_string()),
+            listed_in_vain: request.committed.listed_in_vain(&self.expected_failures),
+            expected_failures: std::mem::take(&mut self.expected_failures),
+            ..Report::of(request.title.clone(), tier, cases)
+        }
+    }
+
+    /// The exit code and the verdicts in words: what fails in the order of the cases, then what is at odds with committed values.
+    fn said(&self, report: &Report, judgement: &Judgement<'_>) -> (Exit, String) {
+        let judged = |case: &CaseReport| judgement.cases.iter().find(|judged| std::ptr::eq(judged.case, case));
+        let mut text: String = report.cases.iter().filter_map(judged).map(summary::failures).collect();
+        text += &format!("written to {}\n", self.request.folder.join("index.html").display());
+        text.extend(report.cases.iter().map(|case| summary::not_judged(&case.not_judged)));
+        let file = self.request.committed.list_of_failures();
+        text.extend(judgement.contradictions.iter().map(|(failure, words)| {
+            let (case, metric, variant) = (&failure.case, &failure.metric, &failure.variant);
+            format!("EXPECTED FAILURE: {file}: {case} {metric} {variant}: {words}\n")
+        }));
+        let moved: Vec<MovedValue> =
+            moved(judgement, &report.baseline).into_iter().filter(|own| own.is_beyond).collect();
+        text.extend(moved.iter().map(|moved| format!("moved: {moved}\n")));
+        let mut exit = judgement.exit();
+        if exit == Exit::Held && !moved.is_empty() {
+            if self.request.deny_moved {
+                exit = Exit::GateFailed;
+            } else {
+                let values =
+                    if moved.len() == 1 { "1 value has".to_owned() } else { format!("{} values have", moved.len()) };
+                text +=
+                    &format!("{values} moved without a new failure: the exit code is 0 unless --deny moved is given\n");
+            }
+        }
+        (exit, text)
+    }
+}
+
+/// Makes the values of these cases the baseline.
+fn accept(committed: &CommittedValues, cases: &[CaseReport]) -> Result<Baseline, ProcessError> {
+    let mut baseline = Baseline::default();
+    let folder = committed.folder();
+    for case in cases {
+        let fresh = Baseline::of(&case.name, &case.metrics);
+        fresh.write(&folder, &case.name, case.tier, provenance::commit())?;
+        if *committed == CommittedValues::OfCases {
+            let mut gates = GateList::read(&folder, case.tier)?;
+            gates.add(&fresh);
+            gates.write(&folder, case.tier)?;
+            let path = folder.join("comparisons").join(format!("{}.csv", case.tier));
+            accept_comparisons(&path, case).map_err(|error| FileError::unwritable(&path, &error))?;
+        }
+        baseline.extend(fresh);
+    }
+    Ok(baseline)
+}
+
+/// Accepts the comparisons of a case with measurements, with the regimes of its flows.
+fn accept_comparisons(path: &Path, case: &CaseReport) -> io::Result<()> {
+    let text = match std::fs::read_to_string(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+        text => text?,
+    };
+    let mut set = ValidationSet::parse(&text).map_err(io::Error::other)?;
+    let runs: Vec<_> = case.runs.iter().map(|run| run.variant.clone()).zip(case.regimes.iter().copied()).collect();
+    set.replace(&case.name, ValidatedComparison::all(&case.name, &case.metrics, &runs));
+    let text = set.text().map_err(io::Error::other)?;
+    std::fs::create_dir_all(path.parent().unwrap_or(path))?;
+    write_whole(path, text.as_bytes())
+}

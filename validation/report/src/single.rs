@@ -1,0 +1,117 @@
+//! The end of `bagnold run`: one case or study, judged and written into its folder.
+
+use super::baseline::{Baseline, MetricKey};
+use super::error::ProcessError;
+use super::judgement::judge;
+use super::{CaseReport, Exit, ExpectedFailures, Report, ReportProvenance, summary};
+use crate::metric::{Metric, Variant, Verdict};
+use crate::output::{FileError, OutputFolder};
+use crate::result::{MetricsDocument, write_case};
+use crate::store::Drawings;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// What a case or study is judged by.
+#[derive(Debug)]
+pub struct SingleRun {
+    /// When the simulation began.
+    pub started: Instant,
+    /// The values to compare with.
+    pub baseline: Baseline,
+    /// The gates that are expected to fail.
+    pub expected_failures: ExpectedFailures,
+    /// Baseline of the case with default parameters, whose gates must be judged.
+    pub gates: Baseline,
+    /// The runs of the case as it comes.
+    pub all_runs: Vec<Variant>,
+    /// Whether parameters and runs are the default ones.
+    pub is_whole: bool,
+    /// Whether a file or a setting may have changed parameters, of which some take gates away.
+    pub has_own_parameters: bool,
+    /// File for the verdicts as JUnit's XML.
+    pub junit: Option<PathBuf>,
+}
+
+/// A finished run.
+#[derive(Debug)]
+pub struct SingleOutcome {
+    /// The exit code.
+    pub exit: Exit,
+    /// The text of `metrics.json`.
+    pub json: String,
+    /// The verdicts in words.
+    pub text: String,
+    /// Gates that are not judged, in words.
+    pub remarks: String,
+    /// The case.
+    pub case: CaseReport,
+}
+
+impl SingleRun {
+    /// Judges the case and writes numbers, tables, states and the page.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn finish(
+        mut self,
+        mut case: CaseReport,
+        claimed: OutputFolder,
+        drawings: &Drawings,
+    ) -> Result<SingleOutcome, ProcessError> {
+        if self.has_own_parameters {
+            let fails = |key: &MetricKey| metric(&case, key).is_some_and(|own| own.verdict() == Verdict::Fail);
+            self.expected_failures.failures.retain(|failure| fails(&failure.key()));
+        }
+        let folder = claimed.folder().to_owned();
+        let document = MetricsDocument::of(&case, rayon::current_num_threads());
+        write_case(claimed.staging(), &case, &document).map_err(|error| FileError::unwritable(&folder, &error))?;
+        let remarks;
+        (case.not_judged, remarks) = self.not_judged(&case);
+        let mut report = Report {
+            generated: ReportProvenance::of_this_program(self.started.elapsed(), String::new()),
+            baseline: self.baseline,
+            expected_failures: self.expected_failures,
+            ..Report::of(case.name.clone(), case.tier, vec![case])
+        };
+        let judgement = judge(&report);
+        super::write_alone(&report, &judgement, claimed.staging(), drawings)?;
+        claimed.publish()?;
+        if let Some(path) = &self.junit {
+            super::write_junit(&report, &judgement, path)?;
+        }
+        let mut text: String = judgement.cases.iter().map(summary::of_case).collect();
+        if judgement.diverged() > 0 {
+            let states =
+                "of a run that diverged, NAME.pvd ends with the last good state, NAME-first-bad.pvd is the one after";
+            text += &format!("{}: {states}\n", folder.join("snapshots").display());
+        }
+        text += &format!("written to {}\n", folder.join("index.html").display());
+        let exit = judgement.exit();
+        Ok(SingleOutcome { exit, json: document.text(), text, remarks, case: report.cases.remove(0) })
+    }
+
+    /// Gates that the runs of a case had to judge, with what took each away; and remarks on all gates that they do not judge.
+    fn not_judged(&self, case: &CaseReport) -> (Vec<(MetricKey, String)>, String) {
+        let run = |key: &MetricKey| key.variant.run_among(&self.all_runs);
+        let is_run = |own: &Variant| case.runs.iter().any(|run| run.variant == *own);
+        let without_reference = |key: &MetricKey| self.has_own_parameters && loses_its_gate_by_parameters(case, key);
+        let gone = self.gates.not_judged(&case.name, &case.metrics).into_iter();
+        let (meant, gone): (Vec<_>, Vec<_>) = gone.partition(|(key, _)| without_reference(key));
+        let due = gone.into_iter().filter(|(key, _)| run(key).map_or(self.is_whole, is_run)).collect::<Vec<_>>();
+        let meant = meant.into_iter().map(|(key, _)| key).filter(|key| run(key).is_some_and(is_run));
+        let remarks = summary::not_judged(&due) + &summary::without_reference(meant);
+        (due, remarks)
+    }
+}
+
+fn metric<'r>(case: &'r CaseReport, key: &MetricKey) -> Option<&'r Metric> {
+    case.metrics.iter().find(|metric| MetricKey::of(&case.name, metric) == *key)
+}
+
+/// Whether a metric is measured, and by a steady run, but without a gate: its reference does not hold for these parameters.
+fn loses_its_gate_by_parameters(case: &CaseReport, key: &MetricKey) -> bool {
+    let is_unsteady = |metric: &Metric| {
+        metric.not_steady.is_some() && (key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant))
+    };
+    metric(case, key).is_some_and(|metric| metric.gate.is_none()) && !case.metrics.iter().any(is_unsteady)
+}
