@@ -179,7 +179,7 @@ fn wrong_plans_are_refused_by_name() {
         "error: plan.toml: `parameters[0].lower` is 5, but must be below `upper`, which is 2; exchange the two bounds"
     );
     assert_eq!(
-        plan("slope_angle = 12.0, ", ""),
+        plan(", slope_angle = 12.0", ""),
         "error: plan.toml: the run `film fluid=newtonian,particles=jittered,resolution=10` is in both `fit[0]` and \
          `hold_out[0]`; what is predicted must not be fitted, so take it out of one"
     );

@@ -58,7 +58,7 @@ fn a_sweep_that_was_killed_gives_the_same_table_and_repeats_nothing() {
 #[test]
 fn a_sweep_may_mean_some_runs_only() {
     let place = Place::new();
-    let chosen = PLAN.replace("", "").replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]");
+    let chosen = PLAN.replace("resolution = 10 }", "resolution = 10, variants = [{ name = \"own\" }, { name = \"bingham\", set = { material = { law = \"bingham\", yield_stress = 5.1, plastic_viscosity = 0.5, regularisation_rate = 0.3 } } }] }").replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]");
     let chosen = chosen.replace("[20.0, 25.0, 95.0]", "[20.0]");
     let plan =
         place.file("plan.toml", &chosen.replace("case = \"film\"", "case = \"film\"\nonly = [\"fluid=newtonian\"]"));
@@ -283,7 +283,7 @@ fn points_of_a_hypercube_fill_their_range_on_its_scale() {
 #[test]
 fn a_value_that_is_not_a_number_has_its_reason() {
     let place = Place::new();
-    let short = PLAN.replace("resolution = 10,", "resolution = 10, relaxation_times = 0.2,");
+    let short = PLAN.replace("resolution = 10 }", "resolution = 10, relaxation_times = 0.2 }");
     let short = short.replace("[0.5, 0.7, 1.0, 1.4]", "[0.5]").replace("[20.0, 25.0, 95.0]", "[20.0]");
     let plan = place.file("plan.toml", &short);
     let ended = place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().success();

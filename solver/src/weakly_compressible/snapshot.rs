@@ -49,7 +49,10 @@ impl<const D: usize> Snapshot<D> {
             velocity: pick(&particles.velocity, &order),
             velocity_gradient: pick(&particles.velocity_gradient, &order),
             stress: pick(&particles.stress, &order),
-            pressure: order.iter().map(|&index| model.pressure(particles.density[index], &particles.kept(index))).collect(),
+            pressure: order
+                .iter()
+                .map(|&index| model.pressure(particles.density[index], &particles.kept(index)))
+                .collect(),
             density: pick(&particles.density, &order),
             mass: pick(&particles.mass, &order),
             field: particles.field.as_ref().map_or_else(Vec::new, |field| pick(field, &order)),

@@ -7,7 +7,9 @@ use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
 use super::simulation::{announce, introduce, reject_fast, simulate_showing};
-use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError, Tier, settings_to_vary};
+use crate::case::{
+    Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError, Tier, settings_to_vary,
+};
 use crate::checkpoint::{Checkpoints, StoredState};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};

@@ -27,6 +27,18 @@ const MOST_RUNS: usize = 1000;
 /// For the schema: fields of any name and type.
 pub type Fields = std::collections::BTreeMap<String, serde_json::Value>;
 
+/// For the schema: a value of a varied parameter.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "only its schema is used")]
+enum VariedValue {
+    Number(f64),
+    Word(String),
+    Switch(bool),
+    List(Vec<serde_json::Value>),
+    Table(Fields),
+}
+
 /// Named changes of the base values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -55,15 +67,15 @@ pub struct VariedParameter {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Values of the parameter in its unit, each once.
-    #[schemars(with = "Vec<serde_json::Value>")]
+    #[schemars(with = "Vec<VariedValue>")]
     pub values: Vec<Value>,
     /// Values at the paper tier and above.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "Option<Vec<serde_json::Value>>")]
+    #[schemars(with = "Option<Vec<VariedValue>>")]
     pub paper: Option<Vec<Value>>,
     /// Values at the fine tier.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "Option<Vec<serde_json::Value>>")]
+    #[schemars(with = "Option<Vec<VariedValue>>")]
     pub fine: Option<Vec<Value>>,
 }
 
@@ -173,7 +185,7 @@ impl ListOfRuns {
         if count > MOST_RUNS {
             let rule = format!("at most {MOST_RUNS} runs");
             let remedy = "take fewer values; `bagnold sweep` has no such limit";
-            return Err(FieldError::new("vary", format!("{count} combinations"), &rule, remedy));
+            return Err(FieldError::new("vary", count, &rule, remedy));
         }
         for (place, named) in self.variants.iter().enumerate() {
             let field = format!("variants[{place}].name");

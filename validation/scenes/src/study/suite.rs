@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use toml::Table;
 
 /// Keys that only studies have; a study whose first line is misspelt is to be refused, not passed over.
-const KEYS: [&str; 4] = ["study", "checks", "vary", "variants"];
+const KEYS: [&str; 2] = ["study", "checks"];
 
 /// Whether a file describes a study: it has the key `study`, or one that only studies have.
 #[must_use]

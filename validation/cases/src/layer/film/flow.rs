@@ -64,9 +64,7 @@ impl Flow for FilmFlow {
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
         rules::material("material", &self.material)?;
-        if !self.is_compared() {
-            rules::viscous_step("numerics", &self.layer.numerics, &self.material)?;
-        }
+        rules::viscous_step("numerics", &self.layer.numerics, &self.material)?;
         let stress = self.incline().shear_stress(0.0);
         let remedy = format!("the shear stress at the bed is {stress:.3} Pa: above it nothing flows");
         if let Rheology::Bingham(Bingham { yield_stress, .. })
