@@ -3,22 +3,20 @@
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::metadata=opt_level={}", std::env::var("OPT_LEVEL").unwrap_or_default());
-    println!("cargo::rustc-check-cfg=cfg(with_sse2, with_avx2, with_avx512, with_arrays)");
+    println!("cargo::rustc-check-cfg=cfg(with_avx2, with_portable)");
     for set in sets() {
         println!("cargo::rustc-cfg=with_{set}");
     }
 }
 
-/// Instruction sets by their names in the code. Results do not depend on them, but the package takes 48 s of CPU to compile with AVX2,
-/// 90 s with SSE2 as well, 112 s with all three. A release build has all of its processor family, any other build one: that of the
-/// machine that builds.
+/// Instruction sets by their names in the code. Results do not depend on them, but each takes a minute of CPU to compile. A release build has
+/// all of its processor family, any other build one: that of the machine that builds.
 fn sets() -> &'static [&'static str] {
     let is = |name: &str, value: &str| std::env::var(name).is_ok_and(|own| own == value);
     match (is("CARGO_CFG_TARGET_ARCH", "x86_64"), is("PROFILE", "release")) {
-        (true, true) => &["sse2", "avx2", "avx512"],
+        (true, true) => &["portable", "avx2"],
         (true, false) if builder_has_avx2() => &["avx2"],
-        (true, false) => &["sse2"],
-        (false, _) => &["arrays"],
+        _ => &["portable"],
     }
 }
 

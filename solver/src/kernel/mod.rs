@@ -5,7 +5,7 @@
 mod cubic_spline;
 mod wendland;
 
-use crate::lanes::{Lanes, Real};
+use crate::lanes::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -98,29 +98,13 @@ impl<const D: usize> Kernel<D> {
     /// W `[1/m^D]` at a distance `[m]`, one value.
     #[must_use]
     pub fn value_at(&self, distance: f64) -> f64 {
-        self.sample(distance).0
+        self.value(distance * distance)
     }
 
     /// F = (1/r) dW/dr `[1/m^(D+2)]` at a distance `[m]`, one value.
     #[must_use]
     pub fn gradient_factor_at(&self, distance: f64) -> f64 {
-        self.sample(distance).1
-    }
-
-    fn sample(&self, distance: f64) -> (f64, f64) {
-        struct Sample<'a, const D: usize>(&'a Kernel<D>, f64, &'a mut (f64, f64));
-        impl<const D: usize> crate::lanes::LanePass for Sample<'_, D> {
-            #[inline(always)]
-            fn run<V: Lanes>(self) {
-                let distance_squared = V::splat(self.1 * self.1);
-                let value = self.0.value(distance_squared).to_array()[0];
-                let weight = self.0.gradient_weight(distance_squared, V::splat(1.0));
-                *self.2 = (value, weight.to_array()[0]);
-            }
-        }
-        let mut result = (0.0, 0.0);
-        crate::lanes::InstructionSet::best().run(Sample(self, distance, &mut result));
-        result
+        self.gradient_weight(distance * distance, 1.0)
     }
 }
 

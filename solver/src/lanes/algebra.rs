@@ -2,7 +2,7 @@
 //!
 //! Loops and no closures: only what is inlined without fail is compiled for the chosen instruction set.
 
-use super::{LANES, LaneIndices, Lanes, Real};
+use super::{LANES, Lanes, Real};
 use crate::vector::{Tensor, Vector};
 
 /// Zero, shape `[D]`.
@@ -164,140 +164,108 @@ pub fn scaled_tensor<V: Real, const D: usize>(factor: V, tensor: &[[V; D]; D]) -
     lanes
 }
 
-/// The first eight indices.
-const FIRST: [u32; LANES] = [0, 1, 2, 3, 4, 5, 6, 7];
+/// Eight values, those that are missing in the place of `rest`.
+#[inline(always)]
+fn filled<T: Copy>(values: &[T], rest: T) -> [T; LANES] {
+    let mut all = [rest; LANES];
+    all[..values.len()].copy_from_slice(values);
+    all
+}
 
 /// One value a lane, at most eight; zero in the lanes that are left.
 #[inline(always)]
 pub fn load<V: Lanes>(values: &[f64]) -> V {
-    if let Some(all) = values.first_chunk() {
-        return V::load(all);
-    }
-    let mut lanes = [0.0; LANES];
-    for (lane, value) in lanes.iter_mut().zip(values) {
-        *lane = *value;
-    }
-    V::load(&lanes)
+    let partial;
+    V::load(match values.first_chunk() {
+        Some(all) => all,
+        None => {
+            partial = filled(values, 0.0);
+            &partial
+        }
+    })
 }
 
 /// One vector a lane, at most eight; zero in the lanes that are left.
 #[inline(always)]
 pub fn load_vector<V: Lanes, const D: usize>(vectors: &[Vector<D>]) -> [V; D] {
-    // eight of them stay in registers
-    if let Some(all) = vectors.first_chunk::<LANES>() {
-        let mut lanes = zero_vector::<V, D>();
-        for i in 0..D {
-            let mut values = [0.0; LANES];
-            for lane in 0..LANES {
-                values[lane] = all[lane][i];
-            }
-            lanes[i] = V::load(&values);
+    let partial;
+    let all = match vectors.first_chunk::<LANES>() {
+        Some(all) => all,
+        None => {
+            partial = filled(vectors, Vector::zeros());
+            &partial
         }
-        return lanes;
-    }
-    let mut quads = [[0.0; 4]; LANES];
-    for (quad, vector) in quads.iter_mut().zip(vectors) {
-        for i in 0..D {
-            quad[i] = vector[i];
-        }
-    }
-    let loaded = V::load_quads(&quads, 1, 0, &LaneIndices::new(&FIRST, LANES));
+    };
     let mut lanes = zero_vector::<V, D>();
-    lanes.copy_from_slice(&loaded[..D]);
+    for i in 0..D {
+        let mut values = [0.0; LANES];
+        for lane in 0..LANES {
+            values[lane] = all[lane][i];
+        }
+        lanes[i] = V::load(&values);
+    }
     lanes
 }
 
 /// One tensor a lane, at most eight; zero in the lanes that are left.
 #[inline(always)]
 pub fn load_tensor<V: Lanes, const D: usize>(tensors: &[Tensor<D>]) -> [[V; D]; D] {
+    let partial;
+    let all = match tensors.first_chunk::<LANES>() {
+        Some(all) => all,
+        None => {
+            partial = filled(tensors, Tensor::zeros());
+            &partial
+        }
+    };
     let mut lanes = zero_tensor::<V, D>();
-    if let Some(all) = tensors.first_chunk::<LANES>() {
-        for place in 0..D * D {
-            let mut values = [0.0; LANES];
-            for lane in 0..LANES {
-                values[lane] = all[lane][place];
-            }
-            lanes[place % D][place / D] = V::load(&values);
+    for place in 0..D * D {
+        let mut values = [0.0; LANES];
+        for lane in 0..LANES {
+            values[lane] = all[lane][place];
         }
-        return lanes;
-    }
-    // a quad holds all four components in the plane, a column in space
-    for first in (0..D * D).step_by(if D == 2 { 4 } else { D }) {
-        let width = if D == 2 { 4 } else { D };
-        let mut quads = [[0.0; 4]; LANES];
-        for (quad, tensor) in quads.iter_mut().zip(tensors) {
-            for k in 0..width {
-                quad[k] = tensor[first + k];
-            }
-        }
-        let loaded = V::load_quads(&quads, 1, 0, &LaneIndices::new(&FIRST, LANES));
-        for k in 0..width {
-            lanes[(first + k) % D][(first + k) / D] = loaded[k];
-        }
+        lanes[place % D][place / D] = V::load(&values);
     }
     lanes
+}
+
+/// Copies eight values as far as `out` goes.
+#[inline(always)]
+fn copy<T: Copy>(all: &[T; LANES], out: &mut [T]) {
+    match out.first_chunk_mut() {
+        Some(out) => *out = *all,
+        None => out.copy_from_slice(&all[..out.len()]),
+    }
 }
 
 /// Writes a value a lane as far as `out` goes, at most eight.
 #[inline(always)]
 pub fn store<V: Lanes>(lanes: V, out: &mut [f64]) {
-    let values = lanes.to_array();
-    if let Some(all) = out.first_chunk_mut() {
-        *all = values;
-        return;
-    }
-    for (out, value) in out.iter_mut().zip(values) {
-        *out = value;
-    }
+    copy(&lanes.to_array(), out);
 }
 
 /// Writes a vector a lane as far as `out` goes, at most eight.
 #[inline(always)]
 pub fn store_vector<V: Lanes, const D: usize>(lanes: &[V; D], out: &mut [Vector<D>]) {
-    if let Some(all) = out.first_chunk_mut::<LANES>() {
-        for i in 0..D {
-            let values = lanes[i].to_array();
-            for lane in 0..LANES {
-                all[lane][i] = values[lane];
-            }
-        }
-        return;
-    }
-    let mut values = [V::splat(0.0); 4];
-    values[..D].copy_from_slice(lanes);
-    let mut quads = [[0.0; 4]; LANES];
-    V::store_quads(&values, &mut quads, 1, 0);
-    for (out, quad) in out.iter_mut().zip(&quads) {
-        for i in 0..D {
-            out[i] = quad[i];
+    let mut all = [Vector::zeros(); LANES];
+    for i in 0..D {
+        let values = lanes[i].to_array();
+        for lane in 0..LANES {
+            all[lane][i] = values[lane];
         }
     }
+    copy(&all, out);
 }
 
 /// Writes a tensor a lane as far as `out` goes, at most eight.
 #[inline(always)]
 pub fn store_tensor<V: Lanes, const D: usize>(lanes: &[[V; D]; D], out: &mut [Tensor<D>]) {
-    if let Some(all) = out.first_chunk_mut::<LANES>() {
-        for place in 0..D * D {
-            let values = lanes[place % D][place / D].to_array();
-            for lane in 0..LANES {
-                all[lane][place] = values[lane];
-            }
-        }
-        return;
-    }
-    for first in (0..D * D).step_by(if D == 2 { 4 } else { D }) {
-        let width = if D == 2 { 4 } else { D };
-        let mut values = [V::splat(0.0); 4];
-        for k in 0..width {
-            values[k] = lanes[(first + k) % D][(first + k) / D];
-        }
-        let mut quads = [[0.0; 4]; LANES];
-        V::store_quads(&values, &mut quads, 1, 0);
-        for (out, quad) in out.iter_mut().zip(&quads) {
-            for k in 0..width {
-                out[first + k] = quad[k];
-            }
+    let mut all = [Tensor::zeros(); LANES];
+    for place in 0..D * D {
+        let values = lanes[place % D][place / D].to_array();
+        for lane in 0..LANES {
+            all[lane][place] = values[lane];
         }
     }
+    copy(&all, out);
 }

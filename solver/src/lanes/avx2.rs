@@ -1,8 +1,7 @@
-//! The AVX2 back end: two registers of four lanes.
+//! The AVX2 back end: two registers of four f64 lanes, one of eight f32 lanes.
 #![expect(unsafe_code, reason = "vector intrinsics; a value of these types exists only after the processor was asked")]
 
-use super::x86_single::Single;
-use super::{FlatRecords, InstructionSet, LANES, LaneIndices, LanePass, Lanes, Level, Real};
+use super::{InstructionSet, LANES, LaneIndices, LaneNumbers, LanePass, Lanes, Level, Real, SingleLanes, lane_by_lane};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -21,8 +20,11 @@ pub(super) fn run<P: LanePass>(pass: P, set: InstructionSet) {
 #[derive(Clone, Copy)]
 pub(super) struct Avx2(__m256d, __m256d);
 
+#[derive(Clone, Copy)]
+pub(super) struct Avx2Single(__m256);
+
 macro_rules! lane_wise {
-    ($($trait:ident $method:ident $half:ident),*) => {$(
+    ($($trait:ident $method:ident $half:ident $single:ident),*) => {$(
         impl $trait for Avx2 {
             type Output = Self;
             #[inline(always)]
@@ -31,13 +33,21 @@ macro_rules! lane_wise {
                 unsafe { Self($half(self.0, other.0), $half(self.1, other.1)) }
             }
         }
+        impl $trait for Avx2Single {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                // SAFETY: values of this type exist only inside run.
+                Self(unsafe { $single(self.0, other.0) })
+            }
+        }
     )*};
 }
 lane_wise!(
-    Add add _mm256_add_pd,
-    Sub sub _mm256_sub_pd,
-    Mul mul _mm256_mul_pd,
-    Div div _mm256_div_pd
+    Add add _mm256_add_pd _mm256_add_ps,
+    Sub sub _mm256_sub_pd _mm256_sub_ps,
+    Mul mul _mm256_mul_pd _mm256_mul_ps,
+    Div div _mm256_div_pd _mm256_div_ps
 );
 
 impl Neg for Avx2 {
@@ -49,21 +59,6 @@ impl Neg for Avx2 {
             let sign = _mm256_set1_pd(-0.0);
             Self(_mm256_xor_pd(self.0, sign), _mm256_xor_pd(self.1, sign))
         }
-    }
-}
-
-/// Both values of eight records of two, four lanes each.
-#[inline(always)]
-pub(super) fn pairs(source: FlatRecords<'_>, indices: &LaneIndices<'_>) -> [(__m256d, __m256d); 2] {
-    assert!(source.records >= indices.bound && source.stride == 2, "array shorter than its index bound");
-    // SAFETY: raw < bound ≤ records, so every record lies inside the borrowed slice; called inside `run` of AVX2 and AVX-512.
-    unsafe {
-        let load = |lane: usize| _mm_loadu_pd(source.first.add(indices.raw[lane] as usize * 2));
-        let (a, b) = (_mm256_set_m128d(load(2), load(0)), _mm256_set_m128d(load(3), load(1)));
-        let (c, d) = (_mm256_set_m128d(load(6), load(4)), _mm256_set_m128d(load(7), load(5)));
-        let x = (_mm256_unpacklo_pd(a, b), _mm256_unpacklo_pd(c, d));
-        let y = (_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d));
-        [x, y]
     }
 }
 
@@ -109,53 +104,19 @@ impl Real for Avx2 {
     }
 
     fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
-        super::lane_by_lane(values, function)
+        lane_by_lane(values, function)
     }
 }
 
-impl Lanes for Avx2 {
-    type Single = Single;
-
-    #[inline(always)]
-    fn widen(single: Single) -> Self {
-        // SAFETY: values of these types exist only inside run.
-        unsafe {
-            let (low, high) = (_mm256_castps256_ps128(single.0), _mm256_extractf128_ps::<1>(single.0));
-            Self(_mm256_cvtps_pd(low), _mm256_cvtps_pd(high))
-        }
-    }
-
-    #[inline(always)]
-    fn narrow(self) -> Single {
-        // SAFETY: values of this type exist only inside run.
-        Single(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(self.1), _mm256_cvtpd_ps(self.0)) })
-    }
-
-    #[inline(always)]
-    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
-        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
-        let mut lanes = [0.0; LANES];
-        for (lane, raw) in lanes.iter_mut().zip(indices.raw) {
-            // SAFETY: raw < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
-            *lane = unsafe { *source.first.add(*raw as usize * source.stride + offset) };
-        }
-        // SAFETY: the array holds eight values.
-        unsafe { Self(_mm256_loadu_pd(lanes.as_ptr()), _mm256_loadu_pd(lanes.as_ptr().add(4))) }
-    }
-
-    #[inline(always)]
-    fn load_pairs(source: FlatRecords<'_>, indices: &LaneIndices<'_>) -> [Self; 2] {
-        let [x, y] = pairs(source, indices);
-        [Self(x.0, x.1), Self(y.0, y.1)]
-    }
+impl LaneNumbers for Avx2 {
+    type Number = f64;
 
     #[inline(always)]
     fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4] {
-        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
-        // SAFETY: raw < bound and offset < stride, so every record lies inside the slice.
+        let records = indices.entries(source, stride, offset);
+        // SAFETY: a record holds four values.
         unsafe {
-            let load =
-                |lane: usize| _mm256_loadu_pd(source.as_ptr().add(indices.raw[lane] as usize * stride + offset).cast());
+            let load = |lane: usize| _mm256_loadu_pd(records[lane].as_ptr());
             let [a, b, c, d] = transposed(load(0), load(1), load(2), load(3));
             let [e, f, g, h] = transposed(load(4), load(5), load(6), load(7));
             [Self(a, e), Self(b, f), Self(c, g), Self(d, h)]
@@ -165,14 +126,18 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn load(values: &[f64; LANES]) -> Self {
         // SAFETY: the array holds eight values, four a load.
-        unsafe { Self(_mm256_loadu_pd(values.as_ptr()), _mm256_loadu_pd(values.as_ptr().add(4))) }
+        Self(unsafe { _mm256_loadu_pd(values.as_ptr()) }, unsafe { _mm256_loadu_pd(values.as_ptr().add(4)) })
     }
 
     #[inline(always)]
-    fn load_single(values: &[f32; LANES]) -> Self {
-        let pointer = values.as_ptr();
-        // SAFETY: the array holds eight values, four a load.
-        unsafe { Self(_mm256_cvtps_pd(_mm_loadu_ps(pointer)), _mm256_cvtps_pd(_mm_loadu_ps(pointer.add(4)))) }
+    fn to_array(self) -> [f64; LANES] {
+        let mut lanes = [0.0; LANES];
+        // SAFETY: the array holds eight values, four a store.
+        unsafe {
+            _mm256_storeu_pd(lanes.as_mut_ptr(), self.0);
+            _mm256_storeu_pd(lanes.as_mut_ptr().add(4), self.1);
+        }
+        lanes
     }
 
     #[inline(always)]
@@ -182,6 +147,38 @@ impl Lanes for Avx2 {
             let near = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0));
             let far = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(self.1, other.1));
             (near | (far << 4)).cast_unsigned()
+        }
+    }
+}
+
+impl Lanes for Avx2 {
+    type Single = Avx2Single;
+
+    #[inline(always)]
+    fn widen(single: Avx2Single) -> Self {
+        // SAFETY: values of these types exist only inside run.
+        unsafe {
+            let (low, high) = (_mm256_castps256_ps128(single.0), _mm256_extractf128_ps::<1>(single.0));
+            Self(_mm256_cvtps_pd(low), _mm256_cvtps_pd(high))
+        }
+    }
+
+    #[inline(always)]
+    fn narrow(self) -> Avx2Single {
+        // SAFETY: values of this type exist only inside run.
+        Avx2Single(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(self.1), _mm256_cvtpd_ps(self.0)) })
+    }
+
+    #[inline(always)]
+    fn load_pairs(records: [&[f64; 2]; LANES]) -> [Self; 2] {
+        // SAFETY: a record holds two values; called from passes inside run only.
+        unsafe {
+            let load = |lane: usize| _mm_loadu_pd(records[lane].as_ptr());
+            let (a, b) = (_mm256_set_m128d(load(2), load(0)), _mm256_set_m128d(load(3), load(1)));
+            let (c, d) = (_mm256_set_m128d(load(6), load(4)), _mm256_set_m128d(load(7), load(5)));
+            let x = Self(_mm256_unpacklo_pd(a, b), _mm256_unpacklo_pd(c, d));
+            let y = Self(_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d));
+            [x, y]
         }
     }
 
@@ -199,17 +196,6 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
-    fn to_array(self) -> [f64; LANES] {
-        let mut lanes = [0.0; LANES];
-        // SAFETY: the array holds eight values, four a store.
-        unsafe {
-            _mm256_storeu_pd(lanes.as_mut_ptr(), self.0);
-            _mm256_storeu_pd(lanes.as_mut_ptr().add(4), self.1);
-        }
-        lanes
-    }
-
-    #[inline(always)]
     fn store_quads(quads: &[Self; 4], out: &mut [[f64; 4]], stride: usize, offset: usize) {
         assert!(offset < stride, "a quad beyond its record");
         // SAFETY: register shuffles only; the stores go through slices.
@@ -220,6 +206,111 @@ impl Lanes for Avx2 {
                 let row = if lane < 4 { near[lane] } else { far[lane - 4] };
                 _mm256_storeu_pd(record[offset].as_mut_ptr(), row);
             }
+        }
+    }
+}
+
+impl Neg for Avx2Single {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // SAFETY: values of this type exist only inside run.
+        unsafe { Self(_mm256_xor_ps(self.0, _mm256_set1_ps(-0.0))) }
+    }
+}
+
+impl Real for Avx2Single {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        // SAFETY: called from passes inside run only.
+        Self(unsafe { _mm256_set1_ps(value as f32) })
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: values of this type exist only inside run.
+        Self(unsafe { _mm256_sqrt_ps(self.0) })
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run. MAXPS is `a > b ? a : b`.
+        Self(unsafe { _mm256_max_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run. MINPS is `a < b ? a : b`.
+        Self(unsafe { _mm256_min_ps(self.0, other.0) })
+    }
+
+    #[inline(always)]
+    fn if_less(self, a: Self, b: Self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run.
+        unsafe { Self(_mm256_blendv_ps(other.0, self.0, _mm256_cmp_ps::<_CMP_LT_OQ>(a.0, b.0))) }
+    }
+
+    #[inline(always)]
+    fn any_less(self, other: Self) -> bool {
+        self.less_mask(other) != 0
+    }
+
+    fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
+        lane_by_lane(values, function)
+    }
+}
+
+impl LaneNumbers for Avx2Single {
+    type Number = f32;
+
+    #[inline(always)]
+    fn load_quads(source: &[[f32; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4] {
+        let records = indices.entries(source, stride, offset);
+        // SAFETY: a record holds four values.
+        unsafe {
+            let load = |lane: usize| _mm_loadu_ps(records[lane].as_ptr());
+            let pair = |low: __m128, high: __m128| _mm256_insertf128_ps::<1>(_mm256_castps128_ps256(low), high);
+            let rows = [pair(load(0), load(4)), pair(load(1), load(5)), pair(load(2), load(6)), pair(load(3), load(7))];
+            // a 4 × 4 transpose in each half
+            let (a, b) = (_mm256_unpacklo_ps(rows[0], rows[1]), _mm256_unpackhi_ps(rows[0], rows[1]));
+            let (c, d) = (_mm256_unpacklo_ps(rows[2], rows[3]), _mm256_unpackhi_ps(rows[2], rows[3]));
+            [
+                Self(_mm256_shuffle_ps::<0x44>(a, c)),
+                Self(_mm256_shuffle_ps::<0xEE>(a, c)),
+                Self(_mm256_shuffle_ps::<0x44>(b, d)),
+                Self(_mm256_shuffle_ps::<0xEE>(b, d)),
+            ]
+        }
+    }
+
+    #[inline(always)]
+    fn load(values: &[f32; LANES]) -> Self {
+        // SAFETY: the array holds eight values.
+        Self(unsafe { _mm256_loadu_ps(values.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn to_array(self) -> [f32; LANES] {
+        let mut lanes = [0.0; LANES];
+        // SAFETY: the array holds eight values.
+        unsafe { _mm256_storeu_ps(lanes.as_mut_ptr(), self.0) };
+        lanes
+    }
+
+    #[inline(always)]
+    fn less_mask(self, other: Self) -> u32 {
+        // SAFETY: values of this type exist only inside run.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)).cast_unsigned() }
+    }
+}
+
+impl SingleLanes for Avx2Single {
+    #[inline(always)]
+    fn fixed_difference(self, other: Self) -> Self {
+        // SAFETY: values of this type exist only inside run.
+        unsafe {
+            let difference = _mm256_sub_epi32(_mm256_castps_si256(self.0), _mm256_castps_si256(other.0));
+            Self(_mm256_cvtepi32_ps(difference))
         }
     }
 }

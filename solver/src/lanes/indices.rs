@@ -1,7 +1,9 @@
 //! Indices that were checked once, so that the loads of every later pass need no check of their own.
+#![expect(unsafe_code, reason = "unchecked entries behind one length check")]
 
 use super::LANES;
 use crate::parallel::prelude::*;
+use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
 
 /// Largest bound: any element of any record is then addressed without overflow.
@@ -31,6 +33,26 @@ impl<'a> LaneIndices<'a> {
     #[must_use]
     pub fn raw(&self) -> &'a [u32; LANES] {
         self.raw
+    }
+
+    /// The entries at `index · stride + offset` of an array, for eight indices.
+    ///
+    /// # Panics
+    /// If the array is shorter than the bound, or the offset beyond the stride.
+    #[inline(always)]
+    pub(super) fn entries<'b, T>(&self, source: &'b [T], stride: usize, offset: usize) -> [&'b T; LANES] {
+        assert!(source.len() >= self.bound * stride && offset < stride, "array shorter than its index bound");
+        // SAFETY: raw < bound and offset < stride, so the entry lies inside the slice.
+        let entry = |lane: usize| unsafe { source.get_unchecked(self.raw[lane] as usize * stride + offset) };
+        [entry(0), entry(1), entry(2), entry(3), entry(4), entry(5), entry(6), entry(7)]
+    }
+
+    /// The entries of an array of vectors in the plane, as pairs.
+    #[inline(always)]
+    pub(super) fn pairs<'b, const D: usize>(&self, source: &'b [Vector<D>]) -> [&'b [f64; 2]; LANES] {
+        assert!(D == 2, "vectors of two components");
+        // SAFETY: a vector of two components is two f64.
+        self.entries(unsafe { &*(std::ptr::from_ref(source) as *const [[f64; 2]]) }, 1, 0)
     }
 
     /// The same particles in arrays that leave out the first few, none of which they may be.

@@ -1,7 +1,7 @@
 //! Eight f64 lanes with one meaning on every instruction set: the only place with `unsafe`.
 //!
-//! A pair sum is written once against [`Lanes`] and compiled for the back ends that `build.rs` names: SSE2, AVX2 and AVX-512 on x86-64,
-//! and one of plain arrays for all other processors. A release build has all of them, any other build the one of the machine that builds.
+//! A pair sum is written once against [`Lanes`] and compiled for the back ends that `build.rs` names: AVX2 on x86-64, and one for any
+//! processor. A release build has both, any other build the one of the machine that builds.
 //! The best one of the processor is chosen at run time. The lane count, the absence of fused multiply–add and the meaning of
 //! every operation are fixed here, so every back end gives the same bits. A lane is a particle: lanes are never summed.
 //! Each back end has eight f32 lanes beside them, for what a pair is made of; sums over pairs are f64.
@@ -9,23 +9,14 @@
 pub mod algebra;
 #[cfg(with_avx2)]
 mod avx2;
-#[cfg(with_avx512)]
-mod avx512;
 mod indices;
-// compiled beside the others for the tests of a release build, which compare them
-#[cfg(any(with_arrays, all(test, with_avx512)))]
+#[cfg(with_portable)]
 mod portable;
 mod real;
-mod single;
-#[cfg(with_sse2)]
-mod sse2;
 mod symmetric;
-#[cfg(any(with_avx2, with_avx512))]
-mod x86_single;
 
 pub use indices::{CheckedIndices, LaneChunks, LaneIndices, LanePlaces};
-pub use real::Real;
-pub use single::SingleLanes;
+pub use real::{Number, Real};
 pub use symmetric::{LaneTensors, LaneTensorsMut};
 
 use crate::vector::{Tensor, Vector};
@@ -33,37 +24,40 @@ use crate::vector::{Tensor, Vector};
 /// Number of lanes.
 pub const LANES: usize = 8;
 
-/// Eight f64 values with lane-wise arithmetic.
-pub trait Lanes: Real {
+/// Eight numbers of one precision with lane-wise arithmetic.
+pub trait LaneNumbers: Real {
+    /// f64 or f32.
+    type Number: Number;
+    /// Loads four neighbouring values of eight records and transposes them: `result[k]` holds
+    /// `source[index · stride + offset][k]` for eight indices.
+    fn load_quads(source: &[[Self::Number; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4];
+    /// Eight values in order.
+    fn load(values: &[Self::Number; LANES]) -> Self;
+    /// The lanes in order.
+    fn to_array(self) -> [Self::Number; LANES];
+    /// Bit k is set where `self < other` in lane k.
+    fn less_mask(self, other: Self) -> u32;
+}
+
+/// Eight f32 values: what a pair is made of. Sums over pairs are widened to f64 every few pairs.
+pub trait SingleLanes: LaneNumbers<Number = f32> {
+    /// The lanes' bits taken as integers of 32 bits: their difference, which wraps, as f32.
+    fn fixed_difference(self, other: Self) -> Self;
+}
+
+/// Eight f64 values.
+pub trait Lanes: LaneNumbers<Number = f64> {
     /// Eight f32 lanes of the same instruction set.
     type Single: SingleLanes;
     /// Eight f32 values as f64, exactly.
     fn widen(single: Self::Single) -> Self;
     /// The nearest f32 values.
     fn narrow(self) -> Self::Single;
-    /// Loads `source[index · stride + offset]` for eight indices, where `source` is a flat array of records.
-    /// Implementations may rely on `offset < stride` and on the length check in [`gather`].
-    #[doc(hidden)]
-    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices<'_>, offset: usize) -> Self;
-    /// Loads both values of eight records of two: `result[k]` holds `source[index · 2 + k]` for eight indices, where `source` is a
-    /// flat array of records of two.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn load_pairs(source: FlatRecords<'_>, indices: &LaneIndices<'_>) -> [Self; 2] {
-        [Self::gather_records(source, indices, 0), Self::gather_records(source, indices, 1)]
-    }
-    /// Loads four neighbouring values of eight records and transposes them: `result[k]` holds
-    /// `source[index · stride + offset][k]` for eight indices.
-    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4];
-    /// Eight values in order.
-    fn load(values: &[f64; LANES]) -> Self;
-    /// Eight values of single precision in order.
-    fn load_single(values: &[f32; LANES]) -> Self;
-    /// The transpose of [`Lanes::load_quads`]: writes the four values of lane k to `out[k · stride + offset]` for as
+    /// Both values of eight records of two: `result[k]` holds `records[lane][k]`.
+    fn load_pairs(records: [&[f64; 2]; LANES]) -> [Self; 2];
+    /// The transpose of [`LaneNumbers::load_quads`]: writes the four values of lane k to `out[k · stride + offset]` for as
     /// many lanes as `out` has records, at most eight.
     fn store_quads(quads: &[Self; 4], out: &mut [[f64; 4]], stride: usize, offset: usize);
-    /// Bit k is set where `self < other` in lane k.
-    fn less_mask(self, other: Self) -> u32;
     /// Packs the `indices` whose bit in `mask` is set, but not `excluded`, to the front of `out`, in order, and
     /// returns their number. What stands behind them in `out` is of no meaning.
     fn pack(indices: &[u32; LANES], mask: u32, excluded: u32, out: &mut [u32; LANES]) -> usize {
@@ -74,63 +68,54 @@ pub trait Lanes: Real {
         }
         count
     }
-    /// The lanes in order.
-    fn to_array(self) -> [f64; LANES];
 }
 
-/// [`Real::lane_by_lane`] of the back ends.
+/// [`Real::lane_by_lane`] of the back ends: by f64, rounded at the end.
 #[inline(always)]
-fn lane_by_lane<V: Lanes, const N: usize>(values: [V; N], function: &dyn Fn([f64; N]) -> f64) -> V {
-    let mut arguments = [[0.0; LANES]; N];
+fn lane_by_lane<V: LaneNumbers, const N: usize>(values: [V; N], function: &dyn Fn([f64; N]) -> f64) -> V {
+    let mut arguments = [[V::Number::of(0.0); LANES]; N];
     for n in 0..N {
         arguments[n] = values[n].to_array();
     }
-    let mut lanes = [0.0; LANES];
+    let mut lanes = [V::Number::of(0.0); LANES];
     for lane in 0..LANES {
         let mut argument = [0.0; N];
         for n in 0..N {
-            argument[n] = arguments[n][lane];
+            argument[n] = arguments[n][lane].into();
         }
-        lanes[lane] = function(argument);
+        lanes[lane] = V::Number::of(function(argument));
     }
     V::load(&lanes)
-}
-
-/// A flat view of an array of equal records of f64; made by the gather functions only.
-#[derive(Debug, Clone, Copy)]
-pub struct FlatRecords<'a> {
-    first: *const f64,
-    stride: usize,
-    records: usize,
-    lifetime: std::marker::PhantomData<&'a [f64]>,
 }
 
 /// Gathers scalars, shape `[8]`.
 #[inline(always)]
 #[must_use]
 pub fn gather<V: Lanes>(source: &[f64], indices: &LaneIndices<'_>) -> V {
-    let records =
-        FlatRecords { first: source.as_ptr(), stride: 1, records: source.len(), lifetime: std::marker::PhantomData };
-    V::gather_records(records, indices, 0)
+    let entries = indices.entries(source, 1, 0);
+    let mut values = [0.0; LANES];
+    for lane in 0..LANES {
+        values[lane] = *entries[lane];
+    }
+    V::load(&values)
 }
 
 /// Gathers vectors, shape `[D][8]`.
 #[inline(always)]
 #[must_use]
 pub fn gather_vectors<V: Lanes, const D: usize>(source: &[Vector<D>], indices: &LaneIndices<'_>) -> [V; D] {
-    let records = FlatRecords {
-        first: source.as_ptr().cast(),
-        stride: D,
-        records: source.len(),
-        lifetime: std::marker::PhantomData,
-    };
     let mut lanes = [V::splat(0.0); D];
     if D == 2 {
-        lanes.copy_from_slice(&V::load_pairs(records, indices));
+        lanes.copy_from_slice(&V::load_pairs(indices.pairs(source)));
         return lanes;
     }
+    let entries = indices.entries(source, 1, 0);
     for axis in 0..D {
-        lanes[axis] = V::gather_records(records, indices, axis);
+        let mut values = [0.0; LANES];
+        for lane in 0..LANES {
+            values[lane] = entries[lane][axis];
+        }
+        lanes[axis] = V::load(&values);
     }
     lanes
 }
@@ -139,17 +124,15 @@ pub fn gather_vectors<V: Lanes, const D: usize>(source: &[Vector<D>], indices: &
 #[inline(always)]
 #[must_use]
 pub fn gather_tensors<V: Lanes, const D: usize>(source: &[Tensor<D>], indices: &LaneIndices<'_>) -> [[V; D]; D] {
-    let records = FlatRecords {
-        first: source.as_ptr().cast(),
-        stride: D * D,
-        records: source.len(),
-        lifetime: std::marker::PhantomData,
-    };
-    // nalgebra stores column by column
+    let entries = indices.entries(source, 1, 0);
     let mut lanes = [[V::splat(0.0); D]; D];
     for row in 0..D {
         for column in 0..D {
-            lanes[row][column] = V::gather_records(records, indices, row + D * column);
+            let mut values = [0.0; LANES];
+            for lane in 0..LANES {
+                values[lane] = entries[lane][(row, column)];
+            }
+            lanes[row][column] = V::load(&values);
         }
     }
     lanes
@@ -163,43 +146,27 @@ pub trait LanePass {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Level {
-    #[cfg(any(with_arrays, all(test, with_avx512)))]
+    #[cfg(with_portable)]
     Portable,
-    #[cfg(with_sse2)]
-    Sse2,
     #[cfg(with_avx2)]
     Avx2,
-    #[cfg(with_avx512)]
-    Avx512,
 }
 
 /// All levels, slowest first.
 const LEVELS: &[Level] = &[
-    #[cfg(any(with_arrays, all(test, with_avx512)))]
+    #[cfg(with_portable)]
     Level::Portable,
-    #[cfg(with_sse2)]
-    Level::Sse2,
     #[cfg(with_avx2)]
     Level::Avx2,
-    #[cfg(with_avx512)]
-    Level::Avx512,
 ];
 
 impl Level {
     fn is_available(self) -> bool {
         match self {
-            #[cfg(any(with_arrays, all(test, with_avx512)))]
+            #[cfg(with_portable)]
             Self::Portable => true,
-            #[cfg(with_sse2)]
-            Self::Sse2 => true,
             #[cfg(with_avx2)]
             Self::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("popcnt"),
-            #[cfg(with_avx512)]
-            Self::Avx512 => {
-                is_x86_feature_detected!("avx512f")
-                    && is_x86_feature_detected!("avx512vl")
-                    && is_x86_feature_detected!("popcnt")
-            }
         }
     }
 }
@@ -229,14 +196,10 @@ impl InstructionSet {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
-            #[cfg(any(with_arrays, all(test, with_avx512)))]
+            #[cfg(with_portable)]
             Level::Portable => "portable",
-            #[cfg(with_sse2)]
-            Level::Sse2 => "SSE2",
             #[cfg(with_avx2)]
             Level::Avx2 => "AVX2",
-            #[cfg(with_avx512)]
-            Level::Avx512 => "AVX-512",
         }
     }
 
@@ -244,14 +207,10 @@ impl InstructionSet {
     #[inline]
     pub fn run<P: LanePass>(self, pass: P) {
         match self.0 {
-            #[cfg(any(with_arrays, all(test, with_avx512)))]
+            #[cfg(with_portable)]
             Level::Portable => pass.run::<portable::Portable>(),
-            #[cfg(with_sse2)]
-            Level::Sse2 => pass.run::<sse2::Sse2>(),
             #[cfg(with_avx2)]
             Level::Avx2 => avx2::run(pass, self),
-            #[cfg(with_avx512)]
-            Level::Avx512 => avx512::run(pass, self),
         }
     }
 }
@@ -285,7 +244,7 @@ mod tests {
                 let c = (b * b + V::splat(0.1)).sqrt().where_less(x, -t[1][1]);
                 let [p, q, r, s] = V::load_quads(self.quads, 2, 1, &indices);
                 let single: [f32; LANES] = std::array::from_fn(|k| self.a[start + k] as f32);
-                let c = c + (p - q) * (r + s) * V::load_single(&single);
+                let c = c + (p - q) * (r + s) * V::widen(V::Single::load(&single));
                 self.out.extend((v - w * y).to_array().map(f64::to_bits));
                 self.out.extend((b + c).to_array().map(f64::to_bits));
                 self.out.extend((c - b).to_array().map(f64::to_bits));

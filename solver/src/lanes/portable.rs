@@ -1,86 +1,118 @@
-//! The back end for any processor: arrays of eight.
-#![expect(unsafe_code, reason = "unchecked gathers and loads behind one length check")]
+//! The back end for any processor: vectors of the crate `wide`, which are SSE2 on plain x86-64.
 
-use super::single::lane_by_lane as single_lane_by_lane;
-use super::{FlatRecords, LANES, LaneIndices, Lanes, Real, SingleLanes};
+use super::{LANES, LaneIndices, LaneNumbers, Lanes, Real, SingleLanes, lane_by_lane};
 use std::ops::{Add, Div, Mul, Neg, Sub};
+use wide::bytemuck::cast;
+use wide::{f32x8, f64x2, f64x8, i32x8};
 
-#[derive(Clone, Copy)]
-pub(super) struct Portable([f64; LANES]);
+macro_rules! lanes {
+    ($name:ident of $vector:ident of $number:ident, $transposed:ident, $($trait:ident $method:ident),*) => {
+        #[derive(Clone, Copy)]
+        pub(super) struct $name($vector);
 
-macro_rules! lane_wise {
-    ($($trait:ident $method:ident $operator:tt),*) => {$(
-        impl $trait for Portable {
+        $(impl $trait for $name {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                let mut lanes = self.0;
-                for k in 0..LANES {
-                    lanes[k] = self.0[k] $operator other.0[k];
-                }
-                Self(lanes)
+                Self(self.0.$method(other.0))
+            }
+        })*
+
+        impl Neg for $name {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self(-self.0)
             }
         }
-    )*};
-}
-lane_wise!(Add add +, Sub sub -, Mul mul *, Div div /);
 
-impl Neg for Portable {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
-    }
-}
+        impl Real for $name {
+            #[inline(always)]
+            fn splat(value: f64) -> Self {
+                Self($vector::splat(value as $number))
+            }
 
-impl Portable {
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let mut lanes = self.0;
-        for k in 0..LANES {
-            lanes[k] = f(self.0[k], other.0[k]);
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self(self.0.sqrt())
+            }
+
+            #[inline(always)]
+            fn if_less(self, a: Self, b: Self, other: Self) -> Self {
+                Self(a.0.simd_lt(b.0).select(self.0, other.0))
+            }
+
+            #[inline(always)]
+            fn any_less(self, other: Self) -> bool {
+                self.less_mask(other) != 0
+            }
+
+            fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
+                lane_by_lane(values, function)
+            }
         }
-        Self(lanes)
+
+        impl LaneNumbers for $name {
+            type Number = $number;
+
+            #[inline(always)]
+            fn load_quads(
+                source: &[[$number; 4]],
+                stride: usize,
+                offset: usize,
+                indices: &LaneIndices<'_>,
+            ) -> [Self; 4] {
+                $transposed(indices.entries(source, stride, offset)).map(Self)
+            }
+
+            #[inline(always)]
+            fn load(values: &[$number; LANES]) -> Self {
+                Self((*values).into())
+            }
+
+            #[inline(always)]
+            fn to_array(self) -> [$number; LANES] {
+                self.0.to_array()
+            }
+
+            #[inline(always)]
+            fn less_mask(self, other: Self) -> u32 {
+                self.0.simd_lt(other.0).to_bitmask()
+            }
+        }
+    };
+}
+lanes!(Portable of f64x8 of f64, doubles, Add add, Sub sub, Mul mul, Div div);
+lanes!(PortableSingle of f32x8 of f32, singles, Add add, Sub sub, Mul mul, Div div);
+
+/// The transpose of eight records of four.
+#[inline(always)]
+fn doubles(records: [&[f64; 4]; LANES]) -> [f64x8; 4] {
+    let mut quads = [[f64x2::ZERO; LANES / 2]; 4];
+    for two in 0..LANES / 2 {
+        for k in [0, 2] {
+            let half = |lane: usize| f64x2::new([records[lane][k], records[lane][k + 1]]);
+            [quads[k][two], quads[k + 1][two]] = f64x2::transpose([half(2 * two), half(2 * two + 1)]);
+        }
     }
+    quads.map(cast)
 }
 
-impl Real for Portable {
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self([value; LANES])
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.map(f64::sqrt))
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a < b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn if_less(self, a: Self, b: Self, other: Self) -> Self {
-        let mut lanes = self.0;
-        for k in 0..LANES {
-            lanes[k] = if a.0[k] < b.0[k] { lanes[k] } else { other.0[k] };
+#[inline(always)]
+fn singles(records: [&[f32; 4]; LANES]) -> [f32x8; 4] {
+    let mut quads = [[0.0; LANES]; 4];
+    for lane in 0..LANES {
+        for k in 0..4 {
+            quads[k][lane] = records[lane][k];
         }
-        Self(lanes)
     }
+    quads.map(f32x8::new)
+}
 
+impl SingleLanes for PortableSingle {
     #[inline(always)]
-    fn any_less(self, other: Self) -> bool {
-        self.less_mask(other) != 0
-    }
-
-    fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
-        super::lane_by_lane(values, function)
+    fn fixed_difference(self, other: Self) -> Self {
+        Self((cast::<_, i32x8>(self.0) - cast::<_, i32x8>(other.0)).round_float())
     }
 }
 
@@ -89,190 +121,34 @@ impl Lanes for Portable {
 
     #[inline(always)]
     fn widen(single: PortableSingle) -> Self {
-        Self(single.to_array().map(f64::from))
+        Self(single.to_array().map(f64::from).into())
     }
 
     #[inline(always)]
     fn narrow(self) -> PortableSingle {
-        PortableSingle::load(&self.0.map(|value| value as f32))
+        PortableSingle(self.to_array().map(|value| value as f32).into())
     }
 
     #[inline(always)]
-    fn gather_records(source: FlatRecords<'_>, indices: &LaneIndices, offset: usize) -> Self {
-        assert!(source.records >= indices.bound && offset < source.stride, "array shorter than its index bound");
-        let mut lanes = [0.0; LANES];
-        for k in 0..LANES {
-            // SAFETY: raw[k] < bound ≤ records and offset < stride, so the element lies inside the borrowed slice.
-            lanes[k] = unsafe { *source.first.add(indices.raw[k] as usize * source.stride + offset) };
-        }
-        Self(lanes)
-    }
-
-    #[inline(always)]
-    fn load_quads(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4] {
-        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
-        let mut quads = [Self([0.0; LANES]); 4];
+    fn load_pairs(records: [&[f64; 2]; LANES]) -> [Self; 2] {
+        let mut pairs = [[0.0; LANES]; 2];
         for lane in 0..LANES {
-            // SAFETY: raw < bound and offset < stride, so the record lies inside the slice.
-            let record = unsafe { source.get_unchecked(indices.raw[lane] as usize * stride + offset) };
-            for k in 0..4 {
-                quads[k].0[lane] = record[k];
+            for k in 0..2 {
+                pairs[k][lane] = records[lane][k];
             }
         }
-        quads
-    }
-
-    #[inline(always)]
-    fn load(values: &[f64; LANES]) -> Self {
-        Self(*values)
-    }
-
-    #[inline(always)]
-    fn load_single(values: &[f32; LANES]) -> Self {
-        let mut lanes = [0.0; LANES];
-        for k in 0..LANES {
-            lanes[k] = f64::from(values[k]);
-        }
-        Self(lanes)
-    }
-
-    #[inline(always)]
-    fn less_mask(self, other: Self) -> u32 {
-        let mut mask = 0;
-        for k in 0..LANES {
-            mask |= u32::from(self.0[k] < other.0[k]) << k;
-        }
-        mask
-    }
-
-    #[inline(always)]
-    fn to_array(self) -> [f64; LANES] {
-        self.0
+        pairs.map(|values| Self(values.into()))
     }
 
     #[inline(always)]
     fn store_quads(quads: &[Self; 4], out: &mut [[f64; 4]], stride: usize, offset: usize) {
         assert!(offset < stride, "a quad beyond its record");
+        let quads = quads.map(Self::to_array);
         for (lane, record) in out.chunks_exact_mut(stride).enumerate().take(LANES) {
             for k in 0..4 {
-                record[offset][k] = quads[k].0[lane];
+                record[offset][k] = quads[k][lane];
             }
         }
-    }
-}
-
-#[derive(Clone, Copy)]
-pub(super) struct PortableSingle([f32; LANES]);
-
-macro_rules! single_lane_wise {
-    ($($trait:ident $method:ident $operator:tt),*) => {$(
-        impl $trait for PortableSingle {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                self.zip(other, |a, b| a $operator b)
-            }
-        }
-    )*};
-}
-single_lane_wise!(Add add +, Sub sub -, Mul mul *, Div div /);
-
-impl Neg for PortableSingle {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self(self.0.map(|x| -x))
-    }
-}
-
-impl PortableSingle {
-    #[inline(always)]
-    fn zip(self, other: Self, f: impl Fn(f32, f32) -> f32) -> Self {
-        let mut lanes = self.0;
-        for k in 0..LANES {
-            lanes[k] = f(self.0[k], other.0[k]);
-        }
-        Self(lanes)
-    }
-}
-
-impl Real for PortableSingle {
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self([value as f32; LANES])
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self(self.0.map(f32::sqrt))
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a < b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn if_less(self, a: Self, b: Self, other: Self) -> Self {
-        let mut lanes = self.0;
-        for k in 0..LANES {
-            lanes[k] = if a.0[k] < b.0[k] { lanes[k] } else { other.0[k] };
-        }
-        Self(lanes)
-    }
-
-    #[inline(always)]
-    fn any_less(self, other: Self) -> bool {
-        self.less_mask(other) != 0
-    }
-
-    fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
-        single_lane_by_lane(values, function)
-    }
-}
-
-impl SingleLanes for PortableSingle {
-    #[inline(always)]
-    fn load_quads(source: &[[f32; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [Self; 4] {
-        assert!(source.len() >= indices.bound * stride && offset < stride, "array shorter than its index bound");
-        let mut quads = [Self([0.0; LANES]); 4];
-        for lane in 0..LANES {
-            // SAFETY: raw < bound and offset < stride, so the record lies inside the slice.
-            let record = unsafe { source.get_unchecked(indices.raw[lane] as usize * stride + offset) };
-            for k in 0..4 {
-                quads[k].0[lane] = record[k];
-            }
-        }
-        quads
-    }
-
-    #[inline(always)]
-    fn load(values: &[f32; LANES]) -> Self {
-        Self(*values)
-    }
-
-    #[inline(always)]
-    fn to_array(self) -> [f32; LANES] {
-        self.0
-    }
-
-    #[inline(always)]
-    fn less_mask(self, other: Self) -> u32 {
-        let mut mask = 0;
-        for k in 0..LANES {
-            mask |= u32::from(self.0[k] < other.0[k]) << k;
-        }
-        mask
-    }
-
-    #[inline(always)]
-    fn fixed_difference(self, other: Self) -> Self {
-        self.zip(other, |a, b| a.to_bits().wrapping_sub(b.to_bits()).cast_signed() as f32)
     }
 }
 

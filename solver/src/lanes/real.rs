@@ -10,16 +10,22 @@ pub trait Real:
     fn splat(value: f64) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
-    /// `if self > other { self } else { other }`: a NaN in `self` gives `other`.
-    fn max(self, other: Self) -> Self;
-    /// `if self < other { self } else { other }`: a NaN in `self` gives `other`.
-    fn min(self, other: Self) -> Self;
     /// `if a < b { self } else { other }`.
     fn if_less(self, a: Self, b: Self, other: Self) -> Self;
     /// Whether `self < other` in any lane.
     fn any_less(self, other: Self) -> bool;
     /// A function of single values, lane by lane: slow, for what is not written for lanes.
     fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self;
+    /// `if self > other { self } else { other }`: a NaN in `self` gives `other`.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.if_less(other, self, other)
+    }
+    /// `if self < other { self } else { other }`: a NaN in `self` gives `other`.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        self.if_less(self, other, other)
+    }
     /// `self` where `a < b`, zero elsewhere.
     #[inline(always)]
     fn where_less(self, a: Self, b: Self) -> Self {
@@ -39,16 +45,6 @@ impl Real for f64 {
     }
 
     #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
-    }
-
-    #[inline(always)]
     fn if_less(self, a: Self, b: Self, other: Self) -> Self {
         if a < b { self } else { other }
     }
@@ -61,5 +57,25 @@ impl Real for f64 {
     #[inline(always)]
     fn lane_by_lane<const N: usize>(values: [Self; N], function: &dyn Fn([f64; N]) -> f64) -> Self {
         function(values)
+    }
+}
+
+/// One number of a precision. f32 is not [`Real`], so that a formula of plain numbers is one of f64.
+pub trait Number: Copy + Into<f64> {
+    /// The nearest number of this precision.
+    fn of(value: f64) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        value
+    }
+}
+
+impl Number for f32 {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        value as f32
     }
 }

@@ -6,7 +6,7 @@
 //! A product waits for its coefficients to come from memory. They are stored in single precision, which halves the way;
 //! sums and unknowns are double. Both rows of a pair hold the same rounded number, so symmetry and balance are exact.
 
-use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices, LanePass, Lanes};
+use crate::lanes::{CheckedIndices, InstructionSet, LANES, LaneChunks, LaneIndices, LaneNumbers, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
 
@@ -304,7 +304,7 @@ impl<const D: usize> LanePass for Product<'_, D> {
 
 #[inline(always)]
 fn add<V: Lanes, const D: usize>(sums: &mut [V; D], u: &[Vector<D>], columns: &LaneIndices<'_>, coefficients: &Single) {
-    let coefficient = V::load_single(&coefficients.0);
+    let coefficient = V::widen(V::Single::load(&coefficients.0));
     let u = crate::lanes::gather_vectors::<V, D>(u, columns);
     for axis in 0..D {
         sums[axis] = sums[axis] + u[axis] * coefficient;

@@ -90,7 +90,7 @@ impl<const D: usize> State<D> {
             side_wall_impulse: Vector::zeros(),
             side_wall_blocks: Vec::new(),
             model,
-            pairs: PairData::new(),
+            pairs: PairData::default(),
             viscous: ViscousSystem::new(),
             search: Search::new(scene.domain),
             energy: EnergyLedger::default(),

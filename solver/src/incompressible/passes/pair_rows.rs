@@ -14,7 +14,7 @@ use super::super::terms::viscous_pair;
 use super::pressure_rows::PressureRows;
 use crate::kernel::Kernel;
 use crate::lanes::algebra::dot;
-use crate::lanes::{LANES, LaneIndices, LanePass, Lanes, Real, SingleLanes, gather};
+use crate::lanes::{LANES, LaneIndices, LaneNumbers, LanePass, Lanes, Real, gather};
 use crate::linear::Single;
 use crate::material::turbulence::eddy_viscosity;
 use crate::parallel::prelude::*;
@@ -89,7 +89,22 @@ pub(crate) fn fill_rows<const D: usize>(
         surface_gain: numerics.surface_gain,
     };
     let stride = phase.free.stride();
-    fill(&pairs, Out { first: 0, stride, nearness: &mut nearness, pressure, friction });
+    let (chunks, rows) = (LEAST_GROUPS * stride, LEAST_GROUPS * LANES);
+    let links = (pressure.links.par_chunks_mut(chunks), pressure.width.par_chunks_mut(LEAST_GROUPS));
+    let (own, held) = (pressure.own.par_chunks_mut(rows), pressure.held.par_chunks_mut(rows));
+    let of_pressure = (own, held, pressure.diagonal.par_chunks_mut(rows), nearness.par_chunks_mut(rows));
+    let of_friction = friction.map(|friction| {
+        let couplings = (friction.couplings.par_chunks_mut(chunks), friction.width.par_chunks_mut(LEAST_GROUPS));
+        (couplings, friction.coupled.par_chunks_mut(rows)).into_par_iter()
+    });
+    (links, of_pressure, of_friction).into_par_iter().enumerate().for_each(
+        |(task, ((links, width), (own, held, diagonal, nearness), friction))| {
+            let pressure = PressureRows { links, width, own, diagonal, held };
+            let friction = friction.map(|((couplings, width), coupled)| FrictionRows { couplings, width, coupled });
+            let out = Out { first: task * LEAST_GROUPS, stride, nearness, pressure, friction };
+            phase.free.set().run(Task { pairs: &pairs, out });
+        },
+    );
     (phase.nearness, phase.records) = (nearness, records);
 }
 
@@ -110,17 +125,6 @@ fn find_mean_anisotropy<const D: usize>(phase: &mut Phase<D>, periods: &Periods<
     phase.mean_anisotropy = means;
 }
 
-/// Halves the groups until a task is small enough.
-fn fill<const D: usize>(pairs: &Pairs<'_, D>, out: Out<'_, D>) {
-    let groups = out.pressure.width.len();
-    if groups > 2 * LEAST_GROUPS {
-        let (one, other) = out.split(groups / 2);
-        rayon::join(|| fill(pairs, one), || fill(pairs, other));
-    } else {
-        pairs.phase.free.set().run(Task { pairs, out });
-    }
-}
-
 /// Inputs of the pass over pairs.
 struct Pairs<'a, const D: usize> {
     phase: &'a Phase<D>,
@@ -139,41 +143,6 @@ struct Out<'a, const D: usize> {
     nearness: &'a mut [f64],
     pressure: PressureRows<'a, D>,
     friction: Option<FrictionRows<'a>>,
-}
-
-impl<const D: usize> Out<'_, D> {
-    fn split(self, groups: usize) -> (Self, Self) {
-        let Self { first, stride, .. } = self;
-        let (rows, chunks) = (groups * LANES, groups * stride);
-        let (nearness, other_nearness) = self.nearness.split_at_mut(rows);
-        let (links, other_links) = self.pressure.links.split_at_mut(chunks);
-        let (width, other_width) = self.pressure.width.split_at_mut(groups);
-        let (own, other_own) = self.pressure.own.split_at_mut(rows);
-        let (diagonal, other_diagonal) = self.pressure.diagonal.split_at_mut(rows);
-        let (held, other_held) = self.pressure.held.split_at_mut(rows);
-        let (friction, other_friction) = self
-            .friction
-            .map(|friction| {
-                let (couplings, other_couplings) = friction.couplings.split_at_mut(chunks);
-                let (width, other_width) = friction.width.split_at_mut(groups);
-                let (coupled, other_coupled) = friction.coupled.split_at_mut(rows);
-                let other = FrictionRows { couplings: other_couplings, width: other_width, coupled: other_coupled };
-                (FrictionRows { couplings, width, coupled }, other)
-            })
-            .unzip();
-        let pressure = PressureRows { links, width, own, diagonal, held };
-        let other = PressureRows {
-            links: other_links,
-            width: other_width,
-            own: other_own,
-            diagonal: other_diagonal,
-            held: other_held,
-        };
-        (
-            Self { first, stride, nearness, pressure, friction },
-            Self { first: first + groups, stride, nearness: other_nearness, pressure: other, friction: other_friction },
-        )
-    }
 }
 
 struct Task<'a, 'b, const D: usize> {

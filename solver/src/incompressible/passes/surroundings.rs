@@ -10,7 +10,8 @@ use super::super::phase::{Phase, WallSums, records};
 use super::super::scene::{Bed, height_axis};
 use crate::kernel::Kernel;
 use crate::lanes::algebra::dot;
-use crate::lanes::{LANES, LanePass, Lanes, Real, SingleLanes};
+use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real};
+use crate::parallel::prelude::*;
 use crate::vector::Tensor;
 
 /// Quads of a record: position and velocity.
@@ -58,31 +59,31 @@ pub(crate) fn find_surroundings<const D: usize>(
         mirror,
         gradients,
     };
-    let out = Sums {
-        first: 0,
-        stride: free.stride(),
-        weight,
-        active,
-        concentration: &mut phase.concentration,
-        at_surface: &mut phase.at_surface,
-        deficit: &mut phase.deficit,
-        moment: &mut phase.moment,
-        anisotropy: &mut phase.anisotropy,
-        walls: &mut phase.wall_sums,
-        velocity_gradient: &mut phase.velocity_gradient,
-    };
-    find(&around, out);
-}
-
-/// Halves the groups until a task is small enough.
-fn find<const D: usize>(around: &Around<'_, D>, out: Sums<'_, D>) {
-    let groups = out.active.len();
-    if groups > 2 * LEAST_GROUPS {
-        let (one, other) = out.split(groups / 2);
-        rayon::join(|| find(around, one), || find(around, other));
-    } else {
-        around.free.set().run(Task { around, out });
-    }
+    let (chunks, rows) = (LEAST_GROUPS * free.stride(), LEAST_GROUPS * LANES);
+    let lists = (weight.par_chunks_mut(chunks), active.par_chunks_mut(LEAST_GROUPS));
+    let (concentration, deficit) = (phase.concentration.par_chunks_mut(rows), phase.deficit.par_chunks_mut(rows));
+    let scalars = (concentration, deficit, phase.at_surface.par_chunks_mut(rows), phase.moment.par_chunks_mut(rows));
+    let tensors = (phase.anisotropy.par_chunks_mut(rows), phase.velocity_gradient.par_chunks_mut(rows));
+    (lists, scalars, tensors, phase.wall_sums.par_chunks_mut(rows)).into_par_iter().enumerate().for_each(
+        |(task, ((weight, active), scalars, (anisotropy, velocity_gradient), walls))| {
+            let (concentration, deficit, at_surface, moment) = scalars;
+            let first = task * LEAST_GROUPS;
+            let out = Sums {
+                first,
+                stride: free.stride(),
+                weight,
+                active,
+                concentration,
+                at_surface,
+                deficit,
+                moment,
+                anisotropy,
+                walls,
+                velocity_gradient,
+            };
+            free.set().run(Task { around: &around, out });
+        },
+    );
 }
 
 /// Inputs of the pass over the surroundings of particles.
@@ -133,49 +134,6 @@ struct Sums<'a, const D: usize> {
     anisotropy: &'a mut [Tensor<D>],
     walls: &'a mut [WallSums],
     velocity_gradient: &'a mut [Tensor<D>],
-}
-
-impl<const D: usize> Sums<'_, D> {
-    fn split(self, groups: usize) -> (Self, Self) {
-        let Self { first, stride, .. } = self;
-        let rows = groups * LANES;
-        let (weight, other_weight) = self.weight.split_at_mut(groups * stride);
-        let (active, other_active) = self.active.split_at_mut(groups);
-        let (concentration, other_concentration) = self.concentration.split_at_mut(rows);
-        let (at_surface, other_at_surface) = self.at_surface.split_at_mut(rows);
-        let (deficit, other_deficit) = self.deficit.split_at_mut(rows);
-        let (moment, other_moment) = self.moment.split_at_mut(rows);
-        let (anisotropy, other_anisotropy) = self.anisotropy.split_at_mut(rows);
-        let (walls, other_walls) = self.walls.split_at_mut(rows);
-        let (velocity_gradient, other_gradient) = self.velocity_gradient.split_at_mut(rows);
-        let one = Self {
-            first,
-            stride,
-            weight,
-            active,
-            concentration,
-            at_surface,
-            deficit,
-            moment,
-            anisotropy,
-            walls,
-            velocity_gradient,
-        };
-        let other = Self {
-            first: first + groups,
-            stride,
-            weight: other_weight,
-            active: other_active,
-            concentration: other_concentration,
-            at_surface: other_at_surface,
-            deficit: other_deficit,
-            moment: other_moment,
-            anisotropy: other_anisotropy,
-            walls: other_walls,
-            velocity_gradient: other_gradient,
-        };
-        (one, other)
-    }
 }
 
 struct Task<'a, 'b, const D: usize> {

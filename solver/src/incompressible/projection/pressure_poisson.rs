@@ -24,7 +24,7 @@ use super::super::passes::pressure_rows::{LinkChunk, PressureRows};
 use super::super::phase::Phase;
 use super::correction::Correction;
 use super::gauge::Gauge;
-use super::pressure_links::{Divergence, FirstPass, Gradient, Link, SecondPass};
+use super::pressure_links::{Divergence, Gradient, Link};
 use crate::domain::Domain;
 use crate::linear::{
     ConjugateGradient, Criterion, IncompleteCholesky, LaneRows, Lattices, NotConverged, Rows, TASK_ROWS,
@@ -127,9 +127,9 @@ impl<const D: usize> PressurePoisson<D> {
 
     /// D u `[1/s]` of a velocity field, of all particles.
     pub(crate) fn find_divergence(&self, velocity: &[Vector<D>], divergence: &mut [f64]) {
-        divergence.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, divergence)| {
+        divergence.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, out)| {
             let (links, own, first) = (&self.links, &self.own[..], task * TASK_ROWS);
-            self.links.run(Divergence { links, own, velocity, first, divergence });
+            self.links.run(Divergence { links, own, u: velocity, first, out, taken: None });
         });
     }
 
@@ -138,7 +138,7 @@ impl<const D: usize> PressurePoisson<D> {
         let Self { links, own, gradient, .. } = self;
         let (links, own) = (&*links, &own[..]);
         gradient.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, gradient)| {
-            links.run(Gradient { links, own, p, first: task * TASK_ROWS, gradient });
+            links.run(Gradient { links, own, p, first: task * TASK_ROWS, gradient, compact: None });
         });
         gradient
     }
@@ -241,15 +241,17 @@ impl<const D: usize> PressurePoisson<D> {
         // both operators read the pressures, D reads the gradients when all are there
         (product.par_chunks_mut(TASK_ROWS), gradient.par_chunks_mut(TASK_ROWS)).into_par_iter().enumerate().for_each(
             |(task, (product, gradient))| {
-                let (own, diagonal, first) = (&self.own, &self.diagonal, task * TASK_ROWS);
-                self.links.run(FirstPass { links: &self.links, own, diagonal, p, first, product, gradient });
+                let (own, first) = (&self.own, task * TASK_ROWS);
+                let compact = Some((&self.diagonal[..], product));
+                self.links.run(Gradient { links: &self.links, own, p, first, gradient, compact });
             },
         );
         if stabilisation != 0.0 {
             let gradient = &*gradient;
-            product.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, product)| {
+            product.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, out)| {
                 let (own, first) = (&self.own, task * TASK_ROWS);
-                self.links.run(SecondPass { links: &self.links, own, gradient, first, product, stabilisation });
+                let taken = Some(stabilisation);
+                self.links.run(Divergence { links: &self.links, own, u: gradient, first, out, taken });
             });
         }
         if eliminated {

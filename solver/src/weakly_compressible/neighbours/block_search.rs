@@ -1,7 +1,7 @@
 //! The search that fills a block of groups of the neighbour list.
 
 use super::CellGrid;
-use crate::lanes::{LANES, LanePass, Lanes, Real, SingleLanes};
+use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real, SingleLanes};
 use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;

@@ -2,17 +2,17 @@
 //! it needs is then at hand, the new stress of each particle.
 
 use super::PairData;
-use super::exchange::Exchange;
+use super::exchange::{Exchange, Inputs, Numbers};
 use super::field_diffusion::FieldDiffusion;
 use super::layout::Continuity;
-use super::new_state::{Advance, Extremes, Output, RateSums};
+use super::new_state::{Advance, Eight, Extremes, Output, RateSums};
 use super::pair_weights::{Weighing, Weights, flush, flush_tensor};
 use super::pore_pressure::{self, PorePressure};
 use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
 use super::stress_ratio::{self, StressRatio};
 use crate::lanes::algebra::{accumulate, accumulate_outer, difference, dot, load, sum_of, zero_tensor};
-use crate::lanes::{LANES, LanePass, Lanes, Real};
+use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
 use crate::weakly_compressible::energy::StressWork;
 use crate::weakly_compressible::model::{GradientUse, Model, PairDiffusion};
@@ -184,19 +184,12 @@ impl<const D: usize> LanePass for Pass<'_, D> {
                 sums.exchanged.field.eigenvalue = load::<V>(&pairs.eigenvalues[first..last]);
             }
             let end = (offset + LANES).min(count);
-            advance.particles_at(offset..end, &sums, &mut out, &mut work, extremes);
+            let places = offset..end;
+            Eight { advance, places, sums, out: &mut out, work: &mut work, extremes: &mut *extremes }.step();
             offset = end;
         }
         work.add_to(out.energy);
     }
-}
-
-/// Inputs of the loops over neighbours beside their records.
-#[derive(Clone, Copy)]
-struct Inputs<'a, const D: usize> {
-    model: &'a Model<D>,
-    particles: &'a Particles<D>,
-    group: NeighbourGroup<'a>,
 }
 
 /// Pair sums of a group, whatever is exchanged.
@@ -216,10 +209,11 @@ fn sums_of<V: Lanes, P: Precision, const D: usize>(
 
 #[inline(always)]
 fn pair_sums<V: Lanes, P: Precision, const D: usize, X: Exchange<V, P, D>>(
-    Inputs { model, particles, group }: Inputs<'_, D>,
+    inputs: Inputs<'_, D>,
     records: &Records<P>,
     weights: &[Weights<P>],
 ) -> RateSums<V, D> {
+    let Inputs { model, group, .. } = inputs;
     let quads = const { Continuity::<P, D>::values(X::KIND).div_ceil(4) };
     let record = records.load::<V>(quads, &group.own);
     let own = Partner::of::<P>(&record);
@@ -227,15 +221,15 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize, X: Exchange<V, P, D>>(
     let weighing = Weighing::<P, V, D> { kernel: &model.kernel, records, quads, place: own.position };
     let (flow_weights, wall_weights) = weights.split_at(group.flow.len().min(weights.len()));
     let mut sums = RateSums::<V, D>::none();
-    let mut part_gradient = zero_tensor::<P::Lanes<V>, D>();
-    let (mut part_coupling, mut part_compression) = (P::Lanes::<V>::splat(0.0), P::Lanes::<V>::splat(0.0));
+    let mut part_gradient = zero_tensor::<Numbers<P, V>, D>();
+    let (mut part_coupling, mut part_compression) = (Numbers::<P, V>::splat(0.0), Numbers::<P, V>::splat(0.0));
     let mut pairs = weighing.pairs(group.flow, flow_weights);
     while let Some(pairs) = pairs.next() {
         for (b, weight) in pairs {
             let record = records.load::<V>(quads, &b);
             let other = Partner::of::<P>(&record);
             let r = records.apart::<V, D>(&own.position, &other.position);
-            let weight = P::load::<V>(weight);
+            let weight = Numbers::<P, V>::load(weight);
             exchange.add(weight, &record, other.pressure);
             let sum = sum_of(&own.pressure_gradient, &other.pressure_gradient);
             let bracket = density_coupling::bracket(own.pressure - other.pressure, &sum, &r);
@@ -252,11 +246,11 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize, X: Exchange<V, P, D>>(
             let first = const { Continuity::<P, D>::EXCHANGED.div_ceil(4) };
             let wall = Partner::of::<P>(&records.load_start::<V>(quads, first, &w));
             let r = records.apart::<V, D>(&own.position, &wall.position);
-            let weight = P::load::<V>(weight);
+            let weight = Numbers::<P, V>::load(weight);
             accumulate_outer(&mut part_gradient, weight, &difference(&wall.velocity, &own.velocity), &r);
             let sliding = difference(&own.velocity, &wall.pressure_gradient);
             part_compression = part_compression + weight * dot(&sliding, &r);
-            exchange.add_wall(weight, &r, &w, (model, particles));
+            exchange.add_wall(&inputs, &w, P::widen(weight), &r);
         }
         flush_tensor::<V, P, D>(&mut sums.wall_gradient, &mut part_gradient);
         flush::<V, P>(&mut sums.wall_compression, &mut part_compression);

@@ -5,7 +5,11 @@ use super::records::LaneRecord;
 use crate::lanes::algebra::zero_tensor;
 use crate::lanes::{LaneIndices, Lanes, Real};
 use crate::weakly_compressible::model::{Model, PairDiffusion};
+use crate::weakly_compressible::neighbours::NeighbourGroup;
 use crate::weakly_compressible::particles::Particles;
+
+/// Eight numbers of a precision.
+pub(super) type Numbers<P, V> = <P as Precision>::Lanes<V>;
 
 /// A quantity that neighbours exchange. In records it stands behind what the density takes.
 pub(super) trait Exchange<V: Lanes, P: Precision, const D: usize>: Sized {
@@ -13,25 +17,30 @@ pub(super) trait Exchange<V: Lanes, P: Precision, const D: usize>: Sized {
     const KIND: PairDiffusion;
 
     /// Nothing summed yet around eight particles of these records and pressures `[Pa]`.
-    fn around(own: &LaneRecord<P::Lanes<V>>, pressure: P::Lanes<V>) -> Self;
+    fn around(own: &LaneRecord<Numbers<P, V>>, pressure: Numbers<P, V>) -> Self;
 
     /// Adds flow neighbours with their weights V F `[1/m²]`, records and pressures `[Pa]`.
-    fn add(&mut self, weight: P::Lanes<V>, other: &LaneRecord<P::Lanes<V>>, pressure: P::Lanes<V>);
+    #[inline(always)]
+    fn add(&mut self, _weight: Numbers<P, V>, _other: &LaneRecord<Numbers<P, V>>, _pressure: Numbers<P, V>) {}
 
     /// Adds the parts of sums to the sums.
-    fn flush(&mut self);
+    #[inline(always)]
+    fn flush(&mut self) {}
 
-    /// Adds wall neighbours with their weights `[1/m²]` and the way from them `[m]`.
-    fn add_wall(
-        &mut self,
-        weight: P::Lanes<V>,
-        r: &[P::Lanes<V>; D],
-        wall: &LaneIndices<'_>,
-        of: (&Model<D>, &Particles<D>),
-    );
+    /// Adds wall neighbours, by their indices, with their weights `[1/m²]` and the way from them `[m]`.
+    #[inline(always)]
+    fn add_wall(&mut self, _inputs: &Inputs<'_, D>, _wall: &LaneIndices<'_>, _weight: V, _r: &[Numbers<P, V>; D]) {}
 
     /// The sums, when all neighbours are added.
     fn sums(self) -> Exchanged<V, D>;
+}
+
+/// Inputs of the loops over neighbours beside their records.
+#[derive(Clone, Copy)]
+pub(super) struct Inputs<'a, const D: usize> {
+    pub(super) model: &'a Model<D>,
+    pub(super) particles: &'a Particles<D>,
+    pub(super) group: NeighbourGroup<'a>,
 }
 
 /// Pair sums of what is exchanged.
@@ -66,16 +75,7 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for () {
     const KIND: PairDiffusion = PairDiffusion::None;
 
     #[inline(always)]
-    fn around(_: &LaneRecord<P::Lanes<V>>, _: P::Lanes<V>) {}
-
-    #[inline(always)]
-    fn add(&mut self, _: P::Lanes<V>, _: &LaneRecord<P::Lanes<V>>, _: P::Lanes<V>) {}
-
-    #[inline(always)]
-    fn flush(&mut self) {}
-
-    #[inline(always)]
-    fn add_wall(&mut self, _: P::Lanes<V>, _: &[P::Lanes<V>; D], _: &LaneIndices<'_>, _: (&Model<D>, &Particles<D>)) {}
+    fn around(_: &LaneRecord<Numbers<P, V>>, _: Numbers<P, V>) {}
 
     #[inline(always)]
     fn sums(self) -> Exchanged<V, D> {

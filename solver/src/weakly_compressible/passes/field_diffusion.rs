@@ -1,6 +1,6 @@
 //! Diffusion of the law's field, summed beside continuity and the diffusion of the stress ratio.
 
-use super::exchange::{Exchange, Exchanged, FieldSums};
+use super::exchange::{Exchange, Exchanged, FieldSums, Inputs, Numbers};
 use super::layout::Continuity;
 use super::pair_weights::{flush, widened};
 use super::precision::Precision;
@@ -9,15 +9,14 @@ use super::stress_ratio::StressRatio;
 use crate::lanes::{LaneIndices, Lanes, Real, gather, gather_vectors};
 use crate::material::rheology::field::{FieldBoundary, FieldStep};
 use crate::weakly_compressible::model::{Model, PairDiffusion};
-use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::field_diffusion;
 
 /// Sums of the diffusion of a field, and of the stress ratio, around eight particles.
 pub(super) struct FieldDiffusion<V: Lanes, P: Precision, const D: usize> {
     stress_ratio: StressRatio<V, P, D>,
     sums: FieldSums<V>,
-    part_taken: P::Lanes<V>,
-    part_weights: P::Lanes<V>,
+    part_taken: Numbers<P, V>,
+    part_weights: Numbers<P, V>,
 }
 
 impl<V: Lanes, P: Precision, const D: usize> FieldDiffusion<V, P, D> {
@@ -29,14 +28,14 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for FieldDiffusio
     const KIND: PairDiffusion = PairDiffusion::Field;
 
     #[inline(always)]
-    fn around(own: &LaneRecord<P::Lanes<V>>, pressure: P::Lanes<V>) -> Self {
-        let none = P::Lanes::<V>::splat(0.0);
+    fn around(own: &LaneRecord<Numbers<P, V>>, pressure: Numbers<P, V>) -> Self {
+        let none = Numbers::<P, V>::splat(0.0);
         let stress_ratio = StressRatio::around(own, pressure);
         Self { stress_ratio, sums: FieldSums::none(), part_taken: none, part_weights: none }
     }
 
     #[inline(always)]
-    fn add(&mut self, weight: P::Lanes<V>, other: &LaneRecord<P::Lanes<V>>, pressure: P::Lanes<V>) {
+    fn add(&mut self, weight: Numbers<P, V>, other: &LaneRecord<Numbers<P, V>>, pressure: Numbers<P, V>) {
         self.part_taken = self.part_taken + weight * records::scalar(other, Self::FIELD);
         self.part_weights = self.part_weights + weight;
         self.stress_ratio.add(weight, other, pressure);
@@ -51,20 +50,15 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for FieldDiffusio
     }
 
     #[inline(always)]
-    fn add_wall(
-        &mut self,
-        weight: P::Lanes<V>,
-        r: &[P::Lanes<V>; D],
-        wall: &LaneIndices<'_>,
-        (model, particles): (&Model<D>, &Particles<D>),
-    ) {
+    fn add_wall(&mut self, inputs: &Inputs<'_, D>, wall: &LaneIndices<'_>, weight: V, r: &[Numbers<P, V>; D]) {
+        let particles = inputs.particles;
         let places = wall.places_from(particles.flow_count());
         let places = places.indices();
         let normal = gather_vectors::<V, D>(&particles.walls.normal, &places);
         let depth: V = gather(&particles.walls.depth, &places);
         let smoothness: V = gather(&particles.walls.smoothness, &places);
-        let (weight, r) = (P::widen::<V>(weight), widened::<V, P, D>(r));
-        let factor = field_diffusion::wall_factor(&r, &normal, depth, smoothness, model.spacing);
+        let r = widened::<V, P, D>(r);
+        let factor = field_diffusion::wall_factor(&r, &normal, depth, smoothness, inputs.model.spacing);
         self.sums.given = self.sums.given + weight * factor;
         self.sums.weights = self.sums.weights + weight;
     }

@@ -10,7 +10,7 @@ use crate::lanes::algebra::{
     accumulate, deviatoric_rate, load, load_tensor, matrix_product, product, store, store_tensor, store_vector,
     zero_tensor, zero_vector,
 };
-use crate::lanes::{LANES, LanePass, LaneTensorsMut, Lanes, Real};
+use crate::lanes::{LANES, LaneNumbers, LanePass, LaneTensorsMut, Lanes, Real};
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector};
 use crate::weakly_compressible::model::Model;
@@ -174,7 +174,7 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
         for (b, weight) in pairs {
             let other = records.load::<V>(quads, &b);
             let r = records.apart::<V, D>(&weighing.place, &records::vector(&other, 0));
-            let weight = P::load::<V>(weight);
+            let weight = P::Lanes::<V>::load(weight);
             let step = records::scalar(&other, D + 1) - pressure_a;
             // M is symmetric: only the upper triangle is summed
             for i in 0..D {

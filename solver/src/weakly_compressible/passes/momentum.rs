@@ -10,7 +10,7 @@ use super::precision::Precision;
 use super::records::Records;
 use super::wall_partner::{WallGroup, WallPair};
 use crate::lanes::algebra::{accumulate, difference, dot, load, store_vector, zero_vector};
-use crate::lanes::{LANES, LanePass, Lanes, Real};
+use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real};
 use crate::parallel::prelude::*;
 use crate::vector::{Vector, shear_rate};
 use crate::weakly_compressible::model::Model;
@@ -209,7 +209,7 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
             let other = FlowPartner::of::<P>(&records.load::<V>(quads, &b));
             let r = records.apart::<V, D>(&own.position, &other.position);
             let slip = difference(&own.velocity, &other.velocity);
-            let weight = P::load::<V>(weight);
+            let weight = P::Lanes::<V>::load(weight);
             let (square, approach) = (dot(&r, &r), dot(&r, &slip));
             let regular = square + regularisation;
             let density_sum = own.density + other.density;
@@ -276,7 +276,7 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
     while let Some(walls) = walls.next() {
         for (w, weight) in walls {
             let WallPair { traction, drag, unexplained } = seen.pair::<V, P>(constants, records, &w);
-            let weight = P::load::<V>(weight);
+            let weight = P::Lanes::<V>::load(weight);
             accumulate(&mut part.wall_divergence, weight, &traction);
             accumulate(&mut part.wall_control, weight * drag, &unexplained);
         }

@@ -87,37 +87,8 @@ impl<V: Real, const D: usize> RateSums<V, D> {
     }
 }
 
-/// Eight particles before their step.
-struct Before<V> {
-    mass: V,
-    density: V,
-    pressure: V,
-    kept: FieldStep<V>,
-}
-
-/// What eight particles go through in their step: the new density, and the velocity gradients before and after.
-struct LawStep<V, const D: usize> {
-    density: V,
-    /// That of the new density with what the law kept before.
-    pressure: V,
-    /// Share by which the volume grows `[-]`.
-    growth: V,
-    gradient_before: [[V; D]; D],
-    gradient: [[V; D]; D],
-    /// Correction of gradients `[-]`.
-    correction: [[V; D]; D],
-}
-
-/// What the law has made of eight particles.
-struct LawEnd<V, const D: usize> {
-    stress_before: [[V; D]; D],
-    stress: [[V; D]; D],
-    pressure: V,
-    /// Stress beside the law's that acted, of elastic damping and eddies.
-    added_stress: [[V; D]; D],
-}
-
 /// A block of particles on its way to the next step.
+#[derive(Clone, Copy)]
 pub(super) struct Advance<'a, const D: usize> {
     pub(super) model: &'a Model<D>,
     pub(super) particles: &'a Particles<D>,
@@ -127,287 +98,259 @@ pub(super) struct Advance<'a, const D: usize> {
     pub(super) block_start: usize,
 }
 
-impl<const D: usize> Advance<'_, D> {
-    /// Advances the eight particles at `places` of the block: density, artificial viscosity, then gradient and stress.
+/// Eight particles on their way to the next step, with their pair sums and where what follows from these goes.
+pub(super) struct Eight<'a, 'b, V, const D: usize> {
+    pub(super) advance: Advance<'a, D>,
+    /// Their places in the block.
+    pub(super) places: Range<usize>,
+    pub(super) sums: RateSums<V, D>,
+    pub(super) out: &'a mut Output<'b, D>,
+    pub(super) work: &'a mut StressWork<V>,
+    pub(super) extremes: &'a mut Extremes,
+}
+
+/// State before the step, and the new density.
+struct DensityStep<V> {
+    mass: V,
+    density: (V, V),
+    /// Before, and at the new density with what the law kept.
+    pressure: (V, V),
+    kept: FieldStep<V>,
+    /// Share by which the volume grows `[-]`.
+    growth: V,
+}
+
+/// Velocity gradients before and after the step, and the correction of the latter.
+struct GradientStep<V, const D: usize> {
+    before: [[V; D]; D],
+    after: [[V; D]; D],
+    correction: [[V; D]; D],
+}
+
+/// Stresses of a step: pressures before and after, the law's stress before and after, and what acted beside it.
+struct Stresses<V, const D: usize> {
+    volume: V,
+    growth: V,
+    pressure: (V, V),
+    added: [[V; D]; D],
+    before: [[V; D]; D],
+    after: [[V; D]; D],
+}
+
+impl<V: Lanes, const D: usize> Eight<'_, '_, V, D> {
+    /// Makes the step: density, artificial viscosity, then gradient and stress.
     #[inline(always)]
-    pub(super) fn particles_at<V: Lanes>(
-        &self,
-        places: Range<usize>,
-        sums: &RateSums<V, D>,
-        out: &mut Output<'_, D>,
-        work: &mut StressWork<V>,
-        extremes: &mut Extremes,
-    ) {
-        let before = self.before(&places, out);
-        let density = self.new_density(&before, sums);
-        let pressure = self.model.pressure(density, &before.kept);
-        let mut compression = self.compression(&before, density, pressure, sums);
-        let law_moves_pressure = self.model.law_moves_pressure();
+    pub(super) fn step(mut self) {
+        let model = self.advance.model;
+        let density = self.density_step();
+        let mut compression = self.compression(&density);
+        let law_moves_pressure = model.law_moves_pressure();
         if !law_moves_pressure {
-            compression.add_to(work);
+            compression.add_to(self.work);
         }
-        self.store_density(&places, density, out, extremes);
-        self.switch_artificial_viscosity(&places, sums, out);
-        if self.gradient != GradientUse::None {
-            let step = self.law_step(&places, &before, (density, pressure), sums, out);
-            if self.gradient == GradientUse::Stress {
-                compression.pressure.1 = self.stress_step(&places, &before, &step, sums, out, work);
+        self.store_density(density.density.1);
+        self.switch_artificial_viscosity();
+        if self.advance.gradient != GradientUse::None {
+            let gradient = self.gradient_step();
+            if self.advance.gradient == GradientUse::Stress {
+                compression.pressure.1 = self.stress_step(&density, &gradient);
             }
-            self.store_viscosity(&places, compression.pressure.1, out, extremes);
+            self.store_viscosity(compression.pressure.1);
         }
         if law_moves_pressure {
-            compression.add_to(work);
+            compression.add_to(self.work);
         }
     }
 
-    /// Storage places of particles of the block.
+    /// Their storage places.
     #[inline(always)]
-    fn here(&self, places: &Range<usize>) -> Range<usize> {
-        self.block_start + places.start..self.block_start + places.end
+    fn here(&self) -> Range<usize> {
+        self.advance.block_start + self.places.start..self.advance.block_start + self.places.end
     }
 
+    /// Density (7) with the coupling (27), at least that of a particle alone.
     #[inline(always)]
-    fn before<V: Lanes>(&self, places: &Range<usize>, out: &Output<'_, D>) -> Before<V> {
-        let here = self.here(places);
+    fn density_step(&self) -> DensityStep<V> {
+        let (Advance { model, particles, time_step, .. }, sums) = (self.advance, &self.sums);
+        let previous = load::<V>(&self.out.density[self.places.clone()]);
+        let mass = load::<V>(&particles.mass[self.here()]);
+        let strength = model.density_coupling();
+        let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, time_step);
+        let density = continuity::held(density, previous, mass, model.lone_density_per_mass);
         let mut kept = FieldStep::alone(V::splat(0.0));
-        if let Some(field) = &out.field {
-            kept.value = load::<V>(&field[places.clone()]);
+        if let Some(field) = &self.out.field {
+            kept.value = load::<V>(&field[self.places.clone()]);
         }
-        if let Some(memory) = &out.memory {
-            kept.memory = memory::load(&memory[places.clone()]);
+        if let Some(memory) = &self.out.memory {
+            kept.memory = memory::load(&memory[self.places.clone()]);
         }
-        Before {
-            mass: load::<V>(&self.particles.mass[here.clone()]),
-            density: load::<V>(&out.density[places.clone()]),
-            pressure: load::<V>(&self.particles.pressure[here]),
+        DensityStep {
+            mass,
+            density: (previous, density),
+            pressure: (load::<V>(&particles.pressure[self.here()]), model.pressure(density, &kept)),
             kept,
+            growth: (previous - density) / density.max(V::splat(f64::MIN_POSITIVE)),
         }
     }
 
-    /// Density (7) with the coupling (27), as low as a lone particle has it at least.
     #[inline(always)]
-    fn new_density<V: Lanes>(&self, before: &Before<V>, sums: &RateSums<V, D>) -> V {
-        let (previous, strength) = (before.density, self.model.density_coupling());
-        let density = continuity::advanced(previous, sums.compression, sums.coupling, strength, self.time_step);
-        continuity::held(density, previous, before.mass, self.model.lone_density_per_mass)
-    }
-
-    #[inline(always)]
-    fn compression<V: Lanes>(
-        &self,
-        before: &Before<V>,
-        density: V,
-        pressure: V,
-        sums: &RateSums<V, D>,
-    ) -> CompressionStep<V> {
-        let (time_step, strength) = (V::splat(self.time_step), self.model.density_coupling());
+    fn compression(&self, step: &DensityStep<V>) -> CompressionStep<V> {
+        let time_step = V::splat(self.advance.time_step);
+        let strength = V::splat(self.advance.model.density_coupling());
         CompressionStep {
-            mass: before.mass,
-            density: (before.density, density),
-            pressure: (before.pressure, pressure),
-            by_walls: time_step * before.density * sums.wall_compression,
-            by_coupling: time_step * time_step * V::splat(strength) * sums.coupling,
-            free: self.model.free_density(before.kept.value),
+            mass: step.mass,
+            density: step.density,
+            pressure: step.pressure,
+            by_walls: time_step * step.density.0 * self.sums.wall_compression,
+            by_coupling: time_step * time_step * strength * self.sums.coupling,
+            free: self.advance.model.free_density(step.kept.value),
         }
     }
 
     #[inline(always)]
-    fn store_density<V: Lanes>(
-        &self,
-        places: &Range<usize>,
-        density: V,
-        out: &mut Output<'_, D>,
-        extremes: &mut Extremes,
-    ) {
-        store(density, &mut out.density[places.clone()]);
-        let inverse_reference = 1.0 / self.model.equation_of_state.reference_density;
-        for place in places.clone() {
-            let relative = out.density[place] * inverse_reference;
-            if !(relative > DENSITY_RANGE.0 && relative < DENSITY_RANGE.1) && extremes.bad_density.is_none() {
-                extremes.bad_density = Some(self.block_start + place);
+    fn store_density(&mut self, density: V) {
+        store(density, &mut self.out.density[self.places.clone()]);
+        let inverse_reference = 1.0 / self.advance.model.equation_of_state.reference_density;
+        for place in self.places.clone() {
+            let relative = self.out.density[place] * inverse_reference;
+            if !(relative > DENSITY_RANGE.0 && relative < DENSITY_RANGE.1) && self.extremes.bad_density.is_none() {
+                self.extremes.bad_density = Some(self.advance.block_start + place);
             }
         }
     }
 
     #[inline(always)]
-    fn switch_artificial_viscosity<V: Lanes>(
-        &self,
-        places: &Range<usize>,
-        sums: &RateSums<V, D>,
-        out: &mut Output<'_, D>,
-    ) {
-        if self.model.numerics.viscosity_switch == ViscositySwitch::MorrisMonaghan {
-            let decay_rate = self.model.equation_of_state.sound_speed() / self.model.kernel.smoothing_length();
-            let alpha = load::<V>(&out.artificial_viscosity[places.clone()]);
-            let switched = artificial_viscosity::switched(alpha, -sums.compression, decay_rate, self.time_step);
-            store(switched, &mut out.artificial_viscosity[places.clone()]);
+    fn switch_artificial_viscosity(&mut self) {
+        let Advance { model, time_step, .. } = self.advance;
+        if model.numerics.viscosity_switch == ViscositySwitch::MorrisMonaghan {
+            let decay_rate = model.equation_of_state.sound_speed() / model.kernel.smoothing_length();
+            let alpha = load::<V>(&self.out.artificial_viscosity[self.places.clone()]);
+            let switched = artificial_viscosity::switched(alpha, -self.sums.compression, decay_rate, time_step);
+            store(switched, &mut self.out.artificial_viscosity[self.places.clone()]);
         }
     }
 
-    /// New velocity gradient, and with it what the law needs.
     #[inline(always)]
-    fn law_step<V: Lanes>(
-        &self,
-        places: &Range<usize>,
-        before: &Before<V>,
-        (density, pressure): (V, V),
-        sums: &RateSums<V, D>,
-        out: &mut Output<'_, D>,
-    ) -> LawStep<V, D> {
-        let correction = self.particles.correction.load::<V>(self.here(places).start / LANES);
-        let gradient = matrix_product(&sums.gradient, &correction);
-        let gradient_before = load_tensor::<V, D>(&out.velocity_gradient[places.clone()]);
-        store_tensor(&gradient, &mut out.velocity_gradient[places.clone()]);
-        let growth = (before.density - density) / density.max(V::splat(f64::MIN_POSITIVE));
-        LawStep { density, pressure, growth, gradient_before, gradient, correction }
+    fn gradient_step(&mut self) -> GradientStep<V, D> {
+        let (sums, out) = (&self.sums, &mut self.out.velocity_gradient[self.places.clone()]);
+        let before = load_tensor::<V, D>(out);
+        let group = (self.advance.block_start + self.places.start) / LANES;
+        let correction = self.advance.particles.correction.load::<V>(group);
+        let after = matrix_product(&sums.gradient, &correction);
+        store_tensor(&after, out);
+        GradientStep { before, after, correction }
     }
 
     /// New stress and what the law keeps, with their entries in the ledger; returns the pressure of the new state.
     #[inline(always)]
-    fn stress_step<V: Lanes>(
-        &self,
-        places: &Range<usize>,
-        before: &Before<V>,
-        step: &LawStep<V, D>,
-        sums: &RateSums<V, D>,
-        out: &mut Output<'_, D>,
-        work: &mut StressWork<V>,
-    ) -> V {
-        let (law, moduli) = (&self.model.rheology, self.model.moduli());
-        let volume = load::<V>(&self.particles.volume[self.here(places)]);
-        let stress_before = load_tensor::<V, D>(&out.stress[places.clone()]);
-        let mut kept = field_diffusion::diffusing(self.model, before.kept, &sums.exchanged.field);
-        kept.growth = step.growth;
-        let diffused = self.diffused(&stress_before, sums);
-        let end = law.updated_states(&diffused, &step.gradient, step.pressure, &kept, moduli, self.time_step);
-        store_state(places, &end, out);
-        let pressure = self.model.pressure(step.density, &end.kept());
-        if self.model.dilates {
-            let strain = law.plastic_volume_strain(end.field) - law.plastic_volume_strain(before.kept.value);
-            let pressure = (step.pressure, pressure);
-            DilationStep { volume, bulk_modulus: moduli.bulk, pressure, strain }.add_to(work);
+    fn stress_step(&mut self, density: &DensityStep<V>, gradient: &GradientStep<V, D>) -> V {
+        let Advance { model, particles, time_step, .. } = self.advance;
+        let (law, moduli) = (&model.rheology, model.moduli());
+        let before = load_tensor::<V, D>(&self.out.stress[self.places.clone()]);
+        let volume = load::<V>(&particles.volume[self.here()]);
+        let mut kept = field_diffusion::diffusing(model, density.kept, &self.sums.exchanged.field);
+        kept.growth = density.growth;
+        let trial = self.after_diffusion(&before);
+        let end = law.updated_states(&trial, &gradient.after, density.pressure.1, &kept, moduli, time_step);
+        self.store_state(&end);
+        let pressure = model.pressure(density.density.1, &end.kept());
+        if model.dilates {
+            let strain = law.plastic_volume_strain(end.field) - law.plastic_volume_strain(density.kept.value);
+            let pressure = (density.pressure.1, pressure);
+            DilationStep { volume, bulk_modulus: moduli.bulk, pressure, strain }.add_to(self.work);
         }
-        if self.model.pore_liquid.is_some() {
-            let densities = (before.mass / volume.max(V::splat(f64::MIN_POSITIVE)), step.density);
-            let stored_before = self.model.pore_energy(before.pressure, before.kept.value);
-            let stored = (stored_before, self.model.pore_energy(pressure, end.field));
-            work.add_pore_flow(before.mass, densities, (before.pressure, pressure), stored);
+        let pressure = (density.pressure.0, pressure);
+        if model.pore_liquid.is_some() {
+            let densities = (density.mass / volume.max(V::splat(f64::MIN_POSITIVE)), density.density.1);
+            let stored_before = model.pore_energy(pressure.0, density.kept.value);
+            let stored = (stored_before, model.pore_energy(pressure.1, end.field));
+            self.work.add_pore_flow(density.mass, densities, pressure, stored);
         }
-        let added_stress = self.added_stress(before, step, &stress_before, &kept);
-        let end = LawEnd { stress_before, stress: end.stress, pressure, added_stress };
-        self.book_deformation(places, (before, volume), step, &end, sums, work);
-        pressure
+        let mut added = zero_tensor::<V, D>();
+        let viscosity = model.added_viscosity(&gradient.before, &before, pressure.0, density.density.1, &kept);
+        if let Some(viscosity) = viscosity {
+            let rate = deviatoric_rate(&gradient.before);
+            for i in 0..D {
+                accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate[i]);
+            }
+        }
+        let stresses = Stresses { volume, growth: density.growth, pressure, added, before, after: end.stress };
+        self.book_deformation(&stresses, gradient);
+        pressure.1
     }
 
-    /// Stress after the diffusion of the stress ratio.
+    /// Stress before the law's step: that of before after the diffusion of the stress ratio.
     #[inline(always)]
-    fn diffused<V: Lanes>(&self, stress: &[[V; D]; D], sums: &RateSums<V, D>) -> [[V; D]; D] {
+    fn after_diffusion(&self, stress: &[[V; D]; D]) -> [[V; D]; D] {
         let mut diffused = *stress;
-        if self.model.stress_diffuses() {
-            let strength = V::splat(self.time_step * self.model.stress_diffusivity());
+        if self.advance.model.stress_diffuses() {
+            let strength = V::splat(self.advance.time_step * self.advance.model.stress_diffusivity());
             for i in 0..D {
-                accumulate(&mut diffused[i], strength, &sums.exchanged.stress_ratio[i]);
+                accumulate(&mut diffused[i], strength, &self.sums.exchanged.stress_ratio[i]);
             }
         }
         diffused
     }
 
-    /// Stress of elastic damping and eddies that acted in the step.
     #[inline(always)]
-    fn added_stress<V: Lanes>(
-        &self,
-        before: &Before<V>,
-        step: &LawStep<V, D>,
-        stress: &[[V; D]; D],
-        kept: &FieldStep<V>,
-    ) -> [[V; D]; D] {
-        let mut added = zero_tensor::<V, D>();
-        let gradient = &step.gradient_before;
-        if let Some(viscosity) = self.model.added_viscosity(gradient, stress, before.pressure, step.density, kept) {
-            let rate = deviatoric_rate(gradient);
-            for i in 0..D {
-                accumulate(&mut added[i], V::splat(2.0) * viscosity, &rate[i]);
-            }
+    fn store_state(&mut self, end: &StateReturn<[[V; D]; D], V>) {
+        store_tensor(&end.stress, &mut self.out.stress[self.places.clone()]);
+        if let Some(field) = &mut self.out.field {
+            store(end.field, &mut field[self.places.clone()]);
         }
-        added
+        if let Some(memory) = &mut self.out.memory {
+            memory::store(&end.memory, &mut memory[self.places.clone()]);
+        }
     }
 
     #[inline(always)]
-    fn book_deformation<V: Lanes>(
-        &self,
-        places: &Range<usize>,
-        (before, volume): (&Before<V>, V),
-        step: &LawStep<V, D>,
-        end: &LawEnd<V, D>,
-        sums: &RateSums<V, D>,
-        work: &mut StressWork<V>,
-    ) {
+    fn book_deformation(&mut self, stresses: &Stresses<V, D>, gradient: &GradientStep<V, D>) {
+        let (Advance { model, particles, time_step, .. }, sums) = (self.advance, &self.sums);
         // as these velocities have it where the particles are now
-        let mut gradient_then = step.gradient_before;
-        let turned = matrix_product(&step.gradient_before, &step.gradient_before);
+        let mut gradient_then = gradient.before;
+        let turned = matrix_product(&gradient.before, &gradient.before);
         let mut flow_gradient = sums.gradient;
         for i in 0..D {
-            accumulate(&mut gradient_then[i], V::splat(-self.time_step), &turned[i]);
+            accumulate(&mut gradient_then[i], V::splat(-time_step), &turned[i]);
             flow_gradient[i] = difference(&sums.gradient[i], &sums.wall_gradient[i]);
         }
         DeformationStep {
-            volume,
-            time_step: self.time_step,
-            shear_modulus: self.model.rheology.is_plastic().then_some(self.model.shear_modulus()),
-            added_stress: &end.added_stress,
-            pressure: (before.pressure, end.pressure),
-            growth: step.growth,
+            volume: stresses.volume,
+            time_step,
+            shear_modulus: model.rheology.is_plastic().then_some(model.shear_modulus()),
+            added_stress: &stresses.added,
+            pressure: stresses.pressure,
+            growth: stresses.growth,
             divergence: sums.wall_compression - sums.compression,
             raw_gradient: &flow_gradient,
             gradient: &sums.gradient,
-            force_correction: &self.particles.force_correction.load::<V>(self.here(places).start / LANES),
-            rate: &deviatoric_rate(&step.gradient),
-            rate_by_walls: &deviatoric_rate(&matrix_product(&sums.wall_gradient, &step.correction)),
+            force_correction: &particles.force_correction.load::<V>(self.here().start / LANES),
+            rate: &deviatoric_rate(&gradient.after),
+            rate_by_walls: &deviatoric_rate(&matrix_product(&sums.wall_gradient, &gradient.correction)),
             rate_before: &deviatoric_rate(&gradient_then),
-            stress_before: &end.stress_before,
-            stress: &end.stress,
+            stress_before: &stresses.before,
+            stress: &stresses.after,
         }
-        .add_to(work);
+        .add_to(self.work);
     }
 
     /// Apparent viscosity, where it is needed, and the diffusivity that bounds an explicit step.
     #[inline(always)]
-    fn store_viscosity<V: Lanes>(
-        &self,
-        places: &Range<usize>,
-        pressure: V,
-        out: &mut Output<'_, D>,
-        extremes: &mut Extremes,
-    ) {
-        let law = &self.model.rheology;
+    fn store_viscosity(&mut self, pressure: V) {
+        let (Advance { model, gradient, .. }, out) = (self.advance, &mut *self.out);
         if let Some(memory) = &out.memory {
-            extremes.add_diffusivity(pore_pressure::diffusivity(self.model, &memory[places.clone()]));
+            self.extremes.add_diffusivity(pore_pressure::diffusivity(model, &memory[self.places.clone()]));
         }
-        if self.gradient == GradientUse::Viscosity || !law.is_plastic() {
+        let explicit = !model.rheology.is_plastic();
+        if gradient == GradientUse::Viscosity || explicit {
             let pressures = pressure.to_array();
-            for (lane, place) in places.clone().enumerate() {
-                let viscosity = law.viscosity(shear_rate(&out.velocity_gradient[place]), pressures[lane]);
+            for (lane, place) in self.places.clone().enumerate() {
+                let viscosity = model.rheology.viscosity(shear_rate(&out.velocity_gradient[place]), pressures[lane]);
                 out.viscosity[place] = viscosity;
-                if !law.is_plastic() {
-                    extremes.add_diffusivity(viscosity / out.density[place]);
+                if explicit {
+                    self.extremes.add_diffusivity(viscosity / out.density[place]);
                 }
             }
         }
-    }
-}
-
-/// Writes stress, field and memory.
-#[inline(always)]
-fn store_state<V: Lanes, const D: usize>(
-    places: &Range<usize>,
-    end: &StateReturn<[[V; D]; D], V>,
-    out: &mut Output<'_, D>,
-) {
-    store_tensor(&end.stress, &mut out.stress[places.clone()]);
-    if let Some(field) = &mut out.field {
-        store(end.field, &mut field[places.clone()]);
-    }
-    if let Some(memory) = &mut out.memory {
-        memory::store(&end.memory, &mut memory[places.clone()]);
     }
 }

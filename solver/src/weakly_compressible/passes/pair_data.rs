@@ -7,7 +7,7 @@ use crate::weakly_compressible::energy::EnergyLedger;
 use crate::weakly_compressible::neighbours::BLOCK;
 
 /// Weights of all pairs, packed copies of what a loop reads of a neighbour, and buffers.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct PairData<const D: usize> {
     /// V_b F of every pair `[1/m²]`, chunk by chunk as in the neighbour list: made by the first pass of a step, used by
     /// the others, so that a step takes one square root a pair. Without meaning where pairs are in single precision.
@@ -32,20 +32,6 @@ pub(crate) struct PairData<const D: usize> {
 }
 
 impl<const D: usize> PairData<D> {
-    pub(crate) fn new() -> Self {
-        Self {
-            weights: Vec::new(),
-            eigenvalues: Vec::new(),
-            single: Records::new(0),
-            geometry: Records::new(0),
-            momentum: Records::new(0),
-            continuity: Records::new(0),
-            energy: Vec::new(),
-            wall_stress: Vec::new(),
-            wall_velocity: Vec::new(),
-        }
-    }
-
     /// Room for the ledger of every block of flow particles.
     pub(crate) fn open_ledger(&mut self, flow: usize) {
         self.energy.resize(flow.div_ceil(BLOCK), EnergyLedger::default());

@@ -4,7 +4,7 @@ use super::precision::{PART, Precision};
 use super::records::{self, Records};
 use crate::kernel::Kernel;
 use crate::lanes::algebra::{dot, zero_vector};
-use crate::lanes::{LANES, LaneChunks, Lanes, Real};
+use crate::lanes::{LANES, LaneChunks, LaneNumbers, Lanes, Real};
 use std::iter::Zip;
 use std::slice::Iter;
 
@@ -28,7 +28,7 @@ impl<P: Precision, V: Lanes, const D: usize> Weighing<'_, P, V, D> {
         for (b, weights) in pairs.zip(weights) {
             let record = self.records.load_start::<V>(self.quads, const { (D + 1).div_ceil(4) }, &b);
             let r = self.records.apart::<V, D>(&self.place, &records::vector(&record, 0));
-            *weights = P::to_array::<V>(self.kernel.gradient_weight(dot(&r, &r), records::scalar(&record, D)));
+            *weights = self.kernel.gradient_weight(dot(&r, &r), records::scalar(&record, D)).to_array();
         }
     }
 

@@ -1,6 +1,6 @@
 //! The pore liquid: diffusion of its pressure, summed beside continuity, and its bound on the time step.
 
-use super::exchange::{Exchange, Exchanged, FieldSums};
+use super::exchange::{Exchange, Exchanged, FieldSums, Inputs, Numbers};
 use super::layout::Continuity;
 use super::pair_weights::flush;
 use super::precision::Precision;
@@ -15,11 +15,11 @@ use crate::weakly_compressible::terms::field_diffusion;
 
 /// Sums of the diffusion of the pore pressure around eight particles, by the conductivities of both.
 pub(super) struct PorePressure<V: Lanes, P: Precision> {
-    pressure: P::Lanes<V>,
-    conductivity: P::Lanes<V>,
+    pressure: Numbers<P, V>,
+    conductivity: Numbers<P, V>,
     sums: FieldSums<V>,
-    part_taken: P::Lanes<V>,
-    part_weights: P::Lanes<V>,
+    part_taken: Numbers<P, V>,
+    part_weights: Numbers<P, V>,
 }
 
 /// Writes the pore pressure of a particle and its relative conductivity.
@@ -38,8 +38,8 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for PorePressure<
     const KIND: PairDiffusion = PairDiffusion::PorePressure;
 
     #[inline(always)]
-    fn around(own: &LaneRecord<P::Lanes<V>>, _: P::Lanes<V>) -> Self {
-        let none = P::Lanes::<V>::splat(0.0);
+    fn around(own: &LaneRecord<Numbers<P, V>>, _: Numbers<P, V>) -> Self {
+        let none = Numbers::<P, V>::splat(0.0);
         Self {
             pressure: records::scalar(own, Continuity::<P, D>::EXCHANGED),
             conductivity: records::scalar(own, Continuity::<P, D>::EXCHANGED + 1),
@@ -50,7 +50,7 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for PorePressure<
     }
 
     #[inline(always)]
-    fn add(&mut self, weight: P::Lanes<V>, other: &LaneRecord<P::Lanes<V>>, _: P::Lanes<V>) {
+    fn add(&mut self, weight: Numbers<P, V>, other: &LaneRecord<Numbers<P, V>>, _: Numbers<P, V>) {
         let conductivity = records::scalar(other, Continuity::<P, D>::EXCHANGED + 1);
         let mean = field_diffusion::mean_conductivity(self.conductivity, conductivity);
         let difference = records::scalar(other, Continuity::<P, D>::EXCHANGED) - self.pressure;
@@ -66,14 +66,8 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for PorePressure<
 
     /// Walls are sealed: they only close the neighbourhood.
     #[inline(always)]
-    fn add_wall(
-        &mut self,
-        weight: P::Lanes<V>,
-        _: &[P::Lanes<V>; D],
-        _: &LaneIndices<'_>,
-        _: (&Model<D>, &Particles<D>),
-    ) {
-        self.sums.weights = self.sums.weights + P::widen::<V>(weight);
+    fn add_wall(&mut self, _: &Inputs<'_, D>, _: &LaneIndices<'_>, weight: V, _: &[Numbers<P, V>; D]) {
+        self.sums.weights = self.sums.weights + weight;
     }
 
     #[inline(always)]

@@ -6,7 +6,7 @@
 //! added in f64. What a particle keeps from step to step (position, velocity, density, stress) stays f64. Weights are
 //! computed again in each pass, which costs less than to store them.
 
-use crate::lanes::{LANES, LaneIndices, Lanes, Real, SingleLanes};
+use crate::lanes::{LaneNumbers, Lanes, Number, Real, SingleLanes};
 use std::fmt::Debug;
 
 /// Units of position in a smoothing length `[-]`: 32 smoothing lengths before the integers wrap to either side.
@@ -16,9 +16,9 @@ const UNITS: f64 = (1_u64 << 26) as f64;
 pub(super) const PART: usize = 8;
 
 /// Numbers that records hold and pairs are made of.
-pub(crate) trait Precision: Debug + Copy + Default + Send + Sync {
+pub(crate) trait Precision: Number + Debug + Default + Send + Sync {
     /// Eight of them, for the back end of lanes V.
-    type Lanes<V: Lanes>: Real;
+    type Lanes<V: Lanes>: LaneNumbers<Number = Self>;
     /// Whether it is single precision: where that rounds in another order, both forms stand side by side.
     const SINGLE: bool;
     /// Chunks of eight neighbours in a part of a sum.
@@ -26,23 +26,10 @@ pub(crate) trait Precision: Debug + Copy + Default + Send + Sync {
     /// Numbers behind a position from which a pass computes weights anew: the volume, or none.
     const VOLUMES: usize = Self::SINGLE as usize;
 
-    /// A number as it stands in a record.
-    fn of(number: f64) -> Self;
     /// A coordinate `[m]` as it stands in a record; `smoothing_length` `[m]` gives the unit of integers.
     fn of_coordinate(position: f64, smoothing_length: f64) -> Self;
     /// a − b `[m]` of two coordinates.
     fn apart<V: Lanes>(a: Self::Lanes<V>, b: Self::Lanes<V>, smoothing_length: f64) -> Self::Lanes<V>;
-    /// [`Lanes::load_quads`] of a record.
-    fn load_quads<V: Lanes>(
-        source: &[[Self; 4]],
-        stride: usize,
-        offset: usize,
-        indices: &LaneIndices<'_>,
-    ) -> [Self::Lanes<V>; 4];
-    /// Eight numbers in order.
-    fn load<V: Lanes>(numbers: &[Self; LANES]) -> Self::Lanes<V>;
-    /// The lanes in order.
-    fn to_array<V: Lanes>(lanes: Self::Lanes<V>) -> [Self; LANES];
     /// The lanes as f64, exactly.
     fn widen<V: Lanes>(lanes: Self::Lanes<V>) -> V;
     /// The nearest numbers of this precision.
@@ -56,11 +43,6 @@ impl Precision for f64 {
     const PART: usize = usize::MAX;
 
     #[inline(always)]
-    fn of(number: f64) -> f64 {
-        number
-    }
-
-    #[inline(always)]
     fn of_coordinate(position: f64, _: f64) -> f64 {
         position
     }
@@ -68,21 +50,6 @@ impl Precision for f64 {
     #[inline(always)]
     fn apart<V: Lanes>(a: V, b: V, _: f64) -> V {
         a - b
-    }
-
-    #[inline(always)]
-    fn load_quads<V: Lanes>(source: &[[f64; 4]], stride: usize, offset: usize, indices: &LaneIndices<'_>) -> [V; 4] {
-        V::load_quads(source, stride, offset, indices)
-    }
-
-    #[inline(always)]
-    fn load<V: Lanes>(numbers: &[f64; LANES]) -> V {
-        V::load(numbers)
-    }
-
-    #[inline(always)]
-    fn to_array<V: Lanes>(lanes: V) -> [f64; LANES] {
-        lanes.to_array()
     }
 
     #[inline(always)]
@@ -103,11 +70,6 @@ impl Precision for f32 {
     const PART: usize = PART;
 
     #[inline(always)]
-    fn of(number: f64) -> f32 {
-        number as f32
-    }
-
-    #[inline(always)]
     fn of_coordinate(position: f64, smoothing_length: f64) -> f32 {
         f32::from_bits((position * (UNITS / smoothing_length)) as i64 as u32)
     }
@@ -115,26 +77,6 @@ impl Precision for f32 {
     #[inline(always)]
     fn apart<V: Lanes>(a: V::Single, b: V::Single, smoothing_length: f64) -> V::Single {
         a.fixed_difference(b) * V::Single::splat(smoothing_length / UNITS)
-    }
-
-    #[inline(always)]
-    fn load_quads<V: Lanes>(
-        source: &[[f32; 4]],
-        stride: usize,
-        offset: usize,
-        indices: &LaneIndices<'_>,
-    ) -> [V::Single; 4] {
-        V::Single::load_quads(source, stride, offset, indices)
-    }
-
-    #[inline(always)]
-    fn load<V: Lanes>(numbers: &[f32; LANES]) -> V::Single {
-        V::Single::load(numbers)
-    }
-
-    #[inline(always)]
-    fn to_array<V: Lanes>(lanes: V::Single) -> [f32; LANES] {
-        lanes.to_array()
     }
 
     #[inline(always)]

@@ -5,7 +5,7 @@
 //! slow microcode).
 
 use super::precision::Precision;
-use crate::lanes::{LaneIndices, Lanes, Real};
+use crate::lanes::{LaneIndices, LaneNumbers, Lanes, Real};
 use crate::parallel::{ChunksMut, prelude::*};
 use crate::vector::{Tensor, Vector};
 
@@ -13,7 +13,7 @@ use crate::vector::{Tensor, Vector};
 pub(crate) const QUADS: usize = 7;
 
 /// Records of `quads` × 4 values.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Records<P: Precision = f64> {
     quads: usize,
     /// Length that is the unit of positions `[m]`.
@@ -78,7 +78,7 @@ impl<P: Precision> Records<P> {
         debug_assert_eq!(quads, self.quads);
         let mut record = [[P::Lanes::<V>::splat(0.0); 4]; QUADS];
         for quad in 0..wanted {
-            record[quad] = P::load_quads::<V>(&self.data, quads, quad, indices);
+            record[quad] = P::Lanes::<V>::load_quads(&self.data, quads, quad, indices);
         }
         record
     }

@@ -9,7 +9,7 @@ use super::precision::Precision;
 use super::records::Records;
 use super::wall_partner::{WallGroup, WallPair};
 use crate::lanes::algebra::{load, scaled, store_vector};
-use crate::lanes::{LANES, LanePass, Lanes};
+use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::vector::Vector;
 use crate::weakly_compressible::model::Model;
@@ -100,7 +100,7 @@ impl<const D: usize> Pass<'_, D> {
         while let Some(walls) = walls.next() {
             for (w, weight) in walls {
                 let WallPair { traction, drag, unexplained } = seen.pair::<V, P>(&constants, records, &w);
-                let weight = P::load::<V>(weight);
+                let weight = P::Lanes::<V>::load(weight);
                 let (from_stress, from_control) = if P::SINGLE {
                     let (traction, unexplained) = (scaled(weight, &traction), scaled(weight * drag, &unexplained));
                     (

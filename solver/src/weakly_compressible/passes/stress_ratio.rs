@@ -1,12 +1,12 @@
 //! Diffusion of the stress ratio among yielding particles, summed beside continuity.
 
-use super::exchange::{Exchange, Exchanged, FieldSums};
+use super::exchange::{Exchange, Exchanged, FieldSums, Numbers};
 use super::layout::Continuity;
 use super::pair_weights::{flush, flush_tensor};
 use super::precision::Precision;
 use super::records::{self, LaneRecord, Writer};
 use crate::lanes::algebra::zero_tensor;
-use crate::lanes::{LaneIndices, Lanes, Real};
+use crate::lanes::{Lanes, Real};
 use crate::vector::equivalent_shear_stress;
 use crate::weakly_compressible::model::{Model, PairDiffusion};
 use crate::weakly_compressible::particles::Particles;
@@ -14,15 +14,15 @@ use crate::weakly_compressible::terms::stress_diffusion;
 
 /// Sums of the stress ratio's diffusion around eight particles.
 pub(super) struct StressRatio<V: Lanes, P: Precision, const D: usize> {
-    pressure: P::Lanes<V>,
+    pressure: Numbers<P, V>,
     /// Yielding share `[-]`.
-    yielding: P::Lanes<V>,
-    stress: [[P::Lanes<V>; D]; D],
+    yielding: Numbers<P, V>,
+    stress: [[Numbers<P, V>; D]; D],
     sum: [[V; D]; D],
-    part: [[P::Lanes<V>; D]; D],
+    part: [[Numbers<P, V>; D]; D],
     /// Σ f p_b, in single precision.
     pressures: V,
-    part_pressures: P::Lanes<V>,
+    part_pressures: Numbers<P, V>,
 }
 
 /// Writes the yielding share of a particle and its stress.
@@ -42,7 +42,7 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for StressRatio<V
     const KIND: PairDiffusion = PairDiffusion::StressRatio;
 
     #[inline(always)]
-    fn around(own: &LaneRecord<P::Lanes<V>>, pressure: P::Lanes<V>) -> Self {
+    fn around(own: &LaneRecord<Numbers<P, V>>, pressure: Numbers<P, V>) -> Self {
         Self {
             pressure,
             yielding: records::scalar(own, Continuity::<P, D>::EXCHANGED),
@@ -50,12 +50,12 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for StressRatio<V
             sum: zero_tensor(),
             part: zero_tensor(),
             pressures: V::splat(0.0),
-            part_pressures: P::Lanes::<V>::splat(0.0),
+            part_pressures: Numbers::<P, V>::splat(0.0),
         }
     }
 
     #[inline(always)]
-    fn add(&mut self, weight: P::Lanes<V>, other: &LaneRecord<P::Lanes<V>>, pressure: P::Lanes<V>) {
+    fn add(&mut self, weight: Numbers<P, V>, other: &LaneRecord<Numbers<P, V>>, pressure: Numbers<P, V>) {
         let yielding = records::scalar(other, Continuity::<P, D>::EXCHANGED);
         let stress = records::deviator(other, Continuity::<P, D>::EXCHANGED + 1);
         let factor = weight * stress_diffusion::pair_factor(self.yielding, yielding, self.pressure + pressure);
@@ -73,9 +73,6 @@ impl<V: Lanes, P: Precision, const D: usize> Exchange<V, P, D> for StressRatio<V
         flush::<V, P>(&mut self.pressures, &mut self.part_pressures);
         flush_tensor::<V, P, D>(&mut self.sum, &mut self.part);
     }
-
-    #[inline(always)]
-    fn add_wall(&mut self, _: P::Lanes<V>, _: &[P::Lanes<V>; D], _: &LaneIndices<'_>, _: (&Model<D>, &Particles<D>)) {}
 
     #[inline(always)]
     fn sums(self) -> Exchanged<V, D> {

@@ -7,7 +7,7 @@ use super::pair_weights::PairParts;
 use super::precision::Precision;
 use super::records::{self, LaneRecord, Records};
 use crate::lanes::algebra::{difference, dot, load_tensor, matrix_product, product, scaled};
-use crate::lanes::{LANES, LaneIndices, Lanes, Real};
+use crate::lanes::{LANES, LaneIndices, LaneNumbers, Lanes, Real};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::particles::Particles;
 use crate::weakly_compressible::terms::{hourglass, no_slip, stress_divergence, wall_slip};
@@ -108,7 +108,10 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
         constants: &Constants,
         records: &Records<P>,
         mut pairs: PairParts<'_, P, V, D>,
-    ) -> Self {
+    ) -> Self
+    where
+        S: LaneNumbers<Number = P>,
+    {
         let none = S::splat(0.0);
         if !none.any_less(self.viscous.twice_viscosity) {
             return self;
@@ -121,7 +124,7 @@ impl<S: Real, const D: usize> WallGroup<S, D> {
                 let beta =
                     wall_slip::factor(&r, &wall.normal, wall.depth, constants.smoothing_length, wall_slip::LIMIT);
                 let rough = S::splat(1.0) - wall.smoothness;
-                resistance = resistance - P::load::<V>(weight) * rough * no_slip::response(beta);
+                resistance = resistance - S::load(weight) * rough * no_slip::response(beta);
             }
         }
         let borne = no_slip::borne(resistance, constants.viscous_step);

@@ -1,7 +1,7 @@
 //! The passes of an iteration: search direction, stresses of the direction, their divergence, and the descent.
 
-use super::ViscousSolve;
 use super::system::{BlockSums, Coefficients, GROUPS, LaneVector, Unknowns, ViscousSystem};
+use super::{ViscousSolve, lane};
 use crate::lanes::algebra::{
     accumulate, accumulate_outer, deviatoric_rate, matrix_product, product, scaled_tensor, zero_tensor, zero_vector,
 };
@@ -29,7 +29,10 @@ impl<const D: usize> ViscousSolve<'_, D> {
         let ViscousSystem { unknowns, velocities, .. } = system;
         (velocities.blocks_mut(flow, BLOCK), unknowns.par_chunks(GROUPS)).into_par_iter().for_each(
             |(velocities, unknowns)| {
-                self.model.instruction_set.run(IncrementPass { unknowns, velocities });
+                for (place, velocity) in velocities.iter_mut().enumerate() {
+                    let increment = lane(&unknowns[place / LANES].increment, place % LANES);
+                    velocity[..D].copy_from_slice(increment.as_slice());
+                }
             },
         );
     }
@@ -155,24 +158,6 @@ impl<const D: usize> LanePass for DirectionPass<'_, D> {
                 let descent = V::load(&unknowns.residual[i]) * V::load(&coefficients.inverse_diagonal);
                 quad[i] = descent + V::splat(self.growth) * V::load(&unknowns.direction[i]);
                 unknowns.direction[i] = quad[i].to_array();
-            }
-            V::store_quads(&quad, record, 1, 0);
-        }
-    }
-}
-
-struct IncrementPass<'a, const D: usize> {
-    unknowns: &'a [Unknowns<D>],
-    velocities: &'a mut [[f64; 4]],
-}
-
-impl<const D: usize> LanePass for IncrementPass<'_, D> {
-    #[inline(always)]
-    fn run<V: Lanes>(self) {
-        for (unknowns, record) in self.unknowns.iter().zip(self.velocities.chunks_mut(LANES)) {
-            let mut quad = [V::splat(0.0); 4];
-            for i in 0..D {
-                quad[i] = V::load(&unknowns.increment[i]);
             }
             V::store_quads(&quad, record, 1, 0);
         }

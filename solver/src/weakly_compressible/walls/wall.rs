@@ -137,38 +137,23 @@ pub fn fill<const D: usize>(
     let (lower, upper) = filled_extent(walls, domain, extent, layers as f64 * spacing);
     let cells: [usize; D] =
         std::array::from_fn(|axis| ((upper[axis] - lower[axis]) / spacing).round().max(1.0) as usize);
-    let mut particles = Vec::new();
-    let mut cell = [0usize; D];
-    loop {
+    let particle = |index: usize| {
+        let mut rest = index;
         let position = Vector::<D>::from_fn(|axis, _| {
+            let cell = rest % cells[axis];
+            rest /= cells[axis];
             let step = match domain.axes[axis] {
                 AxisBoundary::Periodic { .. } => (upper[axis] - lower[axis]) / cells[axis] as f64,
                 _ => spacing,
             };
-            lower[axis] + (cell[axis] as f64 + 0.5) * step
+            lower[axis] + (cell as f64 + 0.5) * step
         });
         // the nearest surface owns the particle; a position on the flow's side of every wall is no wall particle
-        let owner = walls
-            .iter()
-            .enumerate()
-            .filter(|(_, wall)| wall.distance(&position) < 0.0)
-            .min_by(|a, b| a.1.distance(&position).abs().total_cmp(&b.1.distance(&position).abs()));
-        if let Some((wall, _)) = owner {
-            particles.push(WallParticle { position, wall });
-        }
-        let mut axis = 0;
-        while axis < D {
-            cell[axis] += 1;
-            if cell[axis] < cells[axis] {
-                break;
-            }
-            cell[axis] = 0;
-            axis += 1;
-        }
-        if axis == D {
-            return particles;
-        }
-    }
+        let behind = walls.iter().enumerate().filter(|(_, wall)| wall.distance(&position) < 0.0);
+        let owner = behind.min_by(|a, b| a.1.distance(&position).abs().total_cmp(&b.1.distance(&position).abs()));
+        owner.map(|(wall, _)| WallParticle { position, wall })
+    };
+    (0..cells.iter().product()).filter_map(particle).collect()
 }
 
 /// Lower and upper corner `[m]` of what walls of a `depth` `[m]` fill together with the flow between them.

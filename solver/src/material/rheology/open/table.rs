@@ -4,11 +4,11 @@ use super::OpenLawError;
 use crate::material::rheology::{BUILT_IN_NAMES, BuiltIn, Rheology};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::value::MapDeserializer;
-use serde::de::{DeserializeOwned, Error as _, IntoDeserializer, MapAccess, Visitor};
+use serde::de::{DeserializeOwned, Error as _};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
-use std::fmt;
+use toml::{Table, Value};
 
 /// The parameters of a law of a user's own crate: numbers in SI units, sorted by their names.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -72,73 +72,24 @@ impl JsonSchema for Rheology {
 
 impl<'de> Deserialize<'de> for Rheology {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_map(Table)
-    }
-}
-
-/// A value of a law's table.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(untagged)]
-enum Entry {
-    Number(f64),
-    Text(String),
-}
-
-impl<'de> IntoDeserializer<'de> for Entry {
-    type Deserializer = Entry;
-
-    fn into_deserializer(self) -> Entry {
-        self
-    }
-}
-
-impl<'de> Deserializer<'de> for Entry {
-    type Error = serde::de::value::Error;
-
-    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Self::Error> {
-        match self {
-            Self::Number(value) => visitor.visit_f64(value),
-            Self::Text(value) => visitor.visit_string(value),
-        }
-    }
-
-    serde::forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
-        newtype_struct seq tuple tuple_struct map struct enum identifier ignored_any
-    }
-}
-
-struct Table;
-
-impl<'de> Visitor<'de> for Table {
-    type Value = Rheology;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a law by its name under `law`, with its parameters")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Rheology, A::Error> {
-        let mut entries = Vec::new();
-        while let Some(entry) = map.next_entry::<String, Entry>()? {
-            entries.push(entry);
-        }
-        let name = entries.iter().find(|(key, _)| key == "law").ok_or_else(|| A::Error::missing_field("law"))?;
-        let Entry::Text(name) = name.1.clone() else { return Err(A::Error::custom("`law` must be the name of a law")) };
+        let mut table = Table::deserialize(deserializer)?;
+        let Value::String(name) = table.get("law").ok_or_else(|| D::Error::missing_field("law"))?.clone() else {
+            return Err(D::Error::custom("`law` must be the name of a law"));
+        };
         if BUILT_IN_NAMES.contains(&name.as_str()) {
-            let built_in = BuiltIn::deserialize(MapDeserializer::new(entries.into_iter()));
-            return built_in.map(Rheology::from).map_err(A::Error::custom);
+            let built_in = table.try_into::<BuiltIn>();
+            return built_in.map(Self::from).map_err(|problem| D::Error::custom(problem.message()));
         }
-        let mut parameters = Vec::new();
-        for (key, value) in entries {
-            match value {
-                Entry::Number(value) => parameters.push((key, value)),
-                Entry::Text(_) if key == "law" => {}
-                Entry::Text(text) => {
-                    let message = format!("invalid type: string \"{text}\", expected a number for `{key}`");
-                    return Err(A::Error::custom(message));
-                }
+        table.remove("law");
+        let number = |(key, value): (String, Value)| match value {
+            Value::Float(value) => Ok((key, value)),
+            Value::Integer(value) => Ok((key, value as f64)),
+            other => {
+                let kind = other.type_str();
+                Err(D::Error::custom(format!("invalid type: {kind} {other}, expected a number for `{key}`")))
             }
-        }
-        Rheology::open_with(&name, Parameters::new(parameters)).map_err(A::Error::custom)
+        };
+        let parameters = table.into_iter().map(number).collect::<Result<_, _>>()?;
+        Self::open_with(&name, Parameters::new(parameters)).map_err(D::Error::custom)
     }
 }
