@@ -2,12 +2,13 @@
 
 use super::Scale;
 use super::curves::Plot;
-use super::drawing::{Direction, Drawing, HorizontalAnchor, Ink, Rectangle, TextSpec, VerticalAnchor};
+use super::drawing::{Drawing, Ink, Rectangle};
 use super::font::width;
 use super::format::LABEL;
 use super::glyphs::Weight;
 use super::palette::{AXIS, BLACK, Colour, GRID};
 use super::range::{Mapping, Range};
+use super::shapes::{Direction, HorizontalAnchor, TextSpec, VerticalAnchor};
 use super::ticks::{Ticks, ticks};
 
 /// Length of a major tick `[px]`.
