@@ -8,7 +8,7 @@ import time
 import bagnold
 import pytest
 
-LONG = {"slope_angles": [24.0], "runaway_slope_angles": [], "resolution": 60}
+LONG = {"vary": {"slope_angle": [24.0]}, "resolution": 60}
 
 
 @pytest.fixture

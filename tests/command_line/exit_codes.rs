@@ -30,7 +30,7 @@ fn a_profile_goes_to_standard_error_and_leaves_the_document_alone() {
 fn one_and_no_number_where_a_flow_is_not_steady() {
     let place = Place::new();
     // fine grains that have run a tenth of the time that they need
-    let settings = "slope_angles=[21.731] arrest_slope_angles=[] material.static_friction=0.359 material.limiting_friction=0.547 \
+    let settings = "variants=[] slope_angle=21.731 material.static_friction=0.359 material.limiting_friction=0.547 \
                     material.reference_inertia=0.637 material.grain_diameter=0.000296 layer_height=0.0123 solid_fraction=0.587 \
                     averaging_time=0.2 duration_factor=0.1";
     let settings = settings.split_whitespace().flat_map(|setting| ["--set", setting]);

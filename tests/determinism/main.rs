@@ -5,7 +5,7 @@ use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_validation::REGISTRY;
 
 /// One run from rest at 24°.
-const SHORT: &[&str] = &["slope_angles=[24]", "arrest_slope_angles=[]", "runaway_slope_angles=[]"];
+const SHORT: &[&str] = &["variants=[]"];
 
 /// 120 particles.
 const SMALL: &[&str] = &["resolution=10", "columns=12", "duration_factor=0.05", "averaging_time=0.05"];

@@ -104,6 +104,7 @@ fn changed<F: Flow>(base: &Table, change: &ListedChange) -> Result<F, ParameterE
     for (_, path, value) in &change.values {
         lay_at(&mut changes, path, value);
     }
+    keep_shared(schema, base, &mut changes);
     let mut table = base.clone();
     overlay(schema, &mut table, &changes);
     let value = Value::Table(table);
@@ -114,6 +115,21 @@ fn changed<F: Flow>(base: &Table, change: &ListedChange) -> Result<F, ParameterE
         let place = change.values.first().map_or("variants", |(place, ..)| place);
         ParameterError::field(place, change.variant.to_string(), error.message(), "change the values of this run")
     })
+}
+
+/// Gives another choice of a law the parameters that it has in common with the law of the base.
+fn keep_shared(schema: &serde_json::Value, base: &Table, changes: &mut Table) {
+    for (key, change) in changes {
+        let (Some(Value::Table(base)), Some(schema)) = (base.get(key), schema["properties"].get(key)) else { continue };
+        let shape = Shape::of(schema);
+        let content = shape.chosen(change).and_then(|variant| variant.content);
+        let (Some(own), Value::Table(change)) = (content.and_then(|content| content.get("properties")), change) else {
+            continue;
+        };
+        for (name, value) in base.iter().filter(|(name, _)| own.get(name).is_some()) {
+            change.entry(name).or_insert_with(|| value.clone());
+        }
+    }
 }
 
 /// A fault in a run, by the place in the list that gives the value.

@@ -6,8 +6,11 @@
 
 use super::error::CalibrationError;
 use super::plan::{CalibrationPlan, DataBlock};
+use crate::case::ListOfRuns;
+use crate::case::list::ListedChange;
 use crate::evaluation::PlanError;
 use crate::input::{FieldError, nearest, number_in};
+use toml::Value;
 
 /// The parameters of a block's case, all of them.
 pub(super) struct BlockParameters<'a> {
@@ -16,26 +19,42 @@ pub(super) struct BlockParameters<'a> {
 }
 
 impl BlockParameters<'_> {
-    /// The numbers at a dotted path.
+    /// The numbers that the runs have at a dotted path.
     fn numbers(&self, path: &str, plan: &CalibrationPlan) -> Result<Vec<f64>, CalibrationError> {
-        let mut keys = path.split('.');
-        let first = keys.next().and_then(|key| self.parameters.get(key));
-        let Some(value) = keys.try_fold(first, |value, key| Some(value?.get(key))).flatten() else {
+        let base = Value::Table(self.parameters.clone());
+        // a case without a list of runs has one change, of nothing
+        let list: ListOfRuns = base.clone().try_into().unwrap_or_default();
+        let of_run = |change: ListedChange| {
+            let given = |(_, own, value): &(String, String, Value)| match path.strip_prefix(own.as_str())? {
+                "" => Some(value.clone()),
+                rest => value_at(value, rest.strip_prefix('.')?).cloned(),
+            };
+            change.values.iter().rev().find_map(given).or_else(|| value_at(&base, path).cloned())
+        };
+        let Some(values) = list.changes().into_iter().map(of_run).collect::<Option<Vec<Value>>>() else {
             let mut paths = Vec::new();
             collect(&self.parameters, "", &mut paths);
             let guess = nearest(path, paths.iter().map(String::as_str));
             let (file, case) = (plan.file.clone(), self.block.request.case.clone());
             return Err(PlanError::Path { file, path: path.to_owned(), nearest: guess, case }.into());
         };
-        let list = value.as_array().map_or_else(|| vec![number_in(value)], |list| list.iter().map(number_in).collect());
-        list.into_iter().collect::<Option<Vec<f64>>>().ok_or_else(|| {
+        let numbers = values.iter().flat_map(|value| match value {
+            Value::Array(list) => list.iter().map(number_in).collect(),
+            one => vec![number_in(one)],
+        });
+        numbers.collect::<Option<Vec<f64>>>().ok_or_else(|| {
             let field = format!("{}.conditions", self.block.field);
-            let remedy = "name what is measured along, such as a slope";
+            let remedy = "name what is measured along, such as `slope_angle`";
             FieldError::new(&field, path, "a number or a list of numbers of the case", remedy)
                 .in_file(&plan.file)
                 .into()
         })
     }
+}
+
+/// The value at a dotted path.
+fn value_at<'a>(value: &'a Value, path: &str) -> Option<&'a Value> {
+    path.split('.').try_fold(value, |value, key| value.get(key))
 }
 
 /// All dotted paths of a table.
@@ -56,8 +75,7 @@ pub(super) fn check(plan: &CalibrationPlan, known: &[BlockParameters<'_>]) -> Re
         for fitted in known.iter().filter(|known| !known.block.held_out && known.block.request.case == *case) {
             let Some(conditions) = &held_out.block.conditions else {
                 let field = format!("{}.conditions", held_out.block.field);
-                let remedy =
-                    "name the parameters that make it differ from what is fitted, such as conditions = [\"slopes\"]";
+                let remedy = "name the parameters that make it differ from what is fitted, such as conditions = [\"slope_angle\"]";
                 let rule = format!("given where `{}` has the same case", fitted.block.field);
                 return Err(FieldError::new(&field, "missing", &rule, remedy).in_file(&plan.file).into());
             };

@@ -297,7 +297,7 @@ impl BlockText {
             return Err(FieldError::new(&format!("{field}.same_within"), same_within, "from 0 to below 1", remedy));
         }
         if self.conditions.as_ref().is_some_and(Vec::is_empty) {
-            let remedy = "name the parameters that make its conditions, such as [\"slopes\"]";
+            let remedy = "name the parameters that make its conditions, such as [\"slope_angle\"]";
             return Err(FieldError::new(&format!("{field}.conditions"), "[]", "at least one path", remedy));
         }
         Ok(self.conditions.clone().map(|paths| Conditions { paths, same_within }))

@@ -1,9 +1,8 @@
 //! How far a run is from the exact profile, and from the independent one-dimensional solution in time.
 
-use super::BagnoldRecord;
-use super::parameters::LayerStart;
-use super::runs::{BagnoldPurpose, BagnoldRun};
-use crate::layer::{DepthProfile, LayerObservation};
+use super::Record;
+use super::flow::{BagnoldFlow, LayerStart};
+use crate::layer::{DepthProfile, LayerObservation, Preparation};
 use crate::reference::one_dimension::{BagnoldProfile, LayerTransient, TransientHistory};
 use crate::shared::Arrangement;
 use crate::statistics::{Extrapolation, interpolated, linear_fit, relative_l2};
@@ -64,26 +63,44 @@ pub(super) fn implied_stress(profile: &DepthProfile, exact: &BagnoldProfile) -> 
     numbers.map(|(y, inertial_number)| (y, friction(inertial_number) / tangent - 1.0)).collect()
 }
 
-/// (rows, velocity L2 `[%]`) of the runs of one kind at one angle, coarse to fine: of the mean velocity over the seeds of a
+/// Runs of one kind, of which several may differ in their rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ConvergenceStudy {
+    pub(super) slope_angle: f64,
+    pub(super) arrangement: Arrangement,
+    pub(super) start: LayerStart,
+}
+
+/// The studies of the spacing: on the lattice from the profile, and of displaced particles from rest, with their
+/// errors coarse to fine.
+pub(super) fn convergence_studies(records: &[Record]) -> Vec<(ConvergenceStudy, Vec<(f64, f64)>)> {
+    let kinds = [(Arrangement::Lattice, LayerStart::Profile), (Arrangement::Jittered, LayerStart::Rest)];
+    let mut angles: Vec<f64> = Vec::new();
+    for (run, _) in records.iter().filter(|(run, _)| run.is_steady()) {
+        if !angles.contains(&run.slope_angle) {
+            angles.push(run.slope_angle);
+        }
+    }
+    let of_angle = |slope_angle| kinds.map(|(arrangement, start)| ConvergenceStudy { slope_angle, arrangement, start });
+    let studies = angles.into_iter().flat_map(of_angle).map(|study| (study, convergence_errors(records, study)));
+    studies.filter(|(_, errors)| errors.len() >= 2).collect()
+}
+
+/// (rows, velocity L2 `[%]`) of the runs of a study, coarse to fine: of the mean velocity over the seeds of a
 /// resolution, bin by bin, for what one seed's displacements do to its height is no error of the spacing. Where the study has layers
 /// that are raised again, of displaced particles it is made of them alone.
-pub(super) fn convergence_errors(
-    records: &[BagnoldRecord],
-    angle: f64,
-    particles: Arrangement,
-    start: LayerStart,
-) -> Vec<(f64, f64)> {
-    let is_own = |(run, _): &&BagnoldRecord| {
-        let purposes = [BagnoldPurpose::Steady, BagnoldPurpose::Convergence, BagnoldPurpose::ConvergenceSeed];
-        purposes.contains(&run.purpose) && run.slope_angle == angle && run.particles == particles && run.start == start
+fn convergence_errors(records: &[Record], study: ConvergenceStudy) -> Vec<(f64, f64)> {
+    let is_own = |(run, _): &&Record| {
+        let BagnoldFlow { slope_angle, arrangement, start, .. } = *run;
+        run.is_steady() && study == ConvergenceStudy { slope_angle, arrangement, start }
     };
-    let mut own: Vec<&BagnoldRecord> = records.iter().filter(is_own).collect();
-    let is_raised = |record: &&BagnoldRecord| record.0.purpose == BagnoldPurpose::ConvergenceSeed;
+    let mut own: Vec<&Record> = records.iter().filter(is_own).collect();
+    let is_raised = |record: &&Record| record.0.layer.preparation == Preparation::Raised;
     if own.iter().any(is_raised) {
         own.retain(is_raised);
     }
     own.sort_by_key(|(run, _)| run.layer.resolution);
-    let error = |seeds: &[&BagnoldRecord]| {
+    let error = |seeds: &[&Record]| {
         let (run, _) = seeds[0];
         let exact = run.profile();
         let is_steady = seeds.iter().all(|(run, record)| run.unsteadiness(&record.data).is_none());
@@ -108,7 +125,7 @@ fn mean_over_seeds(profiles: &[&DepthProfile]) -> Vec<(f64, f64)> {
 }
 
 /// The 1-D solution from rest and the steady depth mean.
-pub(super) fn history_from_rest(run: &BagnoldRun) -> Option<(TransientHistory, f64)> {
+pub(super) fn history_from_rest(run: &BagnoldFlow) -> Option<(TransientHistory, f64)> {
     let profile = run.profile();
     let steady = profile.depth_mean()?;
     let scale = libm::pow(profile.layer_height / 0.01, 1.5);
@@ -117,13 +134,13 @@ pub(super) fn history_from_rest(run: &BagnoldRun) -> Option<(TransientHistory, f
 }
 
 /// The 1-D solution of a layer that comes to rest or runs away, until a time `[s]`.
-pub(super) fn transient_of(run: &BagnoldRun, end: f64) -> Option<TransientHistory> {
+pub(super) fn transient_of(run: &BagnoldFlow, end: f64) -> Option<TransientHistory> {
     let start = run.start_profile();
-    let layer = match run.purpose {
-        BagnoldPurpose::Arrest => {
+    let layer = match run.start {
+        LayerStart::Profile => {
             LayerTransient::from_profile(run.profile(), 100, 1e-3, |y| start.velocity(y).unwrap_or(0.0))
         }
-        _ => LayerTransient::from_rest(run.profile(), 100, 2e-3),
+        LayerStart::Rest | LayerStart::Uncompressed => LayerTransient::from_rest(run.profile(), 100, 2e-3),
     };
     layer.and_then(|mut layer| layer.run(end, &[])).ok()
 }

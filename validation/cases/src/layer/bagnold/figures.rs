@@ -1,11 +1,10 @@
 //! The case's figures.
 
-use super::BagnoldRecord;
+use super::Record;
 use super::errors::{
-    convergence_errors, history_from_rest, implied_stress, inertial_numbers, particle_history, transient_of,
+    convergence_studies, history_from_rest, implied_stress, inertial_numbers, particle_history, transient_of,
 };
-use super::parameters::{BagnoldParameters, LayerStart};
-use super::runs::{BagnoldPurpose, BagnoldRun};
+use super::flow::{BagnoldFlow, Fate, LayerStart};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::one_dimension::TransientHistory;
 use crate::shared::Arrangement;
@@ -15,14 +14,17 @@ const PROFILES: &str = "Mean velocity along the slope in 20 bins over the depth,
 const OTHER_GRAINS: &str = "The same for grains of other materials with the same numerics: mean velocity against Bagnold's profile of each \
     material, and the difference in percent of the exact surface velocity.";
 
-pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Figure> {
-    let first_start = parameters.starts.first().copied().unwrap_or(LayerStart::Rest);
-    let of = |belongs: &dyn Fn(&BagnoldRun) -> bool| -> Vec<&BagnoldRecord> {
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    let of = |belongs: &dyn Fn(&BagnoldFlow) -> bool| -> Vec<&Record> {
         records.iter().filter(|(run, _)| belongs(run)).collect()
     };
-    let steady = of(&|run| run.purpose == BagnoldPurpose::Steady && run.start == first_start);
-    let outside = of(&|run| matches!(run.purpose, BagnoldPurpose::Arrest | BagnoldPurpose::Runaway));
-    let other_grains = of(&|run| run.purpose == BagnoldPurpose::OtherGrains);
+    let first = records.iter().map(|(run, _)| run).find(|run| run.is_steady());
+    let is_like = |run: &BagnoldFlow, first: &BagnoldFlow| {
+        run.start == first.start && run.arrangement == first.arrangement && run.layer == first.layer
+    };
+    let steady = of(&|run| run.is_steady() && first.is_some_and(|first| is_like(run, first)));
+    let outside = of(&|run| run.start != LayerStart::Uncompressed && run.fate() != Fate::Steady);
+    let other_grains = of(&|run| !run.material_name.is_empty() && run.fate() == Fate::Steady);
     let mut figures = Vec::new();
     if !steady.is_empty() {
         let profiles = profiles("velocity-profile", &(PROFILES.to_owned() + &set_up(&steady[0].0)), &steady);
@@ -34,12 +36,12 @@ pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> 
     if !outside.is_empty() {
         figures.push(arrest_and_runaway(&outside));
     }
-    figures.extend(convergence(parameters, records));
+    figures.extend(convergence(records));
     figures
 }
 
 /// Thickness, grains and resolution of a layer, in a sentence.
-fn set_up(run: &BagnoldRun) -> String {
+fn set_up(run: &BagnoldFlow) -> String {
     let exact = run.profile();
     format!(
         " The layer is {:.0} mm thick, of grains of {:.2} mm and a solid fraction of {:.2}, with {} rows of particles.",
@@ -50,14 +52,14 @@ fn set_up(run: &BagnoldRun) -> String {
     )
 }
 
-fn label(run: &BagnoldRun) -> String {
-    match &run.material {
-        Some(material) => format!("{material}, {}°", run.slope_angle),
-        None => format!("{}°", run.slope_angle),
+fn label(run: &BagnoldFlow) -> String {
+    match run.material_name.as_str() {
+        "" => format!("{}°", run.slope_angle),
+        material => format!("{material}, {}°", run.slope_angle),
     }
 }
 
-fn profiles(name: &str, caption: &str, records: &[&BagnoldRecord]) -> Figure {
+fn profiles(name: &str, caption: &str, records: &[&Record]) -> Figure {
     let mut absolute = Panel::new("", Axis::linear("u [m/s]"), Axis::linear("y/h [-]"));
     let mut error = Panel::new("", Axis::linear("(u − exact)/u(h) [%]"), Axis::linear("y/h [-]"));
     error.reference("exact", [(0.0, 0.0), (0.0, 1.0)]);
@@ -77,7 +79,7 @@ fn profiles(name: &str, caption: &str, records: &[&BagnoldRecord]) -> Figure {
     Figure::new(name, caption, vec![absolute, error])
 }
 
-fn stresses(records: &[&BagnoldRecord]) -> Figure {
+fn stresses(records: &[&Record]) -> Figure {
     let mut pressure = Panel::new("", Axis::linear("p [Pa]"), Axis::linear("y/h [-]"));
     let mut inertia = Panel::new("", Axis::linear("I/I(θ), exact [-]"), Axis::linear("y/h [-]"));
     let mut implied = Panel::new("", Axis::linear("μ(I)/tanθ − 1 [%]"), Axis::linear("y/h [-]"));
@@ -104,7 +106,7 @@ fn stresses(records: &[&BagnoldRecord]) -> Figure {
     .in_columns(3)
 }
 
-fn transients(records: &[&BagnoldRecord]) -> Figure {
+fn transients(records: &[&Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("t [s]"), Axis::linear("depth mean of u [m/s]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         if run.start == LayerStart::Rest
@@ -123,9 +125,9 @@ fn transients(records: &[&BagnoldRecord]) -> Figure {
     )
 }
 
-fn arrest_and_runaway(records: &[&BagnoldRecord]) -> Figure {
+fn arrest_and_runaway(records: &[&Record]) -> Figure {
     let panels = records.iter().enumerate().map(|(slot, (run, record))| {
-        let fate = if run.purpose == BagnoldPurpose::Arrest { "arrest" } else { "runaway" };
+        let fate = if run.fate() == Fate::Arrest { "arrest" } else { "runaway" };
         let title = format!("{}: {fate}", label(run));
         let mut panel = Panel::new(&title, Axis::linear("t [s]"), Axis::linear("depth mean of u [m/s]"));
         if let Some(history) = transient_of(run, record.simulated_time) {
@@ -134,12 +136,12 @@ fn arrest_and_runaway(records: &[&BagnoldRecord]) -> Figure {
         panel.line("particles", slot, drawn(&particle_history(&record.data), f64::INFINITY));
         panel
     });
-    let has = |purpose| records.iter().any(|(run, _)| run.purpose == purpose);
+    let has = |fate| records.iter().any(|(run, _)| run.fate() == fate);
     let mut caption = String::new();
-    if has(BagnoldPurpose::Arrest) {
+    if has(Fate::Arrest) {
         caption += "Below the static friction angle a layer that starts with a steady profile comes to rest. ";
     }
-    if has(BagnoldPurpose::Runaway) {
+    if has(Fate::Runaway) {
         caption += "Above the limiting friction angle a layer from rest accelerates without end; its run stops when its mean passes half the \
                     sound speed. ";
     } else {
@@ -149,22 +151,20 @@ fn arrest_and_runaway(records: &[&BagnoldRecord]) -> Figure {
     Figure::new("arrest-and-runaway", &caption, panels.collect())
 }
 
-fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Option<Figure> {
-    let angle = parameters.convergence_slope_angle;
+fn convergence(records: &[Record]) -> Option<Figure> {
+    let studies = convergence_studies(records);
+    let angle = studies.first()?.0.slope_angle;
     let mut panel =
         Panel::new("", Axis::logarithmic("rows over the layer [-]"), Axis::logarithmic("relative L2 of u [%]"));
-    let kinds = [
-        (Arrangement::Lattice, LayerStart::Profile, "lattice, from the profile"),
-        (Arrangement::Jittered, LayerStart::Rest, "jittered, from rest"),
-    ];
-    for (slot, (particles, start, name)) in kinds.into_iter().enumerate() {
-        let errors = convergence_errors(records, angle, particles, start);
-        if errors.len() >= 2 {
-            if slot == 0 {
-                panel.order(1, "first order", &errors);
-            }
-            panel.line_points(name, slot, errors);
+    for (study, errors) in studies.into_iter().filter(|(study, _)| study.slope_angle == angle) {
+        let (slot, name) = match study.arrangement {
+            Arrangement::Lattice => (0, "lattice, from the profile"),
+            Arrangement::Jittered => (1, "jittered, from rest"),
+        };
+        if slot == 0 {
+            panel.order(1, "first order", &errors);
         }
+        panel.line_points(name, slot, errors);
     }
     let first = panel.series.first()?;
     let (from, to) = (first.points.first()?.0, first.points.last()?.0);

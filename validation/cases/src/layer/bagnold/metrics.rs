@@ -1,11 +1,12 @@
 //! How the runs are judged.
 
-use super::BagnoldRecord;
-use super::errors::{SteadyErrors, convergence_errors, history_from_rest, mean_at, particle_history, transient_of};
-use super::parameters::{BagnoldParameters, LayerStart};
-use super::runs::{BagnoldPurpose, BagnoldRun};
+use super::Record;
+use super::errors::{
+    ConvergenceStudy, SteadyErrors, convergence_studies, history_from_rest, mean_at, particle_history, transient_of,
+};
+use super::flow::{BagnoldFlow, Fate, LayerStart};
 use crate::case::Run;
-use crate::layer::{self, LayerObservation};
+use crate::layer::{self, LayerObservation, PeriodicLayer};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Frame;
 use crate::reference::one_dimension::{BagnoldProfile, TransientHistory};
@@ -49,32 +50,38 @@ const TRANSIENT: &str = "1-D transient solver, finite volumes over the depth";
 /// Fraction of its initial value to which the depth mean has fallen when a layer counts as arrested `[-]`.
 const ARREST_FRACTION: f64 = 0.01;
 
-pub(super) fn all(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Metric> {
+pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for record in records {
+        let run = &record.0;
         // what the paper's algorithm does is its result
-        if record.0.purpose == BagnoldPurpose::Printed {
+        if run.is_compared() {
             metrics.extend(regularised(record));
             continue;
         }
-        let variant = record.0.variant();
+        let variant = run.variant();
         metrics.push(layer::particles_lost(&variant, &record.1));
-        let is_sudden = record.0.purpose == BagnoldPurpose::Compression;
+        let is_sudden = run.start == LayerStart::Uncompressed;
         let scale = if is_sudden { EnergyScale::Work } else { EnergyScale::Steady };
         metrics.extend(energy_ledger::metrics(&variant, &record.1.data.energy, scale));
-        metrics.extend(match record.0.purpose {
-            BagnoldPurpose::Steady | BagnoldPurpose::Convergence => steady(record),
-            // one of the study's, which is judged as a whole
-            BagnoldPurpose::ConvergenceSeed => Vec::new(),
-            BagnoldPurpose::OtherGrains => other_grains(record),
-            BagnoldPurpose::Arrest => arrest(record),
-            BagnoldPurpose::Compression => compression(record).into_iter().collect(),
-            BagnoldPurpose::Runaway => runaway(record),
-            BagnoldPurpose::Regularised | BagnoldPurpose::Printed => regularised(record),
+        metrics.extend(match run.fate() {
+            _ if is_sudden => compression(record).into_iter().collect(),
+            _ if run.is_regularised() => regularised(record),
+            Fate::Arrest => arrest(record),
+            Fate::Runaway => runaway(record),
+            Fate::Steady if !run.material_name.is_empty() => other_grains(record),
+            Fate::Steady if has_other_seed(run, records) => Vec::new(),
+            Fate::Steady => steady(record),
         });
     }
-    metrics.extend(convergence(parameters, records));
+    metrics.extend(convergence(records));
     metrics
+}
+
+/// Whether another run differs in its seed alone: then their convergence is judged as a whole.
+fn has_other_seed(run: &BagnoldFlow, records: &[Record]) -> bool {
+    let of_seed = |seed| BagnoldFlow { layer: PeriodicLayer { seed, ..run.layer }, ..run.clone() };
+    records.iter().any(|(other, _)| other != run && *other == of_seed(other.layer.seed))
 }
 
 /// Limits for runs of at least 40 and at least 20 rows; coarser runs are observed. A norm has a largest value, a signed
@@ -89,7 +96,7 @@ fn by_resolution(metric: Metric, rows: usize, fine: f64, coarse: f64, reason: &s
     }
 }
 
-fn steady(record: &BagnoldRecord) -> Vec<Metric> {
+fn steady(record: &Record) -> Vec<Metric> {
     let (run, data) = (&record.0, &record.1.data);
     let exact = run.profile();
     let Some(errors) = SteadyErrors::of(&data.profile, &exact) else { return Vec::new() };
@@ -128,7 +135,7 @@ fn steady(record: &BagnoldRecord) -> Vec<Metric> {
     metrics
 }
 
-fn relative_height(run: &BagnoldRun, data: &LayerObservation) -> Metric {
+fn relative_height(run: &BagnoldFlow, data: &LayerObservation) -> Metric {
     let (height, expected) = (data.series.relative_height.last().copied().unwrap_or(1.0), run.exact_relative_height());
     RELATIVE_HEIGHT
         .of(&run.variant(), height)
@@ -141,7 +148,7 @@ fn relative_height(run: &BagnoldRun, data: &LayerObservation) -> Metric {
 }
 
 /// One set of numerics is to serve every material: the same errors with somewhat wider limits.
-fn other_grains((run, record): &BagnoldRecord) -> Vec<Metric> {
+fn other_grains((run, record): &Record) -> Vec<Metric> {
     let Some(errors) = SteadyErrors::of(&record.data.profile, &run.profile()) else { return Vec::new() };
     let not_steady = run.unsteadiness(&record.data);
     let gated = |quantity: Quantity, value: f64, limit: f64, reason: &str| {
@@ -160,7 +167,7 @@ fn other_grains((run, record): &BagnoldRecord) -> Vec<Metric> {
 }
 
 /// The paper's law is not the exact one, nor is its algorithm that of the case: what they differ by is observed.
-fn regularised((run, record): &BagnoldRecord) -> Vec<Metric> {
+fn regularised((run, record): &Record) -> Vec<Metric> {
     let Some(errors) = SteadyErrors::of(&record.data.profile, &run.profile()) else { return Vec::new() };
     let not_steady = run.unsteadiness(&record.data);
     let observed = |quantity: Quantity, value: f64| {
@@ -172,7 +179,7 @@ fn regularised((run, record): &BagnoldRecord) -> Vec<Metric> {
 
 /// A level layer without pressure sinks under its weight, the one flow here that compresses: by parts of the strain over the depth,
 /// the mean height falls by h times the mean of (1 − ρ0/ρ)(1 − y/h), whatever the grains bear.
-fn compression((run, record): &BagnoldRecord) -> Option<Metric> {
+fn compression((run, record): &Record) -> Option<Metric> {
     let (start, end) = (record.frames.first()?, record.frames.last()?);
     let (height, count) = (run.layer.layer_height, end.position.len() as f64);
     let mean = |frame: &Frame| frame.position.iter().map(|position| position[1]).sum::<f64>() / count;
@@ -191,7 +198,7 @@ fn compression((run, record): &BagnoldRecord) -> Option<Metric> {
     )
 }
 
-fn transient((run, record): &BagnoldRecord) -> Vec<Metric> {
+fn transient((run, record): &Record) -> Vec<Metric> {
     let Some((history, steady_mean)) = history_from_rest(run) else { return Vec::new() };
     let Some(rise) = history.rise_time(steady_mean, 0.99) else { return Vec::new() };
     let (variant, particles) = (run.variant(), particle_history(&record.data));
@@ -217,7 +224,7 @@ fn transient((run, record): &BagnoldRecord) -> Vec<Metric> {
     parts.into_iter().map(error).chain(time).collect()
 }
 
-fn arrest((run, record): &BagnoldRecord) -> Vec<Metric> {
+fn arrest((run, record): &Record) -> Vec<Metric> {
     let (variant, series) = (run.variant(), &record.data.series);
     let history = transient_of(run, 2.0 * record.simulated_time);
     let expected = history.and_then(|history| history.arrest_time(ARREST_FRACTION));
@@ -240,10 +247,11 @@ fn arrest((run, record): &BagnoldRecord) -> Vec<Metric> {
         .exactly(0.0, "a layer below the static friction angle rests")
         .gated(Limit::AtMost(1e-4), "at rest below 1e-4 m/s after the arrest")
         .with_snapshot_tolerance(0.2, 1e-6);
-    vec![time, rest]
+    // what starts at rest has nothing to lose
+    if run.start == LayerStart::Rest { vec![rest] } else { vec![time, rest] }
 }
 
-fn runaway((run, record): &BagnoldRecord) -> Vec<Metric> {
+fn runaway((run, record): &Record) -> Vec<Metric> {
     let (variant, particles, end) = (run.variant(), particle_history(&record.data), record.simulated_time);
     let profile = run.profile();
     let least_possible =
@@ -268,19 +276,14 @@ fn least_acceleration(history: &TransientHistory) -> f64 {
     (width..times.len()).map(slope).fold(f64::INFINITY, f64::min)
 }
 
-fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Metric> {
-    let angle = parameters.convergence_slope_angle;
+fn convergence(records: &[Record]) -> Vec<Metric> {
     let reference = "convergence to Bagnold's profile (36)";
-    let of_kind = |(particles, start, name): (Arrangement, LayerStart, &str)| {
-        let errors = convergence_errors(records, angle, particles, start);
-        if errors.len() < 2 || parameters.convergence_resolutions.len() < 2 {
-            return None;
-        }
+    let of_study = |(study, errors): (ConvergenceStudy, Vec<(f64, f64)>)| {
         let rows = Value::list(errors.iter().map(|(rows, _)| *rows));
-        let variant = Variant::of("slope_angle", angle).and("start", name);
-        let variant = variant.and("particles", particles.name()).and("resolution", rows);
+        let variant = Variant::of("slope_angle", study.slope_angle).and("start", study.start.name());
+        let variant = variant.and("particles", study.arrangement.name()).and("resolution", rows);
         let reduction = errors.windows(2).map(|pair| pair[0].1 / pair[1].1).fold(f64::INFINITY, f64::min);
-        let (metric, least, reason) = match particles {
+        let (metric, least, reason) = match study.arrangement {
             Arrangement::Lattice => (
                 OBSERVED_ORDER.of(&variant, -log_log_slope(&errors).unwrap_or(f64::NAN)),
                 1.0,
@@ -294,9 +297,7 @@ fn convergence(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec
             ),
         };
         let metric = metric.against(None, reference, Confidence::Exact).with_snapshot_tolerance(0.01, 0.0);
-        Some(metric.gated(Limit::AtLeast(least), reason))
+        metric.gated(Limit::AtLeast(least), reason)
     };
-    let kinds =
-        [(Arrangement::Lattice, LayerStart::Profile, "profile"), (Arrangement::Jittered, LayerStart::Rest, "rest")];
-    kinds.into_iter().filter_map(of_kind).collect()
+    convergence_studies(records).into_iter().map(of_study).collect()
 }

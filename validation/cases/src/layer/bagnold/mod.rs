@@ -2,16 +2,13 @@
 
 mod errors;
 mod figures;
+mod flow;
 mod limits;
 mod metrics;
-mod parameters;
-mod runs;
-mod tiers;
 
-pub use parameters::{BagnoldParameters, LayerStart, OtherGrains};
-pub use runs::{BagnoldPurpose, BagnoldRun};
+pub use flow::{BagnoldFlow, Fate, LayerStart};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::layer::{self, LayerObservation};
@@ -23,7 +20,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct Bagnold;
 
-type BagnoldRecord = RecordOf<BagnoldParameters>;
+type Record = RecordOf<RunList<BagnoldFlow>>;
 
 impl Case for Bagnold {
     const NAME: &'static str = "bagnold";
@@ -42,25 +39,25 @@ impl Case for Bagnold {
         Observed only. The velocity error over the measured instead of the nominal height, and the time to reach the \
         steady velocity.";
     const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
-    type Parameters = BagnoldParameters;
+    type Parameters = RunList<BagnoldFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Metric> {
-        metrics::all(parameters, records)
+    fn metrics(_: &RunList<BagnoldFlow>, records: &[Record]) -> Vec<Metric> {
+        metrics::all(records)
     }
 
-    fn figures(parameters: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Figure> {
-        figures::all(parameters, records)
+    fn figures(_: &RunList<BagnoldFlow>, records: &[Record]) -> Vec<Figure> {
+        figures::all(records)
     }
 
     fn from_external(
-        run: &BagnoldRun,
+        run: &BagnoldFlow,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
         run.observe_external(given).map(Some)
     }
 
-    fn tables(_: &BagnoldParameters, records: &[BagnoldRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<BagnoldFlow>, records: &[Record]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }
