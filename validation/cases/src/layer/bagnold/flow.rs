@@ -130,7 +130,7 @@ impl Flow for BagnoldFlow {
             return Ok(());
         }
         let remedy = "the window must fit into the run: choose a shorter one or a larger `duration_factor`";
-        rules::between("averaging_time", self.averaging_time, 0.0, self.duration(), remedy)
+        rules::between("averaging_time", self.averaging_time, 0.0, self.recipe(), remedy)
     }
 }
 
@@ -292,8 +292,8 @@ impl BagnoldFlow {
         bulk_modulus(density, gravity, layer_height, mean(self.profile()).max(mean(self.start_profile())))
     }
 
-    /// Simulated time `[s]`: (h/10 mm)^1.5 is how the time to the steady state grows.
-    pub(super) fn duration(&self) -> f64 {
+    /// Time that the reference figures need `[s]`: (h/10 mm)^1.5 is how the time to the steady state grows.
+    fn recipe(&self) -> f64 {
         let scale = self.duration_factor * libm::pow(self.layer.layer_height / 0.01, 1.5);
         match (self.start, self.fate()) {
             // 2 h/c, in which a liquid layer without pressure would sink as far as it does; grains are a little faster
@@ -301,13 +301,17 @@ impl BagnoldFlow {
             (_, Fate::Arrest) => 1.5 * scale,
             (_, Fate::Runaway) => 20.0 * scale,
             (LayerStart::Profile, Fate::Steady) => 2.0 * scale,
-            // the recipe's 3.5, 4, 4.5 and 5 s at 22, 23, 24 and 25°, or what the material needs
-            (LayerStart::Rest, Fate::Steady) => {
-                let steady = time_to_steadiness(&self.profile(), STEADY).map(|time| time + self.averaging_time);
-                let recipe = (3.5 + 0.5 * (self.slope_angle - 22.0)).clamp(3.5, 5.0) * scale;
-                recipe.max(self.duration_factor * steady.unwrap_or(0.0))
-            }
+            (LayerStart::Rest, Fate::Steady) => (3.5 + 0.5 * (self.slope_angle - 22.0)).clamp(3.5, 5.0) * scale,
         }
+    }
+
+    /// Simulated time `[s]`: that of the recipe, or from rest what the material needs.
+    fn duration(&self) -> f64 {
+        if self.start != LayerStart::Rest {
+            return self.recipe();
+        }
+        let steady = time_to_steadiness(&self.profile(), STEADY).map(|time| time + self.averaging_time);
+        self.recipe().max(self.duration_factor * steady.unwrap_or(0.0))
     }
 
     fn layer<'a>(
