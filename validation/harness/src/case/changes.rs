@@ -59,7 +59,9 @@ impl Changes<'_> {
     #[must_use]
     pub(super) fn with_lists(&self, stated: &[&str]) -> Self {
         let mut changes = self.clone();
-        if let Some((_, fields)) = &mut changes.file {
+        // a file without a field is the case as it comes, with all of its runs
+        let states = |fields: &Table| !fields.is_empty() || !stated.contains(&"vary");
+        if let Some((_, fields)) = changes.file.as_mut().filter(|(_, fields)| states(fields)) {
             for list in stated {
                 fields.entry(*list).or_insert_with(|| Value::Array(Vec::new()));
             }

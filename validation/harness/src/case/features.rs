@@ -30,8 +30,12 @@ impl Features {
     #[must_use]
     pub fn of(registry: Registry) -> Self {
         let mut features = Self::default();
-        for case in registry.iter() {
-            features.collect("", case.parameter_schema());
+        let fields = |schema: &'static Value| schema["properties"].as_object().into_iter().flatten();
+        for (name, schema) in registry.iter().flat_map(|case| fields(case.parameter_schema())) {
+            // a list of runs names tiers, which are no option of a run
+            if !["variants", "vary"].contains(&name.as_str()) {
+                features.collect(name, schema);
+            }
         }
         features
     }
