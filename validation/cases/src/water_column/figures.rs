@@ -8,7 +8,7 @@ use crate::shared::distinct;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let time = || Axis::linear("t/√(a/(2g)) [-]").over("t", "s", records.iter().map(|(run, _)| run.time_scale()));
-    let widths = records.iter().map(|(run, _)| run.column.width);
+    let widths = records.iter().map(|(run, _)| run.width);
     let mut front = Panel::new("", time(), Axis::linear("front x/a [-]").over("front", "m", widths));
     let mut energy = Panel::new("", time(), Axis::linear("energy change/work of gravity [%]"));
     for measured in distinct(records.iter().map(|(run, _)| run.measured())) {
@@ -60,17 +60,17 @@ fn fronts_and_heights(records: &[Record]) -> Figure {
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data;
         let points = |values: &[f64]| data.time.iter().copied().zip(values.iter().copied()).collect::<Vec<_>>();
-        if run.gate_speed == 0.0 {
+        if !run.is_gated() {
             front.line("", slot + 5, points(&data.front));
         }
-        let label = if run.gate_speed > 0.0 {
-            format!("n² = {}, behind a gate", run.column.aspect_ratio)
+        let label = if run.is_gated() {
+            format!("n² = {}, behind a gate", run.aspect_ratio)
         } else if drawn {
             String::new()
         } else {
-            format!("n² = {}, released at once", run.column.aspect_ratio)
+            format!("n² = {}, released at once", run.aspect_ratio)
         };
-        drawn |= run.gate_speed == 0.0;
+        drawn |= !run.is_gated();
         height.line(&label, slot + 5, points(&data.height));
     }
     Figure::new(

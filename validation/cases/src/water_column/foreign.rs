@@ -1,7 +1,7 @@
 //! A collapse of water as another code, or a paper about one, gives it: the front over time.
 
+use super::flow::{ColumnObservation, WaterColumnFlow};
 use super::metrics::{DELAYED_FRONT_ERROR, DELAYED_HEIGHT_ERROR, FRONT_DELAY, FRONT_ERROR, HEIGHT_ERROR};
-use super::parameters::{ColumnObservation, WaterColumnRun};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 
@@ -27,7 +27,7 @@ pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 /// # Errors
 /// A time or a front that is missing beside the other, or a front that ends before the measurement.
 pub(super) fn observe(
-    run: &WaterColumnRun,
+    run: &WaterColumnFlow,
     given: &ExternalData,
 ) -> Result<Option<ExternalObservation<ColumnObservation>>, FieldError> {
     let either = |absolute: &str, relative: &str, scale: f64| -> Vec<f64> {
@@ -39,12 +39,12 @@ pub(super) fn observe(
         }
     };
     let time = either("time", "relative_time", run.time_scale());
-    let front = either("front", "relative_front", run.column.width);
+    let front = either("front", "relative_front", run.width);
     match (time.is_empty(), front.is_empty()) {
         (true, true) => Ok(None),
         (false, false) => {
             as_long_as_measured(run, &time)?;
-            let start = run.column.width * run.column.aspect_ratio;
+            let start = run.width * run.aspect_ratio;
             let height: Vec<f64> = given.series("height").iter().map(|height| height / start).collect();
             let mut measured = vec![FRONT_ERROR.name, FRONT_DELAY.name, DELAYED_FRONT_ERROR.name];
             if !height.is_empty() {
@@ -66,7 +66,7 @@ pub(super) fn observe(
 
 /// Refuses a front that ends before the last measured place: no error over all places follows from it, and with a delay only
 /// one over some.
-fn as_long_as_measured(run: &WaterColumnRun, time: &[f64]) -> Result<(), FieldError> {
+fn as_long_as_measured(run: &WaterColumnFlow, time: &[f64]) -> Result<(), FieldError> {
     let needed = run.measured().points.iter().fold(0.0, |last: f64, (time, _)| last.max(*time));
     match time.last() {
         Some(last) if *last < needed => {
@@ -87,14 +87,12 @@ fn as_long_as_measured(run: &WaterColumnRun, time: &[f64]) -> Result<(), FieldEr
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{NamedColumns, Parameters, Tier};
+    use crate::case::NamedColumns;
     use crate::reference::water::WATER_FRONT;
-    use crate::water_column::WaterColumnParameters;
 
     fn seen(columns: &[(&str, Vec<f64>)]) -> Result<Option<ExternalObservation<ColumnObservation>>, FieldError> {
         let series: NamedColumns = columns.iter().map(|(name, values)| ((*name).to_owned(), values.clone())).collect();
-        let run = WaterColumnParameters::of_tier(Tier::Quick).runs().remove(0);
-        observe(&run, &ExternalData { series, ..ExternalData::default() })
+        observe(&WaterColumnFlow::default(), &ExternalData { series, ..ExternalData::default() })
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! How the runs are judged.
 
 use super::Record;
-use super::parameters::{ColumnObservation, WaterColumnRun};
+use super::flow::{ColumnObservation, WaterColumnFlow};
 use crate::case::Run;
 use crate::metric::{Limit, Metric, Origin, quantities};
 use crate::reference::water::{HEIGHT_READING, MeasuredFront, MeasuredHeights, WATER_HEIGHTS, spread_of_water_fronts};
@@ -41,9 +41,9 @@ fn of_run((run, record): &Record) -> Vec<Metric> {
     let (delay, error) = best_delay(&data.time, &data.front, measured);
     let reading = Some(100.0 * measured.relative_reading());
     // the release of a column that is said to be free took a time of its own, which nobody has measured: only a gate that moves as it did judges
-    let limit = (run.gate_speed > 0.0).then_some(Limit::AtMost(8.0));
+    let limit = run.is_gated().then_some(Limit::AtMost(8.0));
     // what experiments of free columns differ by; of the gated one no other is at hand
-    let spread = (run.gate_speed == 0.0).then(|| 100.0 * spread_of_water_fronts());
+    let spread = (!run.is_gated()).then(|| 100.0 * spread_of_water_fronts());
     metrics.extend([
         observed(FRONT_ERROR, 100.0 * error_at(&data.time, &data.front, measured, 0.0))
             .gated_by(limit, "8 % of the measured place, with the gate and the time as they were measured")
@@ -62,12 +62,12 @@ fn of_run((run, record): &Record) -> Vec<Metric> {
 
 /// The heights at the wall, at the times as they were measured and with the delay that the front tells. Nothing is fitted to them, and
 /// they tell what that delay is not: if the whole column had started later, so would they.
-fn heights(run: &WaterColumnRun, data: &ColumnObservation, delay: f64) -> Vec<Metric> {
-    let same = |own: &&MeasuredHeights| own.aspect_ratio == run.column.aspect_ratio;
+fn heights(run: &WaterColumnFlow, data: &ColumnObservation, delay: f64) -> Vec<Metric> {
+    let same = |own: &&MeasuredHeights| own.aspect_ratio == run.aspect_ratio;
     let Some(measured) = WATER_HEIGHTS.iter().find(same).filter(|_| !data.height.is_empty()) else { return Vec::new() };
     let samples: Vec<(f64, f64)> = data.time.iter().copied().zip(data.height.iter().copied()).collect();
     // the release of their column was no gate's
-    let is_free = run.gate_speed == 0.0;
+    let is_free = !run.is_gated();
     let metric = |quantity: crate::metric::Quantity, delay: f64| {
         quantity
             .of(&run.variant(), 100.0 * height_error(&samples, measured, delay))
@@ -75,7 +75,7 @@ fn heights(run: &WaterColumnRun, data: &ColumnObservation, delay: f64) -> Vec<Me
             .known_to(Origin::Digitisation, Some(100.0 * HEIGHT_READING), "half of the last digit, evenly spread")
             .known_to(
                 Origin::Numerical,
-                Some(100.0 / (run.column.aspect_ratio * run.resolution as f64) / 12.0_f64.sqrt()),
+                Some(100.0 / (run.aspect_ratio * run.resolution as f64) / 12.0_f64.sqrt()),
                 "the surface of particles lies within a row: an even spread of that width",
             )
             .with_snapshot_tolerance(0.1, 0.1)

@@ -1,7 +1,7 @@
-//! Parameters, tiers and runs.
+//! The flow: a column of water that collapses on a bed.
 
 use crate::case::recording::{self, ObservedRun, SimulationStage};
-use crate::case::{ParameterError, Parameters, Progress, Run, Tier};
+use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::{EnergyBook, Recorded};
 use crate::reference::water::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
@@ -12,7 +12,7 @@ use crate::shared::close_by_gate;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
-use bagnold_solver::parameter::{between, each, filled, not_negative, positive, unique};
+use bagnold_solver::parameter::{between, not_negative, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -32,28 +32,23 @@ const BED_END: f64 = 6.0;
 /// Observations a run.
 const SAMPLES: f64 = 400.0;
 
-/// A square column behind a gate that is lifted.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GatedColumn {
-    /// Width and height of the column `[m]`.
-    #[schemars(transform = positive("give it in metres, such as 0.6"))]
-    pub width: f64,
-    /// Speed at which the gate is lifted `[m/s]`.
-    #[schemars(transform = positive("give it in m/s, such as 4.53"))]
-    pub gate_speed: f64,
-    /// Numbers of particles over the width; none for no such column.
-    #[schemars(transform = each(rules::rows()))]
-    #[schemars(transform = unique("name every resolution once"))]
-    pub resolutions: Vec<usize>,
+/// How a column is let go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Release {
+    /// All of it at once.
+    AtOnce,
+    /// By a gate that is lifted.
+    Gate,
 }
 
-/// Parameters of the case.
+/// A column of water that collapses on a bed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WaterColumnParameters {
+pub struct WaterColumnFlow {
     /// Width a of the column from its symmetry plane `[m]`.
     #[schemars(transform = positive("give it in metres, such as 0.05715"))]
     pub width: f64,
-    /// Height over width `[-]`; 2 was measured.
+    /// Height over width `[-]`; 2 was measured, and 1 behind a gate.
     #[schemars(transform = between(0.5, 4.0, "2 was measured"))]
     pub aspect_ratio: f64,
     /// Gravity `[m/s²]`.
@@ -68,18 +63,18 @@ pub struct WaterColumnParameters {
     /// Bulk modulus over ρ0 g and the height `[-]`.
     #[schemars(transform = between(50.0, 1e4, "200 make sound seven times as fast as the fall"))]
     pub stiffness: f64,
-    /// Numbers of particles over the width.
-    #[schemars(transform = each(rules::rows()))]
-    #[schemars(transform = unique("name every resolution once"))]
-    pub resolutions: Vec<usize>,
-    /// Surfaces of the bed.
-    #[schemars(transform = filled("one or both of \"smooth\" and \"rough\"", "name every surface once"))]
-    #[schemars(transform = unique("name every surface once"))]
-    pub surfaces: Vec<Surface>,
-    /// Whether the coarsest columns are repeated with a pressure that may become negative.
-    pub with_tension: bool,
-    /// The column behind a gate, on a smooth bed.
-    pub gated: GatedColumn,
+    /// Particles over the width.
+    #[schemars(transform = rules::rows())]
+    pub resolution: usize,
+    /// Surface of the bed.
+    pub surface: Surface,
+    /// What becomes of a negative pressure.
+    pub tension: Tension,
+    /// How it is let go.
+    pub release: Release,
+    /// Speed at which a gate is lifted `[m/s]`.
+    #[schemars(transform = positive("give it in m/s, such as 4.53"))]
+    pub gate_speed: f64,
     /// Largest random displacement of a particle in spacings `[-]`.
     #[schemars(transform = between(0.0, 0.3, "0.05 breaks the lattice without overlaps"))]
     pub jitter: f64,
@@ -92,91 +87,36 @@ pub struct WaterColumnParameters {
     pub numerics: Numerics,
 }
 
-impl Parameters for WaterColumnParameters {
-    type Run = WaterColumnRun;
-
-    fn of_tier(tier: Tier) -> Self {
+impl Default for WaterColumnFlow {
+    fn default() -> Self {
         let momentum_operator = MomentumOperator::UncorrectedDivergence;
-        let quick = Self {
+        Self {
             width: 0.05715,
             aspect_ratio: 2.0,
             gravity: 9.81,
             density: 1000.0,
             viscosity: 1e-3,
             stiffness: 200.0,
-            resolutions: vec![20],
-            surfaces: vec![Surface::Smooth, Surface::Rough],
-            with_tension: true,
-            gated: GatedColumn { width: 0.6, gate_speed: 4.53, resolutions: vec![40] },
+            resolution: 20,
+            surface: Surface::Smooth,
+            tension: Tension::Cut,
+            release: Release::AtOnce,
+            gate_speed: 4.53,
             jitter: 0.05,
             seed: 1,
             duration: 2.8,
             numerics: Numerics { momentum_operator, ..Numerics::default() },
-        };
-        match tier {
-            Tier::Quick => quick,
-            Tier::Paper => Self {
-                resolutions: vec![20, 40],
-                gated: GatedColumn { resolutions: vec![40, 80], ..quick.gated.clone() },
-                ..quick
-            },
-            Tier::Fine => Self {
-                resolutions: vec![20, 40, 80],
-                gated: GatedColumn { resolutions: vec![40, 80, 160], ..quick.gated.clone() },
-                ..quick
-            },
         }
-    }
-
-    fn check(&self) -> Result<(), ParameterError> {
-        let law = Rheology::Newtonian(Newtonian { viscosity: self.viscosity });
-        rules::viscous_step("numerics", &self.numerics, &law)
-    }
-
-    fn check_runs(&self, runs: &[&WaterColumnRun]) -> Result<(), ParameterError> {
-        let is_smooth = runs.iter().any(|run| run.surface == Surface::Smooth);
-        if is_smooth { rules::gate("numerics", &self.numerics) } else { Ok(()) }
-    }
-
-    fn runs(&self) -> Vec<WaterColumnRun> {
-        let new = |resolution, surface, tension| WaterColumnRun {
-            column: self.clone(),
-            resolution,
-            surface,
-            tension,
-            gate_speed: 0.0,
-        };
-        let coarsest = self.resolutions.iter().copied().min();
-        let mut runs = Vec::new();
-        for &resolution in &self.resolutions {
-            runs.extend(self.surfaces.iter().map(|&surface| new(resolution, surface, Tension::Cut)));
-        }
-        if let Some(resolution) = coarsest.filter(|_| self.with_tension) {
-            runs.extend(self.surfaces.iter().map(|&surface| new(resolution, surface, Tension::Kept)));
-        }
-        let gated = Self { width: self.gated.width, aspect_ratio: 1.0, ..self.clone() };
-        runs.extend(self.gated.resolutions.iter().map(|&resolution| WaterColumnRun {
-            column: gated.clone(),
-            gate_speed: self.gated.gate_speed,
-            ..new(resolution, Surface::Smooth, Tension::Cut)
-        }));
-        runs
     }
 }
 
-/// One column.
-#[derive(Debug, Clone, Serialize)]
-pub struct WaterColumnRun {
-    /// Water, numerics and size.
-    pub column: WaterColumnParameters,
-    /// Particles over the width.
-    pub resolution: usize,
-    /// Surface of the bed.
-    pub surface: Surface,
-    /// What becomes of a negative pressure.
-    pub tension: Tension,
-    /// Speed at which a gate is lifted `[m/s]`; 0 without one.
-    pub gate_speed: f64,
+impl Flow for WaterColumnFlow {
+    const RUNS: &'static str = include_str!("../../runs/water-column.toml");
+
+    fn check(&self) -> Result<(), ParameterError> {
+        rules::viscous_step("numerics", &self.numerics, &self.rheology())?;
+        if self.surface == Surface::Smooth { rules::gate("numerics", &self.numerics) } else { Ok(()) }
+    }
 }
 
 /// What a run leaves behind; every array has the shape `[samples]`.
@@ -192,11 +132,11 @@ pub struct ColumnObservation {
     pub energy: EnergyBook,
 }
 
-impl Run for WaterColumnRun {
+impl Run for WaterColumnFlow {
     type Observation = ColumnObservation;
 
     fn regime(&self, _: &ColumnObservation) -> FlowRegime {
-        FlowRegime { aspect_ratio: Some(self.column.aspect_ratio), slope_angle: Some(0.0), ..FlowRegime::default() }
+        FlowRegime { aspect_ratio: Some(self.aspect_ratio), slope_angle: Some(0.0), ..FlowRegime::default() }
     }
 
     fn laws(&self) -> Vec<Rheology> {
@@ -206,21 +146,18 @@ impl Run for WaterColumnRun {
     fn variant(&self) -> Variant {
         let surface = if self.surface == Surface::Smooth { "smooth" } else { "rough" };
         let tension = if self.tension == Tension::Kept { "kept" } else { "cut" };
-        let start = if self.gate_speed > 0.0 { Variant::of("release", "gate") } else { Variant::default() };
+        let start = if self.is_gated() { Variant::of("release", "gate") } else { Variant::default() };
         start.and("bed", surface).and("tension", tension).and("resolution", self.resolution)
     }
 
-    fn particles(&self) -> f64 {
-        self.column.aspect_ratio * (self.resolution as f64).powi(2)
-    }
-
-    fn particle_steps(&self) -> f64 {
-        let crossing = self.column.stiffness.sqrt() * self.resolution as f64;
-        self.particles() * crossing * self.column.duration
+    fn cost(&self) -> RunCost {
+        let particles = self.aspect_ratio * (self.resolution as f64).powi(2);
+        let crossing = self.stiffness.sqrt() * self.resolution as f64;
+        RunCost::weakly_compressible(particles, crossing * self.duration)
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
-        let end = self.column.duration * self.time_scale();
+        let end = self.duration * self.time_scale();
         let stage = SimulationStage { progress, end, interval: end / SAMPLES, window: 0.0, context: &() };
         let begin = |_: &_| ColumnObservation::default();
         let watched = recording::watch(
@@ -229,8 +166,8 @@ impl Run for WaterColumnRun {
             begin,
             |observation, snapshot| {
                 observation.time.push(snapshot.time / self.time_scale());
-                observation.front.push(self.front(snapshot) / self.column.width);
-                observation.height.push(self.height(snapshot) / (self.column.aspect_ratio * self.column.width));
+                observation.front.push(self.front(snapshot) / self.width);
+                observation.height.push(self.height(snapshot) / (self.aspect_ratio * self.width));
                 if let Some(account) = &snapshot.energy {
                     observation.energy.enter(snapshot.time, account, 0.0);
                 }
@@ -242,41 +179,46 @@ impl Run for WaterColumnRun {
     }
 }
 
-impl WaterColumnRun {
+impl WaterColumnFlow {
+    /// Whether a gate lets it go.
+    pub(super) fn is_gated(&self) -> bool {
+        self.release == Release::Gate
+    }
+
     /// The front that it is compared with.
     pub(super) fn measured(&self) -> &'static MeasuredFront {
-        if self.gate_speed > 0.0 { &GATED_WATER_FRONT } else { &WATER_FRONT }
+        if self.is_gated() { &GATED_WATER_FRONT } else { &WATER_FRONT }
     }
 
     /// √(a/(2g)) `[s]`.
     pub(super) fn time_scale(&self) -> f64 {
-        (self.column.width / (2.0 * self.column.gravity)).sqrt()
+        (self.width / (2.0 * self.gravity)).sqrt()
     }
 
     fn rheology(&self) -> Rheology {
-        Rheology::Newtonian(Newtonian { viscosity: self.column.viscosity })
+        Rheology::Newtonian(Newtonian { viscosity: self.viscosity })
     }
 
     fn spacing(&self) -> f64 {
-        self.column.width / self.resolution as f64
+        self.width / self.resolution as f64
     }
 
     fn scene(&self) -> Scene<2> {
-        let WaterColumnParameters { gravity, density, stiffness, jitter, numerics, .. } = self.column;
-        let (spacing, height) = (self.spacing(), self.column.aspect_ratio * self.column.width);
+        let Self { gravity, density, stiffness, jitter, numerics, .. } = *self;
+        let (spacing, height) = (self.spacing(), self.aspect_ratio * self.width);
         let bulk_modulus = stiffness * density * gravity * height;
         let equation_of_state = EquationOfState { reference_density: density, bulk_modulus, tension: self.tension };
-        let rows = (self.column.aspect_ratio * self.resolution as f64).round() as usize;
+        let rows = (self.aspect_ratio * self.resolution as f64).round() as usize;
         let lattice = Lattice { spacing, rows, columns: self.resolution, bottom: 0.0 };
         let flow = displaced_flow(
             lattice.sites(),
-            (jitter * spacing, self.column.seed),
+            (jitter * spacing, self.seed),
             |site| equation_of_state.density(density * gravity * (height - site[1])),
             |_| density * (spacing * spacing),
         );
         let domain = Domain { axes: [AxisBoundary::Mirror { lower: Some(0.0), upper: None }, AxisBoundary::Open] };
         let bed = Wall { roughness: self.surface, ..Wall::still(1, 0.0, 1.0) };
-        let extent = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, height));
+        let extent = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.width, height));
         let rheology = self.rheology();
         let rows = wall_rows(numerics.smoothing_ratio);
         let walls = vec![bed];
@@ -288,8 +230,8 @@ impl WaterColumnRun {
             numerics,
             ..Scene::unbounded(flow, spacing, equation_of_state, rheology)
         };
-        if self.gate_speed > 0.0 {
-            close_by_gate(&mut scene, self.column.width, height, self.gate_speed, rows);
+        if self.is_gated() {
+            close_by_gate(&mut scene, self.width, height, self.gate_speed, rows);
         }
         scene
     }
@@ -297,14 +239,14 @@ impl WaterColumnRun {
     /// Height of the water beside the symmetry plane, half a spacing above the highest particle there `[m]`. Its volume there would fall by
     /// steps, for columns of particles leave the plane one after the other.
     fn height(&self, snapshot: &Snapshot<2>) -> f64 {
-        let beside = snapshot.position.iter().filter(|place| place[0] < WALL_STRIP * self.column.width);
+        let beside = snapshot.position.iter().filter(|place| place[0] < WALL_STRIP * self.width);
         beside.fold(0.0_f64, |top, place| top.max(place[1])) + 0.5 * self.spacing()
     }
 
     /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`.
     fn front(&self, snapshot: &Snapshot<2>) -> f64 {
-        let (from, to) = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.column.width, 0.0));
-        let line = FrontLine { from, to, section: FRONT_THICKNESS * self.column.width, strip: None };
+        let (from, to) = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.width, 0.0));
+        let line = FrontLine { from, to, section: FRONT_THICKNESS * self.width, strip: None };
         line.reached(self.spacing(), snapshot)
     }
 }
