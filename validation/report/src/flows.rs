@@ -4,7 +4,7 @@ use super::comparison::{Comparison, ModelError, comparisons};
 use super::judgement::{Judgement, KINDS, Severity};
 use super::power::rejected_inputs;
 use super::view::VerdictMark;
-use super::{CaseReport, DrawnFigure, Report};
+use super::{CaseReport, DrawnFigure};
 use crate::figure::Figure;
 use crate::metric::{Metric, MetricKind, Origin, Variant};
 use crate::number::two_digits;
@@ -122,21 +122,12 @@ pub(super) fn figure_of(case: &CaseReport) -> Option<&Figure> {
 
 /// The flows that the report has a case of. `drawn` holds the figures of the cases in the report's order, `small` those of the
 /// table of cases.
-pub(super) fn panels(
-    report: &Report,
-    judgement: &Judgement<'_>,
-    drawn: &[Vec<DrawnFigure>],
-    small: &[DrawnFigure],
-) -> Vec<Value> {
-    FLOWS.iter().filter_map(|flow| panel(flow, (report, judgement), drawn, small)).collect()
+pub(super) fn panels(judgement: &Judgement<'_>, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Vec<Value> {
+    FLOWS.iter().filter_map(|flow| panel(flow, judgement, drawn, small)).collect()
 }
 
-fn panel(
-    flow: &Flow,
-    (report, judgement): (&Report, &Judgement<'_>),
-    drawn: &[Vec<DrawnFigure>],
-    small: &[DrawnFigure],
-) -> Option<Value> {
+fn panel(flow: &Flow, judgement: &Judgement<'_>, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Option<Value> {
+    let report = judgement.report;
     let place = |name: &str| report.cases.iter().position(|case| case.name == name);
     let places: Vec<usize> = flow.figures.iter().filter_map(|(name, _)| place(name)).collect();
     let cases: Vec<&CaseReport> = places.iter().map(|&place| &report.cases[place]).collect();

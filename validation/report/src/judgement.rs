@@ -208,8 +208,10 @@ impl Tally {
 }
 
 /// A judged report.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Judgement<'r> {
+    /// The report.
+    pub report: &'r Report,
     /// Cases, the worst first, else in the report's order.
     pub cases: Vec<JudgedCase<'r>>,
     /// Expected failures whose metric this report does not have: of other tiers or other cases.
@@ -276,7 +278,7 @@ pub fn judge(report: &Report) -> Judgement<'_> {
     // Stable: cases of one rank keep the registry's order.
     cases.sort_by_key(JudgedCase::rank);
     let papers = report.papers.iter().map(|paper| PaperSummary::of(paper, &report.cases)).collect();
-    let mut judgement = Judgement { cases, papers, ..Judgement::default() };
+    let mut judgement = Judgement { report, cases, listed_elsewhere: 0, contradictions: Vec::new(), papers };
     for failure in &report.expected_failures.failures {
         let found =
             judgement.metrics().find(|(case, judged)| MetricKey::of(&case.case.name, judged.metric) == failure.key());

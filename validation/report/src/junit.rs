@@ -1,6 +1,5 @@
 //! Verdicts as JUnit's XML, which CI systems show as tests: one per gate, and one for every run that should not have diverged.
 
-use super::Report;
 use super::judgement::{JudgedCase, JudgedMetric, Judgement, Severity};
 use super::rows::statement;
 use super::view::typed;
@@ -28,13 +27,13 @@ pub fn check_junit(path: &Path) -> Result<(), FieldError> {
 
 /// A report as text. An expected failure is skipped, with the reason of its entry; a gate that disagrees with the list of
 /// expected failures fails, as it fails the report.
-pub(super) fn text(report: &Report, judgement: &Judgement<'_>) -> String {
-    let mut document = quick_junit::Report::new(report.title.as_str());
+pub(super) fn text(judgement: &Judgement<'_>) -> String {
+    let mut document = quick_junit::Report::new(judgement.report.title.as_str());
     for case in &judgement.cases {
         let mut suite = TestSuite::new(case.case.name.as_str());
         let seconds: f64 = case.case.runs.iter().map(|run| run.wall_seconds).sum();
         suite.set_time(Duration::try_from_secs_f64(seconds).unwrap_or_default());
-        suite.add_property(Property::new("tier", report.tier.name()));
+        suite.add_property(Property::new("tier", judgement.report.tier.name()));
         suite.add_property(Property::new("command", typed(&case.case.command)));
         suite.add_test_cases(cases(case));
         document.add_test_suite(suite);
@@ -99,7 +98,7 @@ mod tests {
     use super::text;
 
     fn xml(report: &Report) -> String {
-        text(report, &judge(report))
+        text(&judge(report))
     }
 
     #[test]

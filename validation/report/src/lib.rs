@@ -201,7 +201,7 @@ struct DrawnFigure {
     failure: Option<String>,
 }
 
-/// Writes the report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,pdf,csv,gif}`, in
+/// Writes a report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,pdf,csv,gif}`, in
 /// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
 /// together as `metrics.json`, small pictures in `figures/overview/CASE.png` and `figures/scatter/QUANTITY.{svg,png,pdf,csv}`. Files of the same names are replaced, others are left
 /// alone.
@@ -211,16 +211,8 @@ struct DrawnFigure {
 ///
 /// # Errors
 /// If a case name is no folder name, or a file cannot be written.
-pub fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
-    write_judged(report, &judge(report), folder, drawings)
-}
-
-fn write_judged(
-    report: &Report,
-    judgement: &Judgement<'_>,
-    folder: &Path,
-    drawings: &Drawings,
-) -> Result<(), ReportError> {
+fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
+    let report = judgement.report;
     if let Some(case) = report.cases.iter().find(|case| !figure::is_file_name(&case.name)) {
         return Err(ReportError::Name { name: case.name.clone() });
     }
@@ -268,7 +260,7 @@ fn write_judged(
     put(folder.join("metrics.json"), &scatter::json(&quantities))?;
     let comparisons = scatter::rows(&quantities, &compared);
     let small = draw_small(report, &folder.join("figures").join(overview::FOLDER), drawings)?;
-    let overview = page::render(report, judgement, (&drawn, &small), comparisons)?;
+    let overview = page::render(judgement, (&drawn, &small), comparisons)?;
     chapters.insert(0, Chapter::of("index", &overview));
     put(folder.join("print.html"), &print::render(&report.title, &chapters)?)?;
     put(folder.join("index.html"), &overview)
@@ -276,26 +268,21 @@ fn write_judged(
 
 /// Writes the page of each case, which is one as a rule, straight into `folder`: what [`write()`] puts into
 /// `cases/CASE/`, and the figures in `figures/NAME.{svg,png,pdf,csv,gif}`.
-fn write_alone(
-    report: &Report,
-    judgement: &Judgement<'_>,
-    folder: &Path,
-    drawings: &Drawings,
-) -> Result<(), ReportError> {
+fn write_alone(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
     for judged in &judgement.cases {
         let drawn = draw(judged.case, &folder.join("figures"), drawings)?;
         put_case(judged.case, folder)?;
-        put(folder.join("index.html"), &case_page::render(report, judged, &drawn, None)?)?;
+        put(folder.join("index.html"), &case_page::render(judgement.report, judged, &drawn, None)?)?;
     }
     Ok(())
 }
 
 /// Writes the verdicts as JUnit's XML, for programs that show tests: one per gate.
-fn write_junit(report: &Report, judgement: &Judgement<'_>, path: &Path) -> Result<(), ReportError> {
+fn write_junit(judgement: &Judgement<'_>, path: &Path) -> Result<(), ReportError> {
     if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         make(folder)?;
     }
-    put(path.to_owned(), &junit::text(report, judgement))
+    put(path.to_owned(), &junit::text(judgement))
 }
 
 /// A case's numbers, parameters and measurements, and the tables of reference data that it has.

@@ -1,6 +1,5 @@
 //! Changes from the baseline, in tolerances.
 
-use super::Report;
 use super::baseline::{Baseline, Change, MetricKey};
 use super::judgement::{JudgedMetric, Judgement};
 use super::rows::value_and_baseline;
@@ -50,7 +49,8 @@ impl fmt::Display for MovedValue {
 /// Every change, the farthest first, then in the order of the cases. What has moved beyond its tolerance comes before what has
 /// not.
 #[must_use]
-pub(super) fn moved(judgement: &Judgement<'_>, baseline: &Baseline) -> Vec<MovedValue> {
+pub(super) fn moved(judgement: &Judgement<'_>) -> Vec<MovedValue> {
+    let baseline = &judgement.report.baseline;
     let mut all = Vec::new();
     for case in &judgement.cases {
         let of_metric = |judged: &JudgedMetric<'_>| of_metric(&case.case.name, judged, baseline);
@@ -93,12 +93,12 @@ fn of_metric(case: &str, judged: &JudgedMetric<'_>, baseline: &Baseline) -> Opti
 }
 
 /// The table of what has moved.
-pub(super) fn table(report: &Report, judgement: &Judgement<'_>) -> Value {
-    let against = match &report.against {
+pub(super) fn table(judgement: &Judgement<'_>) -> Value {
+    let against = match &judgement.report.against {
         Some(folder) => format!("the report in {folder}"),
         None => "the baseline".to_owned(),
     };
-    table_of(&moved(judgement, &report.baseline), against)
+    table_of(&moved(judgement), against)
 }
 
 fn table_of(all: &[MovedValue], against: String) -> Value {

@@ -28,11 +28,11 @@ fn a_change_of_two_tolerances_tops_the_table() {
     let report = planted(2.0);
     let judgement = judge(&report);
     assert!(judgement.moved() == 1 && judgement.exit() == Exit::Held);
-    let all = moved(&judgement, &report.baseline);
+    let all = moved(&judgement);
     let names: Vec<&str> = all.iter().map(|moved| moved.key.metric.as_str()).collect();
     assert_eq!(names, ["velocity_l2", "wall_slip"]);
     assert!(all[0].is_beyond && (all[0].tolerances - 2.0).abs() < 1e-6, "{:?}", all[0]);
-    let shown = table(&report, &judgement);
+    let shown = table(&judgement);
     assert_eq!(shown["rows"][0]["metric"], "velocity_l2");
     assert_eq!(shown["rows"][0]["mark"], json!(VerdictMark::MOVED));
     assert_eq!((&shown["omitted"], &shown["against"]), (&json!(0), &json!("the baseline")));
@@ -43,7 +43,7 @@ fn a_change_of_a_fifth_of_a_tolerance_is_shown() {
     let report = planted(0.2);
     let judgement = judge(&report);
     assert!(judgement.moved() == 0);
-    let all = moved(&judgement, &report.baseline);
+    let all = moved(&judgement);
     assert!(all.iter().all(|moved| !moved.is_beyond));
     assert!((all[0].tolerances - 0.2).abs() < 1e-6, "{:?}", all[0]);
 }
@@ -54,12 +54,12 @@ fn a_value_that_moved_within_its_fourth_digit_is_shown_with_the_digits_that_move
     let now = Metric { value: 12.345_698, ..before[0].clone() };
     let report = report(vec![now], Baseline::of("film", &before));
     let judgement = judge(&report);
-    let all = moved(&judgement, &report.baseline);
+    let all = moved(&judgement);
     assert_eq!(
         all[0].to_string(),
         "film front_error [] 12.345698\u{202f}% (+2.7×10⁻⁵), was 12.345671\u{202f}% ± 1.2×10⁻⁵: 2.2 tolerances"
     );
-    let row = &table(&report, &judgement)["rows"][0];
+    let row = &table(&judgement)["rows"][0];
     assert_eq!(row["value"], "12.345698\u{202f}% (+2.7×10⁻⁵)");
     assert!(row["baseline"].as_str().is_some_and(|text| text.starts_with("12.345671")), "{row}");
 }
@@ -70,7 +70,7 @@ fn incomparable_values_come_first() {
     let other_unit = Metric { unit: "m".to_owned(), ..metric("gci", 5.0) };
     let report =
         report(vec![metric("velocity_l2", 12.0), other_unit, metric("new", 1.0)], Baseline::of("film", &before));
-    let all = moved(&judge(&report), &report.baseline);
+    let all = moved(&judge(&report));
     let names: Vec<&str> = all.iter().map(|moved| moved.key.metric.as_str()).collect();
     assert_eq!(names, ["gci", "gone", "velocity_l2"], "what is new has not moved");
     assert!(all[1].tolerances.is_infinite() && all[1].is_beyond);

@@ -15,20 +15,20 @@ use serde_json::{Value, json};
 
 /// Fills the template; `drawn` holds the figures of the report's cases in the report's order, `small` a picture a case.
 pub(super) fn render(
-    report: &Report,
     judgement: &Judgement<'_>,
     (drawn, small): (&[Vec<DrawnFigure>], &[DrawnFigure]),
     scatter: Vec<Value>,
 ) -> Result<String, minijinja::Error> {
+    let report = judgement.report;
     let page = json!({
         "title": report.title,
         "tier": report.tier.name(),
         "banner": banner(judgement),
         "counts": counts(judgement),
-        "flows": flows::panels(report, judgement, drawn, small),
+        "flows": flows::panels(judgement, drawn, small),
         "cases": overview::case_lines(&judgement.cases, small),
         "gates": overview::gates(judgement),
-        "moved": moved::table(report, judgement),
+        "moved": moved::table(judgement),
         "scatter": scatter,
         "has_papers": !judgement.papers.is_empty(),
         "has_coverage": report.features.is_some(),

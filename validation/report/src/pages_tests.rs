@@ -1,6 +1,6 @@
 //! Pages beside each other: their links, a case alone, and what the first page leads with.
 
-use super::tests::{case, drawing, gated, html, known, place, report};
+use super::tests::{case, drawing, gated, html, known, place, report, write};
 use super::*;
 use crate::metric::{Confidence, Metric, MetricKind, Origin, Variant};
 use crate::store::Drawings;
@@ -40,7 +40,7 @@ fn a_case_alone_has_the_same_page_beside_its_figures() {
     film.result.figures = vec![drawing("wall-slip"), drawing("velocity-profile")];
     film.result.command = "bagnold run bagnold --tier paper".to_owned();
     let report = report(vec![film]);
-    write_alone(&report, &judge(&report), folder.path(), &Drawings::default()).expect("written");
+    write_alone(&judge(&report), folder.path(), &Drawings::default()).expect("written");
     let page = std::fs::read_to_string(folder.path().join("index.html")).expect("a page");
     assert!(page.contains("src=\"figures/velocity-profile.png\"") && !page.contains("../"));
     assert!(page.contains("cargo run -- run bagnold --tier paper"), "as it is typed in a checkout");

@@ -1,6 +1,7 @@
 //! Statuses follow from the numbers; every row is on the page, and its links land.
 
-use super::super::{Report, Severity, judge, papers_page, tests, write};
+use super::super::tests::write;
+use super::super::{Report, Severity, judge, papers_page, tests};
 use super::*;
 use crate::control::{Control, ControlKind, ControlTrial, Found};
 use crate::figure::Figure;

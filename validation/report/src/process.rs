@@ -109,17 +109,16 @@ impl ReportProcess {
         }
         let report = self.report(cases);
         let judgement = judge(&report);
-        super::write_judged(&report, &judgement, self.claimed.staging(), drawings)?;
-        let (exit, text) = self.said(&report, &judgement);
+        super::write(&judgement, self.claimed.staging(), drawings)?;
+        let (exit, text) = self.said(&judgement);
         if let Some(inputs) = self.inputs {
             let kept = unchanged::keep(self.claimed.staging(), inputs, exit, &text);
             kept.map_err(|error| FileError::unwritable(self.claimed.staging(), &error))?;
         }
         self.claimed.publish()?;
         if let Some(path) = &self.request.junit {
-            super::write_junit(&report, &judgement, path)?;
+            super::write_junit(&judgement, path)?;
         }
-        drop(judgement);
         Ok(ReportOutcome { exit, text, cases: report.cases })
     }
 
@@ -144,7 +143,8 @@ impl ReportProcess {
     }
 
     /// The exit code and the verdicts in words: what fails in the order of the cases, then what is at odds with committed values.
-    fn said(&self, report: &Report, judgement: &Judgement<'_>) -> (Exit, String) {
+    fn said(&self, judgement: &Judgement<'_>) -> (Exit, String) {
+        let report = judgement.report;
         let judged = |case: &CaseReport| judgement.cases.iter().find(|judged| std::ptr::eq(judged.case, case));
         let mut text: String = report.cases.iter().filter_map(judged).map(summary::failures).collect();
         text += &format!("written to {}\n", self.request.folder.join("index.html").display());
@@ -154,8 +154,7 @@ impl ReportProcess {
             let (case, metric, variant) = (&failure.case, &failure.metric, &failure.variant);
             format!("EXPECTED FAILURE: {file}: {case} {metric} {variant}: {words}\n")
         }));
-        let moved: Vec<MovedValue> =
-            moved(judgement, &report.baseline).into_iter().filter(|own| own.is_beyond).collect();
+        let moved: Vec<MovedValue> = moved(judgement).into_iter().filter(|own| own.is_beyond).collect();
         text.extend(moved.iter().map(|moved| format!("moved: {moved}\n")));
         let mut exit = judgement.exit();
         if exit == Exit::Held && !moved.is_empty() {

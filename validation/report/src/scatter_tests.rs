@@ -3,7 +3,7 @@
 use super::*;
 use crate::metric::{Confidence, MetricKind, Origin, Variant};
 use crate::store::Drawings;
-use crate::{tests, write};
+use crate::tests::{self, write};
 
 fn compared(name: &str, value: f64, reference: f64) -> Metric {
     Metric::observed(name, &Variant::of("value", value), value, "-").of_kind(MetricKind::Validation).against(

@@ -74,10 +74,10 @@ impl SingleRun {
             ..Report::of(case.name.clone(), case.tier, vec![case])
         };
         let judgement = judge(&report);
-        super::write_alone(&report, &judgement, claimed.staging(), drawings)?;
+        super::write_alone(&judgement, claimed.staging(), drawings)?;
         claimed.publish()?;
         if let Some(path) = &self.junit {
-            super::write_junit(&report, &judgement, path)?;
+            super::write_junit(&judgement, path)?;
         }
         let mut text: String = judgement.cases.iter().map(summary::of_case).collect();
         if judgement.diverged() > 0 {

@@ -53,8 +53,12 @@ pub(super) fn known(case: &str, metric: &str, best_value: f64) -> ExpectedFailur
     }
 }
 
+pub(super) fn write(report: &Report, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
+    super::write(&judge(report), folder, drawings)
+}
+
 pub(super) fn html(report: &Report) -> String {
-    page::render(report, &judge(report), (&[], &[]), Vec::new()).expect("page")
+    page::render(&judge(report), (&[], &[]), Vec::new()).expect("page")
 }
 
 pub(super) fn place(text: &str, part: &str) -> usize {
