@@ -219,7 +219,7 @@ fn validation_data_must_differ_in_physics() {
     assert_eq!(
         refusal(|text| text.replace("conditions = [\"slope_angle\"]\n", ""), str::to_owned),
         "error: plan.toml: `hold_out[0].conditions` is missing, but must be given where `fit[0]` has the same case; name the \
-         parameters that make it differ from what is fitted, such as conditions = [\"slopes\"]"
+         parameters that make it differ from what is fitted, such as conditions = [\"slope_angle\"]"
     );
     assert_eq!(
         refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"slope_angel\"]"), str::to_owned),
