@@ -1,25 +1,14 @@
 //! The water over a moving bed beside that over the same bed at rest: two layers that differ in nothing but that grains may move.
 
 use super::BedLoad1dRecord;
-use super::records::of;
+use super::quantities::{LAYER_SLOPE_RATIO, VELOCITY_DEFICIT};
+use super::records::{SolvedLayer, on_slope};
 use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::{Confidence, Limit, Metric, quantities};
+use crate::metric::{Confidence, Limit, Metric};
 use crate::reference::one_dimension::bed_load::LayerState;
 use crate::shared::percent;
-
-quantities! {
-    shared pub(super)
-    VELOCITY_DEFICIT: stated(
-        "velocity_deficit", "u_*",
-        "water velocity at a height minus the velocity over the same bed with all grains fixed",
-    ),
-    LAYER_SLOPE_RATIO: stated(
-        "layer_slope_ratio", "-",
-        "slope du/d(ln z) of the water from 0.5 to 3 mm above the bed, over the slope above the same bed with all grains fixed",
-    ),
-}
 
 /// The slope on which the paper shows the water with and without moving grains `[-]`.
 const SHOWN_WITH_AND_WITHOUT: f64 = 0.03;
@@ -74,9 +63,9 @@ pub(super) fn metrics(run: &BedLoad1dRun, state: &LayerState, rest: &LayerState)
 }
 
 /// The water over the moving bed and over the same bed at rest, a panel for each slope.
-pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &LayerState)]) -> Figure {
+pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Figure {
     let mut compared = Vec::new();
-    let panel = |&(run, state): &(&BedLoad1dRun, &LayerState)| {
+    let panel = |&(run, state): &SolvedLayer<'_>| {
         let mut panel = Panel::new(
             &percent(run.stream.slope),
             Axis::logarithmic("z/d [-]").between(0.02, 12.0),
@@ -89,8 +78,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[(&BedLoad1dRun, &Lay
             above.map(of).collect::<Vec<_>>()
         };
         panel.line("moving grains", 0, curve(state));
-        let at_rest = of(records, |purpose| *purpose == LayerPurpose::BedAtRest);
-        for (_, rest) in at_rest.filter(|(other, _)| other.stream.slope == run.stream.slope) {
+        for (_, rest) in on_slope(records, run, |purpose| *purpose == LayerPurpose::BedAtRest) {
             panel.reference("the same bed at rest", curve(rest));
             let differences = curve(state).into_iter().zip(curve(rest)).map(|((z, own), (_, rest))| (z, own - rest));
             let found = against_rest(&differences.collect::<Vec<_>>());

@@ -2,13 +2,11 @@
 
 use super::BedLoad1dRecord;
 use super::metrics::difference;
-use super::records::{literature, of};
-use super::run::{BedLoad1dRun, LayerPurpose};
+use super::records::{SolvedLayer, literature, on_slope};
+use super::run::LayerPurpose;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::one_dimension::bed_load::LayerState;
 use crate::shared::{percent, transport_panel};
-
-type SolvedLayer<'a> = (&'a BedLoad1dRun, &'a LayerState);
 
 pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
     let layers: Vec<SolvedLayer<'_>> = literature(records).collect();
@@ -19,7 +17,6 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
     figures.extend(convergence(records, &layers));
     figures.extend(super::onset::figure(records));
     figures.extend(super::others::figure(records));
-    figures.extend(super::suspension::figure(records));
     figures.extend(super::regimes::figure(&layers, super::metrics::MOVING));
     figures.extend(super::sensitivities::figure(records, &layers));
     figures
@@ -118,10 +115,8 @@ fn convergence(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Optio
     for (purpose, title, label) in studies {
         let mut panel = Panel::new(title, Axis::logarithmic("height of a cell [mm]"), Axis::logarithmic(label));
         for (slot, (run, _)) in layers.iter().enumerate() {
-            let study: Vec<&LayerState> = of(records, |other| *other == purpose)
-                .filter(|(other, _)| other.stream.slope == run.stream.slope)
-                .map(|(_, state)| state)
-                .collect();
+            let study = on_slope(records, run, |other| *other == purpose).map(|(_, state)| state);
+            let study: Vec<&LayerState> = study.collect();
             let points: Vec<(f64, f64)> = study
                 .windows(2)
                 .map(|pair| (1e3 * pair[0].cell_height, difference(pair[0], pair[1], purpose)))

@@ -1,57 +1,18 @@
 //! How the layers are judged.
 
-use super::BedLoad1dRecord;
-use super::bed_at_rest;
-use super::others;
-use super::records::{literature, of};
-use super::regimes;
+use super::quantities::{
+    DECAY_LENGTH, DECAY_LENGTH_GROWTH, DRAG_BALANCE_ERROR, DRAG_DEPTH_GROWTH, DRAG_FROM, DRAG_PEAK_HEIGHT, DRAG_TO,
+    GRAIN_CURVATURE, LOGARITHMIC_SLOPE, MEAN_FLUID_VELOCITY, MOTION_DEPTH_GROWTH, MOVES_ABOVE, OBSERVED_ORDER,
+    START_DIFFERENCE, STRESS_BALANCE_ERROR, TOP_OF_GRAINS, TRANSPORT_RATIO,
+};
+use super::records::{SolvedLayer, literature, on_slope};
 use super::run::{BedLoad1dRun, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
-use super::sensitivities::model_input_uncertainty;
-use super::suspension;
+use super::{BedLoad1dRecord, bed_at_rest, onset, others, regimes, sensitivities, suspension};
 use crate::case::Run;
-use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant, quantities};
+use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::reference::one_dimension::bed_load::{LayerState, SAME_STATE};
-use crate::shared::printed_laws;
 use crate::statistics::curvature;
-
-quantities! {
-    [
-        bed_at_rest::VELOCITY_DEFICIT, bed_at_rest::LAYER_SLOPE_RATIO, others::FRACTION_DIFFERENCE, others::GRAIN_VELOCITY_DIFFERENCE, others::FLUID_VELOCITY_DIFFERENCE,
-        others::TURBULENT_STRESS_DIFFERENCE, regimes::ROWS_IN_MOTION, regimes::POWER_LAW_MISFIT_RATIO,
-        regimes::POWER_LAW_MISFIT,
-        regimes::LOWEST_LAYER_EXPONENT, regimes::TRANSPORT_OVER_MEASURED, printed_laws::LAW_ERROR, suspension::DUCT_VELOCITY_DIFFERENCE,
-        suspension::SUSPENDED_TRANSPORT, suspension::SETTLING_RATIO,
-    ]
-    TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over q* of the formula or of a published layer"),
-    TRANSPORT: validated("transport", "-", "q*, the rate of bed load in units of √((s − 1) g d³)"),
-    MEAN_FLUID_VELOCITY: verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity"),
-    STRESS_BALANCE_ERROR: verified("stress_balance_error", "-", "largest imbalance of the stresses of both phases with the weight component above, over the bed stress"),
-    DRAG_BALANCE_ERROR:
-        verified("drag_balance_error", "-", "largest imbalance of drag, grain stress and grain weight, over the bed stress"),
-    START_DIFFERENCE:
-        verified("start_difference", "-", "difference between the steady states from rest and from a fast start"),
-    OBSERVED_ORDER: verified("observed_order", "-", "order of convergence with the height of a cell"),
-    MOVES_ABOVE: verified("moves_above", "mm", "lowest height at which grains are faster than 1 cm/s"),
-    TOP_OF_GRAINS: verified("top_of_grains", "mm", "height up to which there are grains"),
-    DECAY_LENGTH: verified("decay_length", "mm", "e-folding length of the grain velocity in the bed"),
-    GRAIN_CURVATURE: stated("grain_curvature", "u_*/d²", "curvature of the grains' velocity over the height, above or below the bed's level"),
-    DRAG_PEAK_HEIGHT: verified("drag_peak_height", "mm", "height of the largest drag on the grains"),
-    DRAG_FROM: verified("drag_from", "mm", "lower end of the range in which the drag on the grains exceeds a tenth of its peak"),
-    DRAG_TO: verified("drag_to", "mm", "upper end of the range in which the drag on the grains exceeds a tenth of its peak"),
-    LOGARITHMIC_SLOPE:
-        verified("logarithmic_slope", "-", "slope of the water's velocity over ln z in a range of heights, over u_*/κ"),
-    MOTION_DEPTH_GROWTH:
-        stated("motion_depth_growth", "-", "least ratio of the depth of motion from a slope to the next"),
-    DECAY_LENGTH_GROWTH: stated("decay_length_growth", "-", "least ratio of the decay length from a slope to the next"),
-    DRAG_DEPTH_GROWTH: stated("drag_depth_growth", "-", "least ratio, from a slope to the next, of the depth down to which the drag exceeds a tenth of its peak"),
-    ONSET_RATIO: validated("onset_ratio", "-", "Shields number at the onset of motion over Shields' curve"),
-    ONSET: validated("onset", "-", "Shields number at the onset of motion"),
-    ONSET_OVER_MEASURED:
-        validated("onset_over_measured", "-", "Shields number at the onset of motion over the median of thresholds measured with grains of this size"),
-    TRANSPORT_SENSITIVITY:
-        verified("transport_sensitivity", "-", "q* with one closure replaced, over q* with the closures of the literature"),
-}
 
 /// Speed above which a grain counts as moving `[m/s]`.
 pub(super) const MOVING: f64 = 0.01;
@@ -70,83 +31,57 @@ const STUDIED_ABOVE: f64 = -0.01;
 
 const MODEL: &str = "the layer's own equations";
 
+const SCATTER: &str = "the scatter of the formula's own data";
+
 pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, state) in literature(records) {
         transport(&mut metrics, records, run, state);
         balances(&mut metrics, run, state);
-        let on_slope = |other: &BedLoad1dRun| other.stream.slope == run.stream.slope;
-        for (_, other) in
-            of(records, |purpose| matches!(purpose, LayerPurpose::FastStart(_))).filter(|(run, _)| on_slope(run))
-        {
-            start(&mut metrics, run, state, other);
+        for (_, fast) in on_slope(records, run, |purpose| matches!(purpose, LayerPurpose::FastStart(_))) {
+            start(&mut metrics, run, state, fast);
         }
-        for (purpose, limit) in [(LayerPurpose::DilatingOrder, 1.0), (LayerPurpose::FrozenOrder, 1.8)] {
-            let study: Vec<&LayerState> = of(records, |other| *other == purpose)
-                .filter(|(run, _)| on_slope(run))
-                .map(|(_, state)| state)
-                .collect();
-            order(&mut metrics, run, &study, purpose, limit);
-        }
+        metrics.extend(order(records, run, LayerPurpose::DilatingOrder, 1.0));
+        metrics.extend(order(records, run, LayerPurpose::FrozenOrder, 1.8));
         profiles(&mut metrics, run, state);
-        if let Some((_, rest)) =
-            of(records, |purpose| *purpose == LayerPurpose::BedAtRest).find(|(run, _)| on_slope(run))
-        {
+        if let Some((_, rest)) = on_slope(records, run, |purpose| *purpose == LayerPurpose::BedAtRest).next() {
             metrics.extend(bed_at_rest::metrics(run, state, rest));
         }
         metrics.extend(regimes::metrics(run, state, MOVING));
     }
     similar(&mut metrics, records);
-    second_states(&mut metrics, records);
-    metrics.extend(super::onset::metrics(records, [ONSET_RATIO, ONSET, ONSET_OVER_MEASURED], START_DIFFERENCE));
-    metrics.extend(others::metrics(records, TRANSPORT_RATIO, TRANSPORT, START_DIFFERENCE));
-    metrics.extend(suspension::metrics(records, TRANSPORT));
+    metrics.extend(onset::metrics(records));
+    metrics.extend(others::metrics(records));
+    metrics.extend(suspension::metrics(records));
     with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
-    for (run, state) in of(records, |purpose| matches!(purpose, LayerPurpose::Sensitivity(_))) {
-        if let Some((_, own)) = literature(records).find(|(other, _)| other.stream.slope == run.stream.slope) {
-            let ratio = state.transport() / own.transport();
-            metrics.push(
-                TRANSPORT_SENSITIVITY
-                    .of(&run.variant(), ratio)
-                    .against(Some(1.0), "the layer with the literature's closures", Confidence::Exact)
-                    .with_snapshot_tolerance(1e-3, 0.0),
-            );
-        }
-    }
+    metrics.extend(sensitivities::metrics(records));
     metrics
 }
 
-/// Transport against the formula.
-fn transport(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord], run: &BedLoad1dRun, state: &LayerState) {
+/// Transport over that of the formula, judged where the layer is one of bed load; none where the formula has no transport.
+fn over_formula(variant: &Variant, run: &BedLoad1dRun, state: &LayerState, reason: &str) -> Option<Metric> {
     let formula = TransportFormula::WongParker;
     let expected = formula.transport(run.stream.shields_number());
-    let variant = run.variant();
-    if expected > 0.0 {
-        let metric = TRANSPORT_RATIO
-            .of(&variant, state.transport() / expected)
-            .against(Some(1.0), formula.name(), formula.confidence())
-            .gated_by(
-                is_bed_load(run).then_some(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1)),
-                "nine tenths of measured rates lie so about the formula, and the closures leave as much open: the length \
-                 over which the bed's roughness fades is no literature's, and from 0.01 to 0.3 grain diameters takes the ratio at 2 % \
-                 from 1.15 to 0.33",
-            )
-            .with_snapshot_tolerance(1e-3, 0.0);
-        metrics.push(match model_input_uncertainty(records, run, state) {
-            Some((standard, source)) => metric.known_to(Origin::Input, Some(standard), &source),
-            None => metric,
-        });
-    }
-    if is_bed_load(run) {
-        metrics.extend(regimes::beside_measured(run, state, model_input_uncertainty(records, run, state)));
-    }
-    metrics.push(
-        TRANSPORT
-            .of(&variant, state.transport())
-            .against(Some(expected), formula.name(), formula.confidence())
-            .with_snapshot_tolerance(1e-3, 0.0),
+    let limit = is_bed_load(run).then_some(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1));
+    let metric = || TRANSPORT_RATIO.of(variant, state.transport() / expected);
+    (expected > 0.0).then(|| metric().against(Some(1.0), formula.name(), formula.confidence()).gated_by(limit, reason))
+}
+
+/// Transport against the formula and against measured runs.
+fn transport(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord], run: &BedLoad1dRun, state: &LayerState) {
+    let reason = "nine tenths of measured rates lie so about the formula, and the closures leave as much open: the length over which \
+                  the bed's roughness fades is no literature's, and from 0.01 to 0.3 grain diameters takes the ratio at 2 % from 1.15 \
+                  to 0.33";
+    let (input, words) = sensitivities::model_input_uncertainty(records, run, state);
+    let ratio = over_formula(&run.variant(), run, state, reason);
+    metrics.extend(
+        ratio.map(|ratio| ratio.known_to(Origin::Input, Some(input), &words).with_snapshot_tolerance(1e-3, 0.0)),
     );
-    metrics.push(MEAN_FLUID_VELOCITY.of(&variant, state.mean_fluid_velocity()).with_snapshot_tolerance(1e-3, 0.0));
+    if is_bed_load(run) {
+        metrics.extend(regimes::beside_measured(run, state, input, &words));
+    }
+    metrics
+        .push(MEAN_FLUID_VELOCITY.of(&run.variant(), state.mean_fluid_velocity()).with_snapshot_tolerance(1e-3, 0.0));
 }
 
 /// Whether the layer is one of bed load: elsewhere no formula of bed load judges it.
@@ -154,49 +89,20 @@ fn is_bed_load(run: &BedLoad1dRun) -> bool {
     run.stream.outside_bed_load().is_none()
 }
 
-/// The other state of a layer that has two.
-fn second_variant(run: &BedLoad1dRun) -> Variant {
-    run.variant().and("start", "fast")
-}
-
-/// Both states of layers with other closures and of those of others, where there are two.
-fn second_states(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord]) {
-    for (run, record) in records.iter().filter(|(run, _)| run.purpose != LayerPurpose::Similar) {
-        let Some(second) = &record.data.second else { continue };
-        metrics.push(TRANSPORT.of(&second_variant(run), second.transport()));
-        if matches!(run.purpose, LayerPurpose::Sensitivity(_)) {
-            metrics.push(START_DIFFERENCE.of(&run.variant(), record.data.start_difference));
-        }
-    }
-}
-
-/// The layer of a sweep: judged where the layer is one of bed load, and both of its states if there are two.
+/// The layer of a sweep, and both of its states if there are two.
 fn similar(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord]) {
-    let formula = TransportFormula::WongParker;
     for (run, record) in records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Similar) {
-        let expected = formula.transport(run.stream.shields_number());
-        let mut state = |variant: &Variant, state: &LayerState| {
-            metrics.push(TRANSPORT.of(variant, state.transport()).against(
-                Some(expected),
-                formula.name(),
-                formula.confidence(),
-            ));
-            if expected > 0.0 {
-                let limit = Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1);
-                metrics.push(
-                    TRANSPORT_RATIO
-                        .of(variant, state.transport() / expected)
-                        .against(Some(1.0), formula.name(), formula.confidence())
-                        .gated_by(is_bed_load(run).then_some(limit), "the scatter of the formula's own data"),
-                );
-            }
-        };
-        state(&run.variant(), &record.data.state);
-        if let Some(second) = &record.data.second {
-            state(&second_variant(run), second);
-        }
-        metrics.push(START_DIFFERENCE.of(&run.variant(), record.data.start_difference));
+        let data = &record.data;
+        metrics.extend(over_formula(&run.variant(), run, &data.state, SCATTER));
+        let second = data.second.as_ref();
+        metrics.extend(second.and_then(|second| over_formula(&second_variant(run), run, second, SCATTER)));
+        metrics.push(START_DIFFERENCE.of(&run.variant(), data.start_difference));
     }
+}
+
+/// The other state of a layer that has two.
+pub(super) fn second_variant(run: &BedLoad1dRun) -> Variant {
+    run.variant().and("start", "fast")
 }
 
 /// Both balances of momentum.
@@ -213,7 +119,7 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
         metrics.push(
             quantity
                 .of(&run.variant(), error)
-                .against(Some(0.0), identity, Confidence::Exact)
+                .exactly(0.0, identity)
                 .gated(
                     Limit::AtMost(largest),
                     "exact in a steady state for any closure; a smaller `steady_change` brings it down",
@@ -227,33 +133,36 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
     let difference = rest.start_difference(fast);
     if difference > SAME_STATE {
-        metrics.push(TRANSPORT.of(&run.variant().and("second", "fast"), fast.transport()));
+        metrics.extend(over_formula(&run.variant().and("second", "fast"), run, fast, SCATTER));
     }
     // the two starts of the runs behind it, as one word
     let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
-    metrics.push(
-        START_DIFFERENCE
-            .of(&variant, difference)
-            .against(Some(0.0), "the layer from rest: q*, u_f and φ u_s", Confidence::Exact)
-            .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
-            .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE),
-    );
+    metrics.push(one_state(&variant, difference, "the layer from rest: q*, u_f and φ u_s"));
+}
+
+/// The difference of the states from two starts, judged.
+pub(super) fn one_state(variant: &Variant, difference: f64, source: &str) -> Metric {
+    START_DIFFERENCE
+        .of(variant, difference)
+        .exactly(0.0, source)
+        .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
+        .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE)
 }
 
 /// The order of convergence: from the profiles where the fraction is given, from q* where it is not. The topmost grains
 /// end inside a cell, so that profiles of a dilating layer converge everywhere but there.
-fn order(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, study: &[&LayerState], purpose: LayerPurpose, least: f64) {
+fn order(records: &[BedLoad1dRecord], run: &BedLoad1dRun, purpose: LayerPurpose, least: f64) -> Option<Metric> {
+    let study: Vec<&LayerState> = on_slope(records, run, |other| *other == purpose).map(|(_, state)| state).collect();
     let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], purpose)).collect();
-    let [.., coarse, fine] = differences[..] else { return };
+    let [.., coarse, fine] = differences[..] else { return None };
     let heights = Value::list(study.iter().map(|state| state.cell_height));
     let variant = Variant::of("slope", run.stream.slope).and("grains", purpose.grains()).and("cell_height", heights);
-    metrics.push(
-        OBSERVED_ORDER
-            .of(&variant, libm::log2(coarse / fine))
-            .against(Some(2.0), MODEL, Confidence::Exact)
-            .gated(Limit::AtLeast(least), "second order with a given fraction, at least first with dilation")
-            .with_snapshot_tolerance(0.02, 0.0),
-    );
+    let metric = OBSERVED_ORDER
+        .of(&variant, libm::log2(coarse / fine))
+        .exactly(2.0, MODEL)
+        .gated(Limit::AtLeast(least), "second order with a given fraction, at least first with dilation")
+        .with_snapshot_tolerance(0.02, 0.0);
+    Some(metric)
 }
 
 /// What is taken for the error of the coarser of two layers `[-]`.
@@ -316,7 +225,7 @@ fn grains_beside(run: &BedLoad1dRun, state: &LayerState, range: std::ops::Range<
 }
 
 /// What must grow from slope to slope: the smallest ratio of two neighbours.
-fn with_slope(metrics: &mut Vec<Metric>, layers: &[(&BedLoad1dRun, &LayerState)]) {
+fn with_slope(metrics: &mut Vec<Metric>, layers: &[SolvedLayer<'_>]) {
     let mut layers = layers.to_vec();
     layers.sort_by(|a, b| a.0.stream.slope.total_cmp(&b.0.stream.slope));
     if layers.len() < 2 {

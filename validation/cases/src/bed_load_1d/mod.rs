@@ -9,6 +9,7 @@ mod onset;
 mod onset_criterion;
 mod others;
 mod parameters;
+mod quantities;
 mod records;
 mod regimes;
 mod replacements;
@@ -29,6 +30,7 @@ use crate::case::{Case, RecordOf, Run};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::reference::one_dimension::bed_load::LayerPoint;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -55,7 +57,7 @@ impl Case for BedLoad1d {
         closure (paper tier). The layer is also the reference of `bed-load`. Both share their closures, so their \
         agreement verifies the particles and does not validate the physics.";
     type Parameters = BedLoad1dParameters;
-    const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
+    const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
     fn metrics(_: &BedLoad1dParameters, records: &[BedLoad1dRecord]) -> Vec<Metric> {
         metrics::all(records).into_iter().chain(laws::metrics()).collect()
@@ -72,38 +74,21 @@ impl Case for BedLoad1d {
 
 /// Profiles of a layer, cell by cell; what stands at the faces is interpolated.
 fn profile_table((run, record): &BedLoad1dRecord) -> Table {
-    let columns = [
-        "z [m]",
-        "solid fraction [-]",
-        "u_f [m/s]",
-        "u_s [m/s]",
-        "K [kg/(m³ s)]",
-        "drag [N/m³]",
-        "p' [Pa]",
-        "tau_f [Pa]",
-        "tau_s [Pa]",
-        "mixing length [m]",
-    ];
     let state = &record.data.state;
-    let drag = state.drag();
-    let row = |(k, &z): (usize, &f64)| {
-        let point = state.at(z);
-        vec![
-            z,
-            point.solid_fraction,
-            point.fluid_velocity,
-            point.grain_velocity,
-            point.exchange,
-            drag[k],
-            point.grain_pressure,
-            point.fluid_stress,
-            point.grain_stress,
-            point.mixing_length,
-        ]
-    };
-    Table {
-        name: format!("profile-{}", run.variant().file_name()),
-        columns: columns.map(str::to_owned).to_vec(),
-        rows: state.height.iter().enumerate().map(row).collect(),
-    }
+    let points: Vec<LayerPoint> = state.height.iter().map(|&z| state.at(z)).collect();
+    let of = |value: fn(&LayerPoint) -> f64| points.iter().map(value).collect::<Vec<f64>>();
+    let columns = [
+        ("z [m]", state.height.clone()),
+        ("solid fraction [-]", of(|point| point.solid_fraction)),
+        ("u_f [m/s]", of(|point| point.fluid_velocity)),
+        ("u_s [m/s]", of(|point| point.grain_velocity)),
+        ("K [kg/(m³ s)]", of(|point| point.exchange)),
+        ("drag [N/m³]", state.drag()),
+        ("p' [Pa]", of(|point| point.grain_pressure)),
+        ("tau_f [Pa]", of(|point| point.fluid_stress)),
+        ("tau_s [Pa]", of(|point| point.grain_stress)),
+        ("mixing length [m]", of(|point| point.mixing_length)),
+    ];
+    let columns = columns.each_ref().map(|(heading, values)| (*heading, &values[..]));
+    Table::of_columns(format!("profile-{}", run.variant().file_name()), &columns)
 }

@@ -8,113 +8,71 @@
 //! which experimenters tell it: every criterion is judged by the band of the thresholds that they measured with grains of that size.
 
 use super::BedLoad1dRecord;
-use super::onset_criterion::{CRITERIA, Crossing};
-use super::run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
+use super::metrics::one_state;
+use super::onset_criterion::{CRITERIA, OnsetCriterion};
+use super::quantities::ONSET_OVER_MEASURED;
+use super::run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::metric::{Confidence, Limit, Metric, Origin, Quantity};
-use crate::reference::bed_load::{
-    MOTION_THRESHOLDS, ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence,
-};
+use crate::metric::{Limit, Metric, Origin};
+use crate::reference::bed_load::{MOTION_THRESHOLDS, ONSET_SCATTER, ONSET_SOURCE, critical_shields_number};
 
 /// Colour of the measured thresholds, beyond those of the criteria.
 const MEASURED_SLOT: usize = 6;
-
-fn expected(run: &BedLoad1dRun) -> f64 {
-    critical_shields_number(run.stream.dimensionless_diameter())
-}
 
 fn tables(records: &[BedLoad1dRecord]) -> impl Iterator<Item = (&BedLoad1dRun, &BedLoadLayerObservation)> {
     records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Onset).map(|(run, record)| (run, &record.data))
 }
 
-/// Onsets and how far the starts differ.
-pub(super) fn metrics(
-    records: &[BedLoad1dRecord],
-    [ratio, onset, over_measured]: [Quantity; 3],
-    start: Quantity,
-) -> Vec<Metric> {
+/// Onsets beside measured thresholds, and how far the starts differ.
+pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, data) in tables(records) {
-        let scan = data.scan.as_slice();
-        for (criterion, name) in CRITERIA {
-            let variant = run.variant().and("criterion", name);
-            let crossing = criterion.onset(scan);
-            let found = crossing.value();
-            let source = format!("{ONSET_SOURCE}{}", crossing.remark());
-            metrics.push(
-                ratio
-                    .of(&variant, found / expected(run))
-                    .against(Some(1.0), &source, onset_confidence())
-                    .with_snapshot_tolerance(0.01, 0.0),
-            );
-            metrics.push(
-                onset
-                    .of(&variant, found)
-                    .against(Some(expected(run)), &source, onset_confidence())
-                    .with_snapshot_tolerance(0.01, 0.0),
-            );
-            let creep = (criterion.onset(&data.scan_at_half_rate).value() / found - 1.0).abs();
-            let known_to = ScanUncertainty { bend: criterion.bend(scan), creep };
-            metrics.extend(beside_measured(over_measured.of(&variant, found), run, crossing, known_to));
-        }
-        metrics.push(
-            start
-                .of(&run.variant(), data.start_difference)
-                .against(Some(0.0), "the layers from rest, all Shields numbers", Confidence::Exact)
-                .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
-                .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE),
-        );
+        metrics.extend(CRITERIA.iter().filter_map(|(criterion, name)| beside_measured(run, data, *criterion, name)));
+        metrics.push(one_state(&run.variant(), data.start_difference, "the layers from rest, all Shields numbers"));
     }
     metrics
 }
 
-/// What the onset of a scan is known to, relative `[-]`.
-#[derive(Debug, Clone, Copy)]
-struct ScanUncertainty {
-    /// By the distance of its Shields numbers.
-    bend: f64,
-    /// By the creep of a bed whose yield is regularised.
-    creep: f64,
-}
-
 /// An onset over the median of the thresholds measured with grains of its size; none where too few were.
 fn beside_measured(
-    metric: Metric,
     run: &BedLoad1dRun,
-    crossing: Crossing,
-    ScanUncertainty { bend, creep }: ScanUncertainty,
+    data: &BedLoadLayerObservation,
+    criterion: OnsetCriterion,
+    name: &str,
 ) -> Option<Metric> {
     let thresholds = &*MOTION_THRESHOLDS;
     let band = thresholds.band(run.stream.dimensionless_diameter())?;
     let (lower, upper) = band.bounds;
-    let value = metric.value / band.median;
+    let crossing = criterion.onset(&data.scan);
+    let value = crossing.value() / band.median;
+    let creep = (criterion.onset(&data.scan_at_half_rate).value() / crossing.value() - 1.0).abs();
     let remark = crossing.remark();
     let source = format!("median of {} measured thresholds, {}{remark}", band.number, thresholds.source);
-    Some(
-        Metric { value, ..metric }
-            .against(Some(1.0), &source, thresholds.confidence)
-            .known_to(
-                Origin::Experiment,
-                Some(band.deviation / band.median),
-                "half of the width of the middle two thirds of the thresholds with grains within a factor of two in size",
-            )
-            .known_to(
-                Origin::Numerical,
-                Some(value * bend),
-                "distance of the straight line in logarithms between two Shields numbers of the scan to the parabola through three",
-            )
-            .known_to(
-                Origin::Numerical,
-                Some(value * creep),
-                "what half the rate of the regularised yield adds, of about twice as much that no creep would",
-            )
-            .gated(
-                Limit::Within(lower / band.median, upper / band.median),
-                "nine tenths of the measured thresholds of grains within a factor of two in size lie there, whatever their authors took for motion",
-            )
-            .with_snapshot_tolerance(0.01, 0.0),
-    )
+    let metric = ONSET_OVER_MEASURED
+        .of(&run.variant().and("criterion", name), value)
+        .against(Some(1.0), &source, thresholds.confidence)
+        .known_to(
+            Origin::Experiment,
+            Some(band.deviation / band.median),
+            "half of the width of the middle two thirds of the thresholds with grains within a factor of two in size",
+        )
+        .known_to(
+            Origin::Numerical,
+            Some(value * criterion.bend(&data.scan)),
+            "distance of the straight line in logarithms between two Shields numbers of the scan to the parabola through three",
+        )
+        .known_to(
+            Origin::Numerical,
+            Some(value * creep),
+            "what half the rate of the regularised yield adds, of about twice as much that no creep would",
+        )
+        .gated(
+            Limit::Within(lower / band.median, upper / band.median),
+            "nine tenths of the measured thresholds of grains within a factor of two in size lie there, whatever their authors took for motion",
+        )
+        .with_snapshot_tolerance(0.01, 0.0);
+    Some(metric)
 }
 
 /// Onset over the grain size, and the transport about it.
@@ -154,7 +112,8 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     }
     for (slot, (run, data)) in tables(records).enumerate() {
         let label = format!("{} mm", 1e3 * run.stream.grain_diameter);
-        let points = data.scan.iter().map(|&(tau, transport)| (tau / expected(run), transport)).collect();
+        let expected = critical_shields_number(run.stream.dimensionless_diameter());
+        let points = data.scan.iter().map(|&(tau, transport)| (tau / expected, transport)).collect();
         rates.series.push(Series::new(&label, Mark::LinePoints, slot, points));
     }
     (!rates.series.is_empty()).then(|| Figure::new("onset", &caption, vec![curve, rates]))

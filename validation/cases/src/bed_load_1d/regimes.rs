@@ -1,31 +1,20 @@
 //! How grains move: how many rows of them at once, whether the water among them follows a power of the height, and what streams of
 //! about the same Shields number carried in flumes.
 
+use super::quantities::{
+    LOWEST_LAYER_EXPONENT, POWER_LAW_MISFIT, POWER_LAW_MISFIT_RATIO, ROWS_IN_MOTION, TRANSPORT_OVER_MEASURED,
+};
+use super::records::SolvedLayer;
 use super::run::BedLoad1dRun;
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::{Confidence, Limit, Metric, Origin, quantities};
+use crate::metric::{Confidence, Limit, Metric, Origin};
 use crate::reference::bed_load::{
     LOWEST_LAYER_TOP, MeasuredRates, SHEET_FLOW_LOWEST_VELOCITY, TransportFormula, measured_rates_about,
 };
 use crate::reference::one_dimension::bed_load::LayerState;
 use crate::shared::percent;
 use crate::statistics::{Exponent, linear_fit, power_law};
-
-quantities! {
-    shared pub(super)
-    ROWS_IN_MOTION: stated("rows_in_motion", "-", "number of packed rows formed by all grains faster than 1 cm/s"),
-    POWER_LAW_MISFIT_RATIO: stated(
-        "power_law_misfit_ratio", "-",
-        "rms misfit of the water's velocity among moving grains to a power of the height over that to its logarithm",
-    ),
-    POWER_LAW_MISFIT: stated("power_law_misfit", "%", "rms misfit of the water's velocity among moving grains to a power of the height, over the largest velocity there"),
-    LOWEST_LAYER_EXPONENT: validated("lowest_layer_exponent", "-", "exponent of the power of the height that fits the water's velocity in the lowest layer"),
-    TRANSPORT_OVER_MEASURED: validated(
-        "transport_over_measured", "-",
-        "q* over the median of measured runs at nearly equal Shields number",
-    ),
-}
 
 /// Fewest cells that a power is fitted to.
 const FEWEST: usize = 6;
@@ -81,66 +70,56 @@ pub(super) fn metrics(run: &BedLoad1dRun, state: &LayerState, speed: f64) -> Vec
                   over lower ones, which takes more than a row";
     let power = "statement of the bed-load paper after Sumer et al.: in the lowest layer the profile is a power law and bends in \
                  half-logarithmic axes, where a logarithm is straight";
-    let mut metrics = vec![
-        ROWS_IN_MOTION
-            .of(&variant, rows_in_motion(run, state, speed))
-            .against(None, single, Confidence::Medium)
-            .with_snapshot_tolerance(1e-3, 0.0),
-    ];
+    let rows = ROWS_IN_MOTION.of(&variant, rows_in_motion(run, state, speed)).against(None, single, Confidence::Medium);
+    let mut metrics = vec![rows.with_snapshot_tolerance(1e-3, 0.0)];
     let points = lowest_layer(run, state, speed);
     let (measured, law) = (&*SHEET_FLOW_LOWEST_VELOCITY, power_law(&points).filter(|_| points.len() >= FEWEST));
     if let (Some(law), Some(misfit)) = (law, PowerMisfit::of(&points)) {
-        metrics.extend([
-            POWER_LAW_MISFIT
-                .of(&variant, 100.0 * misfit.relative)
-                .against(None, power, Confidence::Medium)
-                .with_snapshot_tolerance(0.01, 0.0),
-            POWER_LAW_MISFIT_RATIO
-                .of(&variant, misfit.over_logarithm)
-                .against(None, power, Confidence::Medium)
-                .with_snapshot_tolerance(0.01, 0.0),
-            LOWEST_LAYER_EXPONENT
-                .of(&variant, law.value)
-                .against(Some(measured.law.value), &measured.source, measured.confidence)
-                .known_to(
-                    Origin::Digitisation,
-                    Some(measured.law.standard_error),
-                    "standard error of the fit to their points",
-                )
-                .known_to(Origin::Numerical, Some(law.standard_error), "standard error of the fit to the cells")
-                .with_snapshot_tolerance(0.01, 0.0),
-        ]);
+        let misfits = [
+            POWER_LAW_MISFIT.of(&variant, 100.0 * misfit.relative),
+            POWER_LAW_MISFIT_RATIO.of(&variant, misfit.over_logarithm),
+        ];
+        let exponent = LOWEST_LAYER_EXPONENT
+            .of(&variant, law.value)
+            .against(Some(measured.law.value), &measured.source, measured.confidence)
+            .known_to(
+                Origin::Digitisation,
+                Some(measured.law.standard_error),
+                "standard error of the fit to their points",
+            )
+            .known_to(Origin::Numerical, Some(law.standard_error), "standard error of the fit to the cells");
+        let misfits = misfits.map(|misfit| misfit.against(None, power, Confidence::Medium));
+        metrics.extend(misfits.into_iter().chain([exponent]).map(|own| own.with_snapshot_tolerance(0.01, 0.0)));
     }
     metrics
 }
 
-/// Transport against the runs of flumes at about the same Shields number; none where there are too few.
-pub(super) fn beside_measured(run: &BedLoad1dRun, state: &LayerState, input: Option<(f64, String)>) -> Option<Metric> {
+/// Transport against the runs of flumes at about the same Shields number, with the uncertainty of the ratio to the formula by the
+/// closures; none where there are too few.
+pub(super) fn beside_measured(run: &BedLoad1dRun, state: &LayerState, input: f64, words: &str) -> Option<Metric> {
     let shields = run.stream.shields_number();
     let MeasuredRates { median, bounds, deviation, number, source, confidence } = measured_rates_about(shields)?;
     let expected = median * TransportFormula::WongParker.transport(shields);
-    let (input, words) = input.unwrap_or((f64::NAN, String::new()));
-    Some(
-        TRANSPORT_OVER_MEASURED
-            .of(&run.variant(), state.transport() / expected)
-            .against(Some(1.0), &format!("median of {number} runs, {source}"), confidence)
-            .known_to(
-                Origin::Experiment,
-                Some(deviation / median),
-                "half of the width of the middle two thirds of the runs within a factor of 1.3 in the Shields number, each over Wong & \
-                 Parker's formula",
-            )
-            .known_to(Origin::Input, Some(input / median), &words)
-            .gated(
-                Limit::Within(bounds.0 / median, bounds.1 / median),
-                "nine tenths of the measured runs within a factor of 1.3 in the Shields number lie there, each over Wong & Parker's formula",
-            )
-            .with_snapshot_tolerance(1e-3, 0.0),
-    )
+    let metric = TRANSPORT_OVER_MEASURED
+        .of(&run.variant(), state.transport() / expected)
+        .against(Some(1.0), &format!("median of {number} runs, {source}"), confidence)
+        .known_to(
+            Origin::Experiment,
+            Some(deviation / median),
+            "half of the width of the middle two thirds of the runs within a factor of 1.3 in the Shields number, each over Wong & \
+             Parker's formula",
+        )
+        .known_to(Origin::Input, Some(input / median), words)
+        .gated(
+            Limit::Within(bounds.0 / median, bounds.1 / median),
+            "nine tenths of the measured runs within a factor of 1.3 in the Shields number lie there, each over Wong & Parker's formula",
+        )
+        .with_snapshot_tolerance(1e-3, 0.0);
+    Some(metric)
 }
 
 /// The water among moving grains beside the measured sheet flow.
-pub(super) fn figure(layers: &[(&BedLoad1dRun, &LayerState)], speed: f64) -> Option<Figure> {
+pub(super) fn figure(layers: &[SolvedLayer<'_>], speed: f64) -> Option<Figure> {
     let measured = &*SHEET_FLOW_LOWEST_VELOCITY;
     let mut panel = Panel::new(
         "",

@@ -158,14 +158,9 @@ impl Run for BedLoad1dRun {
             LayerPurpose::FastStart(speed) => InitialVelocity::Moving(speed),
             _ => InitialVelocity::Rest,
         };
-        let both = self.has_both_starts();
         let layer = self.layer().map_err(refused)?;
-        let approach = layer.approach_unless(start, &is_interrupted).map_err(refused)?;
-        let fast = if both {
-            Some(layer.approach_unless(layer.fast_start(), &is_interrupted).map_err(refused)?)
-        } else {
-            None
-        };
+        let approach = approach(&layer, start)?;
+        let fast = self.has_both_starts().then(|| self::approach(&layer, layer.fast_start())).transpose()?;
         let mut done = Done::of(&approach, fast.as_ref());
         let (mut scan, mut scan_at_half_rate) = (Vec::new(), Vec::new());
         if self.purpose == LayerPurpose::Onset {
@@ -232,6 +227,17 @@ impl Done {
             unsteady: slow.unsteady.clone().or_else(|| fast.and_then(|fast| fast.unsteady.clone())),
         }
     }
+
+    fn add(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.difference = self.difference.max(other.difference);
+        self.unsteady = self.unsteady.take().or(other.unsteady);
+    }
+}
+
+/// The steps of a layer from a start to its steady state.
+fn approach(layer: &BedLoadLayer, start: InitialVelocity) -> Result<Approach, ParameterError> {
+    layer.approach_unless(start, &is_interrupted).map_err(refused)
 }
 
 impl BedLoad1dRun {
@@ -275,9 +281,8 @@ impl BedLoad1dRun {
         let transport = |&(shields_number, _): &(f64, f64)| {
             let stream = scaled(&self.stream, shields_number / own);
             let layer = BedLoadLayer { stream, closures, ..self.layer().map_err(refused)? };
-            let slow = layer.approach_unless(InitialVelocity::Rest, &is_interrupted).map_err(refused)?;
-            done.steps += slow.steps;
-            done.unsteady = done.unsteady.take().or(slow.unsteady);
+            let slow = approach(&layer, InitialVelocity::Rest)?;
+            done.add(Done::of(&slow, None));
             Ok((shields_number, slow.state.transport()))
         };
         scan.iter().map(transport).collect()
@@ -286,12 +291,8 @@ impl BedLoad1dRun {
     /// Shields number and transport of a stream, from both starts.
     fn scanned(&self, stream: Stream, done: &mut Done) -> Result<(f64, f64), ParameterError> {
         let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
-        let slow = layer.approach_unless(InitialVelocity::Rest, &is_interrupted).map_err(refused)?;
-        let fast = layer.approach_unless(layer.fast_start(), &is_interrupted).map_err(refused)?;
-        let both = Done::of(&slow, Some(&fast));
-        done.steps += both.steps;
-        done.difference = done.difference.max(both.difference);
-        done.unsteady = done.unsteady.take().or(both.unsteady);
+        let slow = approach(&layer, InitialVelocity::Rest)?;
+        done.add(Done::of(&slow, Some(&approach(&layer, layer.fast_start())?)));
         Ok((stream.shields_number(), slow.state.transport()))
     }
 

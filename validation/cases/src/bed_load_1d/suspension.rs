@@ -2,35 +2,21 @@
 
 use super::BedLoad1dRecord;
 use super::parameters::check_cells;
-use super::records::of;
+use super::quantities::{DUCT_VELOCITY_DIFFERENCE, SETTLING_RATIO, SUSPENDED_TRANSPORT};
+use super::records::{InputSpread, of, on_slope};
 use super::run::{BedLoad1dRun, LayerPurpose};
 use super::suspension_inputs::{SuspendedFlow, SuspensionInput, SuspensionInputs};
 use crate::case::{ParameterError, Run};
-use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, quantities};
+use crate::figure::{Axis, Mark, Panel, Series};
+use crate::metric::{Metric, Origin};
 use crate::reference::bed_load::{MeasuredBedLoad, SHEET_FLOW_LOWEST_VELOCITY};
 use crate::reference::one_dimension::bed_load::{Closures, LayerState, STEADY, Stream};
-
-quantities! {
-    shared pub(super)
-    DUCT_VELOCITY_DIFFERENCE: validated(
-        "duct_velocity_difference", "%",
-        "√⟨(u_f − u_published)²⟩ over the largest published velocity, heights from the level below which grains rest",
-    ),
-    SETTLING_RATIO: verified(
-        "settling_ratio", "-", "settling velocity of a grain over u_*: eddies carry grains up to about 1.25 (Bagnold 1966)",
-    ),
-    SUSPENDED_TRANSPORT: verified("suspended_transport", "-", "q* with eddies that carry grains over q* without them"),
-}
 
 /// Shields number and height of the largest velocity, over d, of the duct `[-]`.
 const DUCT: (f64, f64) = (1.4, 22.0);
 
 /// Speed of grains at the level below which they rest, and the range of it, over u_* `[-]`: the source states no level.
 const RESTING: (f64, f64, f64) = (0.1, 0.03, 1.0);
-
-/// Largest ratio of transports, above or below `[-]`.
-const TRANSPORT_FACTOR: f64 = 1.5;
 
 /// Plastic grains of 3 mm and density 1.27, as those of the duct are said to be.
 fn duct() -> Stream {
@@ -123,7 +109,7 @@ pub(super) fn runs(
 }
 
 /// Suspended layers of a flow.
-fn layers(
+pub(super) fn layers(
     records: &[BedLoad1dRecord],
     flow: SuspendedFlow,
 ) -> impl Iterator<Item = (SuspensionInput, &BedLoad1dRun, &LayerState)> {
@@ -131,53 +117,40 @@ fn layers(
         .filter_map(|(run, state)| Some((run.purpose.suspended()?.1, run, state)))
 }
 
-/// Standard uncertainties of a value from the inputs and from the height of a cell, with what they are.
-///
-/// The range of an input is the spread between its ends, taken for an even one.
-pub(super) fn spread(
+/// What a value of a flow is over the ranges of its inputs, and its standard uncertainty by the height of a cell.
+fn spread(
     records: &[BedLoad1dRecord],
     flow: SuspendedFlow,
     value: impl Fn(&BedLoad1dRun, &LayerState) -> f64,
-) -> Option<(f64, f64, String)> {
-    let own = layers(records, flow).find(|(input, ..)| *input == SuspensionInput::Own)?;
-    let own = value(own.1, own.2);
-    let mut ranges: Vec<(&str, f64, f64)> = Vec::new();
-    let mut numerical = f64::NAN;
+) -> (InputSpread, Option<f64>) {
+    let (mut spread, mut numerical) = (InputSpread::default(), None);
+    let own = layers(records, flow).find(|(input, ..)| *input == SuspensionInput::Own);
+    let own = own.map_or(f64::NAN, |(_, run, state)| value(run, state));
     for (input, run, state) in layers(records, flow) {
         let other = value(run, state);
-        let name = match input {
-            SuspensionInput::SchmidtNumber(_) => "Schmidt number",
-            SuspensionInput::DragDiameter(_) => "diameter of drag",
-            SuspensionInput::Karman(_) => "κ",
-            SuspensionInput::CellHeight(_) => {
-                numerical = (other - own).abs() / 3.0;
-                continue;
-            }
-            SuspensionInput::Own | SuspensionInput::NoEddies => continue,
-        };
-        match ranges.iter_mut().find(|range| range.0 == name) {
-            Some(range) => (range.1, range.2) = (range.1.min(other), range.2.max(other)),
-            None => ranges.push((name, own.min(other), own.max(other))),
+        match input {
+            SuspensionInput::SchmidtNumber(_) => spread.add("Schmidt number", own, other),
+            SuspensionInput::DragDiameter(_) => spread.add("diameter of drag", own, other),
+            SuspensionInput::Karman(_) => spread.add("κ", own, other),
+            SuspensionInput::CellHeight(_) => numerical = Some((other - own).abs() / 3.0),
+            SuspensionInput::Own | SuspensionInput::NoEddies => {}
         }
     }
-    let squares: f64 = ranges.iter().map(|(_, low, high)| (high - low) * (high - low) / 12.0).sum();
-    let words: Vec<String> = ranges.iter().map(|(name, low, high)| format!("{name} {low:.3} to {high:.3}")).collect();
-    Some((squares.sqrt(), numerical, format!("the value over the range of each input: {}", words.join(", "))))
+    (spread, numerical)
 }
 
-/// A metric of a flow with the uncertainty of its inputs.
-pub(super) fn with_spread(metric: Metric, spread: Option<(f64, f64, String)>) -> Metric {
-    let Some((input, numerical, words)) = spread else { return metric };
-    let numerical = numerical.is_finite().then_some(numerical);
-    let metric = if input > 0.0 { metric.known_to(Origin::Input, Some(input), &words) } else { metric };
-    metric.known_to(Origin::Numerical, numerical, "a third of the change with cells of twice the height: second order")
-}
-
-/// The limit of the transport of the suspended sheet flow, and why.
-pub(super) fn transport_limit() -> (Limit, &'static str) {
-    (
-        Limit::Within(1.0 / TRANSPORT_FACTOR, TRANSPORT_FACTOR),
-        "a factor of 1.5, set before the runs: formulas of the total load are usually judged by a factor of 2",
+/// A metric of a flow with the uncertainty of its inputs and of its cells.
+pub(super) fn with_spread(
+    metric: Metric,
+    records: &[BedLoad1dRecord],
+    flow: SuspendedFlow,
+    value: impl Fn(&BedLoad1dRun, &LayerState) -> f64,
+) -> Metric {
+    let (spread, numerical) = spread(records, flow, value);
+    metric.known_to(Origin::Input, Some(spread.standard()), &spread.words()).known_to(
+        Origin::Numerical,
+        numerical,
+        "a third of the change with cells of twice the height: second order",
     )
 }
 
@@ -192,8 +165,8 @@ fn duct_difference(run: &BedLoad1dRun, state: &LayerState, resting: f64) -> f64 
     100.0 * (squares / measured.len() as f64).sqrt() / largest
 }
 
-/// Velocity of the duct, transport of the slopes and of the varied inputs.
-pub(super) fn metrics(records: &[BedLoad1dRecord], transport: Quantity) -> Vec<Metric> {
+/// Velocity of the duct, transport of the slopes, and how fast grains settle.
+pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     let measured = &*SHEET_FLOW_LOWEST_VELOCITY;
     for (input, run, state) in layers(records, SuspendedFlow::Duct) {
@@ -210,24 +183,19 @@ pub(super) fn metrics(records: &[BedLoad1dRecord], transport: Quantity) -> Vec<M
             "level where grains have {} to {} u_* instead of {}: {:.1} to {:.1} %",
             RESTING.1, RESTING.2, RESTING.0, ends[0], ends[1]
         );
-        let spread = spread(records, SuspendedFlow::Duct, |run, state| duct_difference(run, state, RESTING.0));
-        metrics.push(with_spread(metric, spread).known_to(
+        let value = |run: &BedLoad1dRun, state: &LayerState| duct_difference(run, state, RESTING.0);
+        metrics.push(with_spread(metric, records, SuspendedFlow::Duct, value).known_to(
             Origin::Digitisation,
             Some((ends[0] - ends[1]).abs() / 12.0_f64.sqrt()),
             &words,
         ));
     }
     for (_, run, state) in layers(records, SuspendedFlow::Slope) {
-        let contacts = of(records, |purpose| *purpose == LayerPurpose::Literature)
-            .find(|(other, _)| other.stream.slope == run.stream.slope);
-        if let Some((_, contacts)) = contacts {
-            metrics.push(
-                SUSPENDED_TRANSPORT
-                    .of(&run.variant(), state.transport() / contacts.transport())
-                    .against(Some(1.0), "the layer without suspension", Confidence::Exact)
-                    .with_snapshot_tolerance(1e-3, 0.0),
-            );
-        }
+        let contacts = on_slope(records, run, |purpose| *purpose == LayerPurpose::Literature).next();
+        metrics.extend(contacts.map(|(_, contacts)| {
+            let ratio = SUSPENDED_TRANSPORT.of(&run.variant(), state.transport() / contacts.transport());
+            ratio.exactly(1.0, "the layer without suspension").with_snapshot_tolerance(1e-3, 0.0)
+        }));
     }
     for flow in [SuspendedFlow::SheetFlow, SuspendedFlow::Duct, SuspendedFlow::Slope] {
         for (_, run, _) in layers(records, flow).filter(|(input, ..)| *input == SuspensionInput::Own) {
@@ -235,48 +203,18 @@ pub(super) fn metrics(records: &[BedLoad1dRecord], transport: Quantity) -> Vec<M
             metrics.push(SETTLING_RATIO.of(&run.variant(), ratio).with_snapshot_tolerance(1e-3, 0.0));
         }
     }
-    for (input, run, state) in layers(records, SuspendedFlow::SheetFlow) {
-        if input != SuspensionInput::Own {
-            metrics.push(transport.of(&run.variant(), state.transport()).with_snapshot_tolerance(1e-3, 0.0));
-        }
-    }
     metrics
 }
 
-/// Profiles of both sheet flows with and without suspension, beside the measured points.
-pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
-    let own = |flow| layers(records, flow).find(|(input, ..)| *input == SuspensionInput::Own);
-    let (_, _, suspended) = own(SuspendedFlow::SheetFlow)?;
-    let contacts =
-        of(records, |purpose| *purpose == LayerPurpose::Measured(MeasuredBedLoad::SheetFlow)).map(|(_, state)| state);
-    let theirs = MeasuredBedLoad::SheetFlow.profiles();
-    let points = |values: &[(f64, f64)]| values.iter().map(|&(z, value)| (value, 1e3 * z)).collect::<Vec<_>>();
-    let height = || Axis { limits: Some((-20.0, 60.0)), ..Axis::linear("z [mm]") };
-    let fractions = Axis { limits: Some((1e-3, 1.0)), ..Axis::logarithmic("φ [-]") };
-    let mut fraction = Panel::new("Revil-Baudard et al. 2015, τ* 0.44", fractions, height());
-    let mut velocity = Panel::new("", Axis::linear("velocity of the grains [m/s]"), height());
-    fraction.series.push(Series::new("measured", Mark::Points, 0, points(&theirs.solid_fraction)));
-    velocity.series.push(Series::new("measured", Mark::Points, 0, points(&theirs.grain_velocity)));
-    let states = [(suspended, "with suspension", 1)].into_iter().chain(contacts.map(|state| (state, "without", 2)));
-    for (state, label, slot) in states {
-        let inside = |k: &usize| state.height[*k] > -0.02 && state.height[*k] < 0.06;
-        let curve = |values: &[f64]| -> Vec<(f64, f64)> {
-            (0..values.len()).filter(inside).map(|k| (values[k], 1e3 * state.height[k])).collect()
-        };
-        let visible = curve(&state.solid_fraction).into_iter().filter(|point| point.0 > 1e-3).collect();
-        fraction.series.push(Series::new(label, Mark::Line, slot, visible));
-        let top = 1e3 * state.top_of_grains();
-        let moving = curve(&state.grain_velocity).into_iter().filter(|point| point.1 < top).collect();
-        velocity.series.push(Series::new(label, Mark::Line, slot, moving));
-    }
-    let mut panels = vec![fraction, velocity];
+/// The water of the duct beside the measured points; none without the layers.
+pub(super) fn duct_panel(records: &[BedLoad1dRecord]) -> Option<Panel> {
     let mut duct = Panel::new(
         "Sumer et al. 1996, τ* 1.4",
         Axis::linear("u_f/u_* [-]"),
         Axis { limits: Some((0.0, 23.0)), ..Axis::linear("height above grains at rest, over d [-]") },
     );
     let measured = &SHEET_FLOW_LOWEST_VELOCITY.points;
-    duct.series.push(Series::new("measured", Mark::Points, 0, measured.iter().map(|&(z, u)| (u, z)).collect()));
+    duct.points("measured", 0, measured.iter().map(|&(z, u)| (u, z)));
     for (input, run, state) in layers(records, SuspendedFlow::Duct) {
         let (label, slot) = match input {
             SuspensionInput::Own => ("with suspension", 1),
@@ -289,38 +227,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
         let curve = (0..state.height.len()).map(place).filter(|point| point.1 > 0.0 && point.1 < 23.0).collect();
         duct.series.push(Series::new(label, Mark::Line, slot, curve));
     }
-    let ratio = |state: &LayerState| state.transport() / theirs.transport;
-    let known =
-        spread(records, SuspendedFlow::SheetFlow, |_, state| ratio(state)).map_or(f64::NAN, |(input, ..)| input);
-    let above: Vec<f64> = theirs
-        .grain_velocity
-        .iter()
-        .filter(|point| point.0 > 0.01 && point.0 < 0.06)
-        .map(|&(z, u)| suspended.at(z).grain_velocity / u - 1.0)
-        .collect();
-    let faster = 100.0 * above.iter().sum::<f64>() / above.len() as f64;
-    let mut caption = format!(
-        "A sheet flow of plastic grains whose eddies carry grains: (a) solid fraction, (b) velocity. With suspension the layer carries {:.2} of the \
-         measured transport; the inputs leave a standard uncertainty of {known:.2}. Above 10 mm its grains differ from the measured velocity by \
-         {faster:+.0} % on average. The source states no uncertainty.",
-        ratio(suspended)
-    );
-    if let Some(contacts) = of(records, |purpose| *purpose == LayerPurpose::Measured(MeasuredBedLoad::SheetFlow))
-        .map(|(_, state)| state)
-        .next()
-    {
-        caption += &format!(
-            " Without suspension the grains end {:.0} mm above the bed and carry {:.2}.",
-            1e3 * contacts.top_of_grains(),
-            ratio(contacts)
-        );
-    }
-    if duct.series.len() > 1 {
-        panels.push(duct);
-        caption += " (c): velocity of the water in a sheet flow three times as strong. Its heights start where grains have a tenth of \
-                    u_*, as the source states no level. The upper half is met; near the bed the layer is slower than the measured water.";
-    }
-    Some(Figure::new("suspension", &caption, panels))
+    (duct.series.len() > 1).then_some(duct)
 }
 
 #[cfg(test)]

@@ -10,6 +10,6 @@ mod transport;
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
 pub use lowest_velocity::{LOWEST_LAYER_TOP, LowestVelocity, SHEET_FLOW_LOWEST_VELOCITY};
 pub use motion_thresholds::{MOTION_THRESHOLDS, MotionThresholds, ThresholdBand};
-pub use onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, onset_confidence};
+pub use onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number};
 pub use profiles::MeasuredBedLoad;
 pub use transport::{MEASURED_BAND, MEASURED_TRANSPORT, MeasuredRates, TransportFormula, measured_rates_about};

@@ -2,7 +2,6 @@
 //! τ*_c = 0.30/(1 + 1.2 D*) + 0.055 (1 − exp(−0.020 D*)), whose numbers `reference-data/bed-load/onset.csv` holds.
 
 use crate::evidence::read_shipped;
-use crate::metric::Confidence;
 use std::sync::LazyLock;
 
 /// Factor by which experiments scatter about the curve `[-]`.
@@ -11,30 +10,18 @@ pub const ONSET_SCATTER: f64 = 1.5;
 /// Source of the curve.
 pub const ONSET_SOURCE: &str = "Shields' curve, Soulsby & Whitehouse 1997";
 
-struct OnsetCurve {
-    coefficients: [f64; 4],
-    confidence: Confidence,
-}
-
-static CURVE: LazyLock<OnsetCurve> = LazyLock::new(|| {
+static COEFFICIENTS: LazyLock<[f64; 4]> = LazyLock::new(|| {
     read_shipped("bed-load/onset.csv", |table| {
         let value = |name| table.number_of("coefficient", name, "value");
-        let coefficients = [value("a")?, value("b")?, value("c")?, value("e")?];
-        Ok(OnsetCurve { coefficients, confidence: table.metadata.confidence })
+        Ok([value("a")?, value("b")?, value("c")?, value("e")?])
     })
 });
 
 /// Critical Shields number τ*_c `[-]` at a dimensionless diameter D* = d ((s − 1) g/ν²)^⅓ `[-]`.
 #[must_use]
 pub fn critical_shields_number(dimensionless_diameter: f64) -> f64 {
-    let [a, b, c, e] = CURVE.coefficients;
+    let [a, b, c, e] = *COEFFICIENTS;
     a / (1.0 + b * dimensionless_diameter) + c * (1.0 - libm::exp(-e * dimensionless_diameter))
-}
-
-/// Confidence in the curve of the critical Shields number.
-#[must_use]
-pub fn onset_confidence() -> Confidence {
-    CURVE.confidence
 }
 
 #[cfg(test)]
