@@ -3,10 +3,10 @@
 use super::quantities::{
     DECAY_LENGTH, DECAY_LENGTH_GROWTH, DRAG_BALANCE_ERROR, DRAG_DEPTH_GROWTH, DRAG_FROM, DRAG_PEAK_HEIGHT, DRAG_TO,
     GRAIN_CURVATURE, LOGARITHMIC_SLOPE, MEAN_FLUID_VELOCITY, MOTION_DEPTH_GROWTH, MOVES_ABOVE, OBSERVED_ORDER,
-    START_DIFFERENCE, STRESS_BALANCE_ERROR, TOP_OF_GRAINS, TRANSPORT_RATIO,
+    STRESS_BALANCE_ERROR, TOP_OF_GRAINS, TRANSPORT_RATIO,
 };
-use super::records::{SolvedLayer, literature, on_slope};
-use super::run::{BedLoad1dRun, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
+use super::records::{SolvedLayer, literature, on_slope, one_state, second_variant};
+use super::run::{BedLoad1dRun, LayerPurpose};
 use super::{BedLoad1dRecord, bed_at_rest, onset, others, regimes, sensitivities, suspension};
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant};
@@ -100,11 +100,6 @@ fn similar(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord]) {
     }
 }
 
-/// The other state of a layer that has two.
-pub(super) fn second_variant(run: &BedLoad1dRun) -> Variant {
-    run.variant().and("start", "fast")
-}
-
 /// Both balances of momentum.
 fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     let errors = [
@@ -138,15 +133,6 @@ fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast:
     // the two starts of the runs behind it, as one word
     let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
     metrics.push(one_state(&variant, difference, "the layer from rest: q*, u_f and φ u_s"));
-}
-
-/// The difference of the states from two starts, judged.
-pub(super) fn one_state(variant: &Variant, difference: f64, source: &str) -> Metric {
-    START_DIFFERENCE
-        .of(variant, difference)
-        .exactly(0.0, source)
-        .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
-        .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE)
 }
 
 /// The order of convergence: from the profiles where the fraction is given, from q* where it is not. The topmost grains

@@ -8,9 +8,9 @@
 //! which experimenters tell it: every criterion is judged by the band of the thresholds that they measured with grains of that size.
 
 use super::BedLoad1dRecord;
-use super::metrics::one_state;
 use super::onset_criterion::{CRITERIA, OnsetCriterion};
 use super::quantities::ONSET_OVER_MEASURED;
+use super::records::one_state;
 use super::run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};

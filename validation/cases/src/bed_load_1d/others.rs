@@ -1,11 +1,11 @@
 //! The layer beside bed load that others have simulated grain by grain or measured.
 
 use super::BedLoad1dRecord;
-use super::metrics::second_variant;
 use super::quantities::{
     FLUID_VELOCITY_DIFFERENCE, FRACTION_DIFFERENCE, GRAIN_VELOCITY_DIFFERENCE, START_DIFFERENCE, TRANSPORT_RATIO,
     TURBULENT_STRESS_DIFFERENCE,
 };
+use super::records::second_variant;
 use super::run::{BedLoad1dRun, LayerPurpose};
 use super::suspension;
 use super::suspension_inputs::{SuspendedFlow, SuspensionInput};

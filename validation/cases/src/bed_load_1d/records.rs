@@ -1,7 +1,10 @@
 //! Records by what they were computed for, and what a value is known to by inputs that were varied.
 
 use super::BedLoad1dRecord;
-use super::run::{BedLoad1dRun, LayerPurpose};
+use super::quantities::START_DIFFERENCE;
+use super::run::{BedLoad1dRun, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
+use crate::case::Run;
+use crate::metric::{Limit, Metric, Variant};
 use crate::observation::Outcome;
 use crate::reference::one_dimension::bed_load::LayerState;
 
@@ -31,6 +34,20 @@ pub(super) fn on_slope<'a>(
     wanted: impl Fn(&LayerPurpose) -> bool,
 ) -> impl Iterator<Item = SolvedLayer<'a>> {
     of(records, wanted).filter(|(other, _)| other.stream.slope == run.stream.slope)
+}
+
+/// The other state of a layer that has two.
+pub(super) fn second_variant(run: &BedLoad1dRun) -> Variant {
+    run.variant().and("start", "fast")
+}
+
+/// The difference of the states from two starts, judged.
+pub(super) fn one_state(variant: &Variant, difference: f64, source: &str) -> Metric {
+    START_DIFFERENCE
+        .of(variant, difference)
+        .exactly(0.0, source)
+        .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
+        .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE)
 }
 
 /// Ranges of a value over inputs, each varied alone.

@@ -1,9 +1,8 @@
 //! Closures that differ from the literature's in one point.
 
 use super::BedLoad1dRecord;
-use super::metrics::second_variant;
 use super::quantities::{START_DIFFERENCE, TRANSPORT_SENSITIVITY};
-use super::records::{InputSpread, SolvedLayer, literature, on_slope};
+use super::records::{InputSpread, SolvedLayer, literature, on_slope, second_variant};
 use super::run::{BedLoad1dRun, LayerPurpose};
 use crate::case::Run;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
