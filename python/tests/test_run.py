@@ -37,7 +37,7 @@ def test_metrics_in_three_lines():
 
 def test_parameters_are_python_values(film):
     thin = bagnold.run("film", **CHEAP, material={"viscosity": np.float64(0.5)})
-    assert thin.parameters["newtonian"]["viscosity"] == 0.5 and thin.state_hash != film.state_hash
+    assert thin.parameters["material"]["viscosity"] == 0.5 and thin.state_hash != film.state_hash
     dotted = bagnold.run("film", **CHEAP, **{"material.viscosity": 0.5})
     assert dotted.state_hash == thin.state_hash
     assert dotted.runs["from_store"].all()
@@ -133,7 +133,7 @@ def test_what_the_program_refuses_is_an_exception_with_its_text():
     with pytest.raises(ValueError, match="resolution.*must be"):
         bagnold.run("film", resolution=-3)
     with pytest.raises(bagnold.Refused, match="visocsity"):
-        bagnold.run("film", newtonian={"visocsity": 1.0})
+        bagnold.run("film", material={"visocsity": 1.0})
     with pytest.raises(bagnold.Refused, match="`tier` must be one of"):
         bagnold.run("film", tier="papre")
     with pytest.raises(bagnold.Refused, match="cannot be read"):
