@@ -229,7 +229,7 @@ fn validation_data_must_differ_in_physics() {
     assert_eq!(
         refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"arrangement\"]"), str::to_owned),
         "error: plan.toml: `hold_out[0].conditions` is arrangement, but must be a number or a list of numbers of the case; name \
-         what is measured along, such as a slope"
+         what is measured along, such as `slope_angle`"
     );
 }
 
