@@ -2,13 +2,12 @@
 
 use super::Scale;
 use super::curves::Plot;
-use super::drawing::{Drawing, Ink, Rectangle};
+use super::drawing::{Direction, Drawing, HorizontalAnchor, Ink, Rectangle, TextSpec, VerticalAnchor};
 use super::font::width;
 use super::format::LABEL;
 use super::glyphs::Weight;
 use super::palette::{AXIS, BLACK, Colour, GRID};
 use super::range::{Mapping, Range};
-use super::shapes::{Direction, HorizontalAnchor, TextSpec, VerticalAnchor};
 use super::ticks::{Ticks, ticks};
 
 /// Length of a major tick `[px]`.

@@ -1,11 +1,16 @@
 //! A figure as shapes on a sheet, in whole units of a quarter of a pixel, from which SVG, PNG and PDF are written.
 
+use super::Figure;
 use super::font::{plain_width, width};
 use super::format::FigureFormat;
+use super::glyphs::Weight;
 use super::palette::{Colour, WHITE};
 use super::script::{Run, SMALLER, runs};
-use super::shapes::{Direction, HorizontalAnchor, InkedShape, SheetShape, TextSpec, UNITS_PER_PIXEL, UnitPoint};
+use super::shapes::{InkedShape, SheetShape, UnitPoint};
 use std::collections::HashMap;
+
+/// Whole units keep files short; a quarter of a pixel keeps curves smooth and lattices of particles regular.
+pub(super) const UNITS_PER_PIXEL: f64 = 4.0;
 
 /// No coordinate is larger `[px]`: far outside any sheet and far inside the integers of units.
 const FARTHEST: f64 = 1e6;
@@ -56,6 +61,61 @@ impl Ink {
     }
 }
 
+/// Typesetting of a text.
+#[derive(Clone, Copy)]
+pub(super) struct TextSpec {
+    /// Font size `[px]`.
+    pub(super) em: f64,
+    pub(super) weight: Weight,
+    pub(super) horizontal: HorizontalAnchor,
+    pub(super) vertical: VerticalAnchor,
+    pub(super) colour: Colour,
+    pub(super) direction: Direction,
+}
+
+/// Part of a text that stands on its point, along the line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum HorizontalAnchor {
+    Left,
+    Centre,
+    Right,
+}
+
+impl HorizontalAnchor {
+    /// Share of the text before the point `[-]`.
+    pub(super) fn share(self) -> f64 {
+        match self {
+            Self::Left => 0.0,
+            Self::Centre => 0.5,
+            Self::Right => 1.0,
+        }
+    }
+}
+
+/// Part of a text that stands on its point, across the line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum VerticalAnchor {
+    Top,
+    Centre,
+}
+
+impl VerticalAnchor {
+    /// Depth of the base line below the point over the em `[-]`; centred letters are capitals.
+    pub(super) fn depth(self) -> f64 {
+        match self {
+            Self::Top => 0.76,
+            Self::Centre => 0.36,
+        }
+    }
+}
+
+/// Reading direction of a text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Direction {
+    Rightwards,
+    Upwards,
+}
+
 /// A figure that is laid out for a format. The same data give the same bytes of every kind of file on any machine.
 pub struct Drawing {
     pub(super) format: FigureFormat,
@@ -65,6 +125,12 @@ pub struct Drawing {
 }
 
 impl Drawing {
+    /// Lays out a figure; odd data (empty, constant, NaN, infinite) draw an odd figure.
+    #[must_use]
+    pub fn of(figure: &Figure, format: FigureFormat) -> Self {
+        super::sheet::draw(figure, format)
+    }
+
     /// A white sheet of a height `[px]`.
     pub(super) fn new(format: FigureFormat, height: f64) -> Self {
         let sheet = Rectangle { left: 0.0, top: 0.0, right: format.sheet, bottom: height };

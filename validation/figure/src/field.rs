@@ -2,12 +2,11 @@
 
 use super::axes::{Sizes, TICK_GAP, text, uncrowded, widest_label};
 use super::curves::Plot;
-use super::drawing::{Drawing, Ink, Rectangle};
+use super::drawing::{Direction, Drawing, HorizontalAnchor, Ink, Rectangle, TextSpec, VerticalAnchor};
 use super::font::width;
 use super::glyphs::Weight;
 use super::palette::{AXIS, BLACK, ColourMap, FIRST, SECOND};
 use super::range::{Mapping, Range};
-use super::shapes::{Direction, HorizontalAnchor, TextSpec, VerticalAnchor};
 use super::ticks::{Ticks, ticks};
 use super::{Axis, Field, Panel, Scale};
 

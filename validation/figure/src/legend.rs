@@ -1,11 +1,10 @@
 //! The legend: what it says, where it hides no data, and how it is drawn.
 
 use super::curves::{Plot, band_outlines, draw_band_sample, draw_sample};
-use super::drawing::{Drawing, Ink, Point, Rectangle};
+use super::drawing::{Direction, Drawing, HorizontalAnchor, Ink, Point, Rectangle, TextSpec, VerticalAnchor};
 use super::font::width;
 use super::glyphs::Weight;
 use super::palette::{BLACK, GRID, WHITE};
-use super::shapes::{Direction, HorizontalAnchor, TextSpec, VerticalAnchor};
 use super::{Mark, Panel};
 
 /// Places for a legend along each side of a plot, less one.

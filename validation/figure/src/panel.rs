@@ -2,14 +2,13 @@
 
 use super::axes::{Sizes, TICK, TICK_GAP, draw_axes, draw_grid, text, uncrowded, widest_label};
 use super::curves::{Plot, draw_bands, draw_series};
-use super::drawing::{Drawing, Rectangle};
+use super::drawing::{Drawing, HorizontalAnchor, Rectangle, TextSpec, VerticalAnchor};
 use super::field::{ColourScale, draw_field, extent};
 use super::font::width;
 use super::glyphs::Weight;
 use super::legend::{Legend, LegendPosition};
 use super::palette::{AXIS, BLACK};
 use super::range::{Mapping, Range};
-use super::shapes::{HorizontalAnchor, TextSpec, VerticalAnchor};
 use super::ticks::{Ticks, ticks};
 use super::{Panel, Scale};
 

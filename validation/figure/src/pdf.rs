@@ -1,7 +1,7 @@
 //! Drawing → one page of PDF: paths and their colours, letters as outlines.
 
-use super::drawing::Drawing;
-use super::shapes::{SheetShape, UNITS_PER_PIXEL};
+use super::drawing::{Drawing, UNITS_PER_PIXEL};
+use super::shapes::SheetShape;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use std::io::Write as _;

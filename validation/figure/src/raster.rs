@@ -1,8 +1,8 @@
 //! Drawing → pixels.
 
-use super::drawing::Drawing;
+use super::drawing::{Drawing, UNITS_PER_PIXEL};
 use super::error::FigureError;
-use super::shapes::{InkedShape, SheetShape, UNITS_PER_PIXEL};
+use super::shapes::{InkedShape, SheetShape};
 use tiny_skia::{FillRule, LineJoin, Paint, Pixmap, Stroke, Transform};
 
 impl Drawing {
@@ -41,11 +41,10 @@ impl Drawing {
 
 #[cfg(test)]
 mod tests {
-    use super::super::drawing::{Ink, Rectangle};
+    use super::super::drawing::{Direction, HorizontalAnchor, Ink, Rectangle, TextSpec, VerticalAnchor};
     use super::super::format::FigureFormat;
     use super::super::glyphs::Weight;
     use super::super::palette::BLACK;
-    use super::super::shapes::{Direction, HorizontalAnchor, TextSpec, VerticalAnchor};
     use super::*;
     use tiny_skia::PremultipliedColorU8;
 

@@ -1,69 +1,12 @@
 //! Shapes of a drawing, and their outlines.
 
-use super::glyphs::{Weight, outline};
+use super::drawing::{Direction, TextSpec, UNITS_PER_PIXEL};
+use super::glyphs::outline;
 use super::palette::Colour;
 use tiny_skia::{Path, PathBuilder, Rect, Transform};
 
-/// Whole units keep files short; a quarter of a pixel keeps curves smooth and lattices of particles regular.
-pub(super) const UNITS_PER_PIXEL: f64 = 4.0;
-
 /// A point of the sheet in units, y downwards.
 pub(super) type UnitPoint = (i32, i32);
-
-/// Typesetting of a text.
-#[derive(Clone, Copy)]
-pub(super) struct TextSpec {
-    /// Font size `[px]`.
-    pub(super) em: f64,
-    pub(super) weight: Weight,
-    pub(super) horizontal: HorizontalAnchor,
-    pub(super) vertical: VerticalAnchor,
-    pub(super) colour: Colour,
-    pub(super) direction: Direction,
-}
-
-/// Part of a text that stands on its point, along the line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum HorizontalAnchor {
-    Left,
-    Centre,
-    Right,
-}
-
-impl HorizontalAnchor {
-    /// Share of the text before the point `[-]`.
-    pub(super) fn share(self) -> f64 {
-        match self {
-            Self::Left => 0.0,
-            Self::Centre => 0.5,
-            Self::Right => 1.0,
-        }
-    }
-}
-
-/// Part of a text that stands on its point, across the line.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum VerticalAnchor {
-    Top,
-    Centre,
-}
-
-impl VerticalAnchor {
-    /// Depth of the base line below the point over the em `[-]`; centred letters are capitals.
-    pub(super) fn depth(self) -> f64 {
-        match self {
-            Self::Top => 0.76,
-            Self::Centre => 0.36,
-        }
-    }
-}
-
-/// Reading direction of a text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Direction {
-    Rightwards,
-    Upwards,
-}
 
 /// A shape with its ink.
 pub(super) struct InkedShape {

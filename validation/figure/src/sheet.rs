@@ -20,66 +20,62 @@ const TALLEST: f64 = 1150.0;
 /// No plot is lower than this `[px]`, however flat its field.
 const LOWEST: f64 = 60.0;
 
-impl Drawing {
-    /// Lays out a figure; odd data (empty, constant, NaN, infinite) draw an odd figure.
-    #[must_use]
-    pub fn of(figure: &Figure, format: FigureFormat) -> Self {
-        let columns = format.columns(figure.columns.clamp(1, 4)).min(figure.panels.len().max(1));
-        let sizes = Sizes::for_columns(columns);
-        let (_, column_width) = column_of(format, columns, 0);
-        // a column that is narrow needs height for its numbers, whatever the number of columns
-        let shape = if columns == 1 && column_width < NARROW { 2 } else { columns };
-        let aspect = ASPECTS[(shape - 1).min(ASPECTS.len() - 1)];
-        let usual = (column_width - 120.0, (column_width - 120.0) * aspect);
+/// Lays out a figure.
+pub(super) fn draw(figure: &Figure, format: FigureFormat) -> Drawing {
+    let columns = format.columns(figure.columns.clamp(1, 4)).min(figure.panels.len().max(1));
+    let sizes = Sizes::for_columns(columns);
+    let (_, column_width) = column_of(format, columns, 0);
+    // a column that is narrow needs height for its numbers, whatever the number of columns
+    let shape = if columns == 1 && column_width < NARROW { 2 } else { columns };
+    let aspect = ASPECTS[(shape - 1).min(ASPECTS.len() - 1)];
+    let usual = (column_width - 120.0, (column_width - 120.0) * aspect);
 
-        let bars = common_scales(figure);
-        let mut panels: Vec<ScaledPanel<'_>> = figure
-            .panels
-            .iter()
-            .enumerate()
-            .map(|(index, panel)| {
-                let title = lettered(&panel.title, index, figure.panels.len());
-                let height = if panel.field.is_some() { TALLEST } else { usual.1 };
-                ScaledPanel::new(panel, title, &bars, sizes, (usual.0, height))
-            })
-            .collect();
-        for panel in &mut panels {
-            let margins = panel.margins(column_width);
-            let width = column_width - margins.left - margins.right;
-            let height = plot_height(panel, width, aspect);
-            panel.settle_legend(&Rectangle { left: 0.0, top: 0.0, right: width, bottom: height });
-        }
-        share_axes(&mut panels, columns);
-
-        let bars_a_line = format.columns(bars.len());
-        let line = ColourScale::height_on_top(sizes) + GUTTER;
-        let above = bars.len().div_ceil(bars_a_line) as f64 * line;
-        let rows = layout(&panels, columns, column_width, aspect);
-        let height = above + rows.last().map_or(200.0, |row| row.bottom) + BORDER;
-        let mut canvas = Drawing::new(format, height.ceil());
-        for (index, scale) in bars.iter().enumerate() {
-            let place = index % bars_a_line;
-            let ((left, width), margins) =
-                (column_of(format, bars_a_line, place), rows[0].margins[place.min(columns - 1)]);
-            let bottom = BORDER + (index / bars_a_line + 1) as f64 * line - GUTTER;
-            scale.draw_on_top(&mut canvas, (left + margins.left, left + width - margins.right, bottom), sizes);
-        }
-        for (index, panel) in panels.iter().enumerate() {
-            let row = &rows[index / columns];
-            let column = index % columns;
-            let (left, _) = column_of(format, columns, column);
-            let margins = row.margins[column];
-            let top = above + row.top + row.above;
-            let room = Rectangle {
-                left: left + margins.left,
-                top,
-                right: left + column_width - margins.right,
-                bottom: top + row.plot_height,
-            };
-            panel.draw(&mut canvas, &room);
-        }
-        canvas
+    let bars = common_scales(figure);
+    let mut panels: Vec<ScaledPanel<'_>> = figure
+        .panels
+        .iter()
+        .enumerate()
+        .map(|(index, panel)| {
+            let title = lettered(&panel.title, index, figure.panels.len());
+            let height = if panel.field.is_some() { TALLEST } else { usual.1 };
+            ScaledPanel::new(panel, title, &bars, sizes, (usual.0, height))
+        })
+        .collect();
+    for panel in &mut panels {
+        let margins = panel.margins(column_width);
+        let width = column_width - margins.left - margins.right;
+        let height = plot_height(panel, width, aspect);
+        panel.settle_legend(&Rectangle { left: 0.0, top: 0.0, right: width, bottom: height });
     }
+    share_axes(&mut panels, columns);
+
+    let bars_a_line = format.columns(bars.len());
+    let line = ColourScale::height_on_top(sizes) + GUTTER;
+    let above = bars.len().div_ceil(bars_a_line) as f64 * line;
+    let rows = layout(&panels, columns, column_width, aspect);
+    let height = above + rows.last().map_or(200.0, |row| row.bottom) + BORDER;
+    let mut canvas = Drawing::new(format, height.ceil());
+    for (index, scale) in bars.iter().enumerate() {
+        let place = index % bars_a_line;
+        let ((left, width), margins) = (column_of(format, bars_a_line, place), rows[0].margins[place.min(columns - 1)]);
+        let bottom = BORDER + (index / bars_a_line + 1) as f64 * line - GUTTER;
+        scale.draw_on_top(&mut canvas, (left + margins.left, left + width - margins.right, bottom), sizes);
+    }
+    for (index, panel) in panels.iter().enumerate() {
+        let row = &rows[index / columns];
+        let column = index % columns;
+        let (left, _) = column_of(format, columns, column);
+        let margins = row.margins[column];
+        let top = above + row.top + row.above;
+        let room = Rectangle {
+            left: left + margins.left,
+            top,
+            right: left + column_width - margins.right,
+            bottom: top + row.plot_height,
+        };
+        panel.draw(&mut canvas, &room);
+    }
+    canvas
 }
 
 /// Left end and width of one of several columns of a sheet `[px]`.

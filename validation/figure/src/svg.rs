@@ -1,10 +1,10 @@
 //! Drawing → SVG.
 
-use super::drawing::Drawing;
+use super::drawing::{Direction, Drawing, HorizontalAnchor, TextSpec, UNITS_PER_PIXEL};
 use super::font::FAMILY;
 use super::glyphs::Weight;
 use super::palette::Colour;
-use super::shapes::{Direction, HorizontalAnchor, InkedShape, SheetShape, TextSpec, UNITS_PER_PIXEL, UnitPoint};
+use super::shapes::{InkedShape, SheetShape, UnitPoint};
 use std::fmt::Write as _;
 
 impl Drawing {
