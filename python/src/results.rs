@@ -1,7 +1,8 @@
 //! Tables, pictures of particles and figures as Python sees them. The numbers of particles move into NumPy's arrays, without
 //! a copy; they are read-only.
 
-use bagnold_figure::{Drawing, Figure, FigureFormat};
+use crate::waiting::Refused;
+use bagnold_figure::{Figure, FigureFormat, render};
 use bagnold_harness::observation::Frame;
 use bagnold_harness::output::Table;
 use numpy::{PyArray1, PyArrayMethods};
@@ -55,8 +56,13 @@ impl Figures {
     }
 
     /// One of them as SVG; `None` if there is none of that name.
-    fn svg(&self, name: &str) -> Option<String> {
-        let found = self.0.iter().find(|figure| figure.name == name)?;
-        Some(Drawing::of(found, FigureFormat::SCREEN).svg())
+    fn svg(&self, name: &str) -> PyResult<Option<String>> {
+        let found = self.0.iter().find(|figure| figure.name == name);
+        found
+            .map(|figure| {
+                render::svg(figure, FigureFormat::SCREEN)
+                    .map_err(|error| Refused::new_err(format!("failed to {error}")))
+            })
+            .transpose()
     }
 }

@@ -1,14 +1,17 @@
 //! Frame, grid, ticks and labels of one panel.
 
 use super::Scale;
+use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
-use super::drawing::{Direction, Drawing, HorizontalAnchor, Ink, Rectangle, TextSpec, VerticalAnchor};
+use super::error::FigureError;
 use super::font::width;
 use super::format::LABEL;
 use super::glyphs::Weight;
-use super::palette::{AXIS, BLACK, Colour, GRID};
+use super::palette::{AXIS, BLACK, GRID};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
+use plotters::style::RGBColor;
+use plotters::style::text_anchor::{HPos, VPos};
 
 /// Length of a major tick `[px]`.
 pub(super) const TICK: f64 = 9.0;
@@ -39,7 +42,7 @@ impl Sizes {
 }
 
 /// A text in the regular weight.
-pub(super) fn text(em: f64, horizontal: HorizontalAnchor, vertical: VerticalAnchor, colour: Colour) -> TextSpec {
+pub(super) fn text(em: f64, horizontal: HPos, vertical: VPos, colour: RGBColor) -> TextSpec {
     TextSpec { em, weight: Weight::Regular, horizontal, vertical, colour, direction: Direction::Rightwards }
 }
 
@@ -61,58 +64,64 @@ pub(super) fn widest_label(ticks: &Ticks, em: f64) -> f64 {
 }
 
 /// Draws the grid; it lies under the data.
-pub(super) fn draw_grid(canvas: &mut Drawing, plot: &Plot, x_ticks: &Ticks, y_ticks: &Ticks) {
+pub(super) fn draw_grid(
+    canvas: &mut Canvas<'_>,
+    plot: &Plot,
+    x_ticks: &Ticks,
+    y_ticks: &Ticks,
+) -> Result<(), FigureError> {
     let window = &plot.window;
     let ink = Ink::solid(GRID, 1.5);
     for x in pixels(&plot.x, x_ticks.major.iter().map(|tick| tick.value)) {
-        canvas.line((x, window.top), (x, window.bottom), ink);
+        canvas.line((x, window.top), (x, window.bottom), ink)?;
     }
     for y in pixels(&plot.y, y_ticks.major.iter().map(|tick| tick.value)) {
-        canvas.line((window.left, y), (window.right, y), ink);
+        canvas.line((window.left, y), (window.right, y), ink)?;
     }
+    Ok(())
 }
 
 /// Draws frame, ticks and numbers; they lie over the data.
 pub(super) fn draw_axes(
-    canvas: &mut Drawing,
+    canvas: &mut Canvas<'_>,
     plot: &Plot,
     (x_ticks, y_ticks): (&Ticks, &Ticks),
     (x_label, y_label): (&str, &str),
     sizes: Sizes,
-) {
+) -> Result<(), FigureError> {
     let window = &plot.window;
     let ink = Ink::solid(AXIS, FRAME);
-    canvas.frame(window, ink);
+    canvas.frame(window, ink)?;
     for x in pixels(&plot.x, x_ticks.minor.iter().copied()) {
-        canvas.line((x, window.bottom), (x, window.bottom + 0.55 * TICK), ink);
+        canvas.line((x, window.bottom), (x, window.bottom + 0.55 * TICK), ink)?;
     }
     for y in pixels(&plot.y, y_ticks.minor.iter().copied()) {
-        canvas.line((window.left, y), (window.left - 0.55 * TICK, y), ink);
+        canvas.line((window.left, y), (window.left - 0.55 * TICK, y), ink)?;
     }
-    let below = text(sizes.tick, HorizontalAnchor::Centre, VerticalAnchor::Top, AXIS);
+    let below = text(sizes.tick, HPos::Center, VPos::Top, AXIS);
     for tick in &x_ticks.major {
         if let Some(x) = plot.x.pixel(tick.value) {
-            canvas.line((x, window.bottom), (x, window.bottom + TICK), ink);
-            canvas.text(&tick.label, (x, window.bottom + TICK + TICK_GAP), below);
+            canvas.line((x, window.bottom), (x, window.bottom + TICK), ink)?;
+            canvas.text(&tick.label, (x, window.bottom + TICK + TICK_GAP), below)?;
         }
     }
-    let before = text(sizes.tick, HorizontalAnchor::Right, VerticalAnchor::Centre, AXIS);
+    let before = text(sizes.tick, HPos::Right, VPos::Center, AXIS);
     for tick in &y_ticks.major {
         if let Some(y) = plot.y.pixel(tick.value) {
-            canvas.line((window.left, y), (window.left - TICK, y), ink);
-            canvas.text(&tick.label, (window.left - TICK - TICK_GAP, y), before);
+            canvas.line((window.left, y), (window.left - TICK, y), ink)?;
+            canvas.text(&tick.label, (window.left - TICK - TICK_GAP, y), before)?;
         }
     }
     draw_labels(canvas, window, (x_ticks, y_ticks), (x_label, y_label), sizes)
 }
 
 fn draw_labels(
-    canvas: &mut Drawing,
+    canvas: &mut Canvas<'_>,
     window: &Rectangle,
     (x_ticks, y_ticks): (&Ticks, &Ticks),
     (x_label, y_label): (&str, &str),
     sizes: Sizes,
-) {
+) -> Result<(), FigureError> {
     let x_label_top = window.bottom + TICK + TICK_GAP + 1.25 * sizes.tick;
     let centre = 0.5 * (window.left + window.right);
     let along = |label: &str, length: f64| {
@@ -120,22 +129,15 @@ fn draw_labels(
         sizes.label * (MOST_LABEL * length / whole).min(1.0)
     };
     let x_size = along(x_label, window.width());
-    canvas.text(x_label, (centre, x_label_top), text(x_size, HorizontalAnchor::Centre, VerticalAnchor::Top, BLACK));
-    canvas.text(
-        &x_ticks.factor,
-        (window.right, x_label_top),
-        text(sizes.tick, HorizontalAnchor::Right, VerticalAnchor::Top, AXIS),
-    );
+    canvas.text(x_label, (centre, x_label_top), text(x_size, HPos::Center, VPos::Top, BLACK))?;
+    canvas.text(&x_ticks.factor, (window.right, x_label_top), text(sizes.tick, HPos::Right, VPos::Top, AXIS))?;
 
     let y_label_right = window.left - TICK - TICK_GAP - widest_label(y_ticks, sizes.tick) - 0.8 * sizes.label;
     let y_size = along(y_label, window.height());
-    let upwards = TextSpec {
-        direction: Direction::Upwards,
-        ..text(y_size, HorizontalAnchor::Centre, VerticalAnchor::Centre, BLACK)
-    };
-    canvas.text(y_label, (y_label_right, 0.5 * (window.top + window.bottom)), upwards);
+    let upwards = TextSpec { direction: Direction::Upwards, ..text(y_size, HPos::Center, VPos::Center, BLACK) };
+    canvas.text(y_label, (y_label_right, 0.5 * (window.top + window.bottom)), upwards)?;
     // Left of the frame: the line above the plot belongs to the title.
-    let factor = text(sizes.tick, HorizontalAnchor::Right, VerticalAnchor::Centre, AXIS);
+    let factor = text(sizes.tick, HPos::Right, VPos::Center, AXIS);
     canvas.text(&y_ticks.factor, (window.left - TICK, window.top - 0.85 * sizes.tick), factor)
 }
 

@@ -1,6 +1,6 @@
 //! Cutting curves to the plot, thinning what is finer than a pixel, and dashes.
 
-use super::drawing::{Point, Rectangle};
+use super::canvas::{Point, Rectangle};
 
 /// The parts of a chain of points inside `window`; `None` in the chain is a gap (a value that is missing).
 pub(super) fn clip_chain(chain: &[Option<Point>], window: &Rectangle) -> Vec<Vec<Point>> {

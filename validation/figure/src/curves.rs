@@ -1,10 +1,12 @@
 //! Contents of the frame: bands, lines, references, points with error bars.
 
+use super::canvas::{Canvas, Ink, Point, Rectangle};
 use super::clip::{clip_chain, clip_polygon, dashes, thin};
-use super::drawing::{Drawing, Ink, Point, Rectangle};
-use super::palette::{BLACK, Colour, GREY, MarkerShape, WHITE, colour, shape};
+use super::error::FigureError;
+use super::palette::{BLACK, GREY, MarkerShape, colour, shape};
 use super::range::Mapping;
 use super::{Band, Mark, Panel, Series};
+use plotters::style::{RGBColor, WHITE};
 
 /// Stroke of a simulated curve `[px]`.
 const CURVE: f64 = 4.0;
@@ -33,33 +35,35 @@ impl Plot {
 }
 
 /// Draws bands, then lines, then references, then points: what is judged stays visible under what judges it.
-pub(super) fn draw_bands(canvas: &mut Drawing, plot: &Plot, bands: &[Band]) {
+pub(super) fn draw_bands(canvas: &mut Canvas<'_>, plot: &Plot, bands: &[Band]) -> Result<(), FigureError> {
     for band in bands {
         for outline in band_outlines(plot, band) {
-            canvas.polygon(&outline, Ink { colour: GREY, opacity: BAND_OPACITY, width: 0.0 });
+            canvas.polygon(&outline, Ink { colour: GREY, opacity: BAND_OPACITY, width: 0.0 })?;
         }
     }
+    Ok(())
 }
 
 /// Draws every series of a panel.
-pub(super) fn draw_series(canvas: &mut Drawing, plot: &Plot, panel: &Panel) {
+pub(super) fn draw_series(canvas: &mut Canvas<'_>, plot: &Plot, panel: &Panel) -> Result<(), FigureError> {
     let of = |wanted: &'static [Mark]| panel.series.iter().filter(move |series| wanted.contains(&series.mark));
     for series in of(&[Mark::Line, Mark::LinePoints]) {
         for piece in clip_chain(&plot.chain(&series.points), &plot.window) {
-            canvas.polyline(&thin(piece), Ink::solid(colour(series.colour), CURVE));
+            canvas.polyline(&thin(piece), Ink::solid(colour(series.colour), CURVE))?;
         }
     }
     for series in of(&[Mark::Reference]) {
         let pattern = reference_pattern(panel, series);
         for piece in clip_chain(&plot.chain(&series.points), &plot.window) {
             for dash in dashes(&thin(piece), pattern) {
-                canvas.polyline(&dash, Ink::solid(BLACK, REFERENCE));
+                canvas.polyline(&dash, Ink::solid(BLACK, REFERENCE))?;
             }
         }
     }
     for series in of(&[Mark::Points, Mark::OpenPoints, Mark::LinePoints]) {
-        draw_points(canvas, plot, series);
+        draw_points(canvas, plot, series)?;
     }
+    Ok(())
 }
 
 /// The closed outlines of a band, one for each run of drawable points.
@@ -88,7 +92,7 @@ pub(super) fn band_outlines(plot: &Plot, band: &Band) -> Vec<Vec<Point>> {
     outlines
 }
 
-fn draw_points(canvas: &mut Drawing, plot: &Plot, series: &Series) {
+fn draw_points(canvas: &mut Canvas<'_>, plot: &Plot, series: &Series) -> Result<(), FigureError> {
     let radius = marker_radius(series.points.len());
     let ink = colour(series.colour);
     let mut last: Option<Point> = None;
@@ -104,10 +108,11 @@ fn draw_points(canvas: &mut Drawing, plot: &Plot, series: &Series) {
         }
         last = Some(centre);
         if let Some(&half) = series.error.get(index).filter(|half| half.is_finite() && **half > 0.0) {
-            draw_error_bar(canvas, plot, (x, y), half, ink);
+            draw_error_bar(canvas, plot, (x, y), half, ink)?;
         }
-        draw_marker(canvas, centre, radius, series);
+        draw_marker(canvas, centre, radius, series)?;
     }
+    Ok(())
 }
 
 /// Large clouds get small markers.
@@ -119,24 +124,31 @@ fn marker_radius(points: usize) -> f64 {
     }
 }
 
-fn draw_error_bar(canvas: &mut Drawing, plot: &Plot, (x, y): (f64, f64), half: f64, colour: Colour) {
+fn draw_error_bar(
+    canvas: &mut Canvas<'_>,
+    plot: &Plot,
+    (x, y): (f64, f64),
+    half: f64,
+    colour: RGBColor,
+) -> Result<(), FigureError> {
     let ink = Ink::solid(colour, 2.5);
-    let Some(across) = plot.x.pixel(x) else { return };
+    let Some(across) = plot.x.pixel(x) else { return Ok(()) };
     let window = &plot.window;
     // A bar that reaches below zero on a logarithmic axis ends at the frame.
     let low = plot.y.pixel(y - half).unwrap_or(window.bottom);
     let high = plot.y.pixel(y + half).unwrap_or(window.top);
     let (bottom, top) = (low.clamp(window.top, window.bottom), high.clamp(window.top, window.bottom));
-    canvas.line((across, bottom), (across, top), ink);
+    canvas.line((across, bottom), (across, top), ink)?;
     for (end, cut) in [(low, bottom), (high, top)] {
         if end == cut {
-            canvas.line((across - 8.0, cut), (across + 8.0, cut), ink);
+            canvas.line((across - 8.0, cut), (across + 8.0, cut), ink)?;
         }
     }
+    Ok(())
 }
 
 /// Draws one marker of a series.
-fn draw_marker(canvas: &mut Drawing, (x, y): Point, radius: f64, series: &Series) {
+fn draw_marker(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, series: &Series) -> Result<(), FigureError> {
     // Sizes that look equal, not sizes that are equal.
     let corners: &[(f64, f64)] = match shape(series.colour) {
         MarkerShape::Disc => &[],
@@ -159,10 +171,11 @@ fn draw_marker(canvas: &mut Drawing, (x, y): Point, radius: f64, series: &Series
     for (radius, colour) in rim.into_iter().chain([(radius, colour(series.colour))]).chain(hollow) {
         let ink = Ink::solid(colour, 0.0);
         if corners.is_empty() {
-            canvas.discs(radius, [((x, y), colour)]);
+            canvas.disc((x, y), radius, ink)?;
         }
-        canvas.polygon(&scaled(radius).collect::<Vec<_>>(), ink);
+        canvas.polygon(&scaled(radius).collect::<Vec<_>>(), ink)?;
     }
+    Ok(())
 }
 
 /// Dashed for the first reference of a panel; a second and third label get dash-dots and dots.
@@ -179,23 +192,29 @@ fn reference_pattern(panel: &Panel, series: &Series) -> &'static [f64] {
 }
 
 /// Draws the sample of a series in a legend, from `left` to `right` at height `y`.
-pub(super) fn draw_sample(canvas: &mut Drawing, panel: &Panel, series: &Series, (left, right, y): (f64, f64, f64)) {
+pub(super) fn draw_sample(
+    canvas: &mut Canvas<'_>,
+    panel: &Panel,
+    series: &Series,
+    (left, right, y): (f64, f64, f64),
+) -> Result<(), FigureError> {
     let ink = colour(series.colour);
     match series.mark {
         Mark::Reference => {
             for dash in dashes(&[(left, y), (right, y)], reference_pattern(panel, series)) {
-                canvas.polyline(&dash, Ink::solid(BLACK, REFERENCE));
+                canvas.polyline(&dash, Ink::solid(BLACK, REFERENCE))?;
             }
         }
-        Mark::Line | Mark::LinePoints => canvas.line((left, y), (right, y), Ink::solid(ink, CURVE)),
+        Mark::Line | Mark::LinePoints => canvas.line((left, y), (right, y), Ink::solid(ink, CURVE))?,
         Mark::Points | Mark::OpenPoints => {}
     }
     if matches!(series.mark, Mark::Points | Mark::OpenPoints | Mark::LinePoints) {
-        draw_marker(canvas, (0.5 * (left + right), y), marker_radius(series.points.len()).max(5.5), series);
+        draw_marker(canvas, (0.5 * (left + right), y), marker_radius(series.points.len()).max(5.5), series)?;
     }
+    Ok(())
 }
 
 /// Draws the sample of a band in a legend.
-pub(super) fn draw_band_sample(canvas: &mut Drawing, place: &Rectangle) {
+pub(super) fn draw_band_sample(canvas: &mut Canvas<'_>, place: &Rectangle) -> Result<(), FigureError> {
     canvas.fill_rectangle(place, Ink { colour: GREY, opacity: BAND_OPACITY, width: 0.0 })
 }

@@ -5,6 +5,18 @@ use std::path::PathBuf;
 /// Error in drawing or writing a figure; the message completes "failed to …".
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
+    /// The font inside the program could not be read.
+    #[error("read the embedded font {style}: the font file is damaged, rebuild the program")]
+    Font {
+        /// Name of the embedded font.
+        style: &'static str,
+    },
+    /// The drawing library refused an element.
+    #[error("draw the figure: {0}")]
+    Draw(String),
+    /// The SVG text could not be read back for rasterising.
+    #[error("read the SVG of the figure: {0}")]
+    Svg(String),
     /// The picture could not be rasterised or encoded.
     #[error("rasterise the figure: {0}")]
     Raster(String),

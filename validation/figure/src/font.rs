@@ -3,10 +3,16 @@
 use super::glyphs::Weight;
 use super::script::{Run, SMALLER, runs};
 
-/// Font families with a fallback for browsers without DejaVu Sans; Verdana has the same widths.
-pub(super) const FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
+/// Family name, as in the font's own name table and as browsers know it.
+pub(super) const FAMILY: &str = "DejaVu Sans";
 
-/// Width of `text` set at `em` pixels, with its indices and exponents `[px]`.
+/// Font families with a fallback for browsers without DejaVu Sans; Verdana has the same widths.
+pub(super) const FAMILY_WITH_FALLBACK: &str = "DejaVu Sans, Verdana, sans-serif";
+
+/// plotters' text size is a line height, 1.24 times the em that it writes into the SVG.
+pub(super) const LINE_HEIGHT: f64 = 1.24;
+
+/// Width of `text` set at `em` pixels, with its indices and exponents `[px]`; a rough estimate if the font is missing.
 pub(super) fn width(text: &str, em: f64, weight: Weight) -> f64 {
     let of = |run: &Run<'_>| plain_width(run.text, if run.rise == 0.0 { em } else { SMALLER * em }, weight);
     runs(text).iter().map(of).sum()
@@ -15,9 +21,11 @@ pub(super) fn width(text: &str, em: f64, weight: Weight) -> f64 {
 /// Width of letters on one line `[px]`, in whole 400ths of a line's height.
 pub(super) fn plain_width(text: &str, em: f64, weight: Weight) -> f64 {
     const PARTS: f64 = 400.0;
-    let font = weight.font();
-    // DejaVu's line is 1.164 em
-    (PARTS * f64::from(font.glyphs(text).1) / f64::from(font.line)).trunc() * 1.164 * em / PARTS
+    match weight.font() {
+        // DejaVu's line is 1.164 em
+        Ok(font) => (PARTS * f64::from(font.glyphs(text).1) / f64::from(font.line)).trunc() * 1.164 * em / PARTS,
+        Err(_) => 0.6 * em * text.chars().count() as f64,
+    }
 }
 
 #[cfg(test)]

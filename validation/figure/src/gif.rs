@@ -1,12 +1,12 @@
-//! Animation → GIF: every picture is drawn like a figure, then mapped to one fixed palette; of each picture
+//! Animation → GIF: every picture is rendered like a figure (SVG, raster), then mapped to one fixed palette; of each picture
 //! after the first only the pixels that change are stored.
 
 use super::animation::Animation;
-use super::drawing::Drawing;
 use super::error::FigureError;
 use super::format::FigureFormat;
-use super::is_file_name;
-use super::palette::{Colour, FIRST};
+use super::palette::FIRST;
+use super::{is_file_name, raster, render};
+use plotters::style::RGBColor;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -28,7 +28,7 @@ const PALE: u32 = 50;
 /// Bits a channel by which the palette's nearest colour is looked up: a search for every pixel takes as long as drawing.
 const BITS: u32 = 6;
 
-static PALETTE: LazyLock<Vec<Colour>> = LazyLock::new(palette);
+static PALETTE: LazyLock<Vec<RGBColor>> = LazyLock::new(palette);
 
 /// Index of the nearest colour, by the leading bits of red, green and blue.
 static NEAREST: LazyLock<Vec<u8>> = LazyLock::new(|| {
@@ -48,8 +48,8 @@ pub fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
         .frames
         .par_iter()
         .map(|frame| {
-            let drawing = Drawing::of(&animation.figure(frame), FigureFormat::SCREEN);
-            Ok(IndexedImage::of(&drawing.pixels(SCALE)?))
+            let pixels = raster::pixels(&render::svg(&animation.figure(frame), FigureFormat::SCREEN)?, SCALE)?;
+            Ok(IndexedImage::of(&pixels))
         })
         .collect::<Result<_, FigureError>>()?;
     let Some(first) = pictures.first() else { return Err(FigureError::Animation("it has no picture".to_owned())) };
@@ -57,7 +57,7 @@ pub fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
         return Err(FigureError::Animation("its pictures have different sizes".to_owned()));
     }
     let refused = |error: gif::EncodingError| FigureError::Animation(error.to_string());
-    let colours: Vec<u8> = PALETTE.concat();
+    let colours: Vec<u8> = PALETTE.iter().flat_map(|&RGBColor(red, green, blue)| [red, green, blue]).collect();
     let (width, height) = (first.width as u16, first.height as u16);
     let mut encoder = gif::Encoder::new(Vec::new(), width, height, &colours).map_err(refused)?;
     encoder.set_repeat(gif::Repeat::Infinite).map_err(refused)?;
@@ -73,14 +73,18 @@ pub fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
 }
 
 /// Greys, the colour map, and its mixtures with white.
-fn palette() -> Vec<Colour> {
+fn palette() -> Vec<RGBColor> {
     let share = |step: u32, count: u32| f64::from(step) / f64::from(count - 1);
-    let greys = (0..GREYS).map(|step| [(255.0 * share(step, GREYS)).round() as u8; 3]);
+    let greys = (0..GREYS).map(|step| {
+        let grey = (255.0 * share(step, GREYS)).round() as u8;
+        RGBColor(grey, grey, grey)
+    });
     let full = (0..COLOURS).map(|step| FIRST.at(share(step, COLOURS)));
     let pale = [1.0 / 3.0, 2.0 / 3.0].into_iter().flat_map(|white| {
         (0..PALE).map(move |step| {
+            let RGBColor(red, green, blue) = FIRST.at(share(step, PALE));
             let mix = |channel: u8| (f64::from(channel) + white * (255.0 - f64::from(channel))).round() as u8;
-            FIRST.at(share(step, PALE)).map(mix)
+            RGBColor(mix(red), mix(green), mix(blue))
         })
     });
     greys.chain(full).chain(pale).collect()
@@ -163,18 +167,20 @@ pub fn write_animation(animation: &Animation, folder: &Path) -> Result<PathBuf, 
 }
 
 /// The palette's colour that is nearest in RGB; the first of equals.
-fn nearest([red, green, blue]: Colour, palette: &[Colour]) -> u8 {
+fn nearest([red, green, blue]: [u8; 3], palette: &[RGBColor]) -> u8 {
     let square = |a: u8, b: u8| (i32::from(a) - i32::from(b)).pow(2);
-    let distance = |&[r, g, b]: &Colour| square(red, r) + square(green, g) + square(blue, b);
+    let distance = |&RGBColor(r, g, b): &RGBColor| square(red, r) + square(green, g) + square(blue, b);
     (0_u8..).zip(palette).min_by_key(|(_, colour)| distance(colour)).map_or(0, |(index, _)| index)
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::animation::AnimationFrame;
-    use super::super::palette::{BLACK, WHITE};
+    use super::super::palette::BLACK;
     use super::super::{Axis, Mark, Series};
     use super::*;
+    use plotters::style::WHITE;
+
     /// Two particles, of which one moves to the right and slows down.
     fn animation(frames: usize) -> Animation {
         let axis = |label: &str, upper| Axis { limits: Some((0.0, upper)), ..Axis::linear(label) };
@@ -231,8 +237,8 @@ mod tests {
                 }
             }
         }
-        let last = Drawing::of(&animation.figure(&animation.frames[2]), FigureFormat::SCREEN);
-        let expected = IndexedImage::of(&last.pixels(SCALE).expect("raster"));
+        let last = render::svg(&animation.figure(&animation.frames[2]), FigureFormat::SCREEN).expect("SVG");
+        let expected = IndexedImage::of(&raster::pixels(&last, SCALE).expect("raster"));
         assert!(canvas == expected.indices);
     }
 
@@ -250,16 +256,13 @@ mod tests {
     fn the_palette_leaves_an_index_free_and_has_white_black_and_the_colour_map() {
         let palette = &PALETTE;
         assert!(palette.len() <= usize::from(UNCHANGED));
-        for [red, green, blue] in [WHITE, BLACK, FIRST.at(1.0)] {
+        for RGBColor(red, green, blue) in [WHITE, BLACK, FIRST.at(1.0)] {
             let index = nearest([red, green, blue], palette);
-            assert_eq!(palette[usize::from(index)], [red, green, blue]);
+            assert_eq!(palette[usize::from(index)], RGBColor(red, green, blue));
             let leading = |channel: u8| usize::from(channel >> (8 - BITS));
             let found =
                 palette[usize::from(NEAREST[(leading(red) << (2 * BITS)) | (leading(green) << BITS) | leading(blue)])];
-            assert!(
-                red.abs_diff(found[0]).max(green.abs_diff(found[1])).max(blue.abs_diff(found[2])) <= 8,
-                "{found:?}"
-            );
+            assert!(red.abs_diff(found.0).max(green.abs_diff(found.1)).max(blue.abs_diff(found.2)) <= 8, "{found:?}");
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Text as outlines of the embedded font.
 
+use super::error::FigureError;
+use plotters::style::FontStyle;
 use skrifa::charmap::Charmap;
 use skrifa::instance::{LocationRef, Size};
 use skrifa::metrics::GlyphMetrics;
@@ -10,8 +12,8 @@ use skrifa::{FontRef, GlyphId, MetadataProvider};
 use std::sync::LazyLock;
 use tiny_skia::{Path, PathBuilder, Transform};
 
-static REGULAR: LazyLock<Font> = LazyLock::new(|| Font::of(dejavu::sans::regular()));
-static BOLD: LazyLock<Font> = LazyLock::new(|| Font::of(dejavu::sans::bold()));
+static REGULAR: LazyLock<Option<Font>> = LazyLock::new(|| Font::new(dejavu::sans::regular()));
+static BOLD: LazyLock<Option<Font>> = LazyLock::new(|| Font::new(dejavu::sans::bold()));
 
 /// A font file, in units of the font.
 pub(super) struct Font {
@@ -25,10 +27,6 @@ pub(super) struct Font {
 }
 
 impl Font {
-    fn of(file: &'static [u8]) -> Self {
-        Self::new(file).expect("the embedded font is whole")
-    }
-
     fn new(file: &'static [u8]) -> Option<Self> {
         let font = FontRef::new(file).ok()?;
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
@@ -98,18 +96,33 @@ pub(super) enum Weight {
 }
 
 impl Weight {
-    pub(super) fn font(self) -> &'static Font {
+    pub(super) fn style(self) -> FontStyle {
         match self {
+            Self::Regular => FontStyle::Normal,
+            Self::Bold => FontStyle::Bold,
+        }
+    }
+
+    pub(super) fn font(self) -> Result<&'static Font, FigureError> {
+        let font = match self {
             Self::Regular => &REGULAR,
             Self::Bold => &BOLD,
+        };
+        font.as_ref().ok_or(FigureError::Font { style: self.name() })
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Regular => "regular",
+            Self::Bold => "bold",
         }
     }
 }
 
 /// The outline of a text of `size` units an em with its base line's start at the origin, y downwards, and its width; nothing
 /// for a text without ink.
-pub(super) fn outline(text: &str, size: f32, weight: Weight) -> Option<(Path, f32)> {
-    let font = weight.font();
+pub(super) fn outline(text: &str, size: f32, weight: Weight) -> Result<Option<(Path, f32)>, FigureError> {
+    let font = weight.font()?;
     let scale = size / font.units_per_em;
     let (glyphs, width) = font.glyphs(text);
     let mut pen = Pen { path: PathBuilder::new(), place: 0.0 };
@@ -117,10 +130,11 @@ pub(super) fn outline(text: &str, size: f32, weight: Weight) -> Option<(Path, f3
         pen.place = place;
         if let Some(outline) = font.outlines.get(glyph) {
             let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
-            outline.draw(settings, &mut pen).expect("the embedded font is whole");
+            outline.draw(settings, &mut pen).map_err(|_| FigureError::Font { style: weight.name() })?;
         }
     }
-    Some((pen.path.finish()?.transform(Transform::from_scale(scale, -scale))?, scale * width))
+    let path = pen.path.finish().and_then(|path| path.transform(Transform::from_scale(scale, -scale)));
+    Ok(path.map(|path| (path, scale * width)))
 }
 
 #[cfg(test)]
@@ -129,12 +143,12 @@ mod tests {
 
     #[test]
     fn a_text_is_as_wide_as_its_letters_and_as_high_as_its_capitals() {
-        let (path, width) = outline("HH", 100.0, Weight::Regular).expect("ink");
+        let (path, width) = outline("HH", 100.0, Weight::Regular).expect("font").expect("ink");
         let bounds = path.bounds();
         // of DejaVu Sans: capitals of 0.729 em, H of 0.752 em with 0.098 em before its stem
         assert!((bounds.top() + 72.9).abs() < 0.1 && bounds.bottom().abs() < 0.1, "{bounds:?}");
         assert!((width - 150.4).abs() < 0.1 && (bounds.left() - 9.8).abs() < 0.1, "{width} {bounds:?}");
-        let (_, bold) = outline("HH", 100.0, Weight::Bold).expect("ink");
+        let (_, bold) = outline("HH", 100.0, Weight::Bold).expect("font").expect("ink");
         assert!(bold > width);
     }
 
@@ -142,10 +156,10 @@ mod tests {
     fn pairs_of_letters_stand_closer_and_marks_are_above_their_letters() {
         // advance of A, and the pair A V, by another reader
         for (weight, advance, pair) in [(Weight::Regular, 1401.0, -131.0), (Weight::Bold, 1585.0, -139.0)] {
-            let width = |text: &str| weight.font().glyphs(text).1;
+            let width = |text: &str| weight.font().expect("font").glyphs(text).1;
             assert_eq!((width("A"), width("AV") - width("A") - width("V")), (advance, pair));
             assert_eq!(width("VV"), 2.0 * width("V"));
-            let top = |text: &str| outline(text, 1.0, weight).expect("ink").0.bounds().top();
+            let top = |text: &str| outline(text, 1.0, weight).expect("font").expect("ink").0.bounds().top();
             assert!(top("é") < top("e") - 0.1 && top("Å") < top("A") - 0.1);
         }
     }
@@ -153,19 +167,17 @@ mod tests {
     #[test]
     fn damaged_fonts_are_refused_or_read() {
         for length in [0, 3, 11, 200, 5000, 300_000] {
-            if let Some(font) = Font::new(&dejavu::sans::regular()[..length]) {
-                font.glyphs("Ågφ∞");
-            }
+            drop(Font::new(&dejavu::sans::regular()[..length]));
         }
     }
 
     #[test]
     fn letters_of_formulas_are_in_the_font_and_blanks_have_no_ink() {
         for letter in "−√⁻°²ηφτμδγρθ∞∫→⅔₀′βΔŪ…".chars() {
-            let (glyphs, _) = Weight::Regular.font().glyphs(&letter.to_string());
+            let (glyphs, _) = Weight::Regular.font().expect("font").glyphs(&letter.to_string());
             assert_ne!(glyphs[0].0, GlyphId::NOTDEF, "{letter}");
-            assert!(outline(&letter.to_string(), 10.0, Weight::Regular).is_some(), "{letter}");
+            assert!(outline(&letter.to_string(), 10.0, Weight::Regular).expect("font").is_some(), "{letter}");
         }
-        assert_eq!(outline("  ", 10.0, Weight::Regular), None);
+        assert_eq!(outline("  ", 10.0, Weight::Regular).expect("font"), None);
     }
 }

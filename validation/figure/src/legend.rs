@@ -1,11 +1,14 @@
 //! The legend: what it says, where it hides no data, and how it is drawn.
 
+use super::canvas::{Canvas, Direction, Ink, Point, Rectangle, TextSpec};
 use super::curves::{Plot, band_outlines, draw_band_sample, draw_sample};
-use super::drawing::{Direction, Drawing, HorizontalAnchor, Ink, Point, Rectangle, TextSpec, VerticalAnchor};
+use super::error::FigureError;
 use super::font::width;
 use super::glyphs::Weight;
-use super::palette::{BLACK, GRID, WHITE};
+use super::palette::{BLACK, GRID};
 use super::{Mark, Panel};
+use plotters::style::WHITE;
+use plotters::style::text_anchor::{HPos, VPos};
 
 /// Places for a legend along each side of a plot, less one.
 const STEPS: usize = 8;
@@ -139,18 +142,29 @@ impl Legend {
     }
 
     /// Draws the legend in a box of its own.
-    pub(super) fn draw_box(&self, canvas: &mut Drawing, panel: &Panel, (left, top): Point) {
+    pub(super) fn draw_box(
+        &self,
+        canvas: &mut Canvas<'_>,
+        panel: &Panel,
+        (left, top): Point,
+    ) -> Result<(), FigureError> {
         let place = Rectangle { left, top, right: left + self.box_width(), bottom: top + self.box_height() };
-        canvas.fill_rectangle(&place, Ink::solid(WHITE, 0.0));
-        canvas.frame(&place, Ink::solid(GRID, 2.0));
+        canvas.fill_rectangle(&place, Ink::solid(WHITE, 0.0))?;
+        canvas.frame(&place, Ink::solid(GRID, 2.0))?;
         for (index, entry) in self.entries.iter().enumerate() {
             let y = top + 0.3 * self.em + (index as f64 + 0.5) * self.row();
-            self.draw_entry(canvas, panel, entry, (left + 0.6 * self.em, y));
+            self.draw_entry(canvas, panel, entry, (left + 0.6 * self.em, y))?;
         }
+        Ok(())
     }
 
     /// Draws the legend in rows from `left` to `right`, starting at `top`.
-    pub(super) fn draw_rows(&self, canvas: &mut Drawing, panel: &Panel, (left, right, top): (f64, f64, f64)) {
+    pub(super) fn draw_rows(
+        &self,
+        canvas: &mut Canvas<'_>,
+        panel: &Panel,
+        (left, right, top): (f64, f64, f64),
+    ) -> Result<(), FigureError> {
         let rows = self.rows_below(right - left);
         let longest = rows.iter().map(|(_, length)| *length).fold(0.0, f64::max);
         // rows that are longer than the plot reach under the numbers at its left
@@ -158,29 +172,36 @@ impl Legend {
         for (place, (row, _)) in rows.iter().enumerate() {
             let y = top + (place as f64 + 0.5) * self.row();
             for &(index, x) in row {
-                self.draw_entry(canvas, panel, &self.entries[index], (start + x, y));
+                self.draw_entry(canvas, panel, &self.entries[index], (start + x, y))?;
             }
         }
+        Ok(())
     }
 
-    fn draw_entry(&self, canvas: &mut Drawing, panel: &Panel, (label, item): &(String, LegendEntry), (left, y): Point) {
+    fn draw_entry(
+        &self,
+        canvas: &mut Canvas<'_>,
+        panel: &Panel,
+        (label, item): &(String, LegendEntry),
+        (left, y): Point,
+    ) -> Result<(), FigureError> {
         let right = left + self.sample();
         match *item {
             LegendEntry::Band => {
                 let half = 0.4 * self.em;
-                draw_band_sample(canvas, &Rectangle { left, top: y - half, right, bottom: y + half });
+                draw_band_sample(canvas, &Rectangle { left, top: y - half, right, bottom: y + half })?;
             }
             LegendEntry::Series(index) => {
                 if let Some(series) = panel.series.get(index) {
-                    draw_sample(canvas, panel, series, (left, right, y));
+                    draw_sample(canvas, panel, series, (left, right, y))?;
                 }
             }
         }
         let spec = TextSpec {
             em: self.label(label).0,
             weight: Weight::Regular,
-            horizontal: HorizontalAnchor::Left,
-            vertical: VerticalAnchor::Centre,
+            horizontal: HPos::Left,
+            vertical: VPos::Center,
             colour: BLACK,
             direction: Direction::Rightwards,
         };

@@ -20,10 +20,12 @@
 
 mod animation;
 mod axes;
+mod canvas;
 mod clip;
 mod construct;
 mod curves;
-mod drawing;
+mod discs;
+mod elements;
 mod error;
 mod field;
 mod font;
@@ -36,11 +38,10 @@ mod panel;
 mod pdf;
 mod range;
 mod raster;
+pub mod render;
 mod script;
-mod shapes;
 mod sheet;
 mod size;
-mod svg;
 mod table;
 mod ticks;
 
@@ -48,7 +49,6 @@ mod ticks;
 mod tests;
 
 pub use animation::{Animation, AnimationFrame};
-pub use drawing::Drawing;
 pub use error::FigureError;
 pub use format::FigureFormat;
 pub use gif::{encode as encode_gif, write_animation};
@@ -195,13 +195,14 @@ pub struct FigureFiles {
 /// folder is made if it is missing.
 ///
 /// # Errors
-/// If the name is no file name, there is no memory for the pixels, or a file cannot be written.
+/// If the name is no file name, drawing fails, or a file cannot be written.
 pub fn write(figure: &Figure, folder: &Path) -> Result<FigureFiles, FigureError> {
     if !is_file_name(&figure.name) {
         return Err(FigureError::Name { name: figure.name.clone() });
     }
-    let drawing = Drawing::of(figure, FigureFormat::SCREEN);
-    let raster = drawing.png()?;
+    let drawn = render::svg(figure, FigureFormat::SCREEN)?;
+    let raster = render::png(&drawn, FigureFormat::SCREEN)?;
+    let page = render::pdf(&drawn, FigureFormat::SCREEN)?;
     std::fs::create_dir_all(folder).map_err(|source| FigureError::Write { path: folder.to_owned(), source })?;
     let put = |ending: &str, bytes: &[u8]| {
         let path = folder.join(format!("{}.{ending}", figure.name));
@@ -210,9 +211,9 @@ pub fn write(figure: &Figure, folder: &Path) -> Result<FigureFiles, FigureError>
             Err(source) => Err(FigureError::Write { path, source }),
         }
     };
-    put("pdf", &drawing.pdf())?;
+    put("pdf", &page)?;
     put("csv", csv(figure).as_bytes())?;
-    Ok(FigureFiles { svg: put("svg", drawing.svg().as_bytes())?, png: put("png", &raster)? })
+    Ok(FigureFiles { svg: put("svg", drawn.as_bytes())?, png: put("png", &raster)? })
 }
 
 /// Whether `name` is safe as a file or folder name: it can neither leave its folder nor need quoting in a link.

@@ -1,8 +1,9 @@
 //! One panel: how much room it wants, and drawing it in the room it gets.
 
 use super::axes::{Sizes, TICK, TICK_GAP, draw_axes, draw_grid, text, uncrowded, widest_label};
+use super::canvas::{Canvas, Rectangle, TextSpec};
 use super::curves::{Plot, draw_bands, draw_series};
-use super::drawing::{Drawing, HorizontalAnchor, Rectangle, TextSpec, VerticalAnchor};
+use super::error::FigureError;
 use super::field::{ColourScale, draw_field, extent};
 use super::font::width;
 use super::glyphs::Weight;
@@ -11,6 +12,7 @@ use super::palette::{AXIS, BLACK};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
 use super::{Panel, Scale};
+use plotters::style::text_anchor::{HPos, VPos};
 
 /// Space around a plot for everything that stands outside its frame `[px]`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -163,39 +165,38 @@ impl<'p> ScaledPanel<'p> {
     }
 
     /// Draws the panel with its plot in `room`.
-    pub(super) fn draw(&self, canvas: &mut Drawing, room: &Rectangle) {
+    pub(super) fn draw(&self, canvas: &mut Canvas<'_>, room: &Rectangle) -> Result<(), FigureError> {
         let plot = self.plot(self.fitted(room));
         let window = plot.window;
         let sizes = self.sizes;
-        draw_grid(canvas, &plot, &self.x.2, &self.y.2);
-        draw_bands(canvas, &plot, &self.panel.bands);
+        draw_grid(canvas, &plot, &self.x.2, &self.y.2)?;
+        draw_bands(canvas, &plot, &self.panel.bands)?;
         for (field, colours) in [(&self.panel.field, &self.colours), (&self.panel.opposite, &self.opposite)] {
             if let (Some(field), Some(colours)) = (field, colours) {
-                draw_field(canvas, &plot, field, colours);
+                draw_field(canvas, &plot, field, colours)?;
                 if self.has_bar {
-                    colours.draw_beside(canvas, &window, sizes);
+                    colours.draw_beside(canvas, &window, sizes)?;
                 }
             }
         }
-        draw_series(canvas, &plot, self.panel);
+        draw_series(canvas, &plot, self.panel)?;
         let x_label = if self.has_x_numbers { self.panel.x.label.as_str() } else { "" };
         let labels = (x_label, self.panel.y.label.as_str());
-        draw_axes(canvas, &plot, (&self.x.2, &self.y.2), labels, sizes);
+        draw_axes(canvas, &plot, (&self.x.2, &self.y.2), labels, sizes)?;
         let whole = width(&self.title, sizes.title, Weight::Bold);
-        let title =
-            text(sizes.title * (room.width() / whole).min(1.0), HorizontalAnchor::Left, VerticalAnchor::Centre, BLACK);
+        let title = text(sizes.title * (room.width() / whole).min(1.0), HPos::Left, VPos::Center, BLACK);
         let above = (window.left, window.top - 0.85 * sizes.title);
-        canvas.text(&self.title, above, TextSpec { weight: Weight::Bold, ..title });
+        canvas.text(&self.title, above, TextSpec { weight: Weight::Bold, ..title })?;
         if !self.has_data {
             let middle = (0.5 * (window.left + window.right), 0.5 * (window.top + window.bottom));
-            canvas.text("no data", middle, text(sizes.label, HorizontalAnchor::Centre, VerticalAnchor::Centre, AXIS));
+            canvas.text("no data", middle, text(sizes.label, HPos::Center, VPos::Center, AXIS))?;
         }
         self.draw_legend(canvas, &plot)
     }
 
-    fn draw_legend(&self, canvas: &mut Drawing, plot: &Plot) {
+    fn draw_legend(&self, canvas: &mut Canvas<'_>, plot: &Plot) -> Result<(), FigureError> {
         if self.legend.is_empty() {
-            return;
+            return Ok(());
         }
         let window = &plot.window;
         match self.legend_place {

@@ -2,7 +2,9 @@
 
 use super::Figure;
 use super::axes::Sizes;
-use super::drawing::{Drawing, Rectangle};
+use super::canvas::{Canvas, Rectangle, polish};
+use super::discs::gathered;
+use super::error::FigureError;
 use super::field::ColourScale;
 use super::format::FigureFormat;
 use super::panel::{Margins, ScaledPanel};
@@ -20,8 +22,8 @@ const TALLEST: f64 = 1150.0;
 /// No plot is lower than this `[px]`, however flat its field.
 const LOWEST: f64 = 60.0;
 
-/// Lays out a figure.
-pub(super) fn draw(figure: &Figure, format: FigureFormat) -> Drawing {
+/// Draws `figure` as SVG text.
+pub(super) fn draw(figure: &Figure, format: FigureFormat) -> Result<String, FigureError> {
     let columns = format.columns(figure.columns.clamp(1, 4)).min(figure.panels.len().max(1));
     let sizes = Sizes::for_columns(columns);
     let (_, column_width) = column_of(format, columns, 0);
@@ -54,12 +56,13 @@ pub(super) fn draw(figure: &Figure, format: FigureFormat) -> Drawing {
     let above = bars.len().div_ceil(bars_a_line) as f64 * line;
     let rows = layout(&panels, columns, column_width, aspect);
     let height = above + rows.last().map_or(200.0, |row| row.bottom) + BORDER;
-    let mut canvas = Drawing::new(format, height.ceil());
+    let mut text = String::new();
+    let mut canvas = Canvas::new(&mut text, format.sheet, height.ceil())?;
     for (index, scale) in bars.iter().enumerate() {
         let place = index % bars_a_line;
         let ((left, width), margins) = (column_of(format, bars_a_line, place), rows[0].margins[place.min(columns - 1)]);
         let bottom = BORDER + (index / bars_a_line + 1) as f64 * line - GUTTER;
-        scale.draw_on_top(&mut canvas, (left + margins.left, left + width - margins.right, bottom), sizes);
+        scale.draw_on_top(&mut canvas, (left + margins.left, left + width - margins.right, bottom), sizes)?;
     }
     for (index, panel) in panels.iter().enumerate() {
         let row = &rows[index / columns];
@@ -73,9 +76,10 @@ pub(super) fn draw(figure: &Figure, format: FigureFormat) -> Drawing {
             right: left + column_width - margins.right,
             bottom: top + row.plot_height,
         };
-        panel.draw(&mut canvas, &room);
+        panel.draw(&mut canvas, &room)?;
     }
-    canvas
+    canvas.finish()?;
+    Ok(gathered(&polish(&text, format.sheet, height.ceil(), format)))
 }
 
 /// Left end and width of one of several columns of a sheet `[px]`.

@@ -28,7 +28,8 @@ fn figure(panels: Vec<Panel>) -> Figure {
 }
 
 fn raster(figure: &Figure) -> Pixmap {
-    Pixmap::decode_png(&Drawing::of(figure, FigureFormat::SCREEN).png().expect("PNG")).expect("a PNG")
+    let drawn = render::svg(figure, FigureFormat::SCREEN).expect("SVG");
+    Pixmap::decode_png(&render::png(&drawn, FigureFormat::SCREEN).expect("PNG")).expect("a PNG")
 }
 
 /// Share of pixels of exactly this colour.
@@ -40,7 +41,7 @@ fn share(pixels: &Pixmap, red: u8, green: u8, blue: u8) -> f64 {
 #[test]
 fn the_svg_holds_labels_legend_and_escaped_text() {
     let line = series("slope <24°> & \"rough\"", Mark::Line, 0, &[(0.0, 0.0), (1.0, 1.0)]);
-    let drawn = Drawing::of(&figure(vec![panel(vec![line])]), FigureFormat::SCREEN).svg();
+    let drawn = render::svg(&figure(vec![panel(vec![line])]), FigureFormat::SCREEN).expect("SVG");
     assert!(drawn.contains("u [m/s]") && drawn.contains("y [m]"));
     assert!(drawn.contains("slope &lt;24°&gt; &amp; &quot;rough&quot;"));
     assert!(!drawn.contains("<24°>"));
@@ -73,9 +74,12 @@ fn text_is_rasterised_with_the_embedded_font() {
 
 #[test]
 fn the_same_data_give_the_same_bytes() {
-    let make = || Drawing::of(&figure(vec![field_panel(30), panel(vec![])]), FigureFormat::SCREEN);
-    assert_eq!(make().svg(), make().svg());
-    assert_eq!(make().png().expect("PNG"), make().png().expect("PNG"));
+    let make = || render::svg(&figure(vec![field_panel(30), panel(vec![])]), FigureFormat::SCREEN).expect("SVG");
+    assert_eq!(make(), make());
+    assert_eq!(
+        render::png(&make(), FigureFormat::SCREEN).expect("PNG"),
+        render::png(&make(), FigureFormat::SCREEN).expect("PNG")
+    );
 }
 
 fn field_panel(count: usize) -> Panel {
@@ -103,7 +107,7 @@ fn dots(line: &str) -> Option<Vec<(f64, f64, f64)>> {
 
 #[test]
 fn particles_are_circles_of_their_true_diameter_that_touch() {
-    let drawn = Drawing::of(&figure(vec![field_panel(20)]), FigureFormat::SCREEN).svg();
+    let drawn = render::svg(&figure(vec![field_panel(20)]), FigureFormat::SCREEN).expect("SVG");
     let circles: Vec<(f64, f64, f64)> = drawn.lines().filter_map(dots).flatten().collect();
     assert_eq!(circles.len(), 200);
     let horizontal = circles[1].0 - circles[0].0;
@@ -118,12 +122,12 @@ fn two_fields_have_a_bar_each_and_a_field_without_a_label_none() {
     let mut pressure = both.field.clone().expect("a field");
     pressure.label = "|v| [m/s]".to_owned();
     both.opposite = Some(pressure);
-    let drawn = Drawing::of(&figure(vec![both.clone()]), FigureFormat::SCREEN).svg();
+    let drawn = render::svg(&figure(vec![both.clone()]), FigureFormat::SCREEN).expect("SVG");
     assert!(drawn.contains("p [Pa]") && drawn.contains("|v| [m/s]"));
     for field in both.field.iter_mut().chain(&mut both.opposite) {
         field.label.clear();
     }
-    let plain = Drawing::of(&figure(vec![both]), FigureFormat::SCREEN).svg();
+    let plain = render::svg(&figure(vec![both]), FigureFormat::SCREEN).expect("SVG");
     assert!(!plain.contains("p [Pa]") && plain.matches("<rect").count() < drawn.matches("<rect").count());
 }
 
@@ -133,7 +137,7 @@ fn one_scale_of_colours_has_one_bar_and_one_range_one_axis() {
     let counts = |alter: fn(&mut Panel)| {
         let mut panels = vec![field_panel(20), field_panel(20)];
         alter(&mut panels[1]);
-        let drawn = Drawing::of(&figure(panels).in_columns(1), FigureFormat::SCREEN).svg();
+        let drawn = render::svg(&figure(panels).in_columns(1), FigureFormat::SCREEN).expect("SVG");
         ["p [Pa]", "u [m/s]", "y [m]", "1.2"].map(|text| drawn.matches(&format!(">\n{text}\n<")).count())
     };
     assert_eq!(counts(|_| ()), [1, 1, 2, 1]);
@@ -146,7 +150,7 @@ fn a_legend_under_a_narrow_plot_is_on_the_sheet() {
     let entry = |slot: usize| series(&format!("entry number {slot} of a legend"), Mark::Points, slot, &[(0.0, 1.0)]);
     let mut narrow = panel((0..6).map(entry).collect());
     narrow.y = Axis::named(vec!["a long name".repeat(8)]);
-    let drawn = Drawing::of(&figure(vec![narrow]), FigureFormat::SCREEN).svg();
+    let drawn = render::svg(&figure(vec![narrow]), FigureFormat::SCREEN).expect("SVG");
     let number = |text: &str| text.split('"').next().and_then(|digits| digits.parse::<f64>().ok()).expect("a number");
     let after = |text: &str, mark: &str| number(text.split(mark).nth(1).expect("an attribute"));
     let height = after(&drawn, "viewBox=\"0 0 6400 ");
@@ -181,7 +185,7 @@ fn degenerate_data_draw_something() {
                 odd.x.scale = scale;
                 odd.y.scale = scale;
                 odd.x.limits = Some((f64::NAN, 0.0));
-                let drawn = Drawing::of(&figure(vec![odd]), FigureFormat::SCREEN).svg();
+                let drawn = render::svg(&figure(vec![odd]), FigureFormat::SCREEN).expect("SVG");
                 assert!(!drawn.contains("NaN"));
             }
         }
@@ -194,12 +198,14 @@ fn degenerate_data_draw_something() {
         (vec![(0.0, 0.0), (1e9, 1e-9)], vec![f64::NAN, f64::NAN], 0.0),
     ] {
         let field = Field { points, values, label: "p [Pa]".to_owned(), diameter, limits: Some((1.0, 1.0)) };
-        let odd = figure(vec![Panel { field: Some(field), ..panel(Vec::new()) }]);
-        Drawing::of(&odd, FigureFormat::SCREEN).png().expect("PNG");
+        let drawn = render::svg(&figure(vec![Panel { field: Some(field), ..panel(Vec::new()) }]), FigureFormat::SCREEN)
+            .expect("SVG");
+        render::png(&drawn, FigureFormat::SCREEN).expect("PNG");
     }
-    Drawing::of(&figure(Vec::new()), FigureFormat::SCREEN).png().expect("PNG");
+    render::png(&render::svg(&figure(Vec::new()), FigureFormat::SCREEN).expect("SVG"), FigureFormat::SCREEN)
+        .expect("PNG");
     let none = Figure { columns: 0, ..figure(vec![panel(Vec::new()); 9]) };
-    Drawing::of(&none, FigureFormat::SCREEN).png().expect("PNG");
+    render::png(&render::svg(&none, FigureFormat::SCREEN).expect("SVG"), FigureFormat::SCREEN).expect("PNG");
 }
 
 #[test]

@@ -1,8 +1,7 @@
 //! Figures and animations of a report as files, drawn or taken from what was drawn before.
 
-use crate::figure::{self, Animation, Drawing, Figure, FigureError, FigureFormat, encode_gif};
+use crate::figure::{self, Animation, Figure, FigureError, FigureFormat, encode_gif, render};
 use crate::store::Drawings;
-use std::cell::LazyCell;
 use std::path::{Path, PathBuf};
 
 /// Writes `NAME.svg`, `NAME.png`, `NAME.pdf` and the data as `NAME.csv` into a folder that is there; the path of the PNG.
@@ -10,10 +9,10 @@ pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) 
     check_name(&figure.name)?;
     let format = drawings.format();
     let key = drawings.key(&(figure, format));
-    let drawing = LazyCell::new(|| Drawing::of(figure, format));
-    let vectors = drawings.bytes(&key, "svg", || Ok(drawing.svg().into_bytes()))?;
-    let pixels = drawings.bytes(&key, "png", || drawing.png())?;
-    let page = drawings.bytes(&key, "pdf", || Ok(drawing.pdf()))?;
+    let vectors = drawings.bytes(&key, "svg", || render::svg(figure, format).map(String::into_bytes))?;
+    let svg = String::from_utf8_lossy(&vectors);
+    let pixels = drawings.bytes(&key, "png", || render::png(&svg, format))?;
+    let page = drawings.bytes(&key, "pdf", || render::pdf(&svg, format))?;
     let path = |ending: &str| folder.join(format!("{}.{ending}", figure.name));
     put(path("svg"), &vectors)?;
     put(path("pdf"), &page)?;
@@ -25,7 +24,7 @@ pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) 
 pub(super) fn write_small(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
     check_name(&figure.name)?;
     let format = FigureFormat::SMALL;
-    let draw = || Drawing::of(figure, format).png();
+    let draw = || render::png(&render::svg(figure, format)?, format);
     let pixels = drawings.bytes(&drawings.key(&(figure, format)), "png", draw)?;
     put(folder.join(format!("{}.png", figure.name)), &pixels)
 }

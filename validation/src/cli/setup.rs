@@ -5,7 +5,7 @@ use super::error::ProgramError;
 use super::terminal::print;
 use super::{Exit, Session};
 use crate::case::{ParameterError, Request, Tier};
-use crate::figure::{Drawing, FigureError, FigureFormat};
+use crate::figure::{FigureError, FigureFormat, render};
 use crate::input::nearest;
 use crate::output::{FileError, write_whole};
 use std::path::Path;
@@ -56,8 +56,9 @@ fn draw(show: &ShowArguments, picture: &Path, session: &mut Session<'_>) -> Resu
         let rule = "a scene, or the file of one";
         return Err(refused("--picture", show.case.clone(), rule, "other cases make their starts themselves"));
     };
-    let drawing = Drawing::of(&figure, FigureFormat::SCREEN);
-    let drawn = if ending == "png" { drawing.png() } else { Ok(drawing.svg().into_bytes()) };
+    let format = FigureFormat::SCREEN;
+    let drawn = render::svg(&figure, format)
+        .and_then(|svg| if ending == "png" { render::png(&svg, format) } else { Ok(svg.into_bytes()) });
     let unwritable = |error: &std::io::Error| FileError::unwritable(picture, error);
     let bytes = drawn.map_err(|error: FigureError| unwritable(&std::io::Error::other(error.to_string())))?;
     // a bare name lies where the program is started

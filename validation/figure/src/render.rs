@@ -1,0 +1,33 @@
+//! Figure → SVG → PNG and PDF.
+
+use super::Figure;
+use super::canvas::UNITS_PER_PIXEL;
+use super::error::FigureError;
+use super::format::FigureFormat;
+use super::pdf::page;
+use super::raster::pixels;
+use super::sheet;
+
+/// Draws `figure` as SVG; the same data give the same bytes on any machine.
+///
+/// # Errors
+/// Only if the drawing library refuses; odd data (empty, constant, NaN, infinite) draw an odd figure.
+pub fn svg(figure: &Figure, format: FigureFormat) -> Result<String, FigureError> {
+    sheet::draw(figure, format)
+}
+
+/// Rasterises an SVG of [`svg`] in the same format.
+///
+/// # Errors
+/// If the text is no SVG of [`svg`], or too large to rasterise.
+pub fn png(svg: &str, format: FigureFormat) -> Result<Vec<u8>, FigureError> {
+    pixels(svg, format.scale as f32)?.encode_png().map_err(|error| FigureError::Raster(error.to_string()))
+}
+
+/// Turns an SVG of [`svg`] in the same format into a page of PDF.
+///
+/// # Errors
+/// If the text is no SVG of [`svg`].
+pub fn pdf(svg: &str, format: FigureFormat) -> Result<Vec<u8>, FigureError> {
+    page(svg, format.point_size() / UNITS_PER_PIXEL)
+}
