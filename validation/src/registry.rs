@@ -162,7 +162,7 @@ mod tests {
             ["law=bingham", "yield_stress=1", "plastic_viscosity=1", "regularisation_rate=1"]
                 .map(|setting| format!("{table}.{setting}"))
         };
-        let honey = ["liquid.law=honey".to_owned(), "liquid.viscosity=1".to_owned()];
+        let honey = ["material.law=honey".to_owned(), "material.viscosity=1".to_owned()];
         let layer = ["resolution=4", "preparation=none", "duration=2.2"];
         let column = ["resolution=4", "duration=0.1", "sand.bulk_density=1500", "sand.aspect_ratios=[1]"];
         let alone = [
@@ -175,7 +175,7 @@ mod tests {
         ];
         for (case, own, law) in [
             ("hydrostatic", layer.to_vec(), honey.to_vec()),
-            ("hydrostatic", layer.to_vec(), bingham("liquid").to_vec()),
+            ("hydrostatic", layer.to_vec(), bingham("material").to_vec()),
             ("column-planar", [&column[..], &alone[..]].concat(), bingham("sand.law").to_vec()),
         ] {
             let settings: Vec<&str> = own.into_iter().chain(law.iter().map(String::as_str)).collect();
