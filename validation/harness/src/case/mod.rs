@@ -1,60 +1,38 @@
 //! Definition of a case: typed parameters → independent runs → observations → metrics and figures.
 
-mod causes;
-mod changes;
-mod conditions;
-pub mod cost;
-mod erased;
-mod error;
-mod estimate;
-mod expectation;
-mod fault;
-mod features;
-mod file;
-mod finite;
 mod flow;
-mod foreign;
-mod friction_angle;
-mod guard;
-pub mod list;
-mod meshes;
-mod notes;
-mod output;
+mod given;
+mod outcome;
 #[cfg(test)]
 pub(crate) mod pendulum;
-mod plausible;
-mod rates;
+mod plan;
 pub mod recording;
-mod registry;
-mod request;
-mod result;
-mod schedule;
-mod schema;
-mod tables;
+mod shown;
 
-pub use changes::Changes;
-pub use changes::{table_of_settings, twice_given};
-pub use conditions::{Condition, Conditions};
-pub use cost::RunCost;
-pub use erased::{AnyCase, PreparedCase};
-pub use error::{ParameterError, SettingError};
-pub use estimate::{Estimate, Limits};
-pub use expectation::{speed_up, wall_time};
-pub use features::{FeatureOption, Features};
-pub use file::CaseFile;
+pub use flow::cost::RunCost;
+pub use flow::list::{ListOfRuns, NamedVariant, VariedParameter, settings_to_vary};
 pub use flow::{Flow, RunList};
-pub use foreign::{
+pub use flow::{cost, list};
+pub use given::changes::Changes;
+pub use given::changes::{table_of_settings, twice_given};
+pub use given::error::{ParameterError, SettingError};
+pub use given::file::CaseFile;
+pub use given::output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
+pub use outcome::conditions::{Condition, Conditions};
+pub use outcome::foreign::{
     ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,
     RunScales,
 };
-pub use list::{ListOfRuns, NamedVariant, VariedParameter, settings_to_vary};
-pub use output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
-pub use registry::Registry;
-pub(crate) use request::only;
-pub use request::{Request, Requested};
-pub use result::{CaseResult, RunSummary};
-pub use schedule::{Monitor, Silent, execute, share_out, share_out_for};
-pub use tables::tables_to_add;
+pub use outcome::result::{CaseResult, RunSummary};
+pub use plan::erased::{AnyCase, PreparedCase};
+pub use plan::estimate::{Estimate, Limits};
+pub use plan::expectation::{speed_up, wall_time};
+pub use plan::registry::Registry;
+pub(crate) use plan::request::only;
+pub use plan::request::{Request, Requested};
+pub use plan::schedule::{Monitor, Silent, execute, share_out, share_out_for};
+pub use shown::features::{FeatureOption, Features};
+pub use shown::tables::tables_to_add;
 
 use crate::checkpoint::Checkpoints;
 use crate::figure::{Animation, Figure};

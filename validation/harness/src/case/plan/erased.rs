@@ -1,16 +1,16 @@
 //! Cases without their types: what the command line, the report and the tests work with.
 
-use super::causes::explained;
-use super::changes::{Changes, ParameterSource, resolve, table_of};
-use super::error::ParameterError;
-use super::finite::{fail_broken_profiles, fail_diverged};
-use super::foreign::ExternalResult;
 use super::guard::{Guard, with_changed};
-use super::notes::notes;
-use super::result::{CaseResult, RunSummary, microseconds_each};
-use super::{
+use crate::case::given::changes::{Changes, ParameterSource, resolve, table_of};
+use crate::case::given::error::ParameterError;
+use crate::case::outcome::causes::explained;
+use crate::case::outcome::finite::{fail_broken_profiles, fail_diverged};
+use crate::case::outcome::foreign::ExternalResult;
+use crate::case::outcome::result::{CaseResult, RunSummary, microseconds_each};
+use crate::case::shown::{notes::notes, schema};
+use crate::case::{
     Case, CaseFile, Conditions, Estimate, ExternalData, ExternalSchema, Parameters, Progress, RecordOf, Run, RunOf,
-    RunScales, StateOutput, Tier, schema, tables_to_add,
+    RunScales, StateOutput, Tier, tables_to_add,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::control::{self, Control};

@@ -1,8 +1,9 @@
 //! From defaults, a TOML file and `--set` to typed parameters, with errors that name the field.
 
 use super::error::{ParameterError, SettingError};
-use super::estimate::Limits;
-use super::{Parameters, fault, friction_angle, plausible};
+use super::{fault, friction_angle, plausible};
+use crate::case::Parameters;
+use crate::case::plan::estimate::Limits;
 use crate::metric::Variant;
 use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
@@ -28,14 +29,14 @@ pub struct Changes<'a> {
 
 /// Source of the user's parameters, for errors that occur after the changes are discarded.
 #[derive(Debug, Default)]
-pub(super) struct ParameterSource {
+pub(in crate::case) struct ParameterSource {
     file: Option<PathBuf>,
     settings: Vec<String>,
 }
 
 impl ParameterSource {
     /// An error whose field stands in the user's file, or that names none of his fields, says which file it is.
-    pub(super) fn placed(&self, error: ParameterError) -> ParameterError {
+    pub(in crate::case) fn placed(&self, error: ParameterError) -> ParameterError {
         let names_none = matches!(error, ParameterError::Changed { .. });
         match &self.file {
             Some(file) if error.field_path().map_or(names_none, |field| !is_set(&self.settings, field)) => {
@@ -48,7 +49,7 @@ impl ParameterSource {
 
 impl Changes<'_> {
     /// Source of these changes: the file and the `--set` arguments.
-    pub(super) fn source(&self) -> ParameterSource {
+    pub(in crate::case) fn source(&self) -> ParameterSource {
         ParameterSource {
             file: self.file.as_ref().map(|(file, _)| file.to_path_buf()),
             settings: self.settings.to_vec(),
@@ -57,7 +58,7 @@ impl Changes<'_> {
 
     /// The same, with lists empty that a file leaves out.
     #[must_use]
-    pub(super) fn with_lists(&self, stated: &[&str]) -> Self {
+    pub(in crate::case) fn with_lists(&self, stated: &[&str]) -> Self {
         let mut changes = self.clone();
         // a file without a field is the case as it comes, with all of its runs
         let states = |fields: &Table| !fields.is_empty() || !stated.contains(&"vary");
@@ -71,12 +72,16 @@ impl Changes<'_> {
 }
 
 /// The parameters as a TOML table.
-pub(super) fn table_of<P: Serialize>(parameters: &P) -> Table {
+pub(in crate::case) fn table_of<P: Serialize>(parameters: &P) -> Table {
     Table::try_from(parameters).expect("a case's parameters are structs that TOML can hold")
 }
 
 /// Lays the changes over the defaults, checks each field along the schema, and types the result.
-pub(super) fn resolve<P: Parameters>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError> {
+pub(in crate::case) fn resolve<P: Parameters>(
+    case: &str,
+    defaults: &P,
+    changes: &Changes<'_>,
+) -> Result<P, ParameterError> {
     refuse_former(P::field_now, changes)?;
     typed(case, defaults, changes, P::set_for_all)
 }
@@ -170,7 +175,7 @@ fn said(message: &str) -> Option<(&str, &str, &str, &str)> {
 }
 
 /// A law that is neither the solver's nor one of the user's own: the schema leaves the names of the latter open.
-pub(super) fn unknown_law(schema: &Schema, value: &Value, path: &str) -> Option<Fault> {
+pub(in crate::case) fn unknown_law(schema: &Schema, value: &Value, path: &str) -> Option<Fault> {
     let below = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
     match (Shape::of(schema), value) {
         (Shape::Tagged { tag, variants, open: true }, Value::Table(fields)) => {
@@ -257,7 +262,7 @@ fn parts(argument: &str) -> Option<(&str, &str)> {
 
 /// Lays `changes` over `table`: tables field by field, everything else whole; another choice of an enum replaces the
 /// table's, whose fields are not its own.
-pub(super) fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
+pub(in crate::case) fn overlay(schema: &Schema, table: &mut Table, changes: &Table) {
     let shape = Shape::of(schema);
     let chosen = shape.chosen(&Value::Table(changes.clone())).or_else(|| shape.chosen(&Value::Table(table.clone())));
     let in_degrees = friction_angle::as_coefficient(chosen.and_then(|variant| variant.content), changes);
@@ -384,12 +389,12 @@ fn value_of(text: &str) -> Value {
 }
 
 /// The dotted paths of all values that are no tables.
-pub(super) fn leaves(table: &Table) -> Vec<String> {
+pub(in crate::case) fn leaves(table: &Table) -> Vec<String> {
     paths(table).into_iter().filter(|path| find(table, path).is_some_and(|value| !value.is_table())).collect()
 }
 
 /// All dotted paths of a table, parents first.
-pub(super) fn paths(table: &Table) -> Vec<String> {
+pub(in crate::case) fn paths(table: &Table) -> Vec<String> {
     table
         .iter()
         .flat_map(|(key, value)| {
@@ -400,7 +405,7 @@ pub(super) fn paths(table: &Table) -> Vec<String> {
 }
 
 /// The value at a dotted path.
-pub(super) fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+pub(in crate::case) fn find<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     let mut keys = path.split('.');
     let first = table.get(keys.next()?)?;
     keys.try_fold(first, |value, key| value.as_table()?.get(key))

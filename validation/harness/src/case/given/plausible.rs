@@ -84,7 +84,7 @@ const USUAL: &[Usual] = &[
 const WIDEST_GRAIN: f64 = 10.0;
 
 /// Warnings of what the user gave, with the likely unit, each behind its field.
-pub(super) fn warnings(fields: &Table) -> Vec<(String, String)> {
+pub(in crate::case) fn warnings(fields: &Table) -> Vec<(String, String)> {
     let mut found = Vec::new();
     collect(fields, "", &mut found);
     found
@@ -130,7 +130,7 @@ fn unusual(name: &str, path: &str, value: f64) -> Option<(String, String)> {
 }
 
 /// Warning of grains of a scene that are many particle spacings wide.
-pub(super) fn wide_grains(parameters: &Table) -> Option<String> {
+pub(in crate::case) fn wide_grains(parameters: &Table) -> Option<String> {
     let material = parameters.get("material")?.as_table()?;
     let (diameter, spacing) = (number_in(material.get("grain_diameter")?)?, number_in(parameters.get("spacing")?)?);
     (diameter > WIDEST_GRAIN * spacing).then(|| {

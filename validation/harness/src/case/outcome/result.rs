@@ -1,6 +1,6 @@
 //! Results of a finished case for reports, files and tests: plain data, whatever the case's types were.
 
-use super::Tier;
+use crate::case::Tier;
 use crate::control::{Control, ControlTrial};
 use crate::figure::{Animation, Figure};
 use crate::metric::{FlowRegime, Metric, Variant, Verdict};
@@ -127,6 +127,6 @@ impl CaseResult {
 
 /// Wall time over the number of things done in it `[µs]`.
 #[must_use]
-pub(super) fn microseconds_each(wall_seconds: f64, count: f64) -> Option<f64> {
+pub(in crate::case) fn microseconds_each(wall_seconds: f64, count: f64) -> Option<f64> {
     (count > 0.0).then(|| wall_seconds * 1e6 / count)
 }

@@ -1,9 +1,9 @@
 //! Checks of the parameters of a case as a whole, before anything is allocated: the rules between fields, runs that can
 //! be distinguished, and a size that this machine can take. Every refusal names a field that the user has changed.
 
-use super::changes::{Changes, find, leaves, table_of};
-use super::error::ParameterError;
-use super::{Estimate, Parameters, Run, Tier};
+use crate::case::given::changes::{Changes, find, leaves, table_of};
+use crate::case::given::error::ParameterError;
+use crate::case::{Estimate, Parameters, Run, Tier};
 use crate::output::caution;
 use bagnold_solver::parameter::shortened;
 use std::collections::BTreeMap;
@@ -13,17 +13,17 @@ use toml::{Table, Value};
 const LISTED: usize = 8;
 
 /// Parameters between those of a tier and those that a user asks for.
-pub(super) struct Guard<'a, P> {
-    pub(super) case: &'static str,
-    pub(super) tier: Tier,
-    pub(super) changes: &'a Changes<'a>,
+pub(in crate::case) struct Guard<'a, P> {
+    pub(in crate::case) case: &'static str,
+    pub(in crate::case) tier: Tier,
+    pub(in crate::case) changes: &'a Changes<'a>,
     defaults: Table,
     asked: Table,
     parameters: &'a P,
 }
 
 impl<'a, P: Parameters> Guard<'a, P> {
-    pub(super) fn new(
+    pub(in crate::case) fn new(
         (case, tier): (&'static str, Tier),
         changes: &'a Changes<'a>,
         (defaults, parameters): (&P, &'a P),
@@ -32,7 +32,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
     }
 
     /// The runs that the parameters ask for.
-    pub(super) fn runs(&self) -> Result<Vec<P::Run>, ParameterError> {
+    pub(in crate::case) fn runs(&self) -> Result<Vec<P::Run>, ParameterError> {
         let source = self.changes.source();
         self.parameters.check().map_err(|error| source.placed(self.named(error)))?;
         self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
@@ -74,7 +74,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
     }
 
     /// Fields that differ from the tier's, with their values.
-    pub(super) fn changed(&self) -> Vec<(String, String)> {
+    pub(in crate::case) fn changed(&self) -> Vec<(String, String)> {
         leaves(&self.asked)
             .into_iter()
             .filter(|path| find(&self.asked, path) != find(&self.defaults, path))
@@ -181,7 +181,7 @@ fn is_same_or_within(field: &str, other: &str) -> bool {
 }
 
 /// An error that names no field of the user's says which ones he has changed.
-pub(super) fn with_changed(error: ParameterError, changed: &[(String, String)]) -> ParameterError {
+pub(in crate::case) fn with_changed(error: ParameterError, changed: &[(String, String)]) -> ParameterError {
     let is_named = |field: &str| changed.iter().any(|(path, _)| is_same_or_within(field, path));
     if changed.is_empty() || error.field_path().is_some_and(is_named) {
         return error;
@@ -196,9 +196,9 @@ pub(super) fn with_changed(error: ParameterError, changed: &[(String, String)]) 
 
 #[cfg(test)]
 mod tests {
-    use super::super::pendulum::Pendulum;
-    use super::super::{AnyCase, Changes, Limits, Tier};
     use super::*;
+    use crate::case::pendulum::Pendulum;
+    use crate::case::{AnyCase, Changes, Limits, Tier};
     use crate::metric::Variant;
 
     const LIMITS: Limits = Limits { memory: 1e9, core_hours: 1.0 };

@@ -1,6 +1,6 @@
 //! Estimated resources of runs before anything is allocated (particles, memory, steps and time), and their limits.
 
-use super::Run;
+use crate::case::Run;
 use std::fmt;
 
 /// Memory of a particle in the snapshots of a run that is done `[bytes]`.
@@ -35,7 +35,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// Of one run.
-    pub(super) fn of(run: &impl Run) -> Self {
+    pub(in crate::case) fn of(run: &impl Run) -> Self {
         let cost = run.cost();
         let running = cost.particles * cost.bytes_per_particle;
         Self {
@@ -81,7 +81,7 @@ impl Estimate {
     }
 
     /// The limit that it breaks: the rule, completing "must be …", and what to do about it.
-    pub(super) fn problem(&self, limits: &Limits) -> Option<(String, String)> {
+    pub(in crate::case) fn problem(&self, limits: &Limits) -> Option<(String, String)> {
         if self.excess(limits) <= 1.0 {
             return None;
         }
@@ -109,7 +109,7 @@ impl Estimate {
     }
 
     /// Whether it asks for less than another, as the limits count it.
-    pub(super) fn is_less_than(&self, other: &Self, limits: &Limits) -> bool {
+    pub(in crate::case) fn is_less_than(&self, other: &Self, limits: &Limits) -> bool {
         self.excess(limits) < other.excess(limits)
     }
 }
@@ -209,7 +209,7 @@ mod tests {
     const LIMITS: Limits = Limits { memory: 16.0 * GIBIBYTE, core_hours: 100.0 };
 
     fn of(particles: f64, core_seconds: f64) -> Estimate {
-        let running = particles * super::super::cost::BYTES_WHILE_RUNNING;
+        let running = particles * crate::case::cost::BYTES_WHILE_RUNNING;
         Estimate {
             runs: 1,
             running,

@@ -1,7 +1,8 @@
 //! A case as a TOML file: `case` and `tier` on top, the parameters below.
 
 use super::error::ParameterError;
-use super::{OutputPlan, Tier, meshes, rates};
+use super::{meshes, rates};
+use crate::case::{OutputPlan, Tier};
 use crate::input::{DOCUMENT, nearest, position, read_text};
 use crate::output::FileError;
 use bagnold_solver::parameter::shortened;
@@ -102,7 +103,7 @@ impl CaseFile {
 
     /// The text of a complete file: the parameters in the order of their struct, each with its note.
     #[must_use]
-    pub(super) fn text(case: &str, tier: Tier, parameters: &str, notes: &BTreeMap<String, String>) -> String {
+    pub(in crate::case) fn text(case: &str, tier: Tier, parameters: &str, notes: &BTreeMap<String, String>) -> String {
         let mut text = format!("case = \"{case}\"\ntier = \"{tier}\"\n");
         if !parameters.starts_with('[') {
             text.push('\n');

@@ -1,7 +1,7 @@
 //! Faults that the checker finds in a field, as messages for the user.
 
 use super::error::ParameterError;
-use super::notes::remark;
+use crate::case::shown::notes::remark;
 use crate::input::nearest;
 use bagnold_solver::parameter::{Fault, ParameterProblem};
 
@@ -13,7 +13,7 @@ impl From<ParameterProblem> for ParameterError {
 }
 
 /// The error for a fault in the parameters of `case`; `known` are all paths that it has.
-pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> ParameterError {
+pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> ParameterError {
     match fault {
         Fault::Unknown { path, known: beside } => ParameterError::UnknownField {
             file: None,
@@ -46,7 +46,7 @@ pub(super) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> Param
 }
 
 /// The rule that a value breaks: that it has no unit, where a word of a few letters stands behind a number.
-pub(super) fn without_unit(rule: String, value: &str) -> String {
+pub(in crate::case) fn without_unit(rule: String, value: &str) -> String {
     let behind = value.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c)).trim_start();
     let is_unit = behind.chars().next().is_some_and(|first| first.is_alphabetic() || "°%".contains(first));
     let has_unit =
@@ -55,7 +55,7 @@ pub(super) fn without_unit(rule: String, value: &str) -> String {
 }
 
 /// Remedy for a value of the wrong type: the nearest name of an enum, or the command that shows a valid value.
-pub(super) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str) -> String {
+pub(in crate::case) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str) -> String {
     choice
         .and_then(|(name, known)| nearest(name, known.iter().map(String::as_str)))
         .map_or_else(|| format!("`bagnold show {case}` prints a valid value"), |name| format!("did you mean `{name}`?"))
@@ -69,7 +69,7 @@ const MOST_NAMESAKES: usize = 4;
 
 /// The path that is most like one that does not exist, from the first list that has any; of a parameter that had this name before, that
 /// parameter; of one behind a prefix that does not exist, the one without.
-pub(super) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
+pub(in crate::case) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
     let (above, name) = path.rsplit_once('.').map_or(("", path), |(above, name)| (above, name));
     let now = RENAMED
         .iter()

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use toml::{Table, Value};
 
 /// Remarks on the parameters by dotted path, each with its unit; entries of lists are numbered, `gauges[0].width`.
-pub(super) fn notes(schema: &Schema, parameters: &Table) -> BTreeMap<String, String> {
+pub(in crate::case) fn notes(schema: &Schema, parameters: &Table) -> BTreeMap<String, String> {
     let mut notes = BTreeMap::new();
     collect(schema, &Value::Table(parameters.clone()), "", &mut notes);
     notes
@@ -57,7 +57,7 @@ fn collect(schema: &Schema, value: &Value, path: &str, notes: &mut BTreeMap<Stri
 }
 
 /// Meaning of a field, with its unit and the names that it is one of.
-pub(super) fn note_of(schema: &Schema) -> String {
+pub(in crate::case) fn note_of(schema: &Schema) -> String {
     let about = description(schema).map(|text| remark(&text)).unwrap_or_default();
     let choices = choices(schema).unwrap_or_default();
     match (about.is_empty(), choices.is_empty()) {
@@ -93,7 +93,7 @@ fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
 }
 
 /// The first sentence of a doc comment as a remark: units and names without their backquotes, a small letter in front.
-pub(super) fn remark(description: &str) -> String {
+pub(in crate::case) fn remark(description: &str) -> String {
     let is_end = |(at, _): &(usize, &str)| {
         let word = description[..*at].rsplit([' ', '(']).next().unwrap_or_default();
         !["al", "e.g", "i.e", "Eq", "Fig"].contains(&word)

@@ -1,7 +1,7 @@
 //! The cases that the program knows, by name.
 
-use super::AnyCase;
-use super::error::ParameterError;
+use crate::case::AnyCase;
+use crate::case::given::error::ParameterError;
 use crate::input::nearest;
 use crate::store::CodeOrigin;
 

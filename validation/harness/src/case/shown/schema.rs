@@ -1,12 +1,12 @@
 //! The JSON Schema of a case file, for editors.
 
-use super::{OUTPUT_FIELDS, Tier};
+use crate::case::{OUTPUT_FIELDS, Tier};
 use bagnold_solver::parameter::{Shape, schema_of};
 use serde_json::{Map, Value as Schema, json};
 use toml::{Table, Value};
 
 /// The schema of a file for `case`: every parameter may be left out and is then the tier's.
-pub(super) fn of_file(case: &str, summary: &str, tier: Tier, parameters: &Schema, defaults: &Table) -> Schema {
+pub(in crate::case) fn of_file(case: &str, summary: &str, tier: Tier, parameters: &Schema, defaults: &Table) -> Schema {
     let mut tiers = schema_of::<Tier>().clone();
     if let Schema::Object(keywords) = &mut tiers {
         for keyword in ["$schema", "title"] {

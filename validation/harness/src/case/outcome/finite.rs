@@ -1,6 +1,6 @@
 //! A profile that holds what is no number fails its run, whatever the metrics made of it, and a run that diverged its gates.
 
-use super::RunSummary;
+use crate::case::RunSummary;
 use crate::metric::{DIVERGED, Metric};
 use crate::observation::Outcome;
 use crate::output::Table;
@@ -9,7 +9,7 @@ use crate::output::Table;
 const PROFILE: &str = "profile";
 
 /// Marks the runs whose profiles are not finite as diverged, unless their divergence is a result.
-pub(super) fn fail_broken_profiles(runs: &mut [RunSummary], tables: &[Table]) {
+pub(in crate::case) fn fail_broken_profiles(runs: &mut [RunSummary], tables: &[Table]) {
     for table in tables.iter().filter(|table| table.name.starts_with(PROFILE)) {
         let Some(message) = broken(table) else { continue };
         let is_of = |run: &RunSummary| table.name.ends_with(&run.variant.file_name());
@@ -25,7 +25,7 @@ pub(super) fn fail_broken_profiles(runs: &mut [RunSummary], tables: &[Table]) {
 }
 
 /// Takes the values of gates away whose runs diverged although that is no result: nothing of such a run is green.
-pub(super) fn fail_diverged(metrics: &mut [Metric], runs: &[RunSummary]) {
+pub(in crate::case) fn fail_diverged(metrics: &mut [Metric], runs: &[RunSummary]) {
     let reason = DIVERGED.to_owned();
     for run in runs.iter().filter(|run| run.diverged_unexpectedly()) {
         for metric in metrics.iter_mut().filter(|metric| metric.gate.is_some()) {

@@ -39,7 +39,7 @@ const CAUSES: [(&str, &str); 9] = [
 ];
 
 /// The record with the likely causes behind the message of a divergence that is no expected result.
-pub(super) fn explained<O>(mut record: Recorded<O>) -> Recorded<O> {
+pub(in crate::case) fn explained<O>(mut record: Recorded<O>) -> Recorded<O> {
     if let Outcome::Diverged { message, expected: false } = &mut record.outcome
         && let Some(causes) = causes(message)
     {

@@ -3,8 +3,8 @@
 //! Every run gets a rayon pool of its own. In one shared pool a thread that waits for the last slice
 //! of its own loop may pick up a whole other run, which would delay its own and spoil its timing.
 
-use super::error::ParameterError;
-use super::{CaseResult, PreparedCase, Progress, StateOutput};
+use crate::case::given::error::ParameterError;
+use crate::case::{CaseResult, PreparedCase, Progress, StateOutput};
 use crate::checkpoint::is_interrupted;
 use crate::store::Store;
 use std::collections::BTreeMap;

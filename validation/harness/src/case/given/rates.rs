@@ -11,7 +11,7 @@ const MOST_ROWS: usize = 100_000;
 
 /// Adds the rows of the tables that `inlets` name by a path from the case file on. An inlet that has rows keeps them: the name
 /// then says where they came from.
-pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), ParameterError> {
+pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), ParameterError> {
     let beside = path.parent().unwrap_or(Path::new(""));
     let mut count = 0;
     let inlets = fields.get_mut("inlets").and_then(Value::as_array_mut);

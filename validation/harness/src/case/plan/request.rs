@@ -1,7 +1,7 @@
 //! Request for runs: a case by its name or from a file, with changes, all of its runs or some.
 
-use super::error::ParameterError;
-use super::{AnyCase, CaseFile, Changes, Limits, OutputPlan, PreparedCase, Registry, Tier};
+use crate::case::given::error::ParameterError;
+use crate::case::{AnyCase, CaseFile, Changes, Limits, OutputPlan, PreparedCase, Registry, Tier};
 use crate::metric::Variant;
 use std::path::{Path, PathBuf};
 

@@ -1,9 +1,12 @@
 //! A case as one flow: its parameters are one simulation, and a list says which of them are run.
 
-use super::changes::{overlay, table_of, unknown_law};
-use super::fault;
-use super::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
-use super::{ParameterError, Parameters, Run, Tier};
+pub mod cost;
+pub mod list;
+
+use self::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
+use crate::case::given::changes::{overlay, table_of, unknown_law};
+use crate::case::given::fault;
+use crate::case::{ParameterError, Parameters, Run, Tier};
 use crate::input::FieldError;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
@@ -142,11 +145,11 @@ fn placed(fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
         .rev()
         .find(|(_, own, value)| gives(own) || value.is_table() && path.starts_with(own.as_str()));
     let Some((place, own, value)) = given else {
-        return fault::in_parameters(fault, "CASE", &super::changes::paths(base));
+        return fault::in_parameters(fault, "CASE", &crate::case::given::changes::paths(base));
     };
     match fault {
         Fault::Unknown { known, .. } => {
-            let known = [known, super::changes::paths(base)];
+            let known = [known, crate::case::given::changes::paths(base)];
             let nearest = fault::nearest_path(&path, &[&known[0], &known[1]]);
             let remedy = nearest.map_or_else(
                 || "`bagnold show CASE` prints all fields".to_owned(),
@@ -155,7 +158,7 @@ fn placed(fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
             let field = if place.starts_with("vary") || place.contains("].vary") { "path" } else { path.as_str() };
             FieldError::new(&format!("{place}.{field}"), format!("\"{path}\""), "a field of the flow", &remedy).into()
         }
-        fault => match fault::in_parameters(fault, "CASE", &super::changes::paths(base)) {
+        fault => match fault::in_parameters(fault, "CASE", &crate::case::given::changes::paths(base)) {
             ParameterError::Field(error) => {
                 let text = error.value.clone();
                 let shown = if own == &path { value.to_string() } else { text };

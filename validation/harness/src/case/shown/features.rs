@@ -1,7 +1,7 @@
 //! Options that the parameters offer and those that a run has chosen. They are read from the schemas of the parameters
 //! and from the serialised run, so that a new option of a law, an operator or a boundary shows by itself.
 
-use super::Registry;
+use crate::case::Registry;
 use bagnold_solver::parameter::Shape;
 use serde::Serialize;
 use serde_json::Value;

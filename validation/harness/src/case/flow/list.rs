@@ -14,7 +14,7 @@
 //! columns = 40
 //! ```
 
-use super::Tier;
+use crate::case::Tier;
 use crate::input::{FieldError, check_name};
 use crate::metric::{Value as VariantValue, Variant};
 use schemars::JsonSchema;

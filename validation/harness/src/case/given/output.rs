@@ -95,7 +95,7 @@ impl OutputPlan {
     ///
     /// # Errors
     /// Errors of [`OutputPlan::of`]; a value that is not a table.
-    pub(super) fn taken(fields: &mut toml::Table, path: &Path) -> Result<Option<Self>, FieldError> {
+    pub(in crate::case) fn taken(fields: &mut toml::Table, path: &Path) -> Result<Option<Self>, FieldError> {
         match fields.remove("output") {
             None => Ok(None),
             Some(toml::Value::Table(table)) => Self::of(&table).map(Some).map_err(|error| error.in_file(path)),

@@ -50,4 +50,4 @@ impl RunCost {
 
 /// Memory per particle during its run: state, neighbours, pair weights, solves `[bytes]`. Still water of 160 000 particles
 /// takes some 2.3 kB each.
-pub(super) const BYTES_WHILE_RUNNING: f64 = 3e3;
+pub(in crate::case) const BYTES_WHILE_RUNNING: f64 = 3e3;

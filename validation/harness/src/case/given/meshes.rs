@@ -15,7 +15,7 @@ const MOST_LISTED: usize = 10_000;
 
 /// Adds the triangles of the meshes that `walls` name by a path from the case file on. A wall that has triangles keeps
 /// them: the name then says where they came from.
-pub(super) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), ParameterError> {
+pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<(), ParameterError> {
     let beside = path.parent().unwrap_or(Path::new(""));
     let mut count = 0;
     let walls = fields.get_mut("walls").and_then(Value::as_array_mut);

@@ -1,4 +1,4 @@
-//! Expected wall time of several runs, from their times on one core, in the order of [`super::execute`].
+//! Expected wall time of several runs, from their times on one core, in the order of [`crate::case::execute`].
 
 /// Gain in speed by every thread of a run beyond its first `[-]`. Small runs gain less, large ones more.
 const GAIN: f64 = 0.7;
@@ -10,7 +10,7 @@ pub fn speed_up(threads: usize) -> f64 {
 }
 
 /// Wall time of runs in the order in which they begin, on so many threads, from their times on one core; all in `[s]`. They
-/// are shared out as [`super::share_out`] does it: one thread each while there are more runs than threads, a fair share for the
+/// are shared out as [`crate::case::share_out`] does it: one thread each while there are more runs than threads, a fair share for the
 /// last few.
 #[must_use]
 pub fn wall_time(core_seconds: &[f64], threads: usize) -> f64 {

@@ -13,7 +13,7 @@ const ANGLE: &str = "friction_angle";
 const COEFFICIENT: &str = "static_friction";
 
 /// The first friction angle `[°]` that has no tangent to stand for, or stands beside what it stands for.
-pub(super) fn wrong(fields: &Table, above: &str) -> Option<ParameterError> {
+pub(in crate::case) fn wrong(fields: &Table, above: &str) -> Option<ParameterError> {
     fields.iter().find_map(|(key, value)| {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };
         match value {
@@ -46,7 +46,7 @@ pub(super) fn wrong(fields: &Table, above: &str) -> Option<ParameterError> {
 
 /// The changes with the coefficient of friction in place of a friction angle `[°]`, where the law has the one and knows
 /// nothing of the other: sand is as often told by its angle.
-pub(super) fn as_coefficient(law: Option<&Schema>, changes: &Table) -> Option<Table> {
+pub(in crate::case) fn as_coefficient(law: Option<&Schema>, changes: &Table) -> Option<Table> {
     let properties = law?.get("properties")?.as_object()?;
     let takes = properties.contains_key(COEFFICIENT) && !properties.contains_key(ANGLE);
     let angle = changes.get(ANGLE).and_then(number_in)?;
@@ -61,7 +61,7 @@ pub(super) fn as_coefficient(law: Option<&Schema>, changes: &Table) -> Option<Ta
 
 /// Warns once of the parameters of friction that keep their values where an angle is given alone: friction in fast flow does not
 /// follow from the angle at which grains stop.
-pub(super) fn warn_of_the_rest(table: &Table, changes: &Table) {
+pub(in crate::case) fn warn_of_the_rest(table: &Table, changes: &Table) {
     let keeps = |name: &&&str| !changes.contains_key(**name) && table.contains_key(**name);
     let value = |name: &&str| table.get(*name).map(|value| format!("{name} = {value}"));
     let stays: Vec<String> =
