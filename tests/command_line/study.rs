@@ -17,7 +17,8 @@ const STUDY: &str = "study = \"my-flume\"\nsummary = \"beads in my flume\"\nbase
     [[checks]]\nname = \"front_at_the_end\"\ntable = \"gauges\"\ncolumn = \"front: front [m]\"\nvalue = \"last\"\n\
     within = [0.0, 1.0]\nreason = \"the flume is that long\"\n\
     [[checks]]\nname = \"front_over_time\"\ntable = \"gauges\"\ncolumn = \"front: front [m]\"\ncompare = \"front.csv\"\n\
-    distance = \"mean\"\nat_most = 0.0\nreason = \"the series lies ahead\"\n";
+    distance = \"mean\"\nat_most = 0.0\nreason = \"the series lies ahead\"\n\
+    [[checks]]\nname = \"change\"\ndifference_of = \"front_at_the_end\"\nbetween = [\"spacing=0.02\", \"spacing=0.0125\"]\n";
 
 /// Measurements a metre ahead of anything, in another unit.
 const AHEAD: &str = "# source: far ahead\nt [ms],front [cm],uncertainty [cm]\n20,100,1\n80,100,1\n";
@@ -59,6 +60,10 @@ fn a_study_is_judged_by_what_its_tables_hold() {
     // a metre is 100 cm, and the front has come some 0.1 m
     let ahead = of(&finished, "front_over_time");
     assert!(ahead.iter().all(|metric| metric.value.is_some_and(|value| value > -0.95 && value < -0.8)), "{ahead:?}");
+    let [change] = &of(&finished, "change")[..] else { panic!("one pair of variants") };
+    let front = |place: usize| fronts[place].value.expect("a front");
+    assert_eq!(change.value, Some(100.0 * (front(0) - front(1)) / front(1)));
+    assert_eq!((change.variant.to_string().as_str(), change.unit.as_str()), ("scene=flume,spacing=0.02_0.0125", "%"));
     // the balances of the case itself stand below
     let balances = of(&finished, "mass_residual");
     assert!(balances.len() == 2 && balances.iter().all(|metric| metric.verdict == Verdict::Pass));
@@ -207,16 +212,17 @@ fn variants_and_settings_change_what_is_simulated() {
     let place = place();
     let variants =
         "[[variants]]\nname = \"low\"\nset = { \"gravity\" = [0.0, -1.0] }\n[[variants]]\nname = \"usual\"\n[[checks]]";
-    let text = STUDY.replacen("[[vary]]\npath = \"spacing\"\nvalues = [0.02, 0.0125]\n", "", 1).replacen(
-        "[[checks]]",
-        variants,
-        1,
-    );
+    let text = STUDY
+        .replacen("[[vary]]\npath = \"spacing\"\nvalues = [0.02, 0.0125]\n", "", 1)
+        .replacen("[[checks]]", variants, 1)
+        .replacen("[\"spacing=0.02\", \"spacing=0.0125\"]", "[\"variant=low\", \"variant=usual\"]", 1);
     place.file("study.toml", &text);
     let finished = place.run(&["study.toml", "--json", "--quiet"]).code(0);
     let fronts = of(&finished, "front_at_the_end");
     let [low, usual] = &fronts[..] else { panic!("{fronts:?}") };
     assert_eq!(low.variant.to_string(), "variant=low,scene=flume");
+    let change = of(&finished, "change")[0].value.expect("one pair");
+    assert!(change < 0.0 && change > -100.0, "{change}");
     assert!(low.value < usual.value, "beads run slower under a tenth of gravity: {low:?}, {usual:?}");
     let shorter = place.run(&["study.toml", "--json", "--quiet", "--set", "duration=0.09"]).code(0);
     assert_ne!(document(&shorter).state_hash, document(&finished).state_hash);
@@ -273,12 +279,15 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
             "within = [0.0, 1.0]\nconfidence = \"unverified\"",
             "`checks[0].confidence` is unverified, but must be more than that beside a limit",
         ),
-        ("value = \"last\"", "", "exactly one of `metric`, `value`, `compare` and `order_of`"),
+        ("value = \"last\"", "", "exactly one of `metric`, `value`, `compare`, `order_of` and `difference_of`"),
         ("value = \"last\"", "value = \"last\"\nminus = \"t [s]\"", "a column in the unit of `column`, m"),
         ("value = \"last\"", "value = \"last\"\nplus = \"front [m]\"", "did you mean \"front: front [m]\"?"),
         ("value = \"last\"", "value = \"last\"\norder_in = \"spacing\"", "`checks[0].order_in` is given"),
         ("value = \"last\"", "value = \"last\"\nonly = \"spacing=3\"", "`checks[0].only` is \"spacing=3\""),
         ("compare = \"front.csv\"", "compare = \"flume.toml\"", "`checks[1].compare` is \"flume.toml\""),
+        ("difference_of = \"front_at_the_end\"", "difference_of = \"front\"", "`checks[2].difference_of` is front"),
+        ("\"spacing=0.02\",", "\"spacing=0.0125\",", "`checks[2].between` is [\"spacing=0.0125\", \"spacing=0.0125\"]"),
+        ("\"spacing=0.02\",", "\"spacing=0.01\",", "name the keys in which they differ"),
         ("\"front_over_time\"", "\"Front over time\"", "a word of lower-case letters"),
         ("\"front_over_time\"", "\"front_at_the_end\"", "`checks[1].name` is front_at_the_end"),
     ] {
@@ -298,7 +307,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
     let order = "[[checks]]\nname = \"order\"\norder_of = \"front\"\norder_in = \"spacing\"\n";
     assert!(
         refused(&place, &format!("{STUDY}{order}"))
-            .contains("`checks[2].order_of` is front, but must be the name of an earlier check")
+            .contains("`checks[3].order_of` is front, but must be the name of an earlier check")
     );
     let only = place.bagnold(&["run", "study.toml", "--only", "spacing=0.02"]).assert().code(2);
     assert!(String::from_utf8_lossy(&only.get_output().stderr).contains("absent beside a study"));

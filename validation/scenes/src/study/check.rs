@@ -23,6 +23,13 @@ pub(super) enum CheckedQuantity {
         /// The parameter.
         in_parameter: String,
     },
+    /// The difference of another check between two variants, over its value in the second.
+    Difference {
+        /// The other check.
+        of: String,
+        /// The variants.
+        between: (Variant, Variant),
+    },
 }
 
 /// A check whose fields are typed.
@@ -141,18 +148,19 @@ fn check_metric_name(name: &str) -> Result<(), FieldError> {
     Err(FieldError::new("name", format!("\"{name}\""), rule, "such as \"front_position\""))
 }
 
-/// Quantity of a check: exactly one of the four ways.
+/// Quantity of a check: exactly one of the ways.
 fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> {
     let ways = [
         ("metric", text.metric.is_some()),
         ("value", text.value.is_some()),
         ("compare", text.compare.is_some()),
         ("order_of", text.order_of.is_some()),
+        ("difference_of", text.difference_of.is_some()),
     ];
     let given: Vec<&str> = ways.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
     let [way] = given[..] else {
         let value = if given.is_empty() { "none of them".to_owned() } else { given.join(" and ") };
-        let rule = "exactly one of `metric`, `value`, `compare` and `order_of`";
+        let rule = "exactly one of `metric`, `value`, `compare`, `order_of` and `difference_of`";
         let remedy = "such as value = \"last\" with table and column, or compare = \"measured.csv\"";
         return Err(FieldError::new("value", value, rule, remedy));
     };
@@ -166,6 +174,7 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
         ("to", text.to.is_some(), "value and compare"),
         ("distance", text.distance.is_some(), "compare"),
         ("order_in", text.order_in.is_some(), "order_of"),
+        ("between", text.between.is_some(), "difference_of"),
     ];
     if let Some((field, _, with)) = belongs.iter().find(|(_, given, with)| *given && !with.contains(way)) {
         let rule = format!("absent beside `{way}`: it belongs to {with}");
@@ -180,6 +189,17 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
             };
             let in_parameter = text.order_in.clone().ok_or_else(missing)?;
             Ok(CheckedQuantity::Order { of: text.order_of.clone().unwrap_or_default(), in_parameter })
+        }
+        "difference_of" => {
+            let remedy = "name two variants, such as [\"spacing=0.02\", \"spacing=0.01\"]";
+            let Some(between) = text.between.clone() else {
+                return Err(FieldError::new("between", "missing", "given beside `difference_of`", remedy));
+            };
+            if between.0 == between.1 || between.0.is_empty() || between.1.is_empty() {
+                let value = format!("[\"{}\", \"{}\"]", between.0, between.1);
+                return Err(FieldError::new("between", value, "two different variants", remedy));
+            }
+            Ok(CheckedQuantity::Difference { of: text.difference_of.clone().unwrap_or_default(), between })
         }
         _ => {
             let column = column(text)?;

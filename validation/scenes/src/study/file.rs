@@ -58,7 +58,8 @@ pub(super) struct StudyText {
     pub(super) figures: Vec<FigureText>,
 }
 
-/// A check: what is measured, and what it is judged by. It has one of `metric`, `value`, `compare` and `order_of`, and at most one limit.
+/// A check: what is measured, and what it is judged by. It has one of `metric`, `value`, `compare`, `order_of`
+/// and `difference_of`, and at most one limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CheckText {
@@ -108,6 +109,13 @@ pub(super) struct CheckText {
     /// Name of the varied parameter that the order is taken in; beside `order_of`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) order_in: Option<String>,
+    /// Name of an earlier check whose values in two variants are compared, in % of the second.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) difference_of: Option<String>,
+    /// The two variants, as `key=value`, such as `["spacing=0.02", "spacing=0.01"]`; beside `difference_of`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Option<(String, String)>")]
+    pub(super) between: Option<(Variant, Variant)>,
 
     /// Expected value, in the unit of what is measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]

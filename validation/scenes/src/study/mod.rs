@@ -105,11 +105,16 @@ impl Study {
                 let remedy = "give each a name of its own, or other variants by `only`";
                 return Err(within(FieldError::new("name", &check.name, "unique", remedy)).into());
             }
-            if let CheckedQuantity::Order { of, in_parameter } = &check.read {
-                if !checks.iter().any(|other| other.name == *of) {
-                    let remedy = "name a check that stands above this one";
-                    return Err(within(FieldError::new("order_of", of, "the name of an earlier check", remedy)).into());
-                }
+            let earlier = match &check.read {
+                CheckedQuantity::Order { of, .. } => Some(("order_of", of)),
+                CheckedQuantity::Difference { of, .. } => Some(("difference_of", of)),
+                _ => None,
+            };
+            if let Some((field, of)) = earlier.filter(|(_, of)| !checks.iter().any(|other| other.name == **of)) {
+                let remedy = "name a check that stands above this one";
+                return Err(within(FieldError::new(field, of, "the name of an earlier check", remedy)).into());
+            }
+            if let CheckedQuantity::Order { in_parameter, .. } = &check.read {
                 let is_varied =
                     |varied: &crate::case::VariedParameter| varied.label() == in_parameter && varied.values.len() > 1;
                 if !text.vary.iter().any(is_varied) {

@@ -46,6 +46,9 @@ impl Study {
         if let CheckedQuantity::Order { of, in_parameter } = &check.read {
             return Ok(orders(earlier, of, in_parameter, &check.only));
         }
+        if let CheckedQuantity::Difference { of, between } = &check.read {
+            return differences(earlier, of, between, &check.only);
+        }
         let mut readings = Vec::new();
         for (changed, result) in self.changes.iter().zip(results) {
             let new = |run: &Variant, value: f64, unit: &str, curve: Option<RunCurve>| Reading {
@@ -87,7 +90,7 @@ impl Study {
                         readings.push(new(&curve.run.clone(), value, unit, Some(curve)));
                     }
                 }
-                CheckedQuantity::Order { .. } => {}
+                CheckedQuantity::Order { .. } | CheckedQuantity::Difference { .. } => {}
             }
         }
         readings.retain(|reading| reading.variant.includes(&check.only));
@@ -100,8 +103,7 @@ fn orders(earlier: &[Metric], of: &str, in_parameter: &str, only: &Variant) -> V
     let mut groups: Vec<(Variant, Vec<(f64, f64)>)> = Vec::new();
     for metric in earlier.iter().filter(|metric| metric.name == of && metric.variant.includes(only)) {
         let Some(at) = metric.variant.get(in_parameter).and_then(Value::number) else { continue };
-        let others = metric.variant.parts().filter(|(key, _)| *key != in_parameter);
-        let others = others.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()));
+        let others = without(&metric.variant, &Variant::of(in_parameter, 0.0));
         let point = (at, metric.value.abs());
         match groups.iter_mut().find(|(variant, _)| *variant == others) {
             Some((_, points)) => points.push(point),
@@ -116,6 +118,47 @@ fn orders(earlier: &[Metric], of: &str, in_parameter: &str, only: &Variant) -> V
         uncertainty: Uncertainty::default(),
     };
     groups.into_iter().map(order).collect()
+}
+
+/// Difference of an earlier check between two variants over its value in the second [%], one for each set of the other keys.
+fn differences(
+    earlier: &[Metric],
+    of: &str,
+    (first, second): &(Variant, Variant),
+    only: &Variant,
+) -> Result<Vec<Reading>, FieldError> {
+    let own = || earlier.iter().filter(|metric| metric.name == of && metric.variant.includes(only));
+    let mut readings = Vec::new();
+    for metric in own().filter(|metric| metric.variant.includes(first)) {
+        let others = without(&metric.variant, first);
+        let is_partner = |other: &&Metric| other.variant.includes(second) && without(&other.variant, second) == others;
+        let Some(partner) = own().find(is_partner) else { continue };
+        let both = first.parts().fold(others, |variant, (key, value)| match second.get(key) {
+            Some(other) => variant.and(key, Value::list([value.clone(), other.clone()])),
+            None => variant,
+        });
+        readings.push(Reading {
+            variant: both,
+            value: 100.0 * (metric.value - partner.value) / partner.value.abs(),
+            unit: "%".to_owned(),
+            curve: None,
+            uncertainty: Uncertainty::default(),
+        });
+    }
+    if readings.is_empty() {
+        let variants: Vec<String> = own().take(5).map(|metric| format!("\"{}\"", metric.variant)).collect();
+        let rule =
+            format!("parts of two variants of `{of}` that agree in all other keys; it has {}", variants.join(", "));
+        let value = format!("[\"{first}\", \"{second}\"]");
+        return Err(FieldError::new("between", value, &rule, "name the keys in which they differ"));
+    }
+    Ok(readings)
+}
+
+/// A variant without the keys of another.
+fn without(variant: &Variant, keys: &Variant) -> Variant {
+    let others = variant.parts().filter(|(key, _)| keys.get(key).is_none());
+    others.fold(Variant::default(), |variant, (key, value)| variant.and(key, value.clone()))
 }
 
 /// The study's keys before those of the case's run. A key that both have stands once if it says the same.
@@ -155,6 +198,25 @@ mod tests {
         assert_eq!(variants, ["law=a,spacing=0.01_0.02_0.04", "law=b,spacing=0.01_0.02_0.04"]);
         assert!((found[0].value - 2.0).abs() < 1e-12 && (found[1].value - 1.0).abs() < 1e-12);
         assert_eq!(orders(&metrics, "error", "spacing", &Variant::of("law", "b")).len(), 1);
+    }
+
+    #[test]
+    fn a_difference_pairs_runs_that_agree_in_all_other_keys() {
+        let metrics = [
+            metric("flux", "law=a,rows=10", 0.9),
+            metric("flux", "law=a,rows=20", 1.0),
+            metric("flux", "law=b,rows=10", -2.2),
+            metric("flux", "law=b,rows=20", -2.0),
+            metric("flux", "law=c,rows=10", 7.0),
+            metric("another", "law=c,rows=20", 1.0),
+        ];
+        let between = (Variant::of("rows", 10.0), Variant::of("rows", 20.0));
+        let found = differences(&metrics, "flux", &between, &Variant::default()).expect("two pairs");
+        let shown: Vec<String> =
+            found.iter().map(|reading| format!("{} {:.3}", reading.variant, reading.value)).collect();
+        assert_eq!(shown, ["law=a,rows=10_20 -10.000", "law=b,rows=10_20 -10.000"]);
+        let none = (Variant::of("rows", 10.0), Variant::of("rows", 40.0));
+        assert!(differences(&metrics, "flux", &none, &Variant::default()).is_err());
     }
 
     #[test]
