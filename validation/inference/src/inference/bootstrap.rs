@@ -2,8 +2,7 @@
 
 use super::descent::{Smooth, descend};
 use super::emulator::Emulator;
-use super::posterior::percentile;
-use super::region::CONFIDENCE;
+use super::posterior::middles;
 use crate::sampling::Random;
 use nalgebra::{DMatrix, DVector};
 
@@ -47,12 +46,7 @@ pub(super) fn bootstrap(emulator: &Emulator, repeats: usize, seed: u64) -> Boots
             descend(&Redrawn { emulator, shift: noise - &fitted }, &minimum, &lower, &upper).point
         })
         .collect();
-    let interval = |k: usize| {
-        let mut values: Vec<f64> = samples.iter().map(|sample| sample[k]).collect();
-        values.sort_by(f64::total_cmp);
-        [0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFIDENCE].map(|share| percentile(&values, share))
-    };
-    Bootstrap { intervals: (0..minimum.len()).map(interval).collect(), samples }
+    Bootstrap { intervals: middles(&samples, minimum.len()), samples }
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Gauss–Newton between bounds, for functions that cost nothing to evaluate.
 
 use super::box_least_squares::box_least_squares;
+use super::largest_distance;
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 /// A cheap smooth vector function of the unit cube.
 pub(super) trait Smooth {
@@ -11,13 +13,29 @@ pub(super) trait Smooth {
     fn jacobian(&self, point: &[f64]) -> DMatrix<f64>;
 }
 
-/// End of a descent.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Bottom {
-    /// The point.
-    pub(super) point: Vec<f64>,
+/// A minimum that a descent has ended in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LocalMinimum {
+    /// The point, in the unit cube.
+    pub point: Vec<f64>,
     /// χ² there `[-]`.
-    pub(super) chi_squared: f64,
+    pub chi_squared: f64,
+}
+
+/// Distance along an axis within which two minima are one.
+const SAME: f64 = 0.05;
+
+impl LocalMinimum {
+    /// Whether both are one.
+    #[must_use]
+    pub fn is_near(&self, other: &Self) -> bool {
+        self.is_at(&other.point)
+    }
+
+    /// Whether it lies at a point.
+    pub(super) fn is_at(&self, point: &[f64]) -> bool {
+        largest_distance(&self.point, point) <= SAME
+    }
 }
 
 /// Steps after which a descent gives up; a dozen is usual.
@@ -27,7 +45,7 @@ const MOST_STEPS: usize = 60;
 const FIRST_RADIUS: f64 = 0.25;
 
 /// The minimum of Σ r² that lies downhill of `start` between the bounds.
-pub(super) fn descend(function: &impl Smooth, start: &[f64], lower: &[f64], upper: &[f64]) -> Bottom {
+pub(super) fn descend(function: &impl Smooth, start: &[f64], lower: &[f64], upper: &[f64]) -> LocalMinimum {
     let mut point: Vec<f64> = start.iter().enumerate().map(|(k, u)| u.clamp(lower[k], upper[k])).collect();
     let mut residuals = function.residuals(&point);
     let mut chi_squared = residuals.norm_squared();
@@ -58,7 +76,14 @@ pub(super) fn descend(function: &impl Smooth, start: &[f64], lower: &[f64], uppe
             break;
         }
     }
-    Bottom { point, chi_squared }
+    LocalMinimum { point, chi_squared }
+}
+
+/// The minimum that lies downhill of `start` in the unit cube with one coordinate held at a value.
+pub(super) fn descend_held(function: &impl Smooth, start: &[f64], which: usize, value: f64) -> LocalMinimum {
+    let (mut lower, mut upper) = (vec![0.0; start.len()], vec![1.0; start.len()]);
+    (lower[which], upper[which]) = (value, value);
+    descend(function, start, &lower, &upper)
 }
 
 #[cfg(test)]

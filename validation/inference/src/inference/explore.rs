@@ -5,11 +5,12 @@
 //! that the emulator proposes, and again where it disagrees; then just inside and just outside of the joint region along
 //! its principal axes. Whoever finds a lower point on the way ends the exploration: the search is to resume from there.
 
-use super::emulator::{Degree, Emulator, Minimum, distance};
+use super::descent::LocalMinimum;
+use super::emulator::{Degree, Emulator, distance};
 use super::ends::{CLOSE, IntervalEnd, IntervalSide, TOLERANCE};
 use super::profile::ProfileLikelihood;
 use super::region::{Region, Uncertainties};
-use super::{Budget, Evaluate, Evaluated, LocalMinimum};
+use super::{Budget, Evaluate, Evaluated, largest_distance};
 use nalgebra::SymmetricEigen;
 
 /// Rounds of further points.
@@ -161,10 +162,12 @@ pub fn explore<M: Evaluate>(
 }
 
 /// The evaluated point of least χ².
-fn best(history: &[Evaluated]) -> Option<Minimum> {
+fn best(history: &[Evaluated]) -> Option<LocalMinimum> {
     history
         .iter()
-        .filter_map(|evaluated| Some(Minimum { point: evaluated.point.clone(), chi_squared: evaluated.chi_squared? }))
+        .filter_map(|evaluated| {
+            Some(LocalMinimum { point: evaluated.point.clone(), chi_squared: evaluated.chi_squared? })
+        })
         .min_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared))
 }
 
@@ -229,7 +232,7 @@ fn is_confirmed(region: &Region, history: &[Evaluated], which: usize, edge: &[f6
 
 /// Whether a run beside a point disagrees with the data.
 fn is_refuted(region: &Region, history: &[Evaluated], point: &[f64]) -> bool {
-    let beside = |evaluated: &&Evaluated| evaluated.point.iter().zip(point).all(|(a, b)| (a - b).abs() <= CLOSE);
+    let beside = |evaluated: &&Evaluated| largest_distance(&evaluated.point, point) <= CLOSE;
     let disagrees = |chi: f64| chi - region.minimum.chi_squared > region.limit;
     history.iter().filter(beside).any(|evaluated| evaluated.chi_squared.is_none_or(disagrees))
 }

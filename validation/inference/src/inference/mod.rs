@@ -28,6 +28,7 @@ pub mod solve;
 #[cfg(test)]
 mod stand_in;
 
+pub use descent::LocalMinimum;
 pub use emulator::Emulator;
 pub use ends::IntervalEnd;
 pub use explore::{Explored, explore};
@@ -37,8 +38,7 @@ pub use profile::{ProfileLikelihood, ProfileLikelihoodPoint};
 pub use region::{Region, Uncertainties, chi_squared_quantile, chi_squared_tail};
 pub use scatter::Repeatability;
 pub use search::{
-    Budget, Evaluated, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search,
-    search_design,
+    Budget, Evaluated, Method, SearchError, SearchResult, Termination, continue_search, search, search_design,
 };
 pub use serial_correlation::{SerialCorrelation, serial_correlation};
 
@@ -55,6 +55,11 @@ pub trait Evaluate {
     /// # Errors
     /// Failures that stop the whole search, such as a full disk.
     fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Self::Error>;
+}
+
+/// Largest difference of a coordinate.
+fn largest_distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// χ² of weighted residuals `[-]`.

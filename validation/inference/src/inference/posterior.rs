@@ -8,7 +8,7 @@
 //! Source: Goodman & Weare, Communications in Applied Mathematics and Computational Science 5 (2010) 65.
 
 use super::emulator::Emulator;
-use super::region::{CONFIDENCE, Region};
+use super::region::{CENTRAL, Region};
 use crate::sampling::Random;
 use nalgebra::DVector;
 
@@ -78,13 +78,8 @@ pub fn sample(region: &Region, seed: u64) -> Posterior {
             samples.extend(walkers.iter().cloned());
         }
     }
-    let interval = |k: usize| {
-        let mut values: Vec<f64> = samples.iter().map(|sample: &Vec<f64>| sample[k]).collect();
-        values.sort_by(f64::total_cmp);
-        [0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFIDENCE].map(|share| percentile(&values, share))
-    };
     Posterior {
-        intervals: (0..dimensions).map(interval).collect(),
+        intervals: middles(&samples, dimensions),
         acceptance: accepted as f64 / (MOVES * WALKERS) as f64,
         correlation_moves: means.iter().map(|means| correlation_length(means)).fold(0.0, f64::max),
         samples,
@@ -126,12 +121,17 @@ fn correlation_length(series: &[f64]) -> f64 {
 pub fn predictive(emulator: &Emulator, posterior: &Posterior) -> Vec<[f64; 2]> {
     let thinned = posterior.samples.iter().step_by((posterior.samples.len() / 400).max(1));
     let predicted: Vec<Vec<f64>> = thinned.map(|sample| emulator.predict(sample)).collect();
-    let band = |datum: usize| {
-        let mut values: Vec<f64> = predicted.iter().map(|residuals| residuals[datum]).collect();
+    middles(&predicted, emulator.data())
+}
+
+/// Intervals that hold 95 % of each coordinate of some points, as many left out below as above.
+pub(super) fn middles(points: &[Vec<f64>], coordinates: usize) -> Vec<[f64; 2]> {
+    let middle = |k: usize| {
+        let mut values: Vec<f64> = points.iter().map(|point| point[k]).collect();
         values.sort_by(f64::total_cmp);
-        [0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFIDENCE].map(|share| percentile(&values, share))
+        CENTRAL.map(|share| percentile(&values, share))
     };
-    (0..emulator.data()).map(band).collect()
+    (0..coordinates).map(middle).collect()
 }
 
 /// The value below which a share of a sorted list lies, between neighbours in proportion; not a number in an empty

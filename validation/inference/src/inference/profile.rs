@@ -3,8 +3,8 @@
 //! Where χ² has several branches in the other parameters, every evaluated point that agrees with the data begins a part of
 //! the interval, and gaps between the parts are left out of it.
 
-use super::descent::descend;
-use super::emulator::{Emulator, Minimum};
+use super::descent::{LocalMinimum, descend_held};
+use super::emulator::Emulator;
 
 /// First step towards the threshold in standard deviations, and its bounds in the unit cube.
 const STEP: f64 = 0.5;
@@ -75,168 +75,141 @@ impl ProfileLikelihood {
     }
 }
 
-/// The interval of the parameter `which` up to a rise of χ² by `threshold`, without its curve, over all branches on which
-/// points are known to agree; `deviation` is a guess of its standard deviation in the unit cube.
-pub(super) fn profile(
-    emulator: &Emulator,
-    minimum: &Minimum,
-    which: usize,
-    deviation: f64,
-    threshold: f64,
-) -> ProfileLikelihood {
-    let side = |start: &[f64], direction| crossing(emulator, minimum, start, which, direction, deviation, threshold);
-    let mut parts: Vec<[(Vec<f64>, bool); 2]> = Vec::new();
-    for start in std::iter::once(&minimum.point).chain(&emulator.below(minimum.chi_squared + threshold)) {
-        if !parts.iter().any(|[below, above]| (below.0[which]..=above.0[which]).contains(&start[which])) {
-            parts.push([side(start, -1.0), side(start, 1.0)]);
+/// The profile of one parameter on an emulator.
+#[derive(Clone, Copy)]
+pub(super) struct ProfileCurve<'a> {
+    pub(super) emulator: &'a Emulator,
+    pub(super) minimum: &'a LocalMinimum,
+    /// The parameter.
+    pub(super) which: usize,
+    /// Rise of χ² at the ends `[-]`.
+    pub(super) threshold: f64,
+}
+
+impl ProfileCurve<'_> {
+    /// The interval, without its curve, over all branches on which points are known to agree; `deviation` is a guess of the
+    /// parameter's standard deviation in the unit cube.
+    pub(super) fn interval(&self, deviation: f64) -> ProfileLikelihood {
+        let Self { emulator, minimum, which, threshold } = *self;
+        let mut parts: Vec<[(Vec<f64>, bool); 2]> = Vec::new();
+        for start in std::iter::once(&minimum.point).chain(&emulator.below(minimum.chi_squared + threshold)) {
+            if !parts.iter().any(|[below, above]| (below.0[which]..=above.0[which]).contains(&start[which])) {
+                parts.push([-1.0, 1.0].map(|direction| self.crossing(start, direction, deviation)));
+            }
         }
+        parts.sort_by(|a, b| a[0].0[which].total_cmp(&b[0].0[which]));
+        let farthest = parts.iter().map(|[_, above]| above.0[which]).fold(0.0, f64::max);
+        let least = LEAST_GAP * (farthest - parts[0][0].0[which]);
+        let mut gaps = Vec::new();
+        let mut parts = parts.into_iter();
+        let Some([(below, open_below), (mut above, mut open_above)]) = parts.next() else {
+            unreachable!("the minimum begins a part")
+        };
+        for [lower, upper] in parts {
+            if lower.0[which] > above[which] + least {
+                gaps.push([above.clone(), lower.0]);
+            }
+            if upper.0[which] > above[which] {
+                (above, open_above) = upper;
+            }
+        }
+        let interval = [below[which], above[which]];
+        ProfileLikelihood { interval, gaps, open_below, open_above, ends: [below, above], curve: Vec::new() }
     }
-    parts.sort_by(|a, b| a[0].0[which].total_cmp(&b[0].0[which]));
-    let farthest = parts.iter().map(|[_, above]| above.0[which]).fold(0.0, f64::max);
-    let least = LEAST_GAP * (farthest - parts[0][0].0[which]);
-    let mut gaps = Vec::new();
-    let mut parts = parts.into_iter();
-    let Some([(below, open_below), (mut above, mut open_above)]) = parts.next() else {
-        unreachable!("the minimum begins a part")
-    };
-    for [lower, upper] in parts {
-        if lower.0[which] > above[which] + least {
-            gaps.push([above.clone(), lower.0]);
-        }
-        if upper.0[which] > above[which] {
-            (above, open_above) = upper;
-        }
+
+    /// The point of least χ² outside of the interval or in one of its gaps, if the emulator has values there that agree.
+    pub(super) fn lead(&self, profile: &ProfileLikelihood) -> Option<Vec<f64>> {
+        let near = self.near();
+        let intervals = profile.intervals(self.which);
+        let nodes = (0..NODES).map(|node| (node as f64 + 0.5) / NODES as f64);
+        let middles = profile.gaps.iter().map(|[lower, upper]| 0.5 * (lower[self.which] + upper[self.which]));
+        let outside = |value: &f64| !intervals.iter().any(|[from, to]| (*from..=*to).contains(value));
+        let points = nodes.chain([0.0, 1.0]).chain(middles).filter(outside);
+        let points = points.filter_map(|value| self.envelope(value, &near));
+        let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise))?;
+        (lowest.rise <= self.threshold).then_some(lowest.point)
     }
-    let interval = [below[which], above[which]];
-    ProfileLikelihood { interval, gaps, open_below, open_above, ends: [below, above], curve: Vec::new() }
-}
 
-/// The point of least χ² outside of the interval or in one of its gaps, if the emulator has values there that agree.
-pub(super) fn lead(
-    emulator: &Emulator,
-    minimum: &Minimum,
-    which: usize,
-    profile: &ProfileLikelihood,
-    threshold: f64,
-) -> Option<Vec<f64>> {
-    let near = emulator.below(minimum.chi_squared + 4.0 * threshold);
-    let intervals = profile.intervals(which);
-    let nodes = (0..NODES).map(|node| (node as f64 + 0.5) / NODES as f64);
-    let middles = profile.gaps.iter().map(|[lower, upper]| 0.5 * (lower[which] + upper[which]));
-    let outside = |value: &f64| !intervals.iter().any(|[from, to]| (*from..=*to).contains(value));
-    let best = |value| envelope(emulator, minimum, which, value, &near);
-    let points = nodes.chain([0.0, 1.0]).chain(middles).filter(outside).filter_map(best);
-    let lowest = points.min_by(|a, b| a.rise.total_cmp(&b.rise))?;
-    (lowest.rise <= threshold).then_some(lowest.point)
-}
-
-/// The lowest of the best points with one parameter held that lie downhill of the nearest of some points.
-fn envelope(
-    emulator: &Emulator,
-    minimum: &Minimum,
-    which: usize,
-    value: f64,
-    near: &[Vec<f64>],
-) -> Option<ProfileLikelihoodPoint> {
-    let mut starts: Vec<&Vec<f64>> = near.iter().collect();
-    starts.sort_by(|a, b| (a[which] - value).abs().total_cmp(&(b[which] - value).abs()));
-    let points = starts.into_iter().take(STARTS).map(|start| constrained(emulator, minimum, start, which, value));
-    points.min_by(|a, b| a.rise.total_cmp(&b.rise))
-}
-
-/// The curve over an interval and half its width beyond, the lowest of all branches.
-pub(super) fn curve(
-    emulator: &Emulator,
-    minimum: &Minimum,
-    which: usize,
-    interval: [f64; 2],
-    threshold: f64,
-) -> Vec<ProfileLikelihoodPoint> {
-    let margin = 0.5 * (interval[1] - interval[0]);
-    let (from, to) = ((interval[0] - margin).max(0.0), (interval[1] + margin).min(1.0));
-    let value = |k: usize| from + (to - from) * k as f64 / (CURVE_POINTS - 1) as f64;
-    // outwards from the minimum, each point from the one before it
-    let middle = (0..CURVE_POINTS).find(|k| value(*k) >= minimum.point[which]).unwrap_or(CURVE_POINTS - 1);
-    let walk = |indices: Vec<usize>| {
-        let mut start = minimum.point.clone();
-        let mut points = Vec::new();
-        for k in indices {
-            let point = constrained(emulator, minimum, &start, which, value(k));
-            start.clone_from(&point.point);
-            points.push(point);
-        }
-        points
-    };
-    let mut curve = walk((0..middle).rev().collect());
-    curve.reverse();
-    curve.extend(walk((middle..CURVE_POINTS).collect()));
-    let near = emulator.below(minimum.chi_squared + 4.0 * threshold);
-    for point in &mut curve {
-        let other = envelope(emulator, minimum, which, point.point[which], &near);
-        *point = other.filter(|other| other.rise < point.rise).unwrap_or_else(|| point.clone());
+    /// Evaluated points from which other branches are sought.
+    fn near(&self) -> Vec<Vec<f64>> {
+        self.emulator.below(self.minimum.chi_squared + 4.0 * self.threshold)
     }
-    curve
-}
 
-/// The best point with one parameter held.
-pub(super) fn constrained(
-    emulator: &Emulator,
-    minimum: &Minimum,
-    start: &[f64],
-    which: usize,
-    value: f64,
-) -> ProfileLikelihoodPoint {
-    let (mut lower, mut upper) = (vec![0.0; start.len()], vec![1.0; start.len()]);
-    (lower[which], upper[which]) = (value, value);
-    let bottom = descend(emulator, start, &lower, &upper);
-    ProfileLikelihoodPoint { point: bottom.point, rise: bottom.chi_squared - minimum.chi_squared }
-}
-
-/// The last point in a direction below the threshold, and whether it lies at the bound; all values of the others are followed
-/// from `start` on, as along a valley.
-pub(super) fn crossing(
-    emulator: &Emulator,
-    minimum: &Minimum,
-    start: &[f64],
-    which: usize,
-    direction: f64,
-    deviation: f64,
-    threshold: f64,
-) -> (Vec<f64>, bool) {
-    let bound = if direction < 0.0 { 0.0 } else { 1.0 };
-    let mut step = (STEP * deviation).clamp(LEAST_STEP, LARGEST_STEP);
-    let mut inside = start.to_vec();
-    while inside[which] != bound {
-        let next = (inside[which] + direction * step).clamp(0.0, 1.0);
-        let trial = constrained(emulator, minimum, &inside, which, next);
-        if trial.rise > threshold {
-            return (bisected(emulator, minimum, which, inside, trial.point, threshold), false);
-        }
-        inside = trial.point;
-        step = (GROWTH * step).min(LARGEST_STEP);
+    /// The lowest of the best points with the parameter held that lie downhill of the nearest of some points.
+    fn envelope(&self, value: f64, near: &[Vec<f64>]) -> Option<ProfileLikelihoodPoint> {
+        let mut starts: Vec<&Vec<f64>> = near.iter().collect();
+        let off = |start: &[f64]| (start[self.which] - value).abs();
+        starts.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        let points = starts.into_iter().take(STARTS).map(|start| self.held(start, value));
+        points.min_by(|a, b| a.rise.total_cmp(&b.rise))
     }
-    (inside, true)
-}
 
-/// The point at the threshold between one below it and one above.
-fn bisected(
-    emulator: &Emulator,
-    minimum: &Minimum,
-    which: usize,
-    mut inside: Vec<f64>,
-    outside: Vec<f64>,
-    threshold: f64,
-) -> Vec<f64> {
-    let mut beyond = outside[which];
-    for _ in 0..HALVINGS {
-        let trial = constrained(emulator, minimum, &inside, which, 0.5 * (inside[which] + beyond));
-        if trial.rise > threshold {
-            beyond = trial.point[which];
-        } else {
+    /// The curve over an interval and half its width beyond, the lowest of all branches.
+    pub(super) fn curve(&self, interval: [f64; 2]) -> Vec<ProfileLikelihoodPoint> {
+        let margin = 0.5 * (interval[1] - interval[0]);
+        let (from, to) = ((interval[0] - margin).max(0.0), (interval[1] + margin).min(1.0));
+        let value = |k: usize| from + (to - from) * k as f64 / (CURVE_POINTS - 1) as f64;
+        // outwards from the minimum, each point from the one before it
+        let best = &self.minimum.point;
+        let middle = (0..CURVE_POINTS).find(|k| value(*k) >= best[self.which]).unwrap_or(CURVE_POINTS - 1);
+        let walk = |indices: &mut dyn Iterator<Item = usize>| {
+            let mut start = best.clone();
+            let mut points = Vec::new();
+            for k in indices {
+                let point = self.held(&start, value(k));
+                start.clone_from(&point.point);
+                points.push(point);
+            }
+            points
+        };
+        let mut curve = walk(&mut (0..middle).rev());
+        curve.reverse();
+        curve.extend(walk(&mut (middle..CURVE_POINTS)));
+        let near = self.near();
+        for point in &mut curve {
+            if let Some(other) = self.envelope(point.point[self.which], &near).filter(|other| other.rise < point.rise) {
+                *point = other;
+            }
+        }
+        curve
+    }
+
+    /// The best point with the parameter held, downhill from `start`.
+    pub(super) fn held(&self, start: &[f64], value: f64) -> ProfileLikelihoodPoint {
+        let bottom = descend_held(self.emulator, start, self.which, value);
+        ProfileLikelihoodPoint { point: bottom.point, rise: bottom.chi_squared - self.minimum.chi_squared }
+    }
+
+    /// The last point in a direction below the threshold, and whether it lies at the bound; all values of the others are followed
+    /// from `start` on, as along a valley.
+    pub(super) fn crossing(&self, start: &[f64], direction: f64, deviation: f64) -> (Vec<f64>, bool) {
+        let bound = if direction < 0.0 { 0.0 } else { 1.0 };
+        let mut step = (STEP * deviation).clamp(LEAST_STEP, LARGEST_STEP);
+        let mut inside = start.to_vec();
+        while inside[self.which] != bound {
+            let next = (inside[self.which] + direction * step).clamp(0.0, 1.0);
+            let trial = self.held(&inside, next);
+            if trial.rise > self.threshold {
+                return (self.bisected(inside, trial.point[self.which]), false);
+            }
             inside = trial.point;
+            step = (GROWTH * step).min(LARGEST_STEP);
         }
+        (inside, true)
     }
-    inside
+
+    /// The point at the threshold between one below it and a value beyond.
+    fn bisected(&self, mut inside: Vec<f64>, mut beyond: f64) -> Vec<f64> {
+        for _ in 0..HALVINGS {
+            let trial = self.held(&inside, 0.5 * (inside[self.which] + beyond));
+            if trial.rise > self.threshold {
+                beyond = trial.point[self.which];
+            } else {
+                inside = trial.point;
+            }
+        }
+        inside
+    }
 }
 
 #[cfg(test)]

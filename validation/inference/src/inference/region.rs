@@ -4,13 +4,17 @@
 //! as many degrees of freedom as there are parameters, or one for a single parameter with the others at their best
 //! (Wilks, Annals of Mathematical Statistics 9 (1938) 60).
 
-use super::emulator::{Emulator, Minimum};
-use super::profile::{ProfileLikelihood, ProfileLikelihoodPoint, constrained, crossing, curve, lead, profile};
+use super::descent::LocalMinimum;
+use super::emulator::Emulator;
+use super::profile::{ProfileCurve, ProfileLikelihood, ProfileLikelihoodPoint};
 use nalgebra::DMatrix;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 /// Share of repeated experiments whose region contains the truth.
 pub const CONFIDENCE: f64 = 0.95;
+
+/// Shares of a distribution below the ends of the interval that leaves out as much below as above.
+pub(super) const CENTRAL: [f64; 2] = [0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFIDENCE];
 
 /// Singular values of J below this share of the largest one, or below this number of standard uncertainties over a full
 /// range, count as that much: directions without information get a large variance, not an infinite one.
@@ -50,9 +54,9 @@ impl Uncertainties {
 pub struct Region {
     emulator: Emulator,
     /// The best point, with the χ² that was evaluated there.
-    pub minimum: Minimum,
+    pub minimum: LocalMinimum,
     /// The same point with the emulator's χ²: what its rises are counted from.
-    base: Minimum,
+    base: LocalMinimum,
     /// Rise of χ² at the edge of the joint region `[-]`.
     pub threshold: f64,
     /// Rise of χ² at the ends of intervals `[-]`.
@@ -83,7 +87,7 @@ impl Region {
 
     /// The region about an evaluated point with the χ² that the model has there; its profiles have no curves yet.
     #[must_use]
-    pub fn about(emulator: &Emulator, minimum: Minimum, uncertainties: Uncertainties) -> Self {
+    pub fn about(emulator: &Emulator, minimum: LocalMinimum, uncertainties: Uncertainties) -> Self {
         let dimensions = emulator.dimensions();
         let freedom = emulator.data().checked_sub(dimensions).filter(|freedom| *freedom > 0);
         let reduced_chi_squared = freedom.map(|freedom| minimum.chi_squared / freedom as f64);
@@ -91,9 +95,13 @@ impl Region {
         let inflation = uncertainties.factor(reduced_chi_squared);
         let squared = inflation * inflation;
         let covariance = squared * covariance(&emulator.jacobian(&minimum.point));
-        let base = Minimum { chi_squared: emulator.chi_squared(&minimum.point), point: minimum.point.clone() };
+        let base = LocalMinimum { chi_squared: emulator.chi_squared(&minimum.point), point: minimum.point.clone() };
         let limit = squared * chi_squared_quantile(CONFIDENCE, 1);
-        let profiles = (0..dimensions).map(|k| profile(emulator, &base, k, covariance[(k, k)].sqrt(), limit)).collect();
+        let profile = |which: usize| {
+            let curve = ProfileCurve { emulator, minimum: &base, which, threshold: limit };
+            curve.interval(covariance[(which, which)].sqrt())
+        };
+        let profiles = (0..dimensions).map(profile).collect();
         Self {
             emulator: emulator.clone(),
             threshold: squared * chi_squared_quantile(CONFIDENCE, dimensions),
@@ -118,28 +126,31 @@ impl Region {
     /// Draws the curves of the profiles over their intervals.
     pub fn draw(&mut self) {
         for k in 0..self.profiles.len() {
-            self.profiles[k].curve = curve(&self.emulator, &self.base, k, self.profiles[k].interval, self.limit);
+            self.profiles[k].curve = self.along(k).curve(self.profiles[k].interval);
         }
+    }
+
+    fn along(&self, which: usize) -> ProfileCurve<'_> {
+        ProfileCurve { emulator: &self.emulator, minimum: &self.base, which, threshold: self.limit }
     }
 
     /// The best point of the emulator with one parameter held, downhill from `start`.
     #[must_use]
     pub fn held(&self, start: &[f64], which: usize, value: f64) -> ProfileLikelihoodPoint {
-        constrained(&self.emulator, &self.base, start, which, value)
+        self.along(which).held(start, value)
     }
 
     /// End of the interval on the emulator's profile along one parameter beyond a point, and whether it is at the bound.
     #[must_use]
     pub fn end_beyond(&self, start: &[f64], which: usize, upper: bool) -> (Vec<f64>, bool) {
         let direction = if upper { 1.0 } else { -1.0 };
-        let deviation = self.covariance[(which, which)].sqrt();
-        crossing(&self.emulator, &self.base, start, which, direction, deviation, self.limit)
+        self.along(which).crossing(start, direction, self.covariance[(which, which)].sqrt())
     }
 
     /// The best point outside of a parameter's intervals where the emulator agrees with the data too.
     #[must_use]
     pub fn lead(&self, which: usize) -> Option<Vec<f64>> {
-        lead(&self.emulator, &self.base, which, &self.profiles[which], self.limit)
+        self.along(which).lead(&self.profiles[which])
     }
 
     /// Rise of the emulator's χ² at a point `[-]`.

@@ -9,7 +9,8 @@
 //! best point lies by 0.46 (0.86) in χ² above the true minimum after 72 evaluations, in the median of 40 experiments, that of
 //! CMA-ES by 0.74 (0.96) after 200, and the point found here by 0.04 (0.09) after 65 (80).
 
-use super::emulator::{Degree, Emulator, Minimum};
+use super::descent::LocalMinimum;
+use super::emulator::{Degree, Emulator};
 use super::ends::IntervalEnd;
 use super::explore::{Explored, FAR, extent};
 use super::region::{Region, Uncertainties};
@@ -59,8 +60,8 @@ pub(super) fn averaged<M: Evaluate>(
     let at_bottom =
         history.iter().find(|evaluated| evaluated.point == point).and_then(|evaluated| evaluated.chi_squared);
     // where the model fails at the very bottom there is nothing but the lowest evaluation
-    let lowest = Minimum { point: search.best.clone(), chi_squared: search.chi_squared };
-    let minimum = at_bottom.map_or(lowest, |chi_squared| Minimum { point, chi_squared });
+    let lowest = LocalMinimum { point: search.best.clone(), chi_squared: search.chi_squared };
+    let minimum = at_bottom.map_or(lowest, |chi_squared| LocalMinimum { point, chi_squared });
     let Some(emulator) = smooth(&history, &explored.region, budget) else { return Ok((search, explored)) };
     let mut region = Region::about(&emulator, minimum.clone(), uncertainties);
     // edges of gaps are no runs of the model here

@@ -2,7 +2,7 @@
 
 use super::chi_squared;
 use super::posterior::percentile;
-use super::region::CONFIDENCE;
+use super::region::CENTRAL;
 use crate::sampling::Random;
 
 /// A choice with the weighted residuals of its best parameters.
@@ -73,10 +73,7 @@ pub fn rank(choices: &[FittedChoice], repeats: usize, seed: u64) -> Option<Vec<S
             reduced_chi_squared: freedom.map(|freedom| chi_squared / freedom as f64),
             weight: likelihoods[k] / sum,
             first: places.iter().filter(|place| **place == 1.0).count() as f64 / repeats.max(1) as f64,
-            ranks: [
-                percentile(&places, 0.5 - 0.5 * CONFIDENCE).floor() as usize,
-                percentile(&places, 0.5 + 0.5 * CONFIDENCE).ceil() as usize,
-            ],
+            ranks: [percentile(&places, CENTRAL[0]).floor() as usize, percentile(&places, CENTRAL[1]).ceil() as usize],
         }
     };
     Some(order(&criteria).into_iter().map(score).collect())

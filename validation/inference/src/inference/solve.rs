@@ -1,16 +1,16 @@
 //! A search, the region about its best point, and the search again from any lower point that turns up on the way.
 
-use super::emulator::Minimum;
+use super::descent::LocalMinimum;
 use super::ends::TOLERANCE;
 use super::explore::{Explored, FAR, explore};
 use super::region::{Uncertainties, chi_squared_tail};
 use super::scatter::{Repeatability, averaged};
 use super::search::{
-    Budget, Leads, LocalMinimum, Method, SearchError, SearchResult, Termination, continue_search, search,
-    search_beside, search_design,
+    Budget, Leads, Method, SearchError, SearchResult, Termination, continue_search, search, search_beside,
+    search_design,
 };
 use super::serial_correlation::{SerialCorrelation, serial_correlation};
-use super::{Evaluate, Evaluated};
+use super::{Evaluate, Evaluated, largest_distance};
 use crate::sampling::design::sobol;
 use std::cmp::Ordering;
 
@@ -88,7 +88,11 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
         found = search_beside(model, found, Leads { branches, ..Leads::default() }, &usual)?;
     }
     let searched = found.history.len();
-    let (mut restarts, mut continued, mut beside, mut looked, mut correlation) = (0, false, 0, false, None);
+    let (mut restarts, mut continuations, mut views, mut glances, mut correlation) = (0, 0, 0, 0, None);
+    let is_left = |count: &mut usize, most: usize| {
+        *count += 1;
+        *count <= most
+    };
     loop {
         let budget = Budget { evaluations: plan.region_evaluations, ..usual };
         let uncertainties = uncertainties(&found, correlation);
@@ -97,21 +101,20 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
             return Ok(Answer { search: found, searched, explored: None, restarts, correlation });
         };
         let lowest = explored.region.minimum.clone();
-        if explored.lower && restarts < MOST_RESTARTS {
-            restarts += 1;
-            found = again(model, found, explored.history, &lowest, usual)?;
-            continue;
-        }
         // what the region has left over is for a search that was cut short: the region's points may have brought it home
         let left = (found.history.len() + plan.region_evaluations).saturating_sub(explored.history.len());
-        if found.stopped == Termination::BudgetSpent && left > 0 && !continued {
-            continued = true;
-            found = again(model, found, explored.history, &lowest, Budget { evaluations: left, ..usual })?;
+        found.history.clone_from(&explored.history);
+        if explored.lower && restarts < MOST_RESTARTS {
+            restarts += 1;
+            found = again(model, found, &lowest, usual)?;
+            continue;
+        }
+        if found.stopped == Termination::BudgetSpent && left > 0 && is_left(&mut continuations, 1) {
+            found = again(model, found, &lowest, Budget { evaluations: left, ..usual })?;
             continue;
         }
         // what the region has taught may promise minima that the search has not seen
-        if left > 0 && beside < MOST_RESTARTS {
-            beside += 1;
+        if left > 0 && is_left(&mut views, MOST_RESTARTS) {
             let known = found.minima.len();
             let leads = Leads {
                 branches: explored.branches_without(&found.minima),
@@ -120,38 +123,28 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
                 worst: lowest.chi_squared + WORST * explored.region.threshold,
                 ..Leads::default()
             };
-            let before = SearchResult { history: explored.history.clone(), ..found };
-            found = search_beside(model, before, leads, &Budget { evaluations: left, ..usual })?;
+            found = search_beside(model, found, leads, &Budget { evaluations: left, ..usual })?;
             if found.minima.len() > known || found.chi_squared < lowest.chi_squared {
                 // another minimum has a region of its own
                 continue;
             }
-            explored.history.clone_from(&found.history);
         }
         // before the model is called wrong, the rest of the box is looked at
-        if !looked && found.stopped == Termination::Converged && is_unexplained(&found, DOUBTFUL) {
-            looked = true;
-            let before = SearchResult { history: explored.history.clone(), ..found };
-            found = look_elsewhere(model, before, &usual)?;
+        if found.stopped == Termination::Converged && is_unexplained(&found, DOUBTFUL) && is_left(&mut glances, 1) {
+            found = look_elsewhere(model, found, &usual)?;
             if found.chi_squared < lowest.chi_squared {
                 continue;
             }
-            explored.history.clone_from(&found.history);
         }
         if correlation.is_none() {
-            correlation = correlated(&plan.series, &explored);
+            correlation = correlated(&plan.series, &found.history, &explored);
             if correlation.is_some() {
                 // the wider region is explored with what is known of the narrower one
-                found.history = explored.history;
                 continue;
             }
         }
-        let search = SearchResult {
-            best: lowest.point,
-            chi_squared: lowest.chi_squared,
-            history: explored.history.clone(),
-            ..found
-        };
+        explored.history.clone_from(&found.history);
+        let search = SearchResult { best: lowest.point, chi_squared: lowest.chi_squared, ..found };
         let (search, explored) = match plan.runs {
             Repeatability::Smooth => (search, explored),
             Repeatability::Scattering => {
@@ -191,9 +184,8 @@ fn look_elsewhere<M: Evaluate>(
     others.truncate(others.len().div_ceil(2));
     let mut tried: Vec<Vec<f64>> = found.minima.iter().map(|minimum| minimum.point.clone()).collect();
     for _ in 0..MOST_RESTARTS {
-        let distance =
-            |point: &[f64], from: &[f64]| point.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let alone = |other: &Evaluated| tried.iter().map(|known| distance(&other.point, known)).fold(1.0, f64::min);
+        let alone =
+            |other: &Evaluated| tried.iter().map(|known| largest_distance(&other.point, known)).fold(1.0, f64::min);
         let Some(next) = others.iter().max_by(|a, b| alone(a).total_cmp(&alone(b))) else { break };
         if !is_unexplained(&found, DOUBTFUL) {
             break;
@@ -209,8 +201,7 @@ fn look_elsewhere<M: Evaluate>(
 fn is_on_plateau(found: &SearchResult, difference: f64) -> bool {
     let Some(best) = found.history.iter().find(|evaluated| evaluated.point == found.best) else { return false };
     let Some(residuals) = &best.residuals else { return false };
-    let is_near =
-        |other: &Evaluated| other.point.iter().zip(&best.point).all(|(a, b)| (a - b).abs() <= 1.01 * difference);
+    let is_near = |other: &Evaluated| largest_distance(&other.point, &best.point) <= 1.01 * difference;
     let is_equal = |other: &Evaluated| {
         let change = |of: &Vec<f64>| of.iter().zip(residuals).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
         other.residuals.as_ref().is_some_and(|of| change(of) <= FLAT * FLAT * found.chi_squared)
@@ -254,22 +245,21 @@ fn judged(stopped: Termination, explored: &Explored) -> Termination {
 fn again<M: Evaluate>(
     model: &mut M,
     before: SearchResult,
-    history: Vec<Evaluated>,
-    lowest: &Minimum,
+    lowest: &LocalMinimum,
     budget: Budget,
 ) -> Result<SearchResult, SearchError<M::Error>> {
     let budget = Budget { starts: 0, ..budget };
-    let found = continue_search(model, history, &lowest.point, Method::TrustRegion, budget)?;
+    let found = continue_search(model, before.history, &lowest.point, Method::TrustRegion, budget)?;
     let mut minima = before.minima;
     minima.retain(|minimum| !found.minima.iter().any(|new| new.is_near(minimum)));
     minima.extend(found.minima.iter().cloned());
-    minima.sort_by(|a: &LocalMinimum, b| a.chi_squared.total_cmp(&b.chi_squared));
+    minima.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     Ok(SearchResult { minima, every_start: before.every_start, ..found })
 }
 
 /// Correlation of the residuals at the best point.
-fn correlated(series: &[Vec<usize>], explored: &Explored) -> Option<SerialCorrelation> {
-    let best = explored.history.iter().find(|evaluated| evaluated.point == explored.region.minimum.point)?;
+fn correlated(series: &[Vec<usize>], history: &[Evaluated], explored: &Explored) -> Option<SerialCorrelation> {
+    let best = history.iter().find(|evaluated| evaluated.point == explored.region.minimum.point)?;
     serial_correlation(series, best.residuals.as_ref()?, &explored.region.jacobian())
 }
 

@@ -108,11 +108,7 @@ pub fn power_law(points: &[(f64, f64)]) -> Option<Exponent> {
 /// Slope of the line through (ln x, ln y); none where a value is not positive.
 #[must_use]
 pub fn log_log_slope(points: &[(f64, f64)]) -> Option<f64> {
-    if points.iter().any(|(x, y)| !(*x > 0.0 && *y > 0.0)) {
-        return None;
-    }
-    let logarithms: Vec<_> = points.iter().map(|(x, y)| (libm::log(*x), libm::log(*y))).collect();
-    linear_fit(&logarithms).map(|fit| fit.slope)
+    power_law(points).map(|law| law.value)
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ impl BagnoldProfile {
 
     /// Refuses parameters for which neither the profile nor its transient is defined.
     pub fn check(&self) -> Result<(), LayerError> {
-        let positive = [
+        LayerError::unless_positive([
             ("layer_height", self.layer_height),
             ("gravity", self.gravity),
             ("grain_diameter", self.grain_diameter),
@@ -58,25 +58,14 @@ impl BagnoldProfile {
             ("solid_fraction", self.solid_fraction),
             ("static_friction", self.static_friction),
             ("reference_inertia", self.reference_inertia),
-        ];
-        for (field, value) in positive {
-            if value.is_nan() || value <= 0.0 || value.is_infinite() {
-                return Err(LayerError::Parameter { field, value, rule: "finite and greater than 0" });
-            }
-        }
-        if self.limiting_friction.is_nan()
-            || self.limiting_friction <= self.static_friction
-            || self.limiting_friction.is_infinite()
-        {
+        ])?;
+        let refuse = |field, value, rule| Err(LayerError::Parameter { field, value, rule });
+        if !(self.limiting_friction > self.static_friction && self.limiting_friction.is_finite()) {
             let rule = "finite and greater than static_friction";
-            return Err(LayerError::Parameter { field: "limiting_friction", value: self.limiting_friction, rule });
+            return refuse("limiting_friction", self.limiting_friction, rule);
         }
-        if self.inclination.is_nan() || self.inclination.abs() >= std::f64::consts::FRAC_PI_2 {
-            return Err(LayerError::Parameter {
-                field: "inclination",
-                value: self.inclination,
-                rule: "within ±π/2 rad",
-            });
+        if !(self.inclination.abs() < std::f64::consts::FRAC_PI_2) {
+            return refuse("inclination", self.inclination, "within ±π/2 rad");
         }
         Ok(())
     }

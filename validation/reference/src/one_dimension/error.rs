@@ -65,3 +65,18 @@ pub enum LayerError {
         steps: usize,
     },
 }
+
+impl LayerError {
+    /// Refuses the first of some values, with their names, that is not positive and finite.
+    pub(crate) fn unless_positive(values: impl IntoIterator<Item = (&'static str, f64)>) -> Result<(), Self> {
+        let rule = "finite and greater than 0";
+        let wrong = values.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()));
+        wrong.map_or(Ok(()), |(field, value)| Err(Self::Parameter { field, value, rule }))
+    }
+
+    /// Refuses fewer than two cells.
+    pub(crate) fn unless_several(cells: usize) -> Result<(), Self> {
+        let few = || Self::Parameter { field: "cells", value: cells as f64, rule: "at least 2" };
+        if cells >= 2 { Ok(()) } else { Err(few()) }
+    }
+}

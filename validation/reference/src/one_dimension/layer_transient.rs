@@ -15,6 +15,7 @@
 //! are the conditions for the minimum of a strictly convex energy with a barrier at |s| = S_2. A tridiagonal Newton
 //! step with a line search converges from any admissible start. First order in Δt, second in Δy.
 
+use super::tridiagonal::solve;
 use super::{BagnoldProfile, LayerError};
 
 /// Largest number of Newton steps in one time step; a handful is usual.
@@ -72,16 +73,8 @@ impl LayerTransient {
         velocity: impl Fn(f64) -> f64,
     ) -> Result<Self, LayerError> {
         layer.check()?;
-        if cells < 2 {
-            return Err(LayerError::Parameter { field: "cells", value: cells as f64, rule: "at least 2" });
-        }
-        if time_step.is_nan() || time_step <= 0.0 || time_step.is_infinite() {
-            return Err(LayerError::Parameter {
-                field: "time_step",
-                value: time_step,
-                rule: "finite and greater than 0",
-            });
-        }
+        LayerError::unless_several(cells)?;
+        LayerError::unless_positive([("time_step", time_step)])?;
         let width = layer.layer_height / cells as f64;
         let velocity: Vec<f64> = (0..cells).map(|i| velocity((i as f64 + 0.5) * width)).collect();
         if let Some(&value) = velocity.iter().find(|u| !u.is_finite()) {
@@ -204,24 +197,13 @@ impl LayerTransient {
     /// Solves the symmetric positive definite tridiagonal system of a Newton step.
     fn newton_direction(&self, residual: &[f64]) -> Vec<f64> {
         let coupling = self.time_step / self.cell_width();
-        let mut pivots = vec![0.0; residual.len()];
-        let mut direction = vec![0.0; residual.len()];
-        for j in 0..residual.len() {
-            let stiffness = self.faces[j].distance * self.faces[j].shear_rate(self.stress[j]).1;
-            if j == 0 {
-                pivots[0] = stiffness + coupling;
-                direction[0] = -residual[0];
-            } else {
-                let factor = coupling / pivots[j - 1];
-                pivots[j] = stiffness + 2.0 * coupling - factor * coupling;
-                direction[j] = -residual[j] + factor * direction[j - 1];
-            }
-        }
-        for j in (0..residual.len()).rev() {
-            let above = direction.get(j + 1).copied().unwrap_or(0.0);
-            direction[j] = (direction[j] + coupling * above) / pivots[j];
-        }
-        direction
+        let stiffness =
+            self.faces.iter().zip(&self.stress).map(|(face, stress)| face.distance * face.shear_rate(*stress).1);
+        let both = |(j, stiffness): (usize, f64)| stiffness + if j == 0 { coupling } else { 2.0 * coupling };
+        let diagonal: Vec<f64> = stiffness.enumerate().map(both).collect();
+        let right: Vec<f64> = residual.iter().map(|residual| -residual).collect();
+        let beside = vec![-coupling; residual.len()];
+        solve(&beside, &diagonal, &beside, &right)
     }
 
     /// Fraction of a direction, at most 1, that uses up 90 % of the nearest margin to |s| = S_2.

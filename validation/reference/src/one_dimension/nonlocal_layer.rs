@@ -107,9 +107,7 @@ impl NonlocalLayer {
     /// A parameter out of its range, a slope from μ_2 on, or a Newton's method that does not converge.
     pub fn steady(&self, cells: usize) -> Result<NonlocalProfile, LayerError> {
         self.layer.check()?;
-        if cells < 2 {
-            return Err(LayerError::Parameter { field: "cells", value: cells as f64, rule: "at least 2" });
-        }
+        LayerError::unless_several(cells)?;
         let friction = libm::tan(self.layer.inclination);
         if friction >= self.layer.limiting_friction {
             let rule = "below the arctangent of limiting_friction";

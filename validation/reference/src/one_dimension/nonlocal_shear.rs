@@ -126,14 +126,8 @@ impl NonlocalShear {
     /// A parameter out of its range, a stress ratio from μ_2 on, or a Newton's method that does not converge.
     pub fn steady(&self, cells: usize) -> Result<NonlocalShearProfile, LayerError> {
         let values = [("thickness", self.thickness), ("grain_diameter", self.grains.grain_diameter)];
-        for (field, value) in values.into_iter().chain(self.stress.parameters()) {
-            if value.is_nan() || value <= 0.0 || value.is_infinite() {
-                return Err(LayerError::Parameter { field, value, rule: "finite and greater than 0" });
-            }
-        }
-        if cells < 2 {
-            return Err(LayerError::Parameter { field: "cells", value: cells as f64, rule: "at least 2" });
-        }
+        LayerError::unless_positive(values.into_iter().chain(self.stress.parameters()))?;
+        LayerError::unless_several(cells)?;
         let width = self.thickness / cells as f64;
         let distances: Vec<f64> = (0..cells).map(|cell| (cell as f64 + 0.5) * width).collect();
         let stresses: Vec<(f64, f64)> = distances.iter().map(|&y| self.stress.at(y, self.thickness)).collect();

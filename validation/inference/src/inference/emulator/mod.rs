@@ -11,7 +11,7 @@ mod correction;
 mod polynomial;
 
 use super::box_least_squares::least_squares;
-use super::descent::{Bottom, Smooth, descend};
+use super::descent::{LocalMinimum, Smooth, descend};
 use super::search::Evaluated;
 use correction::KrigingCorrection;
 use nalgebra::{DMatrix, DVector};
@@ -27,15 +27,6 @@ const HOPELESS: f64 = 1e6;
 
 /// Other starts of the descent to the minimum, the best evaluated points.
 const STARTS: usize = 8;
-
-/// A minimum of the emulator.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Minimum {
-    /// The point in the unit cube.
-    pub point: Vec<f64>,
-    /// χ² of the emulator there `[-]`.
-    pub chi_squared: f64,
-}
 
 /// The polynomials.
 #[derive(Debug, Clone)]
@@ -192,17 +183,15 @@ impl Emulator {
     /// The least χ² in the cube: downhill from the best point, or from another of the best evaluated points if what
     /// lies below it is lower still and supported by a point nearby.
     #[must_use]
-    pub fn minimum(&self) -> Minimum {
-        let (lower, upper) = (vec![0.0; self.dimensions()], vec![1.0; self.dimensions()]);
-        let mut best = descend(self, &self.centre, &lower, &upper);
+    pub fn minimum(&self) -> LocalMinimum {
+        let mut best = self.minimum_near(&self.centre);
         for start in self.points.iter().take(STARTS) {
-            let other = descend(self, start, &lower, &upper);
+            let other = self.minimum_near(start);
             if self.supports(&other.point) && other.chi_squared < best.chi_squared - 1e-9 * (1.0 + best.chi_squared) {
                 best = other;
             }
         }
-        let Bottom { point, chi_squared } = best;
-        Minimum { point, chi_squared }
+        best
     }
 
     /// Evaluated points whose χ² on the emulator is at most a value, the best first.
@@ -213,10 +202,8 @@ impl Emulator {
 
     /// The minimum downhill of a point.
     #[must_use]
-    pub fn minimum_near(&self, start: &[f64]) -> Minimum {
-        let (lower, upper) = (vec![0.0; self.dimensions()], vec![1.0; self.dimensions()]);
-        let Bottom { point, chi_squared } = descend(self, start, &lower, &upper);
-        Minimum { point, chi_squared }
+    pub fn minimum_near(&self, start: &[f64]) -> LocalMinimum {
+        descend(self, start, &vec![0.0; self.dimensions()], &vec![1.0; self.dimensions()])
     }
 
     /// Whether a point at which the model worked lies near, no farther than [`scale`](Self::scale).

@@ -1,7 +1,7 @@
 //! Whether two minima are one: what separates them on the emulator.
 
 use crate::inference::Emulator;
-use crate::inference::descent::descend;
+use crate::inference::descent::descend_held;
 
 /// Rise of χ² between two minima below which they are one: no experiment tells them apart.
 const BARRIER: f64 = 1.0;
@@ -23,9 +23,7 @@ fn barrier(emulator: &Emulator, from: &[f64], to: &[f64]) -> f64 {
     let mut highest = f64::NEG_INFINITY;
     for step in 1..STEPS {
         let value = from[along] + (to[along] - from[along]) * step as f64 / STEPS as f64;
-        let (mut lower, mut upper) = (vec![0.0; from.len()], vec![1.0; from.len()]);
-        (lower[along], upper[along]) = (value, value);
-        let bottom = descend(emulator, &place, &lower, &upper);
+        let bottom = descend_held(emulator, &place, along, value);
         highest = highest.max(bottom.chi_squared);
         place = bottom.point;
     }

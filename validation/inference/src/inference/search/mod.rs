@@ -12,7 +12,8 @@ pub use design::search_design;
 pub use evaluated::Evaluated;
 pub(super) use recorder::{Halt, Recorder};
 
-use super::Evaluate;
+use super::descent::LocalMinimum;
+use super::{Evaluate, largest_distance};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -108,31 +109,6 @@ impl fmt::Display for Termination {
     }
 }
 
-/// A minimum that a descent has ended in.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct LocalMinimum {
-    /// The evaluated point, in the unit cube.
-    pub point: Vec<f64>,
-    /// χ² there `[-]`.
-    pub chi_squared: f64,
-}
-
-/// Distance along an axis within which two minima are one.
-const SAME: f64 = 0.05;
-
-impl LocalMinimum {
-    /// Whether both are one.
-    #[must_use]
-    pub fn is_near(&self, other: &Self) -> bool {
-        self.is_at(&other.point)
-    }
-
-    /// Whether it lies at a point.
-    pub(in crate::inference) fn is_at(&self, point: &[f64]) -> bool {
-        self.point.iter().zip(point).all(|(a, b)| (a - b).abs() <= SAME)
-    }
-}
-
 /// Result of a search.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SearchResult {
@@ -160,9 +136,7 @@ impl SearchResult {
     pub fn covered(&self) -> f64 {
         let near = |place: &&Vec<f64>| {
             let worked = self.history.iter().filter(|evaluated| evaluated.chi_squared.is_some());
-            worked
-                .map(|evaluated| &evaluated.point)
-                .any(|point| point.iter().zip(place.iter()).all(|(a, b)| (a - b).abs() <= COVERED))
+            worked.map(|evaluated| &evaluated.point).any(|point| largest_distance(point, place) <= COVERED)
         };
         let places = crate::sampling::design::sobol(COVERAGE_POINTS, self.best.len(), 1);
         places.iter().filter(near).count() as f64 / COVERAGE_POINTS as f64
@@ -230,12 +204,8 @@ pub fn continue_search<M: Evaluate>(
     let known = history.len();
     let mut recorder = Recorder::with(model, history, known + budget.evaluations);
     let first = match method {
-        Method::TrustRegion | Method::Posterior => {
-            trust_region::run(&mut recorder, start, &budget, &[]).map(|descent| {
-                let minimum = LocalMinimum { point: descent.point, chi_squared: descent.chi_squared };
-                (descent.stopped.unwrap_or(Termination::Converged), Some(minimum))
-            })
-        }
+        Method::TrustRegion | Method::Posterior => trust_region::run(&mut recorder, start, &budget, &[])
+            .map(|descent| (descent.stopped.unwrap_or(Termination::Converged), Some(descent.minimum))),
         Method::Design => {
             let points = crate::sampling::design::sobol((budget.evaluations - 1).max(1), start.len(), budget.seed);
             design::run(&mut recorder, &points, &budget).map(|stopped| (stopped, None))
@@ -303,9 +273,8 @@ pub(super) fn search_beside<M: Evaluate>(
             if descent.stopped.is_none() {
                 continue;
             }
-            let found = LocalMinimum { point: descent.point, chi_squared: descent.chi_squared };
-            if !minima.iter().any(|known| known.is_near(&found)) {
-                minima.push(found);
+            if !minima.iter().any(|known| known.is_near(&descent.minimum)) {
+                minima.push(descent.minimum);
             }
         }
         recorder.residuals(&scouts)?;
@@ -323,8 +292,8 @@ fn descend_on<M: Evaluate>(
 ) -> Result<Termination, Halt<M::Error>> {
     let Some(start) = recorder.best().map(|(best, _)| best.point.clone()) else { return Err(Halt::NothingWorked) };
     let descent = trust_region::run(recorder, &start, budget, &[])?;
-    minima.retain(|minimum| !minimum.is_at(&descent.point) && !minimum.is_at(&start));
-    minima.push(LocalMinimum { point: descent.point, chi_squared: descent.chi_squared });
+    minima.retain(|minimum| !minimum.is_near(&descent.minimum) && !minimum.is_at(&start));
+    minima.push(descent.minimum);
     Ok(descent.stopped.unwrap_or(Termination::Converged))
 }
 

@@ -57,7 +57,7 @@ pub(super) fn descend_from<M: Evaluate>(
         tried.push(start);
         match descent {
             Ok(descent) if descent.stopped == Some(Termination::Converged) => {
-                let found = LocalMinimum { point: descent.point, chi_squared: descent.chi_squared };
+                let found = descent.minimum;
                 let emulator = Emulator::fit(recorder.history(), budget.difference);
                 let one = |known: &LocalMinimum| {
                     let parted = |emulator| is_parted(emulator, &found.point, &known.point);
@@ -89,7 +89,6 @@ fn next<M: Evaluate>(
     let mut leads: Vec<LocalMinimum> = Vec::new();
     for place in places {
         let lead = emulator.minimum_near(place);
-        let lead = LocalMinimum { point: lead.point, chi_squared: lead.chi_squared };
         if !minima.iter().chain(tried).chain(&leads).any(|known| known.is_near(&lead)) {
             leads.push(lead);
         }

@@ -16,7 +16,7 @@ use super::barrier::is_parted;
 use super::differences::{Iterate, central_differences, differences};
 use super::{Budget, Halt, LocalMinimum, Recorder, Termination};
 use crate::inference::box_least_squares::box_least_squares;
-use crate::inference::{Emulator, Evaluate};
+use crate::inference::{Emulator, Evaluate, largest_distance};
 use nalgebra::{DMatrix, DVector};
 
 /// First Δ, in the unit cube.
@@ -45,16 +45,14 @@ const LEAST_SCALE: f64 = 0.02;
 
 impl Iterate {
     fn descent(self, stopped: Option<Termination>) -> DescentResult {
-        DescentResult { point: self.point, chi_squared: self.chi_squared, stopped }
+        DescentResult { minimum: LocalMinimum { point: self.point, chi_squared: self.chi_squared }, stopped }
     }
 }
 
 /// End of a descent, with its reason.
 pub(super) struct DescentResult {
     /// The best point of this descent.
-    pub(super) point: Vec<f64>,
-    /// χ² there `[-]`.
-    pub(super) chi_squared: f64,
+    pub(super) minimum: LocalMinimum,
     /// Reason for the end; none for a descent that came to a minimum that is known.
     pub(super) stopped: Option<Termination>,
 }
@@ -85,7 +83,10 @@ pub(super) fn run<M: Evaluate>(
                 return Ok(here.descent(None));
             }
             // differences both ways hold, corrected since, as long as the point is near
-            if confirmed.as_ref().is_none_or(|at: &Vec<f64>| distance(at, &here.point) > NEAR * budget.difference) {
+            if confirmed
+                .as_ref()
+                .is_none_or(|at: &Vec<f64>| largest_distance(at, &here.point) > NEAR * budget.difference)
+            {
                 origin.clone_from(&here.point);
                 confirmed = Some(here.point.clone());
                 (jacobian, here) = central_differences(recorder, here, &jacobian, budget)?;
@@ -138,7 +139,7 @@ pub(super) fn run<M: Evaluate>(
             here = there;
         }
         failures = if gain < POOR { failures + 1 } else { 0 };
-        let moved = distance(&origin, &here.point);
+        let moved = largest_distance(&origin, &here.point);
         if failures > 0 && (moved > budget.difference || failures > 1 && moved > 0.0) {
             failures = 0;
             jacobian = differences(recorder, &here, budget.difference)?;
@@ -222,11 +223,6 @@ fn box_step(here: &Iterate, jacobian: &DMatrix<f64>, radius: f64, walls: &Walls)
     let lower: Vec<f64> = room().map(|(u, bounds)| (bounds[0] - u).max(-radius).min(0.0)).collect();
     let upper: Vec<f64> = room().map(|(u, bounds)| (bounds[1] - u).min(radius).max(0.0)).collect();
     box_least_squares(jacobian, &-&here.residuals, &lower, &upper)
-}
-
-/// Largest difference of a coordinate.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
