@@ -103,9 +103,8 @@ fn columns() -> Simulated {
 fn suspensions() -> Simulated {
     Simulated {
         case: "settling",
-        with: "grain = { laws = [] }\n\
-               suspension = { laws = [\"wen-yu\"], solid_fractions = [0.1, 0.3, 0.5], dilute_fraction = 0.0 }\n",
-        setting: |u| format!("water.kinematic_viscosity={}", 5e-7 * 8.0_f64.powf(u)),
+        with: "vary = [{ path = \"solid_fraction\", values = [0.1, 0.3, 0.5] }]\n",
+        setting: |u| format!("kinematic_viscosity={}", 5e-7 * 8.0_f64.powf(u)),
         predict: |record| {
             record
                 .tables

@@ -36,31 +36,27 @@ fn grains_that_do_not_settle() {
     let cases = [
         (
             "grain_density=900.0",
-            "`grain_density` is 900, but must be greater than the density of the water; grains that float do not settle",
+            "`grain_density` is 900, but must be greater than the density of the fluid; grains that float do not settle",
         ),
         (
-            "grain.laws=[\"ergun\"]",
-            "`grain.laws[0]` is ergun, but must be a law of one grain that covers its Reynolds number; leave out \"ergun\", and \"morsi-alexander\" above R = 50 000",
+            "law=ergun",
+            "`law` is ergun, but must be a law of one grain that covers its Reynolds number; leave out \"ergun\", and \"morsi-alexander\" above R = 50 000",
         ),
         (
-            "grain.columns=4",
-            "`grain.columns` is 4, but must be between 8 and 1000; the box must hold the reach of the kernels twice; 12 is quick",
+            "columns=4",
+            "`columns` is 4, but must be between 8 and 1000; the box must hold the reach of the kernels twice; 12 is quick",
         ),
         (
-            "numerics.continuity=\"mixture\"",
-            "`numerics.continuity` is mixture, but must be \"fluid\"; only suspensions share their pressure, and `settling` chooses it for them",
-        ),
-        (
-            "numerics.mean_flux=\"zero\"",
-            "`numerics.mean_flux` is zero, but must be \"free\"; only suspensions share their pressure, and `settling` chooses it for them",
+            "numerics.mean_flux=\"free\"",
+            "`numerics.mean_flux` is free, but must be \"zero\" in a suspension; a grain alone has other operators with `numerics.continuity = \"fluid\"`",
         ),
         (
             "numerics.pressure_source=\"density\"",
-            "`numerics.pressure_source` is density, but must be \"divergence\" with suspensions; single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`",
+            "`numerics.pressure_source` is density, but must be \"divergence\" in a suspension; a grain alone has other operators with `numerics.continuity = \"fluid\"`",
         ),
         (
             "numerics.surface=\"eliminated\"",
-            "`numerics.surface` is eliminated, but must be \"completed\" with suspensions; single grains have the paper's operators by the formulation \"paper\"; or empty `suspension.laws`",
+            "`numerics.surface` is eliminated, but must be \"completed\" in a suspension; a grain alone has other operators with `numerics.continuity = \"fluid\"`",
         ),
     ];
     for (setting, message) in cases {
@@ -68,14 +64,13 @@ fn grains_that_do_not_settle() {
     }
     refused(
         &place,
-        &[
-            "settling",
-            "--set",
-            "suspension.solid_fractions=[0.1]",
-            "--set",
-            "suspension.laws=[\"di-felice\", \"ergun\"]",
-        ],
-        "`suspension.laws[1]` is ergun, but must be a law for one of the solid fractions; \"ergun\" begins at 0.2; leave it out, or add a denser suspension",
+        &["still-water", "--set", "numerics.continuity=\"mixture\""],
+        "`numerics.continuity` is mixture, but must be \"fluid\"; only the suspensions of `settling` share their pressure",
+    );
+    refused(
+        &place,
+        &["settling", "--vary", "law=di-felice,ergun", "--set", "solid_fraction=0.1"],
+        "`solid_fraction` is 0.1, and so `law` is ergun, but must be a law for this `solid_fraction`; \"ergun\" begins at 0.2",
     );
 }
 

@@ -1,21 +1,13 @@
 //! The case's figures.
 
-use super::formulation::GrainFormulation;
+use super::flow::{FORMULATIONS, SettlingFlow, covers};
 use super::metrics::beads::{LAWS, sinking};
 use super::probe::{SettlingObservation, SettlingSeries};
-use super::runs::SettlingRun;
-use super::suspension::SuspensionRun;
 use super::{SettlingRecord, drag_curves};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::settling::{GrainForm, SETTLING_BEADS, richardson_zaki_exponent};
 use crate::shared::{ascending, distinct, range};
 use bagnold_solver::material::drag::DragLaw;
-
-/// The formulations that single grains have, in the order of their panels.
-const FORMULATIONS: [GrainFormulation; 2] = [GrainFormulation::Paper, GrainFormulation::Stabilised];
-
-/// The formulation of suspensions.
-const CONTINUUM: &str = "continuum";
 
 /// Half of a pixel of the images `[m]`.
 const HALF_PIXEL: f64 = 0.39e-3;
@@ -38,34 +30,30 @@ pub(super) fn all(records: &[SettlingRecord]) -> Vec<Figure> {
 }
 
 /// The suspensions among the records.
-fn suspensions(records: &[SettlingRecord]) -> impl Iterator<Item = (&SuspensionRun, &SettlingObservation)> {
-    records.iter().filter_map(|(run, record)| match run {
-        SettlingRun::Grain(_) => None,
-        SettlingRun::Suspension(run) => Some((run, &record.data)),
-    })
+fn suspensions(records: &[SettlingRecord]) -> impl Iterator<Item = (&SettlingFlow, &SettlingObservation)> {
+    records.iter().filter(|(flow, _)| flow.is_suspension()).map(|(flow, record)| (flow, &record.data))
 }
 
 fn approach(records: &[SettlingRecord]) -> Figure {
-    let title = |run: &SettlingRun| match run {
-        SettlingRun::Grain(run) => format!("one grain, {}", run.formulation.name()),
-        SettlingRun::Suspension(run) => format!("suspension, φ = {}", run.solid_fraction),
+    let grain = |formulation: &str| format!("one grain, {formulation}");
+    let suspension = |fraction: f64| format!("suspension, φ = {fraction}");
+    let title = |flow: &SettlingFlow| {
+        if flow.is_suspension() { suspension(flow.solid_fraction) } else { grain(flow.formulation()) }
     };
-    let fractions = ascending(suspensions(records).map(|(run, _)| run.solid_fraction));
-    let titles = FORMULATIONS.map(|formulation| format!("one grain, {}", formulation.name())).into_iter();
-    let titles = titles.chain(fractions.into_iter().map(|fraction| format!("suspension, φ = {fraction}")));
+    let fractions = ascending(suspensions(records).map(|(flow, _)| flow.solid_fraction));
+    let titles = FORMULATIONS.map(grain).into_iter().chain(fractions.into_iter().map(suspension));
     let mut named: Vec<DragLaw> = Vec::new();
     let mut panels = Vec::new();
     for name in titles {
         let y = Axis::linear("slip over the root [-]").between(0.0, 1.2);
         let mut panel = Panel::new(&name, Axis::linear("t [s]"), y);
-        for (run, record) in records.iter().filter(|(run, _)| title(run) == name) {
-            let (series, root) = (&record.data.series, run.root());
+        for (flow, record) in records.iter().filter(|(flow, _)| title(flow) == name) {
+            let (series, root, law) = (&record.data.series, flow.root(), flow.law);
             let points = series.time.iter().zip(&series.slip).map(|(t, slip)| (*t, slip / root));
             // a law has its name where it is drawn first
-            let label =
-                if named.contains(&run.experiment().law) { "" } else { drag_curves::label(run.experiment().law) };
-            named.push(run.experiment().law);
-            panel.line(label, drag_curves::slot(run.experiment().law), points);
+            let label = if named.contains(&law) { "" } else { drag_curves::label(law) };
+            named.push(law);
+            panel.line(label, drag_curves::slot(law), points);
         }
         let end = panel.series.iter().flat_map(|series| series.points.last()).fold(0.0, |end: f64, p| end.max(p.0));
         if end > 0.0 {
@@ -87,13 +75,10 @@ fn approach(records: &[SettlingRecord]) -> Figure {
 }
 
 /// Grains alone, and suspensions so dilute that they stand for one: formulation, root `[m/s]`, what was seen.
-fn alone<'a>(records: &'a [SettlingRecord]) -> Vec<(&'static str, f64, &'a SettlingObservation)> {
-    let root = |run: &SettlingRun| match run {
-        SettlingRun::Grain(run) => Some((run.formulation.name(), run.terminal_velocity())),
-        SettlingRun::Suspension(run) => run.dilute.then(|| (CONTINUUM, run.terminal_velocity())),
-    };
-    let of = |(run, record): &'a SettlingRecord| root(run).map(|(name, root)| (name, root, &record.data));
-    records.iter().filter_map(of).collect()
+fn alone(records: &[SettlingRecord]) -> Vec<(&'static str, f64, &SettlingObservation)> {
+    let root = |flow: &SettlingFlow| if flow.is_suspension() { flow.sphere_velocity() } else { flow.root() };
+    let alone = records.iter().filter(|(flow, _)| flow.is_dilute() || !flow.is_suspension());
+    alone.map(|(flow, record)| (flow.formulation(), root(flow), &record.data)).collect()
 }
 
 fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
@@ -101,15 +86,15 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     let (low, high) = range(records.iter().map(|&(_, root, _)| root));
     let (low, high) = (low - 0.05 * high, 1.05 * high);
     panel.band("gate, 1 %", [(low, -1.0, 1.0), (high, -1.0, 1.0)]);
-    for (slot, name) in FORMULATIONS.map(GrainFormulation::name).into_iter().chain([CONTINUUM]).enumerate() {
+    for (slot, formulation) in FORMULATIONS.into_iter().enumerate() {
         let measured = |&(_, root, data): &(&str, f64, &SettlingObservation)| {
             let (mean, noise) = data.series.mean(&data.series.slip);
             ((root, 100.0 * (mean / root - 1.0)), 100.0 * noise / root)
         };
         let (points, error): (Vec<(f64, f64)>, Vec<f64>) =
-            records.iter().filter(|record| record.0 == name).map(measured).unzip();
+            records.iter().filter(|record| record.0 == formulation).map(measured).unzip();
         if !points.is_empty() {
-            panel.points(name, slot, points).error = error;
+            panel.points(formulation, slot, points).error = error;
         }
     }
     Figure::new(
@@ -121,22 +106,21 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     )
 }
 
-fn hindered(records: &[(&SuspensionRun, &SettlingObservation)]) -> Figure {
+fn hindered(records: &[(&SettlingFlow, &SettlingObservation)]) -> Figure {
     let mut slip = Panel::new("slip", Axis::linear("φ [-]"), Axis::linear("u_r [m/s]"));
     let mut sinking = Panel::new("sinking velocity", Axis::linear("φ [-]"), Axis::linear("(1 − φ) u_r [m/s]"));
-    let grains = records[0].0.experiment.grains;
+    let grains = records[0].0.grains;
     let fractions = || (1..=120).map(|k| DENSEST * f64::from(k) / 120.0);
-    for law in distinct(records.iter().map(|(run, _)| run.experiment.law)) {
+    for law in distinct(records.iter().map(|(flow, _)| flow.law)) {
         let slot = drag_curves::slot(law);
         let root = |phi| Some((phi, grains.hindered_slip(law, phi)?));
-        let curve: Vec<(f64, f64)> =
-            fractions().filter(|&phi| super::suspension::covers(law, phi)).filter_map(root).collect();
+        let curve: Vec<(f64, f64)> = fractions().filter(|&phi| covers(law, phi)).filter_map(root).collect();
         let sunk = curve.iter().map(|&(phi, slip)| (phi, (1.0 - phi) * slip));
         sinking.line("", slot, sunk);
         slip.line("", slot, curve);
         let measured = |of: fn(&SettlingSeries) -> &[f64]| -> Vec<(f64, f64)> {
-            let of_law = records.iter().filter(|(run, _)| run.experiment.law == law);
-            of_law.map(|(run, data)| (run.solid_fraction, data.series.mean(of(&data.series)).0)).collect()
+            let of_law = records.iter().filter(|(flow, _)| flow.law == law);
+            of_law.map(|(flow, data)| (flow.solid_fraction, data.series.mean(of(&data.series)).0)).collect()
         };
         // one legend serves both panels
         slip.points(drag_curves::label(law), slot, measured(|series| &series.slip));

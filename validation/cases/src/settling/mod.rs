@@ -1,26 +1,16 @@
 //! Settling grains: the drag laws, a grain alone and a uniform suspension against the roots of their balances.
 
 mod drag_curves;
-mod experiment;
 mod figures;
-mod formulation;
-mod grain;
+mod flow;
 mod metrics;
-mod parameters;
 mod probe;
-mod runs;
-mod suspension;
-mod tiers;
+mod scene;
 
-pub use experiment::{Experiment, Vessel};
-pub use formulation::GrainFormulation;
-pub use grain::GrainRun;
-pub use parameters::{SettlingParameters, SingleGrain, SuspendedGrains, SuspendingFluid};
+pub use flow::SettlingFlow;
 pub use probe::{SettlingObservation, SettlingSeries};
-pub use runs::SettlingRun;
-pub use suspension::SuspensionRun;
 
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf, Run, RunList};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -30,7 +20,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct Settling;
 
-type SettlingRecord = RecordOf<SettlingParameters>;
+type SettlingRecord = RecordOf<RunList<SettlingFlow>>;
 
 impl Case for Settling {
     const NAME: &'static str = "settling";
@@ -51,18 +41,18 @@ impl Case for Settling {
         Observed only. Hindered settling beside Richardson & Zaki. Slip of the means and root-mean-square slip of \
         pair drag. The scatter of grain velocities: two phases with one pressure are ill-posed at short waves, and \
         the drag kernel (two or three spacings wide) suppresses this for the duration of the run only.";
-    type Parameters = SettlingParameters;
+    type Parameters = RunList<SettlingFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Metric> {
+    fn metrics(_: &RunList<SettlingFlow>, records: &[SettlingRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Figure> {
+    fn figures(_: &RunList<SettlingFlow>, records: &[SettlingRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &SettlingParameters, records: &[SettlingRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<SettlingFlow>, records: &[SettlingRecord]) -> Vec<Table> {
         records.iter().map(|(run, record)| record.data.series.table(&run.variant())).collect()
     }
 }

@@ -1,6 +1,5 @@
 //! What a settling run leaves behind: slip over time, and how far momentum closes in every step.
 
-use super::experiment::Experiment;
 use crate::case::recording::{Ending, RestartableRun, SimulationStage, follow};
 use crate::case::{ParameterError, Progress};
 use crate::metric::Variant;
@@ -92,17 +91,18 @@ struct SettlingObserver {
 }
 
 impl Probe {
-    /// Runs a scene of an experiment.
+    /// Runs a scene of some grains, periodic over lengths `[m]`, for a time `[s]`.
     pub(super) fn run(
         scene: &IncompressibleScene<2>,
-        experiment: &Experiment,
+        grains: SettlingGrains,
+        size: Vector<2>,
+        duration: f64,
         progress: &dyn Progress,
     ) -> Result<Recorded<SettlingObservation>, ParameterError> {
-        let (sediment, duration) = (sediment(scene), experiment.duration);
         let probe = Self {
-            grains: experiment.grains,
-            kernel: Kernel::new(KernelShape::CubicSpline, sediment.drag_smoothing_length),
-            size: experiment.vessel.size(),
+            grains,
+            kernel: Kernel::new(KernelShape::CubicSpline, sediment(scene).drag_smoothing_length),
+            size,
             interval: duration / SAMPLES,
         };
         // momentum is that of every step

@@ -80,7 +80,7 @@ pub fn only_mu_i(path: &str, law: &Rheology, remedy: &str) -> Result<MuI, Parame
 
 /// The continuity of the incompressible solver, which a case's own runs choose.
 pub fn projection(path: &str, numerics: &ProjectionNumerics) -> Result<(), ParameterError> {
-    let remedy = "only suspensions share their pressure, and `settling` chooses it for them";
+    let remedy = "only the suspensions of `settling` share their pressure";
     let refused =
         |field: &str, value, rule| Err(ParameterError::field(&format!("{path}.{field}"), value, rule, remedy));
     match (numerics.continuity, numerics.mean_flux) {

@@ -12,7 +12,9 @@
 use crate::evidence::read_shipped;
 use crate::metric::Confidence;
 use bagnold_solver::material::drag::{DragLaw, Settling};
-use serde::Serialize;
+use bagnold_solver::parameter::positive;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
 /// Exponents c Rᵏ of ranges of Reynolds numbers.
@@ -58,17 +60,22 @@ impl GrainForm {
 }
 
 /// Grains in a fluid under gravity. They sink, or rise if they are the lighter ones: velocities are magnitudes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SettlingGrains {
     /// Grain diameter d `[m]`.
+    #[schemars(transform = positive("give it in metres; 0.005 for 5 mm"))]
     pub grain_diameter: f64,
     /// Grain density ρ_s `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 2600"))]
     pub grain_density: f64,
     /// Fluid density ρ_f `[kg/m³]`.
+    #[schemars(transform = positive("give it in kg/m³, such as 1000"))]
     pub fluid_density: f64,
     /// Kinematic viscosity ν `[m²/s]` of the fluid.
+    #[schemars(transform = positive("give it in m²/s, 1e-6 for water"))]
     pub kinematic_viscosity: f64,
     /// Gravity g `[m/s²]`.
+    #[schemars(transform = positive("give it in m/s², such as 9.81"))]
     pub gravity: f64,
 }
 

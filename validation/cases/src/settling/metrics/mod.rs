@@ -4,10 +4,8 @@ pub(super) mod beads;
 mod laws;
 
 use super::SettlingRecord;
-use super::grain::GrainRun;
+use super::flow::SettlingFlow;
 use super::probe::{SettlingObservation, SettlingSeries};
-use super::runs::SettlingRun;
-use super::suspension::SuspensionRun;
 use crate::case::Run;
 use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::settling::{richardson_zaki_confidence, richardson_zaki_exponent};
@@ -43,9 +41,9 @@ const HINDERED: &str = "root of φ (1 − φ)(ρ_s − ρ_f) g = K |u_r|";
 const VESSEL: &str = "u_s = −(1 − φ) |u_r| without a flux of the mixture";
 
 pub(super) fn all(records: &[SettlingRecord]) -> Vec<Metric> {
-    let judged = |(run, record): &SettlingRecord| match run {
-        SettlingRun::Grain(own) => alone(own, &run.variant(), &record.data),
-        SettlingRun::Suspension(own) => together(own, &run.variant(), &record.data),
+    let judged = |(flow, record): &SettlingRecord| {
+        let metrics = if flow.is_suspension() { together } else { alone };
+        metrics(flow, &flow.variant(), &record.data)
     };
     records.iter().flat_map(judged).chain(laws::all()).chain(beads::all()).collect()
 }
@@ -64,8 +62,8 @@ fn error(
     quantity.of(variant, 100.0 * (mean / root - 1.0)).exactly(0.0, source).with_snapshot_tolerance(0.0, tolerance)
 }
 
-fn alone(run: &GrainRun, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
-    let (series, root) = (&data.series, run.terminal_velocity());
+fn alone(flow: &SettlingFlow, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
+    let (series, root) = (&data.series, flow.root());
     let error = |quantity, array: &[f64]| error(quantity, variant, series, array, (root, ALONE));
     let reason = "the project's aim: 1 % of a root of one equation, mean over the last 0.6 of the run";
     vec![
@@ -76,9 +74,9 @@ fn alone(run: &GrainRun, variant: &Variant, data: &SettlingObservation) -> Vec<M
     ]
 }
 
-fn together(run: &SuspensionRun, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
+fn together(flow: &SettlingFlow, variant: &Variant, data: &SettlingObservation) -> Vec<Metric> {
     let series = &data.series;
-    let (slip, alone, fluid) = (run.slip(), run.terminal_velocity(), 1.0 - run.solid_fraction);
+    let (slip, alone, fluid) = (flow.root(), flow.sphere_velocity(), 1.0 - flow.solid_fraction);
     let error = |quantity, array: &[f64], root| error(quantity, variant, series, array, root);
     let within = Limit::Within(-0.03, 0.03);
     let reason = "a uniform suspension is a root of one equation, and displacements of its grains by a tenth of their distance change \
@@ -87,12 +85,12 @@ fn together(run: &SuspensionRun, variant: &Variant, data: &SettlingObservation) 
         error(SLIP_ERROR, &series.slip, (slip, HINDERED)).gated(within, reason),
         error(SINKING_ERROR, &series.sinking, (fluid * slip, VESSEL)).gated(within, reason),
     ];
-    if run.dilute {
+    if flow.is_dilute() {
         let reason = "the project's aim: 1 %, of which φ = 0.002 itself hinders by 0.1 to 0.6 %";
         let terminal = error(TERMINAL_VELOCITY_ERROR, &series.slip, (alone, SPHERE));
         metrics.insert(0, terminal.gated(Limit::Within(-1.0, 1.0), reason));
     } else {
-        let exponent = richardson_zaki_exponent(run.experiment.grains.reynolds(alone));
+        let exponent = richardson_zaki_exponent(flow.grains.reynolds(alone));
         let published = alone * libm::pow(fluid, exponent);
         metrics.push(
             SINKING_OVER_RICHARDSON_ZAKI

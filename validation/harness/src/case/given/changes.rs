@@ -147,7 +147,7 @@ where
 /// Refuses lists of values that are runs of one flow now.
 fn refuse_former(now: fn(&str) -> Option<String>, changes: &Changes<'_>) -> Result<(), ParameterError> {
     let refused = |old: &str, value: &str, file: Option<&Path>| {
-        let now = now(old.split('.').next()?)?;
+        let now = now(old).or_else(|| now(old.split('.').next()?))?;
         let rule = format!("absent: a run has one value, `{now}`");
         let remedy = format!("give several by `--vary {now}=A,B,C`, in a file by [[vary]] with path = \"{now}\"");
         let error = ParameterError::field(old, value, &rule, &remedy);
