@@ -138,7 +138,7 @@ fn a_gate_with_operators_or_walls_that_know_no_smooth_ones() {
         let message = |path: &str| format!("`{path}{field}` is {value}, but {rule}");
         refused(&place, &["incline-collapse", "--set", &format!("{field}=\"{value}\"")], &message(""));
         let setting = format!("collapse.{field}=\"{value}\"");
-        let slope = "collapse.slope_angles=[24.0]";
+        let slope = "slope_angles=[24.0]";
         refused(&place, &["flow-thickness", "--set", slope, "--set", &setting], &message("collapse."));
     }
 }
@@ -156,13 +156,7 @@ fn an_implicit_step_without_a_viscous_law_or_its_divergence() {
     }
     refused(
         &place,
-        &[
-            "flow-thickness",
-            "--set",
-            "collapse.slope_angles=[24.0]",
-            "--set",
-            "collapse.numerics.viscous_step=\"implicit\"",
-        ],
+        &["flow-thickness", "--set", "slope_angles=[24.0]", "--set", "collapse.numerics.viscous_step=\"implicit\""],
         &plastic("collapse."),
     );
     refused(

@@ -96,7 +96,7 @@ fn longer_runs_of_cases_of_both_models_continue_finished_ones() {
     };
     let incline = |duration: f64| {
         let duration = format!("duration={duration}");
-        set("incline-collapse", &["slope_angles=[16.0]", "resolution=15", &duration])
+        set("incline-collapse", &["slope_angle=16", "resolution=15", &duration])
     };
     let still = |duration: f64| {
         let duration = format!("duration={duration}");

@@ -2,7 +2,7 @@
 
 use bagnold_cases::collapse::planar::ColumnPlanarParameters;
 use bagnold_cases::collapse::round::ColumnRoundParameters;
-use bagnold_cases::collapse::{ColumnRun, InclineCollapseParameters};
+use bagnold_cases::collapse::{ColumnRun, SlopeFlow};
 use bagnold_harness::case::{
     Changes, ExternalColumn, ExternalData, ExternalSchema, NamedColumns, Parameters, ParticleFrame, Tier,
 };
@@ -30,7 +30,7 @@ fn columns(items: &[ExternalColumn], is_planar: bool, size: f64) -> NamedColumns
 fn size_of(case: &str, run: usize) -> f64 {
     let (planar, round) = (ColumnPlanarParameters::of_tier(Tier::Quick), ColumnRoundParameters::of_tier(Tier::Quick));
     let section = |run: &ColumnRun| run.half_width * run.half_width * run.initial_height();
-    let reservoir = InclineCollapseParameters::of_tier(Tier::Quick).reservoir;
+    let reservoir = SlopeFlow::default();
     match case {
         "column-planar" => section(&planar.runs()[run]),
         "column-round" => section(&round.runs()[run]) * std::f64::consts::FRAC_PI_4 * round.runs()[run].half_width,

@@ -15,7 +15,7 @@ mod slope;
 pub(crate) use column::TALLEST_FINE;
 pub use column::{Alteration, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material, Release};
 pub use heap::{BIN_WIDTH, Collapse, FRONT_THICKNESS, Fronts};
-pub use slope::{InclineCollapseParameters, Reservoir, SlopeCollapse, SlopeRun};
+pub use slope::{SlopeCollapse, SlopeFlow};
 
 use crate::case::{ParameterError, Run};
 use crate::observation::Recorded;

@@ -175,7 +175,7 @@ def incline_file(law, is_nonlocal, resolution):
     return "\n".join([
         'case = "incline-collapse"',
         f"resolution = {resolution}",
-        f"slope_angles = [{float(angle)}]",
+        f"slope_angle = {float(angle)}",
         f"initial_height = {height * D}",
         f"reservoir_length = {length * D}",
         "channel_length = 1.2",
@@ -307,7 +307,7 @@ def collapse(folder, grains, aspect_ratio, seed):
         variables = {"angle": angle, "w": length, "t": height, "v": speed, "seed": seed}
         size = length * D, height * D
         case, variant, names = "incline-collapse", f"slope_angle={angle}", ["front_displacement"]
-        parameters = (f"with = {{ slope_angles = [{float(angle)}], initial_height = {height * D}, "
+        parameters = (f"with = {{ slope_angle = {float(angle)}, initial_height = {height * D}, "
                       f"reservoir_length = {length * D}, channel_length = 1.2 }}")
     else:
         folder = os.path.join(folder, f"{grains}-a{aspect_ratio}-{seed}")

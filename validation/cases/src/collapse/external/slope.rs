@@ -4,7 +4,7 @@ use super::heap::{Room, snapshot};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::collapse::metrics::quantities::*;
 use crate::collapse::slope::EARLIEST_REST;
-use crate::collapse::{Collapse, SlopeCollapse, SlopeRun};
+use crate::collapse::{Collapse, SlopeCollapse, SlopeFlow};
 use crate::input::FieldError;
 
 /// What a run on a slope may yield.
@@ -52,13 +52,13 @@ const REACH: f64 = 3.0;
 ///
 /// # Errors
 /// Columns that are missing beside others; particles out of reach.
-pub(crate) fn observe(run: &SlopeRun, given: &ExternalData) -> Result<ExternalObservation<SlopeCollapse>, FieldError> {
-    let r = run.reservoir.reservoir_length;
+pub(crate) fn observe(run: &SlopeFlow, given: &ExternalData) -> Result<ExternalObservation<SlopeCollapse>, FieldError> {
+    let r = run.reservoir_length;
     let room = Room {
         spacing: run.spacing(),
-        reach: REACH * run.reservoir.channel_length,
-        density: run.bulk_density,
-        size: r * run.reservoir.initial_height,
+        reach: REACH * run.channel_length,
+        density: run.density(),
+        size: r * run.initial_height,
         start: None,
         kind: "reservoir",
         origin: "check the unit and the origin: it lies on the bed at the back of the reservoir, x points down the slope",
@@ -108,18 +108,17 @@ pub(crate) fn observe(run: &SlopeRun, given: &ExternalData) -> Result<ExternalOb
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{NamedColumns, Parameters, Tier};
-    use crate::collapse::InclineCollapseParameters;
+    use crate::case::NamedColumns;
 
-    fn run() -> SlopeRun {
-        InclineCollapseParameters::of_tier(Tier::Quick).runs().remove(0)
+    fn run() -> SlopeFlow {
+        SlopeFlow::default()
     }
 
     /// A wedge that ends 1 m from the back has its front where a line says.
     #[test]
     fn a_profile_has_the_front_that_geometry_gives() {
         let run = run();
-        let r = run.reservoir.reservoir_length;
+        let r = run.reservoir_length;
         let x: Vec<f64> = (0..=100).map(|k| 0.01 * f64::from(k)).collect();
         let thickness = x.iter().map(|x| 0.1 * (1.0 - x)).collect();
         let profile: NamedColumns = [("x".to_owned(), x), ("thickness".to_owned(), thickness)].into();
@@ -139,6 +138,6 @@ mod tests {
             .into();
         let seen = observe(&run(), &ExternalData { series, ..ExternalData::default() }).expect("complete");
         assert_eq!(seen.measured, ["front"]);
-        assert_eq!(seen.observation.collapse.front[1], 0.5 / run().reservoir.reservoir_length);
+        assert_eq!(seen.observation.collapse.front[1], 0.5 / run().reservoir_length);
     }
 }

@@ -1,10 +1,10 @@
 //! The case's figures.
 
-use super::InclineCollapseRecord;
+use super::Record;
 use super::metrics::MARGIN;
 use crate::collapse::figures::{DrawnField, field_panel};
 use crate::collapse::metrics::other_codes::Beside;
-use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
+use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeFlow};
 use crate::evidence::shipped_table;
 use crate::figure::{Animation, Axis, Figure, Mark, Panel};
 use crate::observation::pictures::{View, animation};
@@ -16,7 +16,7 @@ const PROFILES: [f64; 6] = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2];
 /// The paper's scale of viscosities `[Pa·s]`.
 const PAPER_SCALE: (f64, f64) = (0.0, 1.5);
 
-pub(super) fn all(records: &[InclineCollapseRecord]) -> Vec<Figure> {
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     if records.is_empty() {
         return Vec::new();
     }
@@ -28,8 +28,8 @@ pub(super) fn all(records: &[InclineCollapseRecord]) -> Vec<Figure> {
 }
 
 /// The collapses in motion.
-pub(super) fn animations(records: &[InclineCollapseRecord]) -> Vec<Animation> {
-    let moving = |(run, record): &InclineCollapseRecord| {
+pub(super) fn animations(records: &[Record]) -> Vec<Animation> {
+    let moving = |(run, record): &Record| {
         let caption = format!(
             "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
              front, where it falls below 0.02 r0. The gate at 0.2 m is not drawn.",
@@ -38,7 +38,7 @@ pub(super) fn animations(records: &[InclineCollapseRecord]) -> Vec<Animation> {
         let view = View {
             unit_length: 1.0,
             unit: "m",
-            time_scale: (run.reservoir.initial_height / run.reservoir.gravity).sqrt(),
+            time_scale: (run.initial_height / run.gravity).sqrt(),
             spacing: run.spacing(),
             mirrored: false,
         };
@@ -48,22 +48,22 @@ pub(super) fn animations(records: &[InclineCollapseRecord]) -> Vec<Animation> {
 }
 
 /// The label as a file name.
-fn stem(run: &SlopeRun) -> String {
+fn stem(run: &SlopeFlow) -> String {
     label(run).replace('°', "").replace([',', ' ', '/', '.'], "-").replace("--", "-")
 }
 
-fn label(run: &SlopeRun) -> String {
+fn label(run: &SlopeFlow) -> String {
     let gate = if run.gate_speed > 0.0 { format!("gate {} m/s", run.gate_speed) } else { "no gate".to_owned() };
-    let law = if run.regularisation_rate.is_some() { ", regularised" } else { "" };
+    let law = if run.is_regularised() { ", regularised" } else { "" };
     format!("{}°, {gate}{law}", run.slope_angle)
 }
 
-fn fronts(records: &[InclineCollapseRecord]) -> Figure {
+fn fronts(records: &[Record]) -> Figure {
     let mut front = Panel::new("", Axis::linear("t [s]"), Axis::linear("front − gate [m]"));
     let mut energy = Panel::new("", Axis::linear("t [s]"), Axis::linear("kinetic energy [J/m]"));
     for (slot, (run, record)) in records.iter().enumerate() {
         let data = &record.data.collapse;
-        let way = |front: &f64| (front - 1.0) * run.reservoir.reservoir_length;
+        let way = |front: &f64| (front - 1.0) * run.reservoir_length;
         let points = data.time.iter().copied().zip(data.front.iter().map(way));
         front.line(&label(run), slot, points);
         let points = data.time.iter().copied().zip(data.kinetic_energy.iter().copied());
@@ -87,8 +87,8 @@ fn fronts(records: &[InclineCollapseRecord]) -> Figure {
     Figure::new("fronts", &caption, vec![front, energy])
 }
 
-fn thickness(records: &[InclineCollapseRecord]) -> Figure {
-    let high = records.first().map_or(0.14, |(run, _)| run.reservoir.initial_height);
+fn thickness(records: &[Record]) -> Figure {
+    let high = records.first().map_or(0.14, |(run, _)| run.initial_height);
     let index_at =
         |record: &Recorded<SlopeCollapse>, time: f64| record.data.collapse.time.iter().position(|t| *t >= time - 1e-9);
     // the paper states the thickness of one slope
@@ -100,7 +100,7 @@ fn thickness(records: &[InclineCollapseRecord]) -> Figure {
     for (run, record) in records {
         let y = Axis::linear("thickness [cm]").between(0.0, (100.0 * high).round() + 1.0);
         let mut panel = Panel::new(&label(run), Axis::linear("x [m]"), y);
-        let r = run.reservoir.reservoir_length;
+        let r = run.reservoir_length;
         for (slot, time) in PROFILES.iter().enumerate() {
             // the first panel names the times of all
             let is_named = panels.is_empty() && records.iter().any(|(_, record)| index_at(record, *time).is_some());
@@ -111,7 +111,7 @@ fn thickness(records: &[InclineCollapseRecord]) -> Figure {
             panel.line(&entry, slot, profile[..end].iter().enumerate().map(|(bin, h)| (place_of(bin), 100.0 * h * r)));
         }
         if let Some((angle, stated)) = stated.filter(|(angle, _)| *angle == run.slope_angle) {
-            let law = RoughIncline::of_glass_beads().flow_thickness(run.reservoir.initial_height, angle.to_radians());
+            let law = RoughIncline::of_glass_beads().flow_thickness(run.initial_height, angle.to_radians());
             let far = record.data.collapse.front.iter().fold(1.0_f64, |far, front| far.max(*front)) * r;
             let law = 100.0 * law.unwrap_or(f64::NAN);
             panel.reference("largest thickness by the paper", [(0.0, stated), (far, stated)]);
@@ -126,13 +126,13 @@ fn thickness(records: &[InclineCollapseRecord]) -> Figure {
 }
 
 /// Final run-out over the slope, with the band of the experiments' fit.
-fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
+fn run_outs(records: &[Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("run-out from the gate [m]"));
     let Some((first, _)) = records.first() else { unreachable!("figures are drawn of records") };
-    let friction = first.law.contact_friction();
+    let friction = first.material.contact_friction();
     let curve = |friction: f64, k: f64| -> Vec<(f64, f64)> {
         let angles = (0..=110).map(|step| 0.2 * f64::from(step));
-        let value = |angle: f64| slope_run_out(first.reservoir.initial_height, angle.to_radians(), friction, k);
+        let value = |angle: f64| slope_run_out(first.initial_height, angle.to_radians(), friction, k);
         angles.filter_map(|angle| Some((angle, value(angle)?))).filter(|(_, way)| *way < 6.0).collect()
     };
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
@@ -153,8 +153,8 @@ fn run_outs(records: &[InclineCollapseRecord]) -> Figure {
     }
     let points: Vec<(f64, f64)> = records
         .iter()
-        .filter(|(run, record)| run.regularisation_rate.is_none() && record.data.came_to_rest())
-        .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir.reservoir_length))
+        .filter(|(run, record)| !run.is_regularised() && record.data.came_to_rest())
+        .map(|(run, record)| (run.slope_angle, record.data.collapse.run_out() * run.reservoir_length))
         .collect();
     panel.points("at rest", 0, points);
     Figure::new(
@@ -172,7 +172,7 @@ const FIRST_FIELD: f64 = 0.1;
 const SHEAR_RATES: (f64, f64) = (-1.0, 2.0);
 
 /// Velocity along the slope and shear rate in time: the paper's figure 4 and what it says beside figure 5.
-fn velocities((run, record): &InclineCollapseRecord) -> Figure {
+fn velocities((run, record): &Record) -> Figure {
     let along = |frame: &Frame| -> Vec<f64> { frame.vector("velocity").iter().map(|v| v[0]).collect() };
     let fastest = fields_of(record).flat_map(along).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let caption = "velocity along the slope, and shear rate on a logarithmic scale; colours end where the scale does.";
@@ -183,7 +183,7 @@ fn velocities((run, record): &InclineCollapseRecord) -> Figure {
 }
 
 /// The viscosity in time: the paper's figure 5.
-fn viscosities((run, record): &InclineCollapseRecord) -> Figure {
+fn viscosities((run, record): &Record) -> Figure {
     let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s, and on a logarithmic one. Yellow is 1.5 Pa·s \
                    or more where η is drawn, and 10⁴ Pa·s or more where its logarithm is. The viscosity of grains that hardly move has no upper bound.";
     fields("fields", caption, run, record, |frame| {
@@ -201,11 +201,11 @@ fn fields_of(record: &Recorded<SlopeCollapse>) -> impl Iterator<Item = &Frame> {
 fn fields(
     name: &str,
     caption: &str,
-    run: &SlopeRun,
+    run: &SlopeFlow,
     record: &Recorded<SlopeCollapse>,
     drawn: impl Fn(&Frame) -> [DrawnField; 2],
 ) -> Figure {
-    let high = run.reservoir.initial_height;
+    let high = run.initial_height;
     let far = fields_of(record).flat_map(|frame| &frame.position).map(|x| x[0]).fold(0.0, f64::max);
     let panels = fields_of(record).flat_map(|frame| {
         let axes = || [Axis::linear("x [m]").between(0.0, far), Axis::linear("y [m]").between(0.0, high)];

@@ -1,6 +1,6 @@
 //! Velocity and viscosity inside a collapse on a slope: where grains are fast, and what the viscosity goes with.
 
-use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeRun};
+use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeFlow};
 use crate::observation::{Frame, Recorded};
 use crate::statistics::{mean, rank_correlation};
 
@@ -36,10 +36,10 @@ pub(super) struct Inside {
 
 impl Inside {
     /// Of the picture at a time `[s]`; `None` where none was taken then.
-    pub(super) fn at(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Option<Self> {
+    pub(super) fn at(time: f64, run: &SlopeFlow, record: &Recorded<SlopeCollapse>) -> Option<Self> {
         let frame = Frame::nearest(&record.frames, time).filter(|frame| (frame.time - time).abs() <= NEAR)?;
         let index = record.data.collapse.nearest(time)?;
-        let (unit, front) = (run.reservoir.reservoir_length, record.data.collapse.front[index]);
+        let (unit, front) = (run.reservoir_length, record.data.collapse.front[index]);
         let thickness: Vec<f64> = record.data.thickness[index].iter().map(|thickness| thickness * unit).collect();
         Self::of(frame, &thickness, BIN_WIDTH * unit, (front * unit, BEHIND_FRONT * unit))
     }

@@ -1,6 +1,6 @@
 //! How a collapse on a slope is judged.
 
-use super::InclineCollapseRecord;
+use super::Record;
 use super::inside::Inside;
 use crate::case::Run;
 use crate::collapse::heap::with_resolution;
@@ -8,7 +8,7 @@ use crate::collapse::interior::{Station, linear_misfit_ratio};
 use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::metrics::quantities::*;
 use crate::collapse::metrics::{at_rest, conservation};
-use crate::collapse::{BIN_WIDTH, Collapse, SlopeCollapse, SlopeRun};
+use crate::collapse::{BIN_WIDTH, Collapse, SlopeCollapse, SlopeFlow};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::{Frame, Recorded};
 use crate::reference::collapse::{SLOPE_EXPERIMENT, slope_run_out};
@@ -45,35 +45,35 @@ const WELL_DOWN_THE_SLOPE: f64 = 4.0;
 /// Times at which the front is reported `[s]`.
 const FRONT_TIMES: [f64; 2] = [0.3, 0.4];
 
-pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
+pub(super) fn of_run((run, record): &Record) -> Vec<Metric> {
     let (variant, data) = (run.variant(), &record.data.collapse);
     let observed = |quantity: Quantity, variant: &Variant, value: f64| {
         quantity.of(variant, value).with_snapshot_tolerance(1e-3, 1e-3)
     };
-    let mut metrics = conservation(&variant, data, &run.reservoir.numerics, EnergyScale::Fall);
-    let (angle, friction) = (run.slope_angle.to_radians(), run.law.contact_friction());
-    let law = |k: f64| slope_run_out(run.reservoir.initial_height, angle, friction, k);
+    let mut metrics = conservation(&variant, data, &run.numerics, EnergyScale::Fall);
+    let (angle, friction) = (run.slope_angle.to_radians(), run.material.contact_friction());
+    let law = |k: f64| slope_run_out(run.initial_height, angle, friction, k);
     let (lower, upper) = SLOPE_EXPERIMENT.run_out_coefficients;
-    if run.regularisation_rate.is_none()
+    if !run.is_regularised()
         && let (Some(short), Some(long)) = (law(lower), law(upper))
     {
         // on a horizontal bed the fit was not made for the paper's case
-        let is_judged = run.slope_angle > 0.0 && run.is_resolved() && run.law.is_plastic();
+        let is_judged = run.slope_angle > 0.0 && run.is_resolved() && run.material.is_plastic();
         let limit = Limit::Within((1.0 - MARGIN) * short, (1.0 + MARGIN) * long);
         let source =
             format!("h_0 2k/(tanδ − tanθ), k = {lower} to {upper}, tanδ = μ_s: Mangeney et al. 2010 as quoted");
         metrics.extend([
             with_resolution(
-                observed(FRONT_DISPLACEMENT, &variant, data.run_out() * run.reservoir.reservoir_length),
+                observed(FRONT_DISPLACEMENT, &variant, data.run_out() * run.reservoir_length),
                 None,
-                data.front_uncertainty().map(|uncertainty| uncertainty * run.reservoir.reservoir_length),
+                data.front_uncertainty().map(|uncertainty| uncertainty * run.reservoir_length),
             )
             .against(Some(0.5 * (short + long)), &source, SLOPE_EXPERIMENT.confidence)
             .gated_by(
                 is_judged.then_some(limit),
                 "the band of k = 0.4 to 0.5, 15 % to either side; at 20 rows and more",
             ),
-            at_rest(&variant, data, &run.law, run.reservoir.duration),
+            at_rest(&variant, data, &run.material, run.duration),
             observed(DEPOSIT_SLOPE_ANGLE, &variant, data.slope_angle()).exactly(
                 libm::atan(friction).to_degrees() - run.slope_angle,
                 "arctan μ_s − θ, the steepest surface that can rest, from the bed; line over 20–80 % of the front",
@@ -94,14 +94,14 @@ pub(super) fn of_run((run, record): &InclineCollapseRecord) -> Vec<Metric> {
 }
 
 /// Whether the run is that of the paper's figures 4 and 5, with the law itself.
-fn is_of_the_figures(run: &SlopeRun) -> bool {
-    run.slope_angle == FIELD_SLOPE && run.regularisation_rate.is_none()
+fn is_of_the_figures(run: &SlopeFlow) -> bool {
+    run.slope_angle == FIELD_SLOPE && !run.is_regularised()
 }
 
 /// Velocity over depth at a quarter, half and three quarters of the way from the gate to the front; none before the front has
 /// come two stations' widths.
-fn stations(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Vec<Station> {
-    let (unit, data) = (run.reservoir.reservoir_length, &record.data.collapse);
+fn stations(time: f64, run: &SlopeFlow, record: &Recorded<SlopeCollapse>) -> Vec<Station> {
+    let (unit, data) = (run.reservoir_length, &record.data.collapse);
     let (Some(frame), Some(front)) = (Frame::nearest(&record.frames, time), front_at(data, time)) else {
         return Vec::new();
     };
@@ -123,10 +123,10 @@ fn mean_velocity(station: &Station) -> f64 {
 }
 
 /// What the paper says of velocity and viscosity inside the collapse, at a time.
-fn of_fields(time: f64, run: &SlopeRun, record: &Recorded<SlopeCollapse>) -> Option<Vec<Metric>> {
+fn of_fields(time: f64, run: &SlopeFlow, record: &Recorded<SlopeCollapse>) -> Option<Vec<Metric>> {
     let inside = Inside::at(time, run, record)?;
     let variant = Variant::of("time", time).followed_by(&run.variant());
-    let is_judged = run.is_resolved() && run.law.is_plastic();
+    let is_judged = run.is_resolved() && run.material.is_plastic();
     let of = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-2, 1e-2);
     let gate = |limit: Limit| is_judged.then_some(limit);
     let stated = |quantity: Quantity, value: f64, statement: &str| {

@@ -4,10 +4,8 @@ mod figures;
 mod inside;
 mod metrics;
 
-pub use crate::collapse::InclineCollapseParameters;
-
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
-use crate::collapse::{self, SlopeCollapse, SlopeRun};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run, RunList};
+use crate::collapse::{self, SlopeCollapse, SlopeFlow};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -18,7 +16,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct InclineCollapse;
 
-type InclineCollapseRecord = RecordOf<InclineCollapseParameters>;
+type Record = RecordOf<RunList<SlopeFlow>>;
 
 impl Case for InclineCollapse {
     const NAME: &'static str = "incline-collapse";
@@ -36,35 +34,35 @@ impl Case for InclineCollapse {
         local μ(I) law has no deposit and the flow thins as long as the channel lasts. The fit under any other law \
         than μ(I); the wall contact friction then replaces μ_s.";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::slope::EXTERNAL_SCHEMA;
-    type Parameters = InclineCollapseParameters;
+    type Parameters = RunList<SlopeFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Metric> {
+    fn metrics(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).collect()
     }
 
-    fn figures(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Figure> {
+    fn figures(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn animations(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Animation> {
+    fn animations(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Animation> {
         figures::animations(records)
     }
 
     fn from_external(
-        run: &SlopeRun,
+        run: &SlopeFlow,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<SlopeCollapse>>, FieldError> {
         collapse::external::slope::observe(run, given).map(Some)
     }
 
-    fn tables(_: &InclineCollapseParameters, records: &[InclineCollapseRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Table> {
         records.iter().map(table).collect()
     }
 }
 
 /// Time series of one run.
-fn table((run, record): &InclineCollapseRecord) -> Table {
+fn table((run, record): &Record) -> Table {
     let data = &record.data.collapse;
     let columns: [(&str, &[f64]); 4] = [
         ("t [s]", &data.time),

@@ -3,7 +3,7 @@
 
 use super::bands::{SAME_LAW, band};
 use super::quantities::*;
-use crate::collapse::{Collapse, ColumnRun, Geometry, Material, Reservoir, SlopeRun};
+use crate::collapse::{Collapse, ColumnRun, Geometry, Material, SlopeFlow};
 use crate::figure::Panel;
 use crate::metric::{Limit, Metric, MetricKind, Origin, Quantity, Variant};
 use crate::reference::collapse::{AT_REST, CodeQuantity, OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
@@ -57,16 +57,15 @@ impl<'a> Beside<'a> {
     }
 
     /// Glass beads behind gate and in the reservoir of the table; none of others.
-    pub(crate) fn of_slope(run: &SlopeRun, collapse: &'a Collapse) -> Option<Self> {
-        let Reservoir { initial_height, reservoir_length, gravity, .. } = run.reservoir;
-        let is_of_them = (run.gate_speed, initial_height, reservoir_length) == RELEASE
-            && run.regularisation_rate.is_none()
-            && run.law == Rheology::MuI(GLASS_BEADS.law);
+    pub(crate) fn of_slope(run: &SlopeFlow, collapse: &'a Collapse) -> Option<Self> {
+        let SlopeFlow { gate_speed, initial_height, reservoir_length, gravity, .. } = *run;
+        let is_of_them =
+            (gate_speed, initial_height, reservoir_length) == RELEASE && run.material == Rheology::MuI(GLASS_BEADS.law);
         is_of_them.then_some(Self {
             codes: &SLOPE_CODES,
             flow: run.slope_angle,
             time_scale: (initial_height / gravity).sqrt(),
-            energy_scale: 0.5 * run.bulk_density * gravity * reservoir_length * initial_height * initial_height,
+            energy_scale: 0.5 * run.density() * gravity * reservoir_length * initial_height * initial_height,
             collapse,
         })
     }

@@ -1,10 +1,6 @@
-//! A reservoir on a slope: its parameters and its run.
+//! A reservoir on a slope.
 
-mod parameters;
-mod reservoir;
-mod run;
+mod flow;
 
-pub use parameters::InclineCollapseParameters;
-pub use reservoir::Reservoir;
-pub(crate) use run::EARLIEST_REST;
-pub use run::{SlopeCollapse, SlopeRun};
+pub(crate) use flow::EARLIEST_REST;
+pub use flow::{SlopeCollapse, SlopeFlow};

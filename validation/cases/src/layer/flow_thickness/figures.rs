@@ -25,13 +25,13 @@ fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, recor
         let mut panel = Panel::new(&format!("{}°", run.slope_angle), Axis::linear("t [s]"), y);
         let time = &data.collapse.time;
         for (slot, &station) in parameters.stations.iter().enumerate() {
-            let thickness = data.thickness_at(station / run.reservoir.reservoir_length);
-            let points = time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir.reservoir_length));
+            let thickness = data.thickness_at(station / run.reservoir_length);
+            let points = time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir_length));
             let entry = if place == 0 { format!("x = {station} m") } else { String::new() };
             panel.line(&entry, slot, points);
         }
         if let (Some(law), Some(&end)) =
-            (incline.flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians()), time.last())
+            (incline.flow_thickness(run.initial_height, run.slope_angle.to_radians()), time.last())
         {
             let entry = if place == 0 { "h_s of (44)" } else { "" };
             let points = vec![(0.0, 100.0 * law), (end, 100.0 * law)];

@@ -60,12 +60,12 @@ fn thicknesses(
 ) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (run, data) in collapses(records) {
-        metrics.extend(conservation(&run.variant(), &data.collapse, &run.reservoir.numerics, EnergyScale::Fall));
-        let law = incline.flow_thickness(run.reservoir.initial_height, run.slope_angle.to_radians());
+        metrics.extend(conservation(&run.variant(), &data.collapse, &run.numerics, EnergyScale::Fall));
+        let law = incline.flow_thickness(run.initial_height, run.slope_angle.to_radians());
         let source = "h_s of (44) as reconstructed: the paper's estimate of the flow's thickness";
         for &station in &parameters.stations {
-            let history = data.thickness_at(station / run.reservoir.reservoir_length);
-            let largest = history.iter().fold(0.0_f64, |most, &h| most.max(h)) * run.reservoir.reservoir_length;
+            let history = data.thickness_at(station / run.reservoir_length);
+            let largest = history.iter().fold(0.0_f64, |most, &h| most.max(h)) * run.reservoir_length;
             // 0 where the front did not come so far
             if largest != 0.0 {
                 let variant = Variant::of("station", station).followed_by(&run.variant());

@@ -11,7 +11,7 @@ pub use parameters::FlowThicknessParameters;
 pub use start_stop::{LayerAtSlope, LayerFate, SlopeTrial, StartStop, StartStopRun};
 
 use crate::case::{Case, ParameterError, Progress, RecordOf, Run};
-use crate::collapse::{SlopeCollapse, SlopeRun};
+use crate::collapse::{SlopeCollapse, SlopeFlow};
 use crate::figure::Figure;
 use crate::layer::LayerObservation;
 use crate::metric::{Metric, Quantity, Variant};
@@ -40,7 +40,7 @@ pub struct SteadyRun {
 #[serde(rename_all = "snake_case")]
 pub enum FlowThicknessRun {
     /// A collapse on a slope.
-    Collapse(SlopeRun),
+    Collapse(SlopeFlow),
     /// The slope at which a layer stops.
     StartStop(StartStopRun),
     /// A steady flow.
@@ -66,7 +66,7 @@ impl Run for FlowThicknessRun {
 
     fn laws(&self) -> Vec<Rheology> {
         match self {
-            Self::Collapse(run) => run.laws(),
+            Self::Collapse(run) => vec![run.material],
             Self::StartStop(run) => vec![Rheology::MuI(run.layer.material)],
             Self::Steady(run) => vec![Rheology::MuI(run.layer.material)],
         }
@@ -82,7 +82,7 @@ impl Run for FlowThicknessRun {
 
     fn particles(&self) -> f64 {
         match self {
-            Self::Collapse(run) => run.particles(),
+            Self::Collapse(run) => run.cost().particles,
             Self::StartStop(run) => run.layer.particles(),
             Self::Steady(run) => run.layer.particles(),
         }
@@ -90,7 +90,7 @@ impl Run for FlowThicknessRun {
 
     fn particle_steps(&self) -> f64 {
         match self {
-            Self::Collapse(run) => run.particle_steps(),
+            Self::Collapse(run) => run.cost().particle_steps,
             // most trials end early
             Self::StartStop(run) => run.rounds() / 3.0 * run.layer.particle_steps(),
             Self::Steady(run) => run.layer.particle_steps(),
@@ -164,7 +164,7 @@ fn flows_of(records: &[FlowThicknessRecord], nonlocal: bool) -> impl Iterator<It
 }
 
 /// The collapses among the records.
-fn collapses(records: &[FlowThicknessRecord]) -> impl Iterator<Item = (&SlopeRun, &SlopeCollapse)> {
+fn collapses(records: &[FlowThicknessRecord]) -> impl Iterator<Item = (&SlopeFlow, &SlopeCollapse)> {
     records.iter().filter_map(|(run, record)| match (run, &record.data) {
         (FlowThicknessRun::Collapse(run), FlowThicknessObservation::Collapse(data)) => Some((run, data)),
         _ => None,

@@ -3,8 +3,8 @@
 use super::nonlocal::{NonlocalChoice, NonlocalLayers, NonlocalParameters};
 use super::start_stop::{LayerAtSlope, StartStopRun};
 use super::{FlowThicknessRun, SteadyRun};
-use crate::case::{ParameterError, Parameters, Tier};
-use crate::collapse::{InclineCollapseParameters, Reservoir};
+use crate::case::{Flow, ParameterError, Parameters, RunList, Tier};
+use crate::collapse::SlopeFlow;
 use crate::layer::{PeriodicLayer, Preparation};
 use crate::reference::grains::GLASS_BEADS_FLOW_RULE;
 use crate::reference::one_dimension::NonlocalLayer;
@@ -12,7 +12,7 @@ use crate::setup::rules;
 use crate::shared::Arrangement;
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use bagnold_solver::material::rheology::{MuI, Rheology};
-use bagnold_solver::parameter::{between, each, entry, positive};
+use bagnold_solver::parameter::{between, each, entry, not_negative, positive};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -20,7 +20,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FlowThicknessParameters {
     /// The collapses whose thickness is followed; grains and numerics of the layers as well.
-    pub collapse: InclineCollapseParameters,
+    pub collapse: SlopeFlow,
+    /// Slopes of the collapses `[°]`; empty for none.
+    #[schemars(transform = each(rules::slope_angle()))]
+    #[schemars(transform = each(not_negative("the grains run down the slope: give its angle in degrees")))]
+    pub slope_angles: Vec<f64>,
     /// Places at which the thickness is followed, from the back of the reservoir `[m]`.
     pub stations: Vec<f64>,
     /// Length scale L of the deposit law over the grain diameter `[-]`.
@@ -63,14 +67,9 @@ impl Parameters for FlowThicknessParameters {
     type Run = FlowThicknessRun;
 
     fn of_tier(tier: Tier) -> Self {
-        let collapse = InclineCollapseParameters {
-            slope_angles: if tier == Tier::Quick { Vec::new() } else { vec![22.0, 23.0, 24.0, 25.0] },
-            other_gate_speeds: Vec::new(),
-            regularised_slope_angles: Vec::new(),
-            ..InclineCollapseParameters::of_tier(tier)
-        };
         let quick = Self {
-            collapse,
+            collapse: RunList::<SlopeFlow>::of_tier(tier).base,
+            slope_angles: Vec::new(),
             stations: vec![0.5, 1.0, 1.5],
             deposit_length: GLASS_BEADS_FLOW_RULE.deposit_length,
             flow_coefficient: GLASS_BEADS_FLOW_RULE.flow_coefficient,
@@ -100,6 +99,7 @@ impl Parameters for FlowThicknessParameters {
         match tier {
             Tier::Quick => quick,
             Tier::Paper | Tier::Fine => Self {
+                slope_angles: vec![22.0, 23.0, 24.0, 25.0],
                 rows: 20,
                 stopping_thicknesses: vec![0.003, 0.005, 0.010, 0.020, 0.040],
                 // 40 mm are at rest at the lower end of the bracket only after more than 10 s
@@ -142,13 +142,16 @@ impl Parameters for FlowThicknessParameters {
     fn check(&self) -> Result<(), ParameterError> {
         let remedy = "the steady profiles that the layers start with are those of μ(I)";
         rules::only_mu_i("collapse.material", &self.collapse.material, remedy)?;
-        self.collapse.check().map_err(|error| error.within("collapse"))?;
+        // without a collapse there is no gate
+        let gate_speed = if self.slope_angles.is_empty() { 0.0 } else { self.collapse.gate_speed };
+        let collapse = SlopeFlow { gate_speed, ..self.collapse.clone() };
+        collapse.check().map_err(|error| error.within("collapse"))?;
         for (index, &station) in self.stations.iter().enumerate() {
             let field = format!("stations[{index}]");
             let remedy = "a station lies in the channel, in metres from the back of the reservoir";
-            rules::between(&field, station, 0.0, self.collapse.reservoir.channel_length, remedy)?;
+            rules::between(&field, station, 0.0, self.collapse.channel_length, remedy)?;
         }
-        rules::columns("columns", self.columns, &self.collapse.reservoir.numerics)?;
+        rules::columns("columns", self.columns, &self.collapse.numerics)?;
         let (lower, upper) = self.stopping_bracket;
         rules::between("stopping_bracket[1]", upper, lower, 89.0, "give the gentler slope first")?;
         for (list, searches) in [
@@ -190,7 +193,7 @@ impl Parameters for FlowThicknessParameters {
     fn runs(&self) -> Vec<FlowThicknessRun> {
         let collapse = &self.collapse;
         let Rheology::MuI(grains) = collapse.material else { return Vec::new() };
-        let collapses = collapse.slope_angles.iter().map(|&angle| collapse.run(angle, collapse.gate_speed));
+        let collapses = self.slope_angles.iter().map(|&slope_angle| SlopeFlow { slope_angle, ..collapse.clone() });
         let search = |&thickness: &f64| StartStopRun {
             layer: self.layer(grains, thickness, self.stopping_duration),
             bracket: self.stopping_bracket,
@@ -210,7 +213,7 @@ impl Parameters for FlowThicknessParameters {
 
 impl FlowThicknessParameters {
     fn layer(&self, material: MuI, thickness: f64, duration: f64) -> LayerAtSlope {
-        let Reservoir { gravity, jitter, seed, numerics, .. } = self.collapse.reservoir;
+        let SlopeFlow { gravity, jitter, seed, numerics, .. } = self.collapse;
         let layer = PeriodicLayer {
             layer_height: thickness,
             gravity,
@@ -259,7 +262,7 @@ impl FlowThicknessParameters {
         let thinnest = NonlocalLayer { layer: of_grain, cooperativity, surface }.stopping_thickness();
         let is_asked_for = self.nonlocal.surfaces.contains(&surface);
         let thicknesses = self.nonlocal.profiles.iter().filter(move |_| is_asked_for);
-        let jitter = self.collapse.reservoir.jitter;
+        let jitter = self.collapse.jitter;
         // without displacements both starts are the lattice
         let different = if jitter > 0.0 { usize::MAX } else { 1 };
         let starts = move || self.nonlocal.profile_arrangements.iter().take(different);
