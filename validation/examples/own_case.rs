@@ -1,7 +1,7 @@
 //! A case of one's own: a shear wave in a viscous liquid, u = U sin ky, that decays with exp(−ν k² t).
 //! `cargo run --example own_case -- report` judges it.
 
-use bagnold_harness::case::{Case, ParameterError, Parameters, Progress, Registry, Run, Tier};
+use bagnold_harness::case::{self, Case, ParameterError, Progress, Registry, Run, RunList};
 use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
 use bagnold_harness::{case::recording::record, observation::Recorded};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
@@ -20,8 +20,8 @@ fn main() -> std::process::ExitCode {
 
 /// U = 1 m/s in a box of 1 m, 1000 kg/m³, over 0.2 s.
 struct ShearWave;
-/// Its parameters, which are its one run as well.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+/// One of its flows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 struct Wave {
     /// Rows of particles over the box.
     #[schemars(transform = between(10.0, 1000.0, "20 is quick"))]
@@ -31,14 +31,14 @@ struct Wave {
     viscosity: f64,
 }
 
-impl Parameters for Wave {
-    type Run = Self;
-    fn of_tier(tier: Tier) -> Self {
-        Self { rows: if tier == Tier::Quick { 20 } else { 40 }, viscosity: 0.05 }
+impl Default for Wave {
+    fn default() -> Self {
+        Self { rows: 20, viscosity: 0.05 }
     }
-    fn runs(&self) -> Vec<Self> {
-        vec![self.clone()]
-    }
+}
+
+impl case::Flow for Wave {
+    const RUNS: &'static str = "[paper]\nrows = 40";
 }
 
 impl Run for Wave {
@@ -65,11 +65,11 @@ impl Run for Wave {
 impl Case for ShearWave {
     const NAME: &'static str = "shear-wave";
     const SUMMARY: &'static str = "a shear wave that decays";
-    type Parameters = Wave;
-    fn metrics(wave: &Wave, records: &[(Wave, Recorded<f64>)]) -> Vec<Metric> {
-        let error = |(run, record): &(Wave, Recorded<f64>)| {
+    type Parameters = RunList<Wave>;
+    fn metrics(_: &RunList<Wave>, records: &[(Wave, Recorded<f64>)]) -> Vec<Metric> {
+        let error = |(wave, record): &(Wave, Recorded<f64>)| {
             let left = record.data / (-wave.viscosity * TAU * TAU * record.simulated_time).exp();
-            Metric::observed("amplitude_error", &run.variant(), 100.0 * (left - 1.0), "%")
+            Metric::observed("amplitude_error", &wave.variant(), 100.0 * (left - 1.0), "%")
                 .against(Some(0.0), "exp(−ν k² t)", Confidence::Exact)
                 .gated(Limit::Within(-3.0, 3.0), "of second order in the spacing: 20 rows a wave")
         };

@@ -82,8 +82,9 @@ impl std::fmt::Display for Tier {
 pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send + Sync + 'static {
     /// One independent simulation.
     type Run: Run;
-    /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's.
-    const STATED: &'static [&'static str] = &[];
+    /// Lists that a file states whole: one that it leaves out is empty there, and not the tier's. Those of the second kind say which
+    /// runs there are; a file without a field is the case as it comes, with all of its runs.
+    const STATED: [&'static [&'static str]; 2] = [&[], &[]];
 
     /// A tier's parameters.
     fn of_tier(tier: Tier) -> Self;

@@ -1,8 +1,8 @@
 //! Summary of a scene before it runs: its speeds and sizes in the numbers that decide whether the model applies.
 
-use super::parameters::Dimension;
+use super::SceneFlow;
+use super::flow::Dimension;
 use super::setting::SceneWall;
-use super::{SceneParameters, SceneRun};
 
 use crate::output::caution;
 use bagnold_number::four_digits;
@@ -19,28 +19,27 @@ const FINEST: f64 = 16.0;
 /// Most ends of walls between which gaps are searched.
 const MOST_ENDS: usize = 2000;
 
-impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// One line on the terminal: particles, speeds and the size of the grains. Narrow gaps are warned of.
     pub(super) fn summary(&self) -> String {
-        let scene = &self.scene;
-        if let Some((gap, one, other)) = scene.narrowest_gap() {
-            let across = gap / scene.spacing;
+        if let Some((gap, one, other)) = self.narrowest_gap() {
+            let across = gap / self.spacing;
             caution(&format!(
                 "scene `{}`: the gap between the ends of walls `{one}` and `{other}` is {across:.1} particle spacings wide, \
                  but flow through it needs at least {NARROWEST_GAP}; reduce `spacing` to {} m or less",
-                scene.name,
+                self.name,
                 four_digits(gap / NARROWEST_GAP)
             ));
         }
-        let sound_speed = scene.equation_of_state().sound_speed();
+        let sound_speed = self.equation_of_state().sound_speed();
         let speed = self.expected_speed();
         let mach = speed / sound_speed;
         // a fall over the height of the scene reaches the limit itself at the default stiffness
         if mach > 1.01 * LARGEST_MACH_NUMBER {
-            caution(&too_fast(&scene.name, speed, mach, scene.stiffness));
+            caution(&too_fast(&self.name, speed, mach, self.stiffness));
         }
-        for wall in scene.walls.iter().filter(|_| D == 3) {
-            let finer = wall.facet_wall().facets.len() as f64 * scene.spacing.powi(2) / wall.measure();
+        for wall in self.walls.iter().filter(|_| D == 3) {
+            let finer = wall.facet_wall().facets.len() as f64 * self.spacing.powi(2) / wall.measure();
             if finer > FINEST {
                 caution(&format!(
                     "wall `{}` has {finer:.0} triangles per square of the spacing (limit {FINEST:.0}): finer ones change nothing \
@@ -49,32 +48,21 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
                 ));
             }
         }
-        let openings: Vec<String> = scene
+        let openings: Vec<String> = self
             .walls
             .iter()
             .filter_map(|wall| Some(format!("; wall `{}` has {}", wall.name(), wall.openings()?)))
             .collect();
-        let grains = scene.material.grain_diameter().map(|diameter| diameter / scene.spacing);
+        let grains = self.material.grain_diameter().map(|diameter| diameter / self.spacing);
         let grains = grains.map(|ratio| format!(", grain diameter {ratio:.2} particle spacings")).unwrap_or_default();
         format!(
             "scene `{}`, spacing {} m: sound speed {sound_speed:.3} m/s, largest expected speed {speed:.3} m/s (Mach {mach:.2}){grains}{}",
-            scene.name,
-            four_digits(scene.spacing),
+            self.name,
+            four_digits(self.spacing),
             openings.concat()
         )
     }
-}
 
-/// Warning of a flow too fast for its sound speed, with the stiffness that suffices.
-fn too_fast(name: &str, speed: f64, mach: f64, stiffness: f64) -> String {
-    let enough = (stiffness * (mach / LARGEST_MACH_NUMBER).powi(2)).ceil();
-    format!(
-        "scene `{name}`: a speed of {speed:.3} m/s is Mach {mach:.2}, above {LARGEST_MACH_NUMBER}: impacts and forces are not \
-         validated there; set `stiffness = {enough}`"
-    )
-}
-
-impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     /// The narrowest gap `[m]` between ends of different walls that is too narrow for a flow, and their names.
     fn narrowest_gap(&self) -> Option<(f64, &str, &str)> {
         let ends: Vec<(Vec<Vector<D>>, &str)> =
@@ -99,4 +87,13 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
         }
         narrowest
     }
+}
+
+/// Warning of a flow too fast for its sound speed, with the stiffness that suffices.
+fn too_fast(name: &str, speed: f64, mach: f64, stiffness: f64) -> String {
+    let enough = (stiffness * (mach / LARGEST_MACH_NUMBER).powi(2)).ceil();
+    format!(
+        "scene `{name}`: a speed of {speed:.3} m/s is Mach {mach:.2}, above {LARGEST_MACH_NUMBER}: impacts and forces are not \
+         validated there; set `stiffness = {enough}`"
+    )
 }

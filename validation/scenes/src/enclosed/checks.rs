@@ -1,10 +1,10 @@
 //! Rules between the fields of a scene.
 
+use super::flow::Dimension;
 use super::geostatic::rankine_ratios;
-use super::parameters::Dimension;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector};
-use super::{Measurand, SceneParameters, names, shapes, sides::SceneSides};
+use super::{Measurand, SceneFlow, names, shapes, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::setup::rules;
 use bagnold_solver::vector::Vector;
@@ -13,7 +13,7 @@ use bagnold_solver::weakly_compressible::numerics::Contact;
 use bagnold_solver::weakly_compressible::scene::pore_problem;
 use bagnold_solver::weakly_compressible::walls::Surface;
 
-impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Everything that is refused beyond the ranges of single fields.
     pub(super) fn checked(&self) -> Result<(), ParameterError> {
         let walls = self.walls.iter().map(SceneWall::name);

@@ -1,8 +1,8 @@
 //! Lengths of a scene that are possible but unlikely, because they were given in millimetres.
 
-use super::SceneParameters;
+use super::SceneFlow;
+use super::flow::Dimension;
 use super::measure::Measurand;
-use super::parameters::Dimension;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall};
 use super::sides::SceneSides;
 
@@ -16,7 +16,7 @@ const MOST_GRAINS: f64 = 1e5;
 /// Farthest that one part of a scene reaches, over the farthest of all others `[-]`: a slip by 1000 is seen of parts down to a thirtieth.
 const FARTHEST: f64 = 30.0;
 
-impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Warnings of lengths that are probably in millimetres: all of them, or those of one part.
     pub(super) fn doubtful_units(&self) -> Vec<String> {
         let found = self.stray().or_else(|| self.all_large());
@@ -105,8 +105,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Tier;
-    use crate::enclosed::DomainSide;
+    use crate::enclosed::{DomainSide, quick};
     use crate::scene::{Plane, PlaneBody, PlaneGauge, PlaneSides};
     use bagnold_solver::material::rheology::Rheology;
 
@@ -117,7 +116,7 @@ mod tests {
 
     /// A column of a width, a height and a spacing `[m]`, with grains of a diameter `[m]`, over a duration `[s]`.
     fn doubt([width, height, spacing]: [f64; 3], diameter: f64, duration: f64) -> Option<String> {
-        let mut scene = Plane::of_tier(Tier::Quick);
+        let mut scene = quick::<Plane, 2>();
         (scene.walls, scene.inlets, scene.duration, scene.spacing) = (Vec::new(), Vec::new(), duration, spacing);
         (scene.gauges, scene.sides) = (Vec::new(), unbounded());
         scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (width, height), velocity: (0.0, 0.0) }];
@@ -150,8 +149,8 @@ mod tests {
     }
 
     /// A column of 0.2 m with a floor of 1 m, one of whose parts is changed.
-    fn doubts(change: impl Fn(&mut SceneParameters<Plane, 2>)) -> String {
-        let mut scene = Plane::of_tier(Tier::Quick);
+    fn doubts(change: impl Fn(&mut SceneFlow<Plane, 2>)) -> String {
+        let mut scene = quick::<Plane, 2>();
         (scene.walls, scene.inlets, scene.duration, scene.spacing) = (Vec::new(), Vec::new(), 30.0, 0.01);
         scene.sides = unbounded();
         scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (0.2, 0.2), velocity: (0.0, 0.0) }];
@@ -169,11 +168,11 @@ mod tests {
         assert!(far.ends_with(&format!("`sides.right` {all}")), "{far}");
         let map = doubts(|scene| scene.sides.right = DomainSide::Open(4.5e5));
         assert!(map.ends_with("all else 1 m; subtract the corner of the map from all coordinates"), "{map}");
-        let body = |scene: &mut SceneParameters<Plane, 2>| {
+        let body = |scene: &mut SceneFlow<Plane, 2>| {
             scene.bodies = vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (200.0, 200.0), velocity: (0.0, 0.0) }];
         };
         assert!(doubts(body).contains("`bodies[0]` reaches 200 m"));
-        let gauge = |scene: &mut SceneParameters<Plane, 2>| {
+        let gauge = |scene: &mut SceneFlow<Plane, 2>| {
             let PlaneGauge::Front { thickness, .. } = &mut scene.gauges[0] else { unreachable!("a front") };
             *thickness = 10.0;
         };

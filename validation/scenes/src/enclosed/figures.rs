@@ -1,10 +1,10 @@
 //! Figures of scenes: pictures of the material between its walls, and the series of the gauges.
 
 use super::filling::SiteFate;
-use super::parameters::Dimension;
+use super::flow::Dimension;
 use super::setting::SceneInlet;
 use super::surfaces::Surfaces;
-use super::{Measurand, SceneObservation, SceneParameters, SceneRecord};
+use super::{Measurand, SceneFlow, SceneObservation, SceneRecord};
 use super::{series, shapes};
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
 use bagnold_solver::vector::Vector;
@@ -15,11 +15,8 @@ const MARGIN: f64 = 0.1;
 /// Labels of the axes of space.
 const AXES: [&str; 3] = ["x [m]", "y [m]", "z [m]"];
 
-pub(crate) fn all<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
-    records: &[SceneRecord<S, D>],
-) -> Vec<Figure> {
-    let of_run = |(_, record): &SceneRecord<S, D>| {
+pub(crate) fn all<S: Dimension<D>, const D: usize>(records: &[SceneRecord<S, D>]) -> Vec<Figure> {
+    let of_run = |(parameters, record): &SceneRecord<S, D>| {
         // another code's front comes without pictures
         let pictures = (!record.frames.is_empty()).then(|| S::pictures(parameters, &record.frames));
         [pictures, gauges(parameters, &record.data)]
@@ -29,7 +26,7 @@ pub(crate) fn all<S: Dimension<D>, const D: usize>(
 
 /// Axes of pictures: the material of all of them and the inlets with a margin, but nothing beyond the scene.
 pub(crate) fn picture_axes<'a, S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
     material: impl IntoIterator<Item = &'a [f64; 3]>,
 ) -> [Axis; D] {
     let (extent, rim) = (parameters.extent(), 2.0 * parameters.spacing);
@@ -44,7 +41,7 @@ pub(crate) fn picture_axes<'a, S: Dimension<D>, const D: usize>(
 
 /// Panel of the start along two axes: sites in the colours of their values.
 pub(crate) fn start_panel<'s, S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
     title: &str,
     [right, up]: [usize; 2],
     sites: impl IntoIterator<Item = &'s (Vector<D>, f64)>,
@@ -64,7 +61,7 @@ pub(crate) fn start_panel<'s, S: Dimension<D>, const D: usize>(
 /// Draws the inlets along two axes, in colours behind those of the walls.
 pub(crate) fn add_inlets<S: Dimension<D>, const D: usize>(
     panel: &mut Panel,
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
     [right, up]: [usize; 2],
 ) {
     for (k, inlet) in parameters.inlets.iter().enumerate() {
@@ -75,8 +72,14 @@ pub(crate) fn add_inlets<S: Dimension<D>, const D: usize>(
     }
 }
 
-/// Figure of the initial particles, and of the parts of bodies that walls remove.
-pub(crate) fn setup<S: Dimension<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Figure {
+/// Figure of the initial particles, and of the parts of bodies that walls remove, scene by scene.
+pub(crate) fn setup<S: Dimension<D>, const D: usize>(scenes: &[SceneFlow<S, D>]) -> Figure {
+    let (captions, panels): (Vec<String>, Vec<Vec<Panel>>) = scenes.iter().map(start).unzip();
+    Figure::new("setup", &captions.join(" "), panels.concat())
+}
+
+/// Caption and panels of a scene at the start.
+fn start<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> (String, Vec<Panel>) {
     let sites = parameters.survey(&Surfaces::of(&parameters.enclosure(), parameters.depth_of_walls()));
     let count = |fate: SiteFate| sites.iter().filter(|(_, other)| *other == fate).count();
     let caption = format!(
@@ -92,14 +95,11 @@ pub(crate) fn setup<S: Dimension<D>, const D: usize>(parameters: &SceneParameter
         SiteFate::Behind => 1.0,
     };
     let sites: Vec<_> = sites.iter().map(|&(place, fate)| (place, value(fate))).collect();
-    Figure::new("setup", &caption, S::setup(parameters, &sites))
+    (caption, S::setup(parameters, &sites))
 }
 
 /// One panel a gauge with a line a column that shares its axis.
-fn gauges<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
-    data: &SceneObservation<D>,
-) -> Option<Figure> {
+fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &SceneObservation<D>) -> Option<Figure> {
     let panel = |series: series::GaugeSeries<'_, D>| {
         let columns = &series.columns;
         let axis = columns.first().map_or("", |column| &column.axis);
@@ -125,12 +125,12 @@ fn gauges<S: Dimension<D>, const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Tier;
+    use crate::enclosed::quick;
     use crate::scene::Plane;
 
     #[test]
     fn pictures_show_the_material_and_no_more_of_the_scene() {
-        let parameters = SceneParameters { spacing: 0.01, inlets: Vec::new(), ..Plane::of_tier(Tier::Quick) };
+        let parameters = SceneFlow { spacing: 0.01, inlets: Vec::new(), ..quick::<Plane, 2>() };
         let (lower, upper) = parameters.extent();
         // the last grain has left the scene
         let heights = [(lower[0], 0.05), (upper[0], 0.06), (upper[0] + 1.0, 0.0)];

@@ -1,13 +1,13 @@
 //! Initial particles: on the sites of lattices that bodies hold, as dense as the material above them makes them.
 
 use super::behind_walls::{Permissions, Site};
+use super::flow::Dimension;
 use super::geostatic::GeostaticStress;
 use super::lattice::{LatticeGroup, SiteLattice, groups};
-use super::parameters::Dimension;
 use super::setting::{SceneBody, SceneInlet, SceneWall};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
-use super::{SceneParameters, shapes};
+use super::{SceneFlow, shapes};
 use crate::case::ParameterError;
 use crate::checkpoint::is_interrupted;
 use crate::output::caution_about;
@@ -20,7 +20,7 @@ use bagnold_solver::weakly_compressible::scene::Flow;
 /// Steps by which depths are felt, a spacing `[-]`.
 const STEPS: f64 = 8.0;
 
-impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Particles on the sites of lattices that bodies hold and that are free of walls, under the pressure of the material above
     /// them; and the share of the sites of bodies that are behind walls `[-]`.
     ///
@@ -79,7 +79,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
     }
 }
 
-impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// The sites of a lattice that some bodies hold.
     fn held(&self, lattice: &SiteLattice<D>, members: &[usize], walls: &Surfaces<D>) -> Vec<Site<D>> {
         let bodies = &self.bodies;
@@ -181,17 +181,18 @@ pub(crate) fn depth<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Tier;
+    use crate::enclosed::quick;
     use crate::scene::{Plane, PlaneBody};
     use crate::scene_space::{Space, SpaceBody};
     use bagnold_solver::material::equation_of_state::Tension;
     use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
+    use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
     #[test]
     fn a_body_of_broken_spacings_is_said_to_lose_mass() {
         let velocity = (0.0, 0.0);
         let misfits = |bodies: &[PlaneBody]| {
-            let sides = Plane::of_tier(Tier::Quick).sides;
+            let sides = quick::<Plane, 2>().sides;
             misfits(bodies, &groups(bodies, &sides, 0.0025), 0.0025)
         };
         let new = |height: f64| PlaneBody::Polygon {
@@ -208,8 +209,11 @@ mod tests {
     }
 
     /// Volume of the particles that fill bodies without walls: their masses over their densities.
-    fn filled<S: Dimension<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64 {
-        let scene = SceneParameters { bodies, spacing, walls: Vec::new(), ..S::of_tier(Tier::Quick) };
+    fn filled<S: Dimension<D>, const D: usize>(bodies: Vec<S::Body>, spacing: f64) -> f64
+    where
+        Simulation<D>: Compiled<D>,
+    {
+        let scene = SceneFlow { bodies, spacing, walls: Vec::new(), ..quick::<S, D>() };
         let law = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e6, tension: Tension::Cut };
         let (flow, _) = scene.fill(&Surfaces::of(&BoundarySet::default(), spacing), &law).expect("filled");
         flow.mass.iter().zip(&flow.density).map(|(mass, density)| mass / density).sum()

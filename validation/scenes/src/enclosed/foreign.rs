@@ -1,9 +1,9 @@
 //! A scene as another code, or a paper about one, gives it: the front over time, along the line of the scene's gauge.
 
+use super::flow::Dimension;
 use super::metrics::{FRONT, GAUGE_ERROR};
-use super::parameters::Dimension;
 use super::setting::SceneGauge;
-use super::{Measurand, SceneObservation, SceneRun, series};
+use super::{Measurand, SceneFlow, SceneObservation, series};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 use crate::statistics::{Extrapolation, interpolated};
@@ -28,7 +28,7 @@ pub(crate) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 /// A scene without a gauge for it, or with several; a time or a front that is missing beside the other; a series that lasts
 /// neither as long as what was measured nor, where nothing was, as the scene.
 pub(crate) fn observe<S: Dimension<D>, const D: usize>(
-    run: &SceneRun<S, D>,
+    run: &SceneFlow<S, D>,
     given: &ExternalData,
 ) -> Result<Option<ExternalObservation<SceneObservation<D>>>, FieldError> {
     let (time, front) = (given.series("time"), given.series("front"));
@@ -42,17 +42,17 @@ pub(crate) fn observe<S: Dimension<D>, const D: usize>(
     let gauge = gauge_of(run)?;
     let samples: Vec<(f64, f64)> = time.iter().copied().zip(front.iter().copied()).collect();
     let at = |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Nothing));
-    let points = || run.scene.measured.iter().filter(|measured| measured.gauge == gauge).flat_map(|one| &one.points);
+    let points = || run.measured.iter().filter(|measured| measured.gauge == gauge).flat_map(|one| &one.points);
     let (first, last) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &(t, _)| (a.min(t), b.max(t)));
     // the scene's own series ends with its last row, which is less than an interval before its end
-    let last_row = run.scene.duration - run.scene.interval;
-    let end = time.last().map_or(last_row, |given| given.clamp(last_row, run.scene.duration));
+    let last_row = run.duration - run.interval;
+    let end = time.last().map_or(last_row, |given| given.clamp(last_row, run.duration));
     let mut measured = Vec::new();
     if points().next().is_some() {
         reaches(&samples, (first, last), "what was measured")?;
         measured.push(GAUGE_ERROR.name);
     } else if at(end).is_none() {
-        let end = run.scene.duration;
+        let end = run.duration;
         reaches(&samples, (end, end), "the scene's end, where the front is compared")?;
     }
     // the front at the end is that of the scene's end, however long the other code went on
@@ -63,7 +63,7 @@ pub(crate) fn observe<S: Dimension<D>, const D: usize>(
             samples.iter().copied().filter(|(time, _)| *time < end).chain([(end, front)]).collect()
         }
         None => {
-            let name = &run.scene.name;
+            let name = &run.name;
             let why = if last > end { "what was measured lasts longer" } else { "it ends before" };
             tracing::warn!("scene {name}: the given front is not compared at the scene's end, {end} s: {why}");
             samples.clone()
@@ -76,21 +76,21 @@ pub(crate) fn observe<S: Dimension<D>, const D: usize>(
 }
 
 /// The name of the scene's only gauge of a front.
-fn gauge_of<S: Dimension<D>, const D: usize>(run: &SceneRun<S, D>) -> Result<&str, FieldError> {
-    let gauges = run.scene.gauges.iter().zip(run.scene.measures());
+fn gauge_of<S: Dimension<D>, const D: usize>(run: &SceneFlow<S, D>) -> Result<&str, FieldError> {
+    let gauges = run.gauges.iter().zip(run.measures());
     let fronts: Vec<&str> =
         gauges.filter(|(_, measure)| matches!(measure, Measurand::Front(_))).map(|(gauge, _)| gauge.name()).collect();
     let refused = |value: String, rule: &str, remedy: &str| Err(FieldError::new("series.front", value, rule, remedy));
     match fronts[..] {
         [only] => Ok(only),
         [] => refused(
-            format!("given for scene {}, which measures no front", run.scene.name),
+            format!("given for scene {}, which measures no front", run.name),
             "of a scene with a gauge of kind \"front\"",
             "add [[gauges]] with kind = \"front\", name, from, to and thickness to the scene; and [[measured]] with the gauge's \
              name, source, points and limit for a gate",
         ),
         _ => refused(
-            format!("given for scene {}, which has the gauges {}", run.scene.name, fronts.join(", ")),
+            format!("given for scene {}, which has the gauges {}", run.name, fronts.join(", ")),
             "of a scene with one gauge of kind \"front\"",
             "keep in the scene the gauge whose front is given, or give numbers",
         ),
@@ -98,8 +98,8 @@ fn gauge_of<S: Dimension<D>, const D: usize>(run: &SceneRun<S, D>) -> Result<&st
 }
 
 /// The values of all gauges, column by column, of which only those of one gauge are known.
-fn columns<S: Dimension<D>, const D: usize>(run: &SceneRun<S, D>, gauge: &str, front: &[f64]) -> Vec<Vec<f64>> {
-    let counts = series::counts(&run.scene);
+fn columns<S: Dimension<D>, const D: usize>(run: &SceneFlow<S, D>, gauge: &str, front: &[f64]) -> Vec<Vec<f64>> {
+    let counts = series::counts(run);
     counts
         .into_iter()
         .flat_map(|(name, count)| {
@@ -127,20 +127,16 @@ fn reaches(samples: &[(f64, f64)], (from, to): (f64, f64), what: &str) -> Result
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{NamedColumns, Parameters, Tier};
-    use crate::enclosed::MeasuredSeries;
-    use crate::enclosed::SceneCase;
+    use crate::case::NamedColumns;
+    use crate::enclosed::{MeasuredSeries, metrics, quick};
     use crate::metric::{Metric, Verdict};
-    use crate::scene::PlaneParameters;
+    use crate::scene::PlaneFlow;
 
     /// The tier's scene, with a front that was measured to run 1 m/s until 0.2 s.
-    fn scene(limit: f64) -> PlaneParameters {
+    fn scene(limit: f64) -> PlaneFlow {
         let points = vec![(0.1, 0.1), (0.2, 0.2)];
         let source = "own flume".to_owned();
-        PlaneParameters {
-            measured: vec![MeasuredSeries { gauge: "front".to_owned(), source, points, limit }],
-            ..PlaneParameters::of_tier(Tier::Quick)
-        }
+        PlaneFlow { measured: vec![MeasuredSeries { gauge: "front".to_owned(), source, points, limit }], ..quick() }
     }
 
     fn given(time: &[f64], speed: f64) -> ExternalData {
@@ -149,12 +145,10 @@ mod tests {
         ExternalData { series, ..ExternalData::default() }
     }
 
-    fn judged(scene: &PlaneParameters, given: &ExternalData) -> Result<Vec<Metric>, String> {
-        use crate::case::Case;
-        let run = scene.runs().remove(0);
-        let seen = observe(&run, given).map_err(|error| error.to_string())?.expect("a front");
+    fn judged(scene: &PlaneFlow, given: &ExternalData) -> Result<Vec<Metric>, String> {
+        let seen = observe(scene, given).map_err(|error| error.to_string())?.expect("a front");
         let record = given.record(seen.observation);
-        let all = SceneCase::metrics(scene, &[(run, record)]);
+        let all = metrics::all(&[(scene.clone(), record)]);
         Ok(all.into_iter().filter(|metric| seen.measured.contains(&metric.name.as_str())).collect())
     }
 
@@ -191,7 +185,7 @@ mod tests {
         // as long as the measurement, but not as the scene: judged by it, and not compared at the end
         let metrics = judged(&scene(6.0), &given(&[0.0, 0.25], 1.0)).expect("as long as the measurement");
         assert!(!metrics.is_empty() && metrics.iter().all(|metric| metric.name == "gauge_error"), "{metrics:?}");
-        let tier = PlaneParameters::of_tier(Tier::Quick);
+        let tier = quick();
         let nothing = judged(&tier, &given(&[0.0, 0.25], 1.0)).expect_err("nothing to compare with");
         assert!(nothing.contains("as long as the scene's end, where the front is compared: to 0.6 s"), "{nothing}");
     }
@@ -199,7 +193,7 @@ mod tests {
     #[test]
     fn a_scene_that_measures_no_front_or_several_says_what_to_change() {
         let own = scene(6.0);
-        let none = PlaneParameters { gauges: own.gauges[1..].to_vec(), measured: Vec::new(), ..own.clone() };
+        let none = PlaneFlow { gauges: own.gauges[1..].to_vec(), measured: Vec::new(), ..own.clone() };
         let message = judged(&none, &given(&[0.0, 1.0], 1.0)).expect_err("no gauge");
         assert!(
             message.starts_with("`series.front` is given for scene step, which measures no front, but must be"),
@@ -210,9 +204,8 @@ mod tests {
         twice.gauges.push(own.gauges[0].clone());
         let message = judged(&twice, &given(&[0.0, 1.0], 1.0)).expect_err("two gauges");
         assert!(message.contains("of a scene with one gauge of kind \"front\""), "{message}");
-        let run = own.runs().remove(0);
-        assert!(observe(&run, &ExternalData::default()).expect("nothing").is_none());
+        assert!(observe(&own, &ExternalData::default()).expect("nothing").is_none());
         let no_front = ExternalData { series: [("time".to_owned(), vec![0.0])].into(), ..ExternalData::default() };
-        assert!(observe(&run, &no_front).expect_err("no front").to_string().contains("`series.front` is absent"));
+        assert!(observe(&own, &no_front).expect_err("no front").to_string().contains("`series.front` is absent"));
     }
 }

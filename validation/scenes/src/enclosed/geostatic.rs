@@ -47,9 +47,8 @@ pub(super) fn rankine_ratios<const D: usize>(friction: f64, cohesion: f64) -> (f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Tier;
-    use crate::enclosed::{Dimension, DomainSide, SceneRun};
-    use crate::scene::{FlowSide, Plane, PlaneBody, PlaneParameters, PlaneSides, WallLine};
+    use crate::enclosed::{DomainSide, quick};
+    use crate::scene::{FlowSide, PlaneBody, PlaneFlow, PlaneSides, WallLine};
     use bagnold_solver::vector::equivalent_shear_stress;
     use bagnold_solver::weakly_compressible::simulation::Simulation;
     use bagnold_solver::weakly_compressible::walls::Surface;
@@ -92,7 +91,7 @@ mod tests {
     }
 
     /// A box of beads between smooth walls.
-    fn boxed(lateral_pressure_ratio: Option<f64>) -> PlaneParameters {
+    fn boxed(lateral_pressure_ratio: Option<f64>) -> PlaneFlow {
         let wall = |name: &str, points: &[(f64, f64)]| WallLine {
             name: name.to_owned(),
             points: points.to_vec(),
@@ -102,9 +101,9 @@ mod tests {
             both_sides: false,
             motion: Vec::new(),
         };
-        let tier = Plane::of_tier(Tier::Quick);
+        let tier: PlaneFlow = quick();
         let none = DomainSide::None;
-        PlaneParameters {
+        PlaneFlow {
             sides: PlaneSides { left: none, right: none, bottom: none, top: none },
             bodies: vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (0.2, 0.1), velocity: (0.0, 0.0) }],
             walls: vec![
@@ -121,7 +120,7 @@ mod tests {
     /// Ratio of the horizontal to the vertical stress in the middle of the box, the vertical stress over the weight above, and the root mean
     /// square of the speed over √(g H), after 0.2 s `[-]`.
     fn after_a_while(lateral_pressure_ratio: Option<f64>) -> [f64; 3] {
-        let (scene, _) = SceneRun { scene: boxed(lateral_pressure_ratio) }.scene().expect("a scene");
+        let (scene, _) = boxed(lateral_pressure_ratio).scene().expect("a scene");
         let density = scene.equation_of_state.reference_density;
         let mut simulation = Simulation::new(scene).expect("sound");
         while simulation.time() < 0.2 {

@@ -1,7 +1,7 @@
 //! Inlets of a scene: their rules, and what they will have fed.
 
-use super::SceneParameters;
-use super::parameters::Dimension;
+use super::SceneFlow;
+use super::flow::Dimension;
 use super::setting::{SceneInlet, SceneWall, shown};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
@@ -17,8 +17,8 @@ const STIFFEST: f64 = 1e4;
 /// Times at which it is added up how many particles are there: for estimates.
 const TIMES: usize = 64;
 
-impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
-    /// The inlets for the solver; those that [`SceneParameters::check_inlets`] refuses are left out.
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
+    /// The inlets for the solver; those that [`SceneFlow::check_inlets`] refuses are left out.
     pub(super) fn feeds(&self) -> Vec<Inlet<D>> {
         self.inlets.iter().filter_map(|inlet| self.feed(inlet, inlet.rate().checked().ok()?)).collect()
     }

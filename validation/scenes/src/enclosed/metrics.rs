@@ -1,11 +1,11 @@
 //! Metrics of scenes: their balances, and their gauges compared with measurements.
 
-use super::parameters::Dimension;
+use super::flow::Dimension;
 use super::prediction;
 use super::series;
 use super::setting::SceneInlet;
 use super::sides::SceneSides;
-use super::{FedMass, Measurand, MeasuredSeries, SceneObservation, SceneParameters, SceneRecord};
+use super::{FedMass, Measurand, MeasuredSeries, SceneFlow, SceneObservation, SceneRecord};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::output::caution_about;
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
@@ -92,18 +92,12 @@ pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantit
 }
 
 /// The metrics of all runs.
-pub(crate) fn all<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
-    records: &[SceneRecord<S, D>],
-) -> Vec<Metric> {
-    records.iter().flat_map(|record| of_run(parameters, record)).collect()
+pub(crate) fn all<S: Dimension<D>, const D: usize>(records: &[SceneRecord<S, D>]) -> Vec<Metric> {
+    records.iter().flat_map(of_run).collect()
 }
 
-fn of_run<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
-    (run, record): &SceneRecord<S, D>,
-) -> Vec<Metric> {
-    let (variant, data) = (run.named(), &record.data);
+fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S, D>) -> Vec<Metric> {
+    let (variant, data) = (parameters.named(), &record.data);
     let mut metrics = balances(&variant, data, parameters.sides.has_mirror());
     if parameters.numerics.viscous_step == ViscousStep::Implicit {
         let share = 100.0 * data.unsolved_impulse / data.gravity_impulse;
@@ -224,7 +218,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
 fn feeds<S: Dimension<D>, const D: usize>(
     variant: &Variant,
     data: &SceneObservation<D>,
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
 ) -> Vec<Metric> {
     let of_inlet = |(inlet, fed): (&S::Inlet, &FedMass)| {
         let own = variant.clone().and("inlet", inlet.name());
@@ -248,7 +242,7 @@ fn feeds<S: Dimension<D>, const D: usize>(
 fn energy<S: Dimension<D>, const D: usize>(
     variant: &Variant,
     data: &SceneObservation<D>,
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
 ) -> Vec<Metric> {
     let book = &data.energy;
     if book.total.is_empty() {
@@ -276,7 +270,7 @@ fn energy<S: Dimension<D>, const D: usize>(
 fn artificial_viscosity<S: Dimension<D>, const D: usize>(
     variant: &Variant,
     data: &SceneObservation<D>,
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
 ) -> Option<Metric> {
     let (law, numerics) = (&parameters.material, &parameters.numerics);
     if law.strength_is_friction() || numerics.viscosity_switch != ViscositySwitch::Constant {

@@ -1,5 +1,5 @@
 //! Scenes of a user's own, whatever the number of axes: what the cases `scene` and `scene-space` share. What the plane and
-//! space give in a way of their own (bodies, walls, inlets, gauges, sides, pictures, the tiers' scene) stands in the folders of these
+//! space give in a way of their own (bodies, walls, inlets, gauges, sides, pictures) stands in the folders of these
 //! cases, behind [`Dimension`].
 
 mod behind_walls;
@@ -8,6 +8,7 @@ mod checks;
 mod doubts;
 pub(super) mod figures;
 pub(super) mod filling;
+mod flow;
 pub(super) mod foreign;
 pub(super) mod gauges;
 mod geostatic;
@@ -20,7 +21,6 @@ mod measured;
 pub(super) mod metrics;
 pub(super) mod names;
 mod observation;
-mod parameters;
 pub(super) mod periods;
 mod prediction;
 mod run;
@@ -32,20 +32,31 @@ pub(super) mod shapes;
 pub mod sides;
 mod start;
 mod surfaces;
-mod tiers;
 
+pub use flow::{Dimension, SceneFlow, SceneStart};
 pub use given::PlainData;
 pub use given_rate::GivenRate;
 pub use measure::{DepthGauge, Measurand, Opening, Probe};
 pub use measured::MeasuredSeries;
 pub use observation::{FedMass, OutflowRecord, SceneObservation};
-pub use parameters::{Dimension, SceneParameters, SceneStart};
-pub use run::SceneRun;
 pub use scene_case::SceneCase;
 pub use settling::BodyPreparation;
 pub use sides::DomainSide;
 
+#[cfg(test)]
+use crate::case::{Parameters as _, RunList, Tier};
 use crate::observation::Recorded;
+#[cfg(test)]
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
 /// A run of a scene with what it left behind.
-type SceneRecord<S, const D: usize> = (SceneRun<S, D>, Recorded<SceneObservation<D>>);
+type SceneRecord<S, const D: usize> = (SceneFlow<S, D>, Recorded<SceneObservation<D>>);
+
+/// The scene of the quick tier.
+#[cfg(test)]
+pub(crate) fn quick<S: Dimension<D>, const D: usize>() -> SceneFlow<S, D>
+where
+    Simulation<D>: Compiled<D>,
+{
+    RunList::of_tier(Tier::Quick).base
+}

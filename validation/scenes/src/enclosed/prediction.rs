@@ -1,9 +1,9 @@
 //! Prediction intervals of run-out and height in a scene of grains, from the errors of validated flows.
 
+use super::flow::Dimension;
 use super::measure::DepthGauge;
-use super::parameters::Dimension;
 use super::setting::{SceneBody, vector};
-use super::{SceneObservation, SceneParameters};
+use super::{SceneFlow, SceneObservation};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{FlowRegime, PredictionInterval};
 use crate::setup::front::FrontLine;
@@ -32,7 +32,7 @@ struct Column {
 /// The body that a front along a line comes from, which stood at a place `[m]` at the start. None for liquids, for scenes that are fed, and
 /// for several bodies, of which nothing of the kind was measured.
 fn column<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
     data: &SceneObservation<D>,
     line: &FrontLine<D>,
     front: f64,
@@ -61,7 +61,7 @@ fn column<S: Dimension<D>, const D: usize>(
 
 /// Warning for the interval of a flow that still moves at the end.
 fn unfinished<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
     data: &SceneObservation<D>,
     column: &Column,
 ) -> Option<String> {
@@ -72,7 +72,7 @@ fn unfinished<S: Dimension<D>, const D: usize>(
 
 /// The interval of a front along a line, from its series `[m]`: that of the way from where it stood.
 pub(super) fn of_front<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
     data: &SceneObservation<D>,
     line: &FrontLine<D>,
     series: &[f64],
@@ -94,7 +94,7 @@ pub(super) fn of_front<S: Dimension<D>, const D: usize>(
 
 /// The interval of a thickness `[m]` along gravity at the back of a body whose front another gauge follows: that of the final height.
 pub(super) fn of_depth<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
+    parameters: &SceneFlow<S, D>,
     data: &SceneObservation<D>,
     depth: &DepthGauge<D>,
     (line, fronts): (&FrontLine<D>, &[f64]),

@@ -1,13 +1,13 @@
 //! From the parameters to a scene of the solver, and what is watched while it runs.
 
+use super::flow::{Dimension, SceneStart};
 use super::gauges::Memory;
-use super::parameters::{Dimension, SceneStart};
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneInlet, SceneWall};
 use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
-use super::{BodyPreparation, SceneObservation, SceneParameters, shapes};
+use super::{BodyPreparation, SceneFlow, SceneObservation, shapes};
 use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, StartState};
 use crate::case::{ParameterError, Progress, Run, cost};
 use crate::checkpoint::Checkpoints;
@@ -24,14 +24,6 @@ use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use bagnold_solver::weakly_compressible::time_step::TimeStepBounds;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
-
-/// The scene as a run.
-#[derive(Debug, Clone, Serialize)]
-#[serde(bound = "")]
-pub struct SceneRun<S: Dimension<D>, const D: usize> {
-    /// All of it.
-    pub scene: SceneParameters<S, D>,
-}
 
 /// Time at which particles are counted: for estimates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,7 +89,7 @@ impl Pictures {
     }
 }
 
-impl<S: Dimension<D>, const D: usize> Run for SceneRun<S, D>
+impl<S: Dimension<D>, const D: usize> Run for SceneFlow<S, D>
 where
     Simulation<D>: Compiled<D>,
 {
@@ -112,14 +104,14 @@ where
     }
 
     fn particle_steps(&self) -> f64 {
-        let running = self.flow_particles(Moment::Mean) * self.scene.duration;
+        let running = self.flow_particles(Moment::Mean) * self.duration;
         (running + self.flow_particles(Moment::Start) * self.settling_time()) / self.step_bounds().step()
     }
 
     fn seconds_per_particle_step(&self) -> f64 {
         let flow = self.flow_particles(Moment::Mean).max(1.0);
         let all_per_flow = (flow + self.wall_particles()) / flow;
-        let step = match self.scene.numerics.viscous_step {
+        let step = match self.numerics.viscous_step {
             ViscousStep::Explicit => 1.0,
             ViscousStep::Implicit => cost::IMPLICIT_STEP,
         };
@@ -127,7 +119,7 @@ where
     }
 
     fn preparation_seconds(&self) -> f64 {
-        cost::TRIANGLE * self.scene.walls.iter().map(SceneWall::triangle_count).sum::<usize>() as f64
+        cost::TRIANGLE * self.walls.iter().map(SceneWall::triangle_count).sum::<usize>() as f64
     }
 
     fn brief(&self) -> Option<String> {
@@ -135,33 +127,27 @@ where
     }
 
     fn trajectory(&self) -> Option<Self> {
-        Some(Self { scene: SceneParameters { duration: 0.0, interval: 0.0, pictures: 0, ..self.scene.clone() } })
+        Some(Self { duration: 0.0, interval: 0.0, pictures: 0, ..self.clone() })
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
-        let scene = &self.scene;
         let (made, cut_off) = self.scene()?;
         let begun = made.flow.position.len();
-        if begun == 0 && scene.inlets.is_empty() {
+        if begun == 0 && self.inlets.is_empty() {
             let defect = format!(
                 "no room for a particle in front of the walls (a body needs two spacings, {})",
-                2.0 * scene.spacing
+                2.0 * self.spacing
             );
             let remedy = "widen a body, reduce the spacing, or reverse a wall";
             return Err(ParameterError::field("bodies", defect, "", remedy));
         }
-        let (gravity, measures) = (scene.pull(), scene.measures());
-        let pull = scene.fall() / scene.height();
-        let (likeness, state) = (scene.likeness(), scene.stored_state()?);
-        let periods = Periods::of(&scene.sides.axes());
-        let stage = SimulationStage {
-            progress,
-            end: scene.duration,
-            interval: scene.interval,
-            window: 0.0,
-            context: &likeness,
-        };
-        let pictures = || Pictures::new(scene.duration, scene.interval, scene.pictures);
+        let (gravity, measures) = (self.pull(), self.measures());
+        let pull = self.fall() / self.height();
+        let (likeness, state) = (self.likeness(), self.stored_state()?);
+        let periods = Periods::of(&self.sides.axes());
+        let stage =
+            SimulationStage { progress, end: self.duration, interval: self.interval, window: 0.0, context: &likeness };
+        let pictures = || Pictures::new(self.duration, self.interval, self.pictures);
         let known = |simulation: &Simulation<D>| begun + simulation.inflow().particles() as usize;
         let begin = |simulation: &Simulation<D>| SceneObserver {
             observation: SceneObservation::default(),
@@ -176,7 +162,7 @@ where
                 StartState::Continued | StartState::Described => Ok(made.clone()),
             },
             |simulation: &Simulation<D>| {
-                if let Some(SceneStart { file, .. }) = &scene.from {
+                if let Some(SceneStart { file, .. }) = &self.from {
                     progress.tell(&format!("starts at t = {} s, from {file}", four_digits(simulation.time())));
                 }
                 (simulation.snapshot(), begin(simulation))
@@ -184,7 +170,7 @@ where
             |(last_good, watch): &mut (Snapshot<D>, SceneObserver<D>), simulation| {
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
-                progress.advance(last_good.time, scene.duration, steps);
+                progress.advance(last_good.time, self.duration, steps);
                 let values = watch.memory.read_all(&measures, simulation, last_good, (known(simulation), &periods));
                 watch.observation.enter(simulation, last_good, (&gravity, pull), values);
                 if watch.pictures.is_due(last_good.time) {
@@ -205,50 +191,45 @@ where
         "all material has left by open sides".clone_into(&mut ending.criterion);
         ending.frames = watch.pictures.frames;
         // the last state follows
-        ending.frames.retain(|frame| frame.time + 0.5 * scene.interval.min(scene.duration) < scene.duration);
+        ending.frames.retain(|frame| frame.time + 0.5 * self.interval.min(self.duration) < self.duration);
         let mut observation = watch.observation;
         (observation.behind, observation.cut_off) = (behind(&simulation), cut_off);
         Ok(ending.record(&simulation, |_| observation))
     }
 }
 
-impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
-    /// Variant of the run among the runs of its case.
-    pub(super) fn named(&self) -> Variant {
-        Variant::of("scene", self.scene.name.as_str())
-    }
-
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Particles of the bodies, and of what inlets have fed. Where there are open sides, what is beyond all that the scene's box holds
     /// is taken to have left by them.
     fn flow_particles(&self, moment: Moment) -> f64 {
-        let cell = self.scene.spacing.powi(D as i32);
-        let bodies = self.scene.bodies.iter().map(SceneBody::volume).sum::<f64>() / cell;
-        if self.scene.inlets.is_empty() {
+        let cell = self.spacing.powi(D as i32);
+        let bodies = self.bodies.iter().map(SceneBody::volume).sum::<f64>() / cell;
+        if self.inlets.is_empty() {
             return bodies;
         }
         let fed = match moment {
             Moment::Start => 0.0,
-            Moment::Mean => self.scene.mean_fed_particles(),
-            Moment::End => self.scene.fed_particles(self.scene.duration),
+            Moment::Mean => self.mean_fed_particles(),
+            Moment::End => self.fed_particles(self.duration),
         };
-        if self.scene.sides.exits() == Exits::default() {
+        if self.sides.exits() == Exits::default() {
             return bodies + fed;
         }
-        let (lower, upper) = self.scene.sides.widen(self.scene.extent());
+        let (lower, upper) = self.sides.widen(self.extent());
         (bodies + fed).min((bodies).max(shapes::box_volume(&lower, &upper) / cell))
     }
 
     /// Dummy particles of the walls, and of the rows of inlets.
     fn wall_particles(&self) -> f64 {
-        let walls: f64 = self.scene.walls.iter().map(SceneWall::measure).sum();
-        let openings: f64 = self.scene.inlets.iter().map(|inlet| inlet.edges().iter().product::<f64>()).sum();
-        (walls + openings) * self.scene.depth_of_walls() / self.scene.spacing.powi(D as i32)
+        let walls: f64 = self.walls.iter().map(SceneWall::measure).sum();
+        let openings: f64 = self.inlets.iter().map(|inlet| inlet.edges().iter().product::<f64>()).sum();
+        (walls + openings) * self.depth_of_walls() / self.spacing.powi(D as i32)
     }
 
     /// The solver's own bounds of a step, with the largest viscosity and speed that the scene can come to.
     fn step_bounds(&self) -> TimeStepBounds {
-        let SceneParameters { numerics, spacing, material, .. } = &self.scene;
-        let equation_of_state = self.scene.equation_of_state();
+        let Self { numerics, spacing, material, .. } = self;
+        let equation_of_state = self.equation_of_state();
         let (density, fall) = (equation_of_state.reference_density, self.fall_speed());
         let (walls, inlets) = (self.fastest_wall(), self.fastest_inlet());
         let speed = (2.0_f64.sqrt() * fall).max(self.fastest_body()).max(inlets) + walls.max(inlets);
@@ -259,7 +240,7 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
 
     /// √(g H) with the height of the scene, and more under pressure `[m/s]`.
     fn fall_speed(&self) -> f64 {
-        self.scene.fall().sqrt()
+        self.fall().sqrt()
     }
 
     /// Largest speed that falling, bodies, walls and inlets give `[m/s]`.
@@ -270,27 +251,27 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
 
     /// Largest speed of a wall `[m/s]`.
     fn fastest_wall(&self) -> f64 {
-        self.scene.walls.iter().map(|wall| wall.motion().largest_speed()).fold(0.0, f64::max)
+        self.walls.iter().map(|wall| wall.motion().largest_speed()).fold(0.0, f64::max)
     }
 
     /// Largest speed of an inlet `[m/s]`.
     fn fastest_inlet(&self) -> f64 {
-        self.scene.feeds().iter().map(Inlet::largest_speed).fold(0.0, f64::max)
+        self.feeds().iter().map(Inlet::largest_speed).fold(0.0, f64::max)
     }
 
     /// Speed at the start of the fastest body `[m/s]`.
     fn fastest_body(&self) -> f64 {
-        self.scene.bodies.iter().map(|body| body.velocity().norm()).fold(0.0, f64::max)
+        self.bodies.iter().map(|body| body.velocity().norm()).fold(0.0, f64::max)
     }
 
     /// Time that sound needs across the height of the scene `[s]`.
     fn crossing_time(&self) -> f64 {
-        self.scene.height() / self.scene.equation_of_state().sound_speed()
+        self.height() / self.equation_of_state().sound_speed()
     }
 
     /// Time that settling is expected to take `[s]`.
     fn settling_time(&self) -> f64 {
-        match self.scene.preparation {
+        match self.preparation {
             BodyPreparation::None => 0.0,
             BodyPreparation::Settled => settling::USUAL * self.crossing_time(),
         }
@@ -304,11 +285,11 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
     where
         Simulation<D>: Compiled<D>,
     {
-        match self.scene.preparation {
+        match self.preparation {
             BodyPreparation::None => Ok(scene),
             BodyPreparation::Settled => {
                 let fall = self.fall_speed();
-                let rest = RestCriterion { speed: self.scene.rest_speed * fall, fall, crossing: self.crossing_time() };
+                let rest = RestCriterion { speed: self.rest_speed * fall, fall, crossing: self.crossing_time() };
                 let (scene, elapsed) = settling::settled(scene, rest)?;
                 tracing::info!("bodies have settled within {elapsed:.4} s, before the clock starts");
                 Ok(scene)
@@ -321,15 +302,15 @@ impl<S: Dimension<D>, const D: usize> SceneRun<S, D> {
     /// # Errors
     /// A body of which walls take more than they may.
     pub(super) fn scene(&self) -> Result<(Scene<D>, f64), ParameterError> {
-        let SceneParameters { spacing, numerics, material, .. } = self.scene;
-        let (equation_of_state, enclosure) = (self.scene.equation_of_state(), self.scene.enclosure());
-        let surfaces = Surfaces::of(&enclosure, self.scene.depth_of_walls());
-        self.scene.check_openings(&enclosure.inlets, &surfaces)?;
-        let (flow, cut_off) = self.scene.fill(&surfaces, &equation_of_state)?;
+        let Self { spacing, numerics, material, .. } = *self;
+        let (equation_of_state, enclosure) = (self.equation_of_state(), self.enclosure());
+        let surfaces = Surfaces::of(&enclosure, self.depth_of_walls());
+        self.check_openings(&enclosure.inlets, &surfaces)?;
+        let (flow, cut_off) = self.fill(&surfaces, &equation_of_state)?;
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
-        (scene.enclosure, scene.numerics, scene.side_walls) = (enclosure, numerics, self.scene.side_walls);
-        scene.domain = Domain { axes: self.scene.sides.axes() };
-        scene.gravity = self.scene.pull();
+        (scene.enclosure, scene.numerics, scene.side_walls) = (enclosure, numerics, self.side_walls);
+        scene.domain = Domain { axes: self.sides.axes() };
+        scene.gravity = self.pull();
         Ok((scene, cut_off))
     }
 }

@@ -1,8 +1,8 @@
 //! The cases `scene` and `scene-space`: what is judged, drawn and written of a scene.
 
-use super::parameters::{Dimension, SceneParameters};
-use super::{SceneObservation, SceneRecord, SceneRun, figures, foreign, metrics, series};
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
+use super::flow::{Dimension, SceneFlow};
+use super::{SceneObservation, SceneRecord, figures, foreign, metrics, series};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RunList};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -28,30 +28,30 @@ where
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = S::SUMMARY;
     const DESCRIPTION: &'static str = S::DESCRIPTION;
-    type Parameters = SceneParameters<S, D>;
+    type Parameters = RunList<SceneFlow<S, D>>;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<S, D>();
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
 
-    fn metrics(parameters: &SceneParameters<S, D>, records: &[SceneRecord<S, D>]) -> Vec<Metric> {
-        metrics::all(parameters, records)
+    fn metrics(_: &RunList<SceneFlow<S, D>>, records: &[SceneRecord<S, D>]) -> Vec<Metric> {
+        metrics::all(records)
     }
 
-    fn figures(parameters: &SceneParameters<S, D>, records: &[SceneRecord<S, D>]) -> Vec<Figure> {
-        figures::all(parameters, records)
+    fn figures(_: &RunList<SceneFlow<S, D>>, records: &[SceneRecord<S, D>]) -> Vec<Figure> {
+        figures::all(records)
     }
 
-    fn setup(parameters: &SceneParameters<S, D>) -> Option<Figure> {
-        Some(figures::setup(parameters))
+    fn setup(list: &RunList<SceneFlow<S, D>>) -> Option<Figure> {
+        Some(figures::setup(list.flows()))
     }
 
     fn from_external(
-        run: &SceneRun<S, D>,
+        flow: &SceneFlow<S, D>,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<SceneObservation<D>>>, FieldError> {
-        foreign::observe(run, given)
+        foreign::observe(flow, given)
     }
 
-    fn tables(parameters: &SceneParameters<S, D>, records: &[SceneRecord<S, D>]) -> Vec<Table> {
-        series::tables(parameters, records)
+    fn tables(_: &RunList<SceneFlow<S, D>>, records: &[SceneRecord<S, D>]) -> Vec<Table> {
+        series::tables(records)
     }
 }

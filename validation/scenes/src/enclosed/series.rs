@@ -1,9 +1,9 @@
 //! Series of gauges: their columns, what they are compared with, and how they are written.
 
+use super::flow::Dimension;
 use super::measured::MeasuredSeries;
-use super::parameters::Dimension;
 use super::setting::SceneGauge;
-use super::{Measurand, SceneObservation, SceneParameters, SceneRecord};
+use super::{Measurand, SceneFlow, SceneObservation, SceneRecord};
 use crate::output::Table;
 
 /// One column of a series.
@@ -30,7 +30,7 @@ pub(super) struct GaugeSeries<'a, const D: usize> {
 
 /// The series of all gauges in a run, gauge by gauge.
 pub(super) fn of_run<'a, S: Dimension<D>, const D: usize>(
-    parameters: &'a SceneParameters<S, D>,
+    parameters: &'a SceneFlow<S, D>,
     data: &'a SceneObservation<D>,
 ) -> Vec<GaugeSeries<'a, D>> {
     let mut next = 0;
@@ -45,7 +45,7 @@ pub(super) fn of_run<'a, S: Dimension<D>, const D: usize>(
 }
 
 /// The gauges with the number of their columns, in order.
-pub(super) fn counts<S: Dimension<D>, const D: usize>(parameters: &SceneParameters<S, D>) -> Vec<(&str, usize)> {
+pub(super) fn counts<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> Vec<(&str, usize)> {
     let count = |measure: &Measurand<'_, D>| columns::<S, D>(measure).len();
     parameters
         .gauges
@@ -84,19 +84,16 @@ fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<G
 }
 
 /// The series of each run as a table: time, mass, and a column a gauge's column.
-pub(crate) fn tables<S: Dimension<D>, const D: usize>(
-    parameters: &SceneParameters<S, D>,
-    records: &[SceneRecord<S, D>],
-) -> Vec<Table> {
+pub(crate) fn tables<S: Dimension<D>, const D: usize>(records: &[SceneRecord<S, D>]) -> Vec<Table> {
     let mass = format!("mass in the scene [{}]", S::MASS_UNIT);
-    let of_run = |(run, record): &SceneRecord<S, D>| {
-        let (data, series) = (&record.data, of_run(parameters, &record.data));
+    let of_run = |(flow, record): &SceneRecord<S, D>| {
+        let (data, series) = (&record.data, of_run(flow, &record.data));
         let heading = |gauge: &str, column: &GaugeColumn| format!("{gauge}: {}", column.heading);
         let headings: Vec<String> =
             series.iter().flat_map(|one| one.columns.iter().map(|column| heading(one.gauge, column))).collect();
         let mut columns = vec![("t [s]", &data.time[..]), (&mass, &data.mass)];
         columns.extend(headings.iter().map(String::as_str).zip(data.gauges.iter().map(Vec::as_slice)));
-        Table::of_columns(format!("gauges-{}", run.named().file_name()), &columns)
+        Table::of_columns(format!("gauges-{}", flow.named().file_name()), &columns)
     };
     records.iter().map(of_run).collect()
 }

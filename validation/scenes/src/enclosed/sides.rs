@@ -9,10 +9,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Condition at a side of the domain.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DomainSide {
     /// Nothing: walls hold the flow, or it is unbounded.
+    #[default]
     None,
     /// A plane of symmetry at this coordinate `[m]`.
     Mirror(f64),
@@ -50,7 +51,7 @@ impl DomainSide {
 pub type SidePair = (DomainSide, DomainSide);
 
 /// All sides of a domain.
-pub trait SceneSides<const D: usize>: PlainData {
+pub trait SceneSides<const D: usize>: PlainData + Default {
     /// Names of the lower and the upper side along each axis.
     const NAMES: [(&'static str, &'static str); D];
 

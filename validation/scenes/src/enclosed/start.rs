@@ -1,13 +1,13 @@
 //! Start from a state that a run of a scene has left.
 
-use super::parameters::{Dimension, SceneParameters, SceneStart};
+use super::flow::{Dimension, SceneFlow, SceneStart};
 use crate::case::ParameterError;
 use crate::checkpoint::{Likeness, StoredState};
 use crate::store::source_hash;
 use serde_json::Value;
 use std::path::Path;
 
-impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// The state that the scene starts from, where it names one.
     ///
     /// # Errors

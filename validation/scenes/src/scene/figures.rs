@@ -1,6 +1,6 @@
 //! Pictures of the material between its walls.
 
-use super::PlaneParameters;
+use super::PlaneFlow;
 use crate::enclosed::Measurand;
 use crate::enclosed::figures::{add_inlets, picture_axes, start_panel};
 use crate::enclosed::setting::{SceneGauge, SceneWall};
@@ -10,7 +10,7 @@ use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 
 /// One panel a picture, the particles in the colours of their speed and the walls where they stand.
-pub(super) fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure {
+pub(super) fn pictures(parameters: &PlaneFlow, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
     let [x, y] = picture_axes(parameters, frames.iter().flat_map(|frame| &frame.position));
     let panels = frames.iter().map(|frame| {
@@ -32,7 +32,7 @@ pub(super) fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure
 }
 
 /// The sites in the colours of their values between walls, inlets and the lines of gauges, each by its name.
-pub(super) fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {
+pub(super) fn setup(parameters: &PlaneFlow, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {
     let mut panel = start_panel(parameters, &parameters.name, [0, 1], sites);
     let point = |place: &Vector<2>| (place[0], place[1]);
     for (slot, wall) in parameters.walls.iter().enumerate() {

@@ -4,7 +4,6 @@ mod body;
 mod figures;
 mod gauge;
 mod inlet;
-mod tiers;
 mod wall;
 
 pub use body::PlaneBody;
@@ -12,8 +11,7 @@ pub use gauge::PlaneGauge;
 pub use inlet::PlaneInlet;
 pub use wall::{FlowSide, PlaneSides, WallLine};
 
-use super::enclosed::{Dimension, SceneCase, SceneParameters};
-use crate::case::Tier;
+use super::enclosed::{Dimension, SceneCase, SceneFlow};
 use crate::figure::{Figure, Panel};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
@@ -21,8 +19,8 @@ use bagnold_solver::vector::Vector;
 /// Two coordinates or components along x and y.
 pub type PlaneVector = (f64, f64);
 
-/// Parameters of the case.
-pub type PlaneParameters = SceneParameters<Plane, 2>;
+/// The flow of the case.
+pub type PlaneFlow = SceneFlow<Plane, 2>;
 
 /// The plane: masses, forces and fluxes are those per metre of depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,21 +45,19 @@ impl Dimension<2> for Plane {
         Judged. Balances of mass, momentum and energy, and walls that let nothing pass. The file itself gives any \
         further reference.\n\n\
         Observed only. All gauges.";
+    const RUNS: &'static str = include_str!("../../runs/scene.toml");
+    const GRAVITY: PlaneVector = (0.0, -9.81);
     const ADD_A_BODY: &'static str = "add a box, a disc or a polygon of material";
     const COST: f64 = 0.6;
     const FORCE_UNIT: &'static str = "N/m";
     const MASS_UNIT: &'static str = "kg/m";
     const FLUX_UNIT: &'static str = "kg/(m s)";
 
-    fn of_tier(tier: Tier) -> PlaneParameters {
-        tiers::of_tier(tier)
-    }
-
-    fn setup(parameters: &PlaneParameters, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {
+    fn setup(parameters: &PlaneFlow, sites: &[(Vector<2>, f64)]) -> Vec<Panel> {
         figures::setup(parameters, sites)
     }
 
-    fn pictures(parameters: &PlaneParameters, frames: &[Frame]) -> Figure {
+    fn pictures(parameters: &PlaneFlow, frames: &[Frame]) -> Figure {
         figures::pictures(parameters, frames)
     }
 }

@@ -117,7 +117,7 @@ impl setting::SceneWall<2> for WallLine {
 }
 
 /// The sides of the domain.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneSides {
     /// At small x.

@@ -1,6 +1,6 @@
 //! Pictures of the material from the side and from above, between the edges of its walls.
 
-use super::SpaceParameters;
+use super::SpaceFlow;
 use crate::enclosed::figures::{add_inlets, picture_axes, start_panel};
 use crate::enclosed::setting::SceneWall;
 use crate::figure::{Field, Figure, Mark, Panel, Series};
@@ -24,7 +24,7 @@ struct ViewDirection {
 }
 
 /// The view across the longer horizontal axis, along which a slope runs, and that from above.
-fn views(parameters: &SpaceParameters) -> [ViewDirection; 2] {
+fn views(parameters: &SpaceFlow) -> [ViewDirection; 2] {
     let (lower, upper) = parameters.extent();
     let (right, towards) =
         if upper[1] - lower[1] > 1.1 * (upper[0] - lower[0]) { (1, (0, 1.0)) } else { (0, (1, -1.0)) };
@@ -35,7 +35,7 @@ fn views(parameters: &SpaceParameters) -> [ViewDirection; 2] {
 }
 
 /// Two panels a picture, the particles in the colours of their speed and the edges of the walls where they stand.
-pub(super) fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
+pub(super) fn pictures(parameters: &SpaceFlow, frames: &[Frame]) -> Figure {
     let fastest = frames.iter().flat_map(Frame::speeds).fold(0.0, f64::max);
     let axes = picture_axes(parameters, frames.iter().flat_map(|frame| &frame.position));
     let walls: Vec<(FacetWall<3>, Vec<[Vector<3>; 2]>)> = parameters
@@ -83,7 +83,7 @@ fn material(spacing: f64, frame: &Frame, view: &ViewDirection, fastest: f64) -> 
 }
 
 /// The sites in the colours of their values between the edges of walls and openings, from the side and from above.
-pub(super) fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
+pub(super) fn setup(parameters: &SpaceFlow, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
     let view = |view: &ViewDirection| {
         let mut order: Vec<&(Vector<3>, f64)> = sites.iter().collect();
         // what is behind walls is seen through the rest
@@ -133,9 +133,8 @@ fn sharp_edges(facets: &[Facet<3>]) -> Vec<[Vector<3>; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Tier;
+    use crate::enclosed::quick;
     use crate::scene_space::SpaceBody;
-    use crate::scene_space::tiers::of_tier;
 
     #[test]
     fn the_diagonals_of_faces_are_not_drawn() {
@@ -150,8 +149,8 @@ mod tests {
 
     #[test]
     fn a_slope_is_seen_from_its_side() {
-        let mut scene = of_tier(Tier::Quick);
-        let across = |scene: &SpaceParameters| (views(scene)[0].right, views(scene)[0].towards);
+        let mut scene: SpaceFlow = quick();
+        let across = |scene: &SpaceFlow| (views(scene)[0].right, views(scene)[0].towards);
         assert_eq!(across(&scene), (0, (1, -1.0)));
         scene.walls.clear();
         scene.bodies =

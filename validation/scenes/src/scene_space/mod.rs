@@ -5,7 +5,6 @@ mod figures;
 mod gauge;
 mod inlet;
 mod openings;
-mod tiers;
 mod wall;
 
 pub use body::SpaceBody;
@@ -13,8 +12,7 @@ pub use gauge::SpaceGauge;
 pub use inlet::SpaceInlet;
 pub use wall::{SpaceSides, SpaceWall};
 
-use super::enclosed::{Dimension, SceneCase, SceneParameters};
-use crate::case::Tier;
+use super::enclosed::{Dimension, SceneCase, SceneFlow};
 use crate::figure::{Figure, Panel};
 use crate::observation::Frame;
 use bagnold_solver::vector::Vector;
@@ -22,8 +20,8 @@ use bagnold_solver::vector::Vector;
 /// Three coordinates or components along x, y and z.
 pub type SpaceVector = (f64, f64, f64);
 
-/// Parameters of the case.
-pub type SpaceParameters = SceneParameters<Space, 3>;
+/// The flow of the case.
+pub type SpaceFlow = SceneFlow<Space, 3>;
 
 /// Space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,21 +47,19 @@ impl Dimension<3> for Space {
         Judged. Balances of mass, momentum and energy, and walls that let nothing pass. The file itself gives any \
         further reference.\n\n\
         Observed only. All gauges.";
+    const RUNS: &'static str = include_str!("../../runs/scene-space.toml");
+    const GRAVITY: SpaceVector = (0.0, 0.0, -9.81);
     const ADD_A_BODY: &'static str = "add a box, a cylinder or a sphere of material";
     const COST: f64 = 1.5;
     const FORCE_UNIT: &'static str = "N";
     const MASS_UNIT: &'static str = "kg";
     const FLUX_UNIT: &'static str = "kg/s";
 
-    fn of_tier(tier: Tier) -> SpaceParameters {
-        tiers::of_tier(tier)
-    }
-
-    fn setup(parameters: &SpaceParameters, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
+    fn setup(parameters: &SpaceFlow, sites: &[(Vector<3>, f64)]) -> Vec<Panel> {
         figures::setup(parameters, sites)
     }
 
-    fn pictures(parameters: &SpaceParameters, frames: &[Frame]) -> Figure {
+    fn pictures(parameters: &SpaceFlow, frames: &[Frame]) -> Figure {
         figures::pictures(parameters, frames)
     }
 }

@@ -76,25 +76,6 @@ fn unscaled() -> f64 {
 }
 
 impl SpaceWall {
-    /// A rough wall of quadrilaterals at rest.
-    pub(super) fn of_quads(name: &str, quads: Vec<(SpaceVector, SpaceVector, SpaceVector, SpaceVector)>) -> Self {
-        Self {
-            name: name.to_owned(),
-            mesh: String::new(),
-            unit: metres(),
-            scale: unscaled(),
-            rotate: SpaceVector::default(),
-            shift: SpaceVector::default(),
-            triangles: Vec::new(),
-            packed: PackedTriangles::default(),
-            quads,
-            boxes: Vec::new(),
-            surface: Surface::Rough,
-            both_sides: false,
-            motion: Vec::new(),
-        }
-    }
-
     /// All its triangles `[m]`.
     fn corners(&self) -> Vec<[Vector<3>; 3]> {
         self.unpacked().chain(self.packed.triangles().iter().map(|corners| corners.map(Vector::from))).collect()
@@ -251,7 +232,7 @@ fn faces(lower: &Vector<3>, upper: &Vector<3>) -> [[Vector<3>; 4]; 6] {
 }
 
 /// The sides of the domain.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpaceSides {
     /// At small x.
@@ -280,6 +261,27 @@ impl sides::SceneSides<3> for SpaceSides {
 mod tests {
     use super::*;
     use crate::enclosed::setting::SceneWall as _;
+
+    impl SpaceWall {
+        /// A rough wall of quadrilaterals at rest.
+        fn of_quads(name: &str, quads: Vec<(SpaceVector, SpaceVector, SpaceVector, SpaceVector)>) -> Self {
+            Self {
+                name: name.to_owned(),
+                mesh: String::new(),
+                unit: metres(),
+                scale: unscaled(),
+                rotate: SpaceVector::default(),
+                shift: SpaceVector::default(),
+                triangles: Vec::new(),
+                packed: PackedTriangles::default(),
+                quads,
+                boxes: Vec::new(),
+                surface: Surface::Rough,
+                both_sides: false,
+                motion: Vec::new(),
+            }
+        }
+    }
 
     #[test]
     fn the_faces_of_a_box_look_outwards_and_close_it() {

@@ -224,7 +224,7 @@ impl Study {
 
     /// Refuses measurements that are compared after the end of every scene, before anything is simulated.
     fn refuse_late_measurements(&self, cases: &[Box<dyn PreparedCase>]) -> Result<(), FieldError> {
-        let durations = cases.iter().filter_map(|case| case.run_parameters(0)["scene"]["duration"].as_f64());
+        let durations = cases.iter().filter_map(|case| case.run_parameters(0)["duration"].as_f64());
         let Some(duration) = durations.max_by(f64::total_cmp) else { return Ok(()) };
         for (place, check) in self.checks.iter().enumerate() {
             let CheckedQuantity::Distance(column, measured, _) = &check.read else { continue };

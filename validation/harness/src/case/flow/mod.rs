@@ -21,6 +21,8 @@ use toml::{Table, Value};
 pub trait Flow: Run + Default + PartialEq + DeserializeOwned + JsonSchema + 'static {
     /// Text of `runs/CASE.toml`: the flows of each tier. Empty for the default flow alone.
     const RUNS: &'static str = "";
+    /// Lists of the flow that a file states whole: one that it leaves out is empty there, and not the tier's.
+    const STATED: &'static [&'static str] = &[];
 
     /// The rules between fields; called once every field is in its own range.
     ///
@@ -84,7 +86,7 @@ impl<F: Flow> RunList<F> {
         let table = table_of(&base);
         let mut flows: Vec<F> = Vec::new();
         for change in list.changes() {
-            let flow = changed(&table, &change)?;
+            let flow = if change.values.is_empty() { base.clone() } else { changed(&table, &change)? };
             // a value that is set for all runs can leave several of them equal
             if !flows.contains(&flow) {
                 flows.push(flow);
@@ -205,7 +207,7 @@ impl<'de, F: Flow> Deserialize<'de> for RunList<F> {
 
 impl<F: Flow> Parameters for RunList<F> {
     type Run = F;
-    const STATED: &'static [&'static str] = &["variants", "vary"];
+    const STATED: [&'static [&'static str]; 2] = [F::STATED, &["variants", "vary"]];
 
     fn of_tier(tier: Tier) -> Self {
         let file = TiersFile::of::<F>();

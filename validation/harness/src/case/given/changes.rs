@@ -58,12 +58,11 @@ impl Changes<'_> {
 
     /// The same, with lists empty that a file leaves out.
     #[must_use]
-    pub(in crate::case) fn with_lists(&self, stated: &[&str]) -> Self {
+    pub(in crate::case) fn with_lists(&self, [of_flow, of_runs]: [&[&str]; 2]) -> Self {
         let mut changes = self.clone();
-        // a file without a field is the case as it comes, with all of its runs
-        let states = |fields: &Table| !fields.is_empty() || !stated.contains(&"vary");
-        if let Some((_, fields)) = changes.file.as_mut().filter(|(_, fields)| states(fields)) {
-            for list in stated {
+        if let Some((_, fields)) = &mut changes.file {
+            let of_runs = if fields.is_empty() { &[] } else { of_runs };
+            for list in of_flow.iter().chain(of_runs) {
                 fields.entry(*list).or_insert_with(|| Value::Array(Vec::new()));
             }
         }
@@ -281,15 +280,33 @@ pub(in crate::case) fn overlay(schema: &Schema, table: &mut Table, changes: &Tab
         _ => None,
     };
     for (key, change) in changes {
-        match (table.get_mut(key), change) {
-            (Some(Value::Table(inner)), Value::Table(changed)) => {
-                overlay(content(key).unwrap_or(&Schema::Null), inner, changed);
+        let (schema, value) = match entry_of(key) {
+            Some((list, index)) => {
+                let entries = table.get_mut(list).and_then(Value::as_array_mut);
+                let schema = content(list).and_then(|list| match Shape::of(list) {
+                    Shape::List(entry) => Some(entry),
+                    _ => None,
+                });
+                (schema, entries.and_then(|entries| entries.get_mut(index)))
             }
-            _ => {
+            None => (content(key), table.get_mut(key)),
+        };
+        match (value, change) {
+            (Some(Value::Table(inner)), Value::Table(changed)) => {
+                overlay(schema.unwrap_or(&Schema::Null), inner, changed);
+            }
+            (Some(value), _) => *value = change.clone(),
+            (None, _) => {
                 table.insert(key.clone(), change.clone());
             }
         }
     }
+}
+
+/// The list and the entry in it that a key such as `gauges[0]` names.
+fn entry_of(key: &str) -> Option<(&str, usize)> {
+    let (list, index) = key.strip_suffix(']')?.split_once('[')?;
+    Some((list, index.parse().ok()?))
 }
 
 /// Whether `changes` picks another variant of an enum than `table`.

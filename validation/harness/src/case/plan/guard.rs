@@ -35,13 +35,13 @@ impl<'a, P: Parameters> Guard<'a, P> {
     pub(in crate::case) fn runs(&self) -> Result<Vec<P::Run>, ParameterError> {
         let source = self.changes.source();
         self.parameters.check().map_err(|error| source.placed(self.named(error)))?;
-        self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
         let runs = self.parameters.runs();
         if runs.is_empty() {
             return Err(ParameterError::NothingToRun { case: self.case.to_owned(), empty: self.emptied() });
         }
         let chosen = self.chosen(&runs);
         self.parameters.check_runs(&chosen).map_err(|error| source.placed(self.named(error)))?;
+        self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
         self.check_unique(&chosen).map_err(|error| source.placed(error))?;
         self.check_cost(&chosen).map_err(|error| source.placed(error))?;
         Ok(runs)

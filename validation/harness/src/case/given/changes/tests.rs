@@ -79,19 +79,21 @@ fn message(file: &str, settings: &[&str]) -> String {
 #[test]
 fn a_file_and_settings_change_only_what_they_name() {
     let changed = resolved(
-        "angles = [20]\ngrains.diameter = 2e-3\nlaw.bingham = { viscosity = 1, yield_stress = 2 }",
-        &["rows=40", "grains.packing=jittered", "grains.spread=0.1", "law.bingham.yield_stress=3"],
+        "angles = [20, 25]\ngrains.diameter = 2e-3\nlaw.bingham = { viscosity = 1, yield_stress = 2 }",
+        &["rows=40", "grains.packing=jittered", "grains.spread=0.1", "angles[1]=30.0", "law.bingham.yield_stress=3"],
     )
     .expect("valid changes");
     let expected = LayerExample {
         depth: 0.01,
         rows: 40,
-        angles: vec![20.0],
+        angles: vec![20.0, 30.0],
         grains: GrainsExample { diameter: 2e-3, spread: Some(0.1), packing: Packing::Jittered },
         law: LawExample::Bingham { viscosity: 1.0, yield_stress: 3.0 },
         ..layer()
     };
     assert_eq!(changed, expected);
+    let beyond = message("", &["angles[2]=30.0"]);
+    assert!(beyond.starts_with("`--set angles[2]=30.0`: unknown field `angles[2]`"), "{beyond}");
 }
 
 #[test]

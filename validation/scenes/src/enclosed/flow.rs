@@ -6,8 +6,9 @@ use super::measured::MeasuredSeries;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, vector};
 use super::sides::SceneSides;
 use super::{BodyPreparation, Measurand, shapes};
-use crate::case::Tier;
+use crate::case::{Flow, ParameterError};
 use crate::figure::{Figure, Panel};
+use crate::metric::Variant;
 use crate::observation::Frame;
 use crate::setup::Bulk;
 use bagnold_solver::domain::AxisBoundary;
@@ -17,6 +18,7 @@ use bagnold_solver::parameter::{at_least, between, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::walls::SideWalls;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -43,6 +45,10 @@ pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + S
     const SUMMARY: &'static str;
     /// A paragraph for the report.
     const DESCRIPTION: &'static str;
+    /// The scenes of the tiers, as a list of runs.
+    const RUNS: &'static str;
+    /// Gravity of a scene that gives none `[m/s²]`.
+    const GRAVITY: Self::Place;
     /// Remedy for a scene without bodies.
     const ADD_A_BODY: &'static str;
     /// Cost of a particle-step over that of a layer in the plane `[-]`.
@@ -54,21 +60,18 @@ pub trait Dimension<const D: usize>: Debug + Clone + Copy + PartialEq + Send + S
     /// Unit of a mass per time.
     const FLUX_UNIT: &'static str;
 
-    /// The scene of a tier.
-    fn of_tier(tier: Tier) -> SceneParameters<Self, D>;
-
     /// Places of the start between walls, inlets and what is measured, with a value each from 0 to 1; a panel a view.
-    fn setup(parameters: &SceneParameters<Self, D>, sites: &[(Vector<D>, f64)]) -> Vec<Panel>;
+    fn setup(parameters: &SceneFlow<Self, D>, sites: &[(Vector<D>, f64)]) -> Vec<Panel>;
 
     /// Pictures of the material between its walls.
-    fn pictures(parameters: &SceneParameters<Self, D>, frames: &[Frame]) -> Figure;
+    fn pictures(parameters: &SceneFlow<Self, D>, frames: &[Frame]) -> Figure;
 }
 
-/// Parameters of the cases `scene` and `scene-space`.
+/// A scene of the cases `scene` and `scene-space`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(bound = "")]
-#[schemars(rename = "SceneParameters", bound = "")]
-pub struct SceneParameters<S: Dimension<D>, const D: usize> {
+#[schemars(rename = "SceneFlow", bound = "")]
+pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     /// Name of the scene, in figures and files.
     pub name: String,
     /// Gravity along each axis `[m/s²]`.
@@ -165,10 +168,9 @@ fn is_hydrostatic(ratio: &f64) -> bool {
     *ratio == hydrostatic()
 }
 
-impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
-    /// A scene without bodies, walls and gauges: glass beads under a gravity `[m/s²]` at a spacing `[m]`, of which the scenes of
-    /// the tiers are made.
-    pub(crate) fn of_beads(name: &str, gravity: S::Place, spacing: f64, sides: S::Sides) -> Self {
+/// Glass beads without bodies, walls and gauges.
+impl<S: Dimension<D>, const D: usize> Default for SceneFlow<S, D> {
+    fn default() -> Self {
         let beads = MuI {
             static_friction: 0.382,
             limiting_friction: 0.643,
@@ -177,9 +179,9 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             grain_density: 2500.0,
         };
         Self {
-            name: name.to_owned(),
-            gravity,
-            spacing,
+            name: S::NAME.to_owned(),
+            gravity: S::GRAVITY,
+            spacing: 0.01,
             duration: 0.4,
             interval: 0.01,
             pictures: 4,
@@ -191,7 +193,7 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             rest_speed: 1e-4,
             material: Rheology::MuI(beads),
             bulk: Bulk::of_grains(0.6),
-            sides,
+            sides: S::Sides::default(),
             bodies: Vec::new(),
             cut_at_most: 0.1,
             walls: Vec::new(),
@@ -206,6 +208,29 @@ impl<S: Dimension<D>, const D: usize> SceneParameters<S, D> {
             // a liquid comes to rest, grains keep the operator that they are verified with
             numerics: Numerics { momentum_operator: MomentumOperator::ByLaw, ..Numerics::default() },
         }
+    }
+}
+
+impl<S: Dimension<D>, const D: usize> Flow for SceneFlow<S, D>
+where
+    Simulation<D>: Compiled<D>,
+{
+    const RUNS: &'static str = S::RUNS;
+    const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.checked()
+    }
+
+    fn doubts(&self) -> Vec<String> {
+        self.doubtful_units()
+    }
+}
+
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
+    /// Variant of the scene among the runs of its case.
+    pub(super) fn named(&self) -> Variant {
+        Variant::of("scene", self.name.as_str())
     }
 
     /// Gravity that moves the material `[m/s²]`: of grains in a liquid the share that is not carried by hydrostatic pressure.
