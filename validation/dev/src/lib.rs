@@ -10,8 +10,6 @@ mod sensitivities;
 mod stale_sensitivities;
 mod verify;
 
-#[cfg(test)]
-use bagnold_figure as figure;
 use bagnold_harness::{case, control, evaluation, evidence, input, interruption, metric, observation, output, store};
 use bagnold_inference::sampling;
 use bagnold_number as number;

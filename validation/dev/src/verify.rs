@@ -123,7 +123,7 @@ mod tests {
     fn a_hash_that_has_changed_fails_and_names_the_case() {
         let folder = tempfile::tempdir().expect("temporary folder");
         let file = folder.path().join("runs.toml");
-        std::fs::write(&file, "[[runs]]\ncase = \"pendulum\"\nsettings = [\"steps=[20]\"]\nstate_hash = \"00\"\n")
+        std::fs::write(&file, "[[runs]]\ncase = \"pendulum\"\nsettings = [\"steps=20\"]\nstate_hash = \"00\"\n")
             .expect("writable");
         let (exit, text) = run(&file, false);
         assert_eq!(exit, Exit::GateFailed);
@@ -133,8 +133,8 @@ mod tests {
         assert_eq!(exit, Exit::Held, "{text}");
         // one bit of the damping
         let changed = std::fs::read_to_string(&file).expect("written").replace(
-            "settings = [\"steps=[20]\"]",
-            &format!("settings = [\"steps=[20]\", \"grain.damping={:?}\"]", 1.0_f64.next_up()),
+            "settings = [\"steps=20\"]",
+            &format!("settings = [\"steps=20\", \"grain.damping={:?}\"]", 1.0_f64.next_up()),
         );
         std::fs::write(&file, changed).expect("writable");
         assert_eq!(run(&file, false).0, Exit::GateFailed);

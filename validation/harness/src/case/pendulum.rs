@@ -1,7 +1,6 @@
 //! A case for the harness' and the program's own tests: a damped pendulum, cheap and with an exact solution.
 
-use crate::case::{Case, ParameterError, Parameters, Progress, RecordOf, Registry, Run, Tier};
-use crate::figure::Figure;
+use crate::case::{Case, Flow, ParameterError, Progress, RecordOf, Registry, Run, RunCost, RunList};
 use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::observation::{Frame, Outcome, Recorded};
 use crate::output::Table;
@@ -15,11 +14,11 @@ pub(crate) static REGISTRY: Registry = Registry::new(&[&Pendulum]);
 pub(crate) struct Pendulum;
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub(crate) struct PendulumParameters {
+pub(crate) struct Swing {
     /// Start `[°]`.
     #[schemars(transform = inside(-90.0, 90.0, "give it in degrees").in_words("inside (−90°, 90°)"))]
     slope_angle: f64,
-    steps: Vec<u64>,
+    steps: u64,
     limit: f64,
     grain: PendulumBob,
 }
@@ -32,11 +31,14 @@ struct PendulumBob {
     damping: f64,
 }
 
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Swing {
-    steps: u64,
-    damping: f64,
-    angle: f64,
+impl Default for Swing {
+    fn default() -> Self {
+        Self { slope_angle: 10.0, steps: 20, limit: 0.05, grain: PendulumBob { diameter: 1e-3, damping: 1.0 } }
+    }
+}
+
+impl Flow for Swing {
+    const RUNS: &'static str = "[[vary]]\npath = \"steps\"\nvalues = [20, 40]\npaper = [20, 400]";
 }
 
 impl Run for Swing {
@@ -45,22 +47,22 @@ impl Run for Swing {
     fn variant(&self) -> Variant {
         Variant::of("steps", self.steps)
     }
-    fn particle_steps(&self) -> f64 {
-        self.steps as f64
+    fn cost(&self) -> RunCost {
+        RunCost::weakly_compressible(1.0, self.steps as f64)
     }
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Vec<f64>>, ParameterError> {
         if self.steps == 0 {
             return Err(ParameterError::field("steps", 0, "positive", "take more steps"));
         }
         let interval = 1.0 / self.steps as f64;
-        let mut angle = vec![self.angle];
+        let mut angle = vec![self.slope_angle];
         for step in 0..self.steps {
             let last = angle[angle.len() - 1];
-            angle.push(last - interval * self.damping * last);
+            angle.push(last - interval * self.grain.damping * last);
             progress.advance(step as f64 * interval, 1.0, step as f64);
         }
         let end = angle[angle.len() - 1];
-        let diverged = Outcome::Diverged { message: "particle 0 left".to_owned(), expected: self.damping > 1e6 };
+        let diverged = Outcome::Diverged { message: "particle 0 left".to_owned(), expected: self.grain.damping > 1e6 };
         Ok(Recorded {
             outcome: if end.abs() <= 1e3 { Outcome::Finished } else { diverged },
             state_hash: format!("{:016x}", end.to_bits()),
@@ -81,46 +83,25 @@ impl Run for Swing {
     }
 }
 
-impl Parameters for PendulumParameters {
-    type Run = Swing;
-
-    fn of_tier(tier: Tier) -> Self {
-        let finest = if tier == Tier::Quick { 40 } else { 400 };
-        Self {
-            slope_angle: 10.0,
-            steps: vec![20, finest],
-            limit: 0.05,
-            grain: PendulumBob { diameter: 1e-3, damping: 1.0 },
-        }
-    }
-    fn runs(&self) -> Vec<Swing> {
-        let swing = |&steps: &u64| Swing { steps, damping: self.grain.damping, angle: self.slope_angle };
-        self.steps.iter().map(swing).collect()
-    }
-}
-
 impl Case for Pendulum {
     const NAME: &'static str = "pendulum";
     const SUMMARY: &'static str = "damped pendulum for tests";
     const DESCRIPTION: &'static str = "An overdamped pendulum against its exponential decay.";
-    type Parameters = PendulumParameters;
+    type Parameters = RunList<Swing>;
 
-    fn metrics(parameters: &PendulumParameters, records: &[RecordOf<PendulumParameters>]) -> Vec<Metric> {
+    fn metrics(_: &RunList<Swing>, records: &[RecordOf<RunList<Swing>>]) -> Vec<Metric> {
         records
             .iter()
             .map(|(run, record)| {
-                let exact = run.angle * (-run.damping).exp();
+                let exact = run.slope_angle * (-run.grain.damping).exp();
                 let end = record.data.last().copied().unwrap_or(f64::NAN);
                 Metric::observed("decay_error", &run.variant(), (end / exact - 1.0).abs(), "-")
                     .against(Some(0.0), "exponential decay", Confidence::Exact)
-                    .gated(Limit::AtMost(parameters.limit), "first order in the step")
+                    .gated(Limit::AtMost(run.limit), "first order in the step")
             })
             .collect()
     }
-    fn figures(_parameters: &PendulumParameters, _records: &[RecordOf<PendulumParameters>]) -> Vec<Figure> {
-        Vec::new()
-    }
-    fn tables(_parameters: &PendulumParameters, records: &[RecordOf<PendulumParameters>]) -> Vec<Table> {
+    fn tables(__: &RunList<Swing>, records: &[RecordOf<RunList<Swing>>]) -> Vec<Table> {
         let rows = records.iter().flat_map(|(_, record)| &record.data).map(|&angle| vec![angle]).collect();
         vec![Table { name: "angle".to_owned(), columns: vec!["angle [rad]".to_owned()], rows }]
     }

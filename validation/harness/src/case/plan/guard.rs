@@ -215,40 +215,34 @@ mod tests {
     #[test]
     fn two_runs_of_one_name_are_refused_with_the_list_that_makes_them() {
         assert_eq!(
-            refused(&["steps=[5, 7, 5]"], LIMITS),
-            "`steps[2]` is 5, but must be unique; two runs would both be called `steps=5`: name it once"
+            refused(&["vary=[{path=\"grain.damping\", values=[1.0, 2.0]}]"], LIMITS),
+            "`vary` is [{ path = \"grain.damping\", values = [1.0, 2.0] }], but must be unique; two runs would both be called `steps=20`: name it once"
         );
     }
 
     #[test]
     fn the_field_that_saves_most_is_blamed_for_a_size() {
-        let message = refused(&["grain.damping=2.0", "steps=[900000, 10]"], Limits { core_hours: 1e-5, ..LIMITS });
+        let message = refused(&["grain.damping=2.0", "steps=900000"], Limits { core_hours: 1e-5, ..LIMITS });
         assert_eq!(
             message,
-            "`steps` is [900000, 10], but must be less demanding (limit 0.00001 core hours); 9.0e5 \
-             particle-steps need 0.00018 core hours: reduce it or raise --most-hours"
+            "`steps` is 900000, but must be less demanding (limit 0.00001 core hours); 9.0e5 \
+             particle-steps need 0.00017 core hours: reduce it or raise --most-hours"
         );
-        assert_eq!(refused(&["steps=[900000, 10]"], LIMITS), "taken");
+        assert_eq!(refused(&["steps=900000"], LIMITS), "taken");
     }
 
     #[test]
     fn parameters_of_unselected_runs_are_not_refused() {
-        let settings = ["steps=[900000, 10, 10]".to_owned()];
+        let settings = ["vary=[{path=\"steps\", values=[900000, 10]}]".to_owned()];
         let limits = Limits { core_hours: 1e-5, ..LIMITS };
         let of = |only: &[Variant]| {
             let changes = Changes { settings: &settings, limits, only, ..Changes::default() };
             Pendulum.prepare(Tier::Quick, &changes).map(|_| ()).map_err(|error| error.to_string())
         };
-        // two of one name, and one that takes too long
-        let small = of(&[Variant::of("steps", 10)]).expect_err("both of that name are chosen");
-        assert!(small.starts_with("`steps[2]` is 10, but must be unique"), "{small}");
         let large = of(&[Variant::of("steps", 900_000)]).expect_err("the long one is chosen");
         assert!(large.contains("but must be less demanding"), "{large}");
-        let settings = ["steps=[900000, 10]".to_owned()];
-        let only = [Variant::of("steps", 10)];
-        let changes = Changes { settings: &settings, limits, only: &only, ..Changes::default() };
-        assert!(Pendulum.prepare(Tier::Quick, &changes).is_ok(), "the long one is not chosen");
-        assert!(Pendulum.prepare(Tier::Quick, &Changes { only: &[], ..changes }).is_err());
+        assert_eq!(of(&[Variant::of("steps", 10)]), Ok(()), "the long one is not chosen");
+        assert!(of(&[]).is_err());
     }
 
     #[test]
