@@ -184,8 +184,7 @@ fn a_time_or_size_that_is_negative_is_refused_by_its_rule() {
 fn a_link_to_nothing_is_no_output_folder() {
     let place = Place::new();
     std::os::unix::fs::symlink("gone/away", place.path("out")).expect("a link");
-    let plan =
-        "design = \"grid\"\n[[cases]]\ncase = \"film\"\n[[parameters]]\npath = \"slope_angle\"\nvalues = [20.0]\n";
+    let plan = "design = \"grid\"\n[[cases]]\ncase = \"film\"\n[[vary]]\npath = \"slope_angle\"\nvalues = [20.0]\n";
     place.file("plan.toml", plan);
     for (command, out) in
         [(&["run", "film"][..], "out"), (&["run", "film"], "out/below"), (&["sweep", "plan.toml"], "out")]

@@ -52,7 +52,7 @@ fn a_sweep_varies_the_amplitude() {
 
     let plan = format!(
         "design = \"grid\"\nmetrics = [\"front\"]\n[[cases]]\ncase = \"scene\"\n[cases.with]\nmaterial = {{ {LAW} }}\n{BLOCK}\
-         [[parameters]]\npath = \"material.cooperativity\"\nvalues = [0.0, 1.5]\n"
+         [[vary]]\npath = \"material.cooperativity\"\nvalues = [0.0, 1.5]\n"
     );
     let plan = place.file("plan.toml", &plan);
     place.bagnold(&["--quiet", "sweep", &plan, "--out", "sweep"]).assert().code(0);

@@ -86,7 +86,7 @@ fn a_shared_folder_that_may_not_be_written() {
     let place = Place::new();
     place.file(
         "plan.toml",
-        "design = \"grid\"\n[[cases]]\ncase = \"film\"\n[[parameters]]\npath = \"slope_angle\"\nvalues = [20.0]\n",
+        "design = \"grid\"\n[[cases]]\ncase = \"film\"\n[[vary]]\npath = \"slope_angle\"\nvalues = [20.0]\n",
     );
     let shared = place.path("shared");
     std::fs::create_dir(&shared).expect("writable");

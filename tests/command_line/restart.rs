@@ -67,7 +67,7 @@ design = "grid"
 case = "film"
 with = { resolution = 30, relaxation_times = 1.5 }
 
-[[parameters]]
+[[vary]]
 path = "material.viscosity"
 values = [0.5, 1.0]
 "#;

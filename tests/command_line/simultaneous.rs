@@ -93,7 +93,7 @@ design = "grid"
 [[cases]]
 case = "film"
 with = { resolution = 10 }
-[[parameters]]
+[[vary]]
 path = "material.viscosity"
 values = [0.5, 1.0]
 "#;

@@ -253,7 +253,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         ("table = \"gauges\"", "table = \"gaugs\"", "`checks[0].table` is \"gaugs\", but must be a table of scene"),
         ("front: front [m]", "front [m]", "did you mean \"front: front [m]\"?"),
         ("path = \"spacing\"", "path = \"spacin\"", "bad.toml: `path` is `spacin`, but `scene` has no such field"),
-        ("0.0125]", "0.02]", "`vary[0].values[1]` is 0.02, but must be unique"),
+        ("0.0125]", "0.02]", "`vary[0].values[1]` is 0.02, equal to `vary[0].values[0]`, but must be unique"),
         ("0.0125]", "-1.0]", "bad.toml: `spacing` is -1"),
         ("study = \"my-flume\"", "study = \"film\"", "unlike the name of a case"),
         ("study = \"my-flume\"", "study = \"../x\"", "a name that a folder can have"),

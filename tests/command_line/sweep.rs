@@ -14,11 +14,11 @@ design = "grid"
 case = "film"
 with = { resolution = 10 }
 
-[[parameters]]
+[[vary]]
 path = "material.viscosity"
 values = [0.5, 0.7, 1.0, 1.4]
 
-[[parameters]]
+[[vary]]
 path = "slope_angle"
 values = [20.0, 25.0, 95.0]
 "#;
@@ -76,7 +76,7 @@ fn a_sweep_may_mean_some_runs_only() {
 #[test]
 fn a_study_is_swept_by_its_parameters() {
     let place = Place::new();
-    let plan = "design = \"grid\"\nmetrics = [\"pore_pressure_middle\"]\n[[cases]]\ncase = \"consolidation\"\n[[parameters]]\n\
+    let plan = "design = \"grid\"\nmetrics = [\"pore_pressure_middle\"]\n[[cases]]\ncase = \"consolidation\"\n[[vary]]\n\
                 path = \"material.liquid_viscosity\"\nvalues = [5e-4, 1e-3, 2e-3]\n";
     let plan = place.file("plan.toml", plan);
     place.bagnold(&["-q", "sweep", &plan, "--out", "out"]).assert().success();
@@ -126,11 +126,11 @@ fn wrong_plans_are_refused_by_name() {
     let reversed = PLAN.replace("values = [0.5, 0.7, 1.0, 1.4]", "lower = 2.0\nupper = 1.0\nlevels = 3");
     assert_eq!(
         refusal(&reversed, &[]),
-        "error: plan.toml: `parameters[0].lower` is 2, but must be below `upper`, which is 1; exchange the two bounds"
+        "error: plan.toml: `vary[0].lower` is 2, but must be below `upper`, which is 1; exchange the two bounds"
     );
     let case = refusal(&PLAN.replace("case = \"film\"", "case = \"flim\""), &[]);
     assert_eq!(case, "error: plan.toml: unknown case `flim`; did you mean `film`? `bagnold list` prints all cases");
-    let syntax = refusal(&PLAN.replace("[[parameters]]", "[[parameter]]"), &[]);
+    let syntax = refusal(&PLAN.replace("[[vary]]", "[[parameter]]"), &[]);
     assert!(syntax.starts_with("error: plan.toml: line 8, column 3: unknown field `parameter`"), "{syntax}");
     let design = refusal(&PLAN.replace("design = \"grid\"", "design = \"sobol\""), &[]);
     assert_eq!(

@@ -119,7 +119,7 @@ fn a_sweep_plan_is_read_or_refused() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let path = folder.path().join("plan.toml");
     let mut plans = texts("validation/sweeps", "toml");
-    let grid = "design = \"grid\"\n[[cases]]\ncase = \"film\"\nwith = { resolution = 10 }\n[[parameters]]\npath = \"slope_angle\"\n\
+    let grid = "design = \"grid\"\n[[cases]]\ncase = \"film\"\nwith = { resolution = 10 }\n[[vary]]\npath = \"slope_angle\"\n\
                 lower = 1.0\nupper = 20.0\nlevels = 3\n";
     plans.push(grid.into());
     read_damaged(&plans, |_, text| {

@@ -74,7 +74,7 @@ fn a_folder_of_results_is_compared_or_refused() {
 fn a_sweep_is_continued_or_refused() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let (plan, sweep) = (folder.path().join("plan.toml"), folder.path().join("sweep"));
-    let grid = "design = \"grid\"\n[[cases]]\ncase = \"film\"\nwith = { resolution = 10 }\n[[parameters]]\n\
+    let grid = "design = \"grid\"\n[[cases]]\ncase = \"film\"\nwith = { resolution = 10 }\n[[vary]]\n\
                 path = \"slope_angle\"\nlower = 1.0\nupper = 20.0\nlevels = 2\n";
     std::fs::write(&plan, grid).expect("writable");
     let manifest = SweepPlan::read(&plan).and_then(|plan| plan.manifest(*REGISTRY, Limits::default()));

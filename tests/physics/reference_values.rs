@@ -211,7 +211,7 @@ fn measured_velocities_of_the_submerged_slope_are_those_of_its_table() {
         };
         let variant = study["variants"].as_array().expect("variants").iter().find(is_own).expect("a variant");
         let own = variant["set"].get("material.solid_fraction");
-        let fraction = number(own.unwrap_or(&study["parameters"]["material"]["solid_fraction"]));
+        let fraction = number(own.unwrap_or(&study["set"]["material"]["solid_fraction"]));
         let end = fractions.iter().rposition(|row| (row - fraction).abs() < 1e-9).expect("a curve");
         let (time, velocity) = (times[end] / 30.0, velocities[end] * 30e-3);
         assert!((number(&check["value"]["at"]) - time).abs() < 1e-4, "{check}: {time} s");

@@ -124,7 +124,7 @@ fn show_and_schema_document_every_field_of_list_entries() {
         lists(&schema(&case, "quick"), "", &mut found);
         let has_lists = ["scene", "scene-space", "footing"].contains(&case.as_str());
         assert!(!has_lists || found.len() >= 10, "{case}: {found:?}");
-        // [paper] has the lists of [parameters]
+        // [paper] has the lists of [set]
         for (path, form) in found.iter().filter(|(path, _)| !path.starts_with("paper.")) {
             let head = format!("# [[{path}]]");
             let tables: Vec<&str> = text.split("\n\n").filter(|table| table.starts_with(&head)).collect();

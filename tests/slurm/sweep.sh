@@ -17,14 +17,14 @@ design = "grid"
 case = "film"
 with = { resolution = 10 }
 
-[[parameters]]
+[[vary]]
 path = "material.viscosity"
 lower = 0.5
 upper = 2.0
 levels = 6
 scale = "log"
 
-[[parameters]]
+[[vary]]
 path = "slope_angle"
 values = [15.0, 20.0, 25.0, 30.0]
 PLAN

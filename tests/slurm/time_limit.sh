@@ -19,7 +19,7 @@ design = "grid"
 case = "film"
 with = { resolution = $rows, relaxation_times = 1.5 }
 
-[[parameters]]
+[[vary]]
 path = "material.viscosity"
 values = [1.0]
 PLAN

@@ -81,13 +81,13 @@ impl PlanError {
                 let first = earlier.split('=').next().unwrap_or_default();
                 let value = format!("\"{path}\", which gives `{field}` as \"{first}\" does");
                 let (rule, remedy) = ("a path that no other one leads through", "vary a field once");
-                Self::Field(FieldError::new("parameters.path", value, rule, remedy).in_file(plan))
+                Self::Field(FieldError::new("path", value, rule, remedy).in_file(plan))
             }
             ParameterError::Setting(SettingError::Form { argument, .. }) => {
                 let given = argument.split('=').next().unwrap_or_default();
                 let (rule, remedy) =
                     ("the dotted path of a parameter", "such as \"slope_angle\"; `bagnold show` prints all");
-                Self::Field(FieldError::new("parameters.path", format!("{given:?}"), rule, remedy).in_file(plan))
+                Self::Field(FieldError::new("path", format!("{given:?}"), rule, remedy).in_file(plan))
             }
             other => Self::Parameter(other.in_file(plan)),
         }
@@ -103,12 +103,22 @@ pub fn read_plan<T: DeserializeOwned>(file: &Path, command: &'static str) -> Res
     parse_plan(file, &text, command)
 }
 
+/// Keys of earlier plans by the command that reads them, each with the one that takes its place.
+const FORMER: [(&str, &str, &str); 2] = [("bagnold run", "parameters", "set"), ("bagnold sweep", "parameters", "vary")];
+
 /// Plan of a file with this text.
 ///
 /// # Errors
 /// A text that is not TOML, or not a plan of its command.
 pub fn parse_plan<T: DeserializeOwned>(file: &Path, text: &str, command: &'static str) -> Result<T, PlanError> {
     toml::from_str(text).map_err(|error| {
+        let is_former = |(own, key, _): &&(&str, &str, &str)| {
+            *own == command && error.message().starts_with(&format!("unknown field `{key}`"))
+        };
+        if let Some((_, key, now)) = FORMER.iter().find(is_former) {
+            let remedy = format!("rename it to `{now}`");
+            return FieldError::new(key, "given", "absent", &remedy).in_file(file).into();
+        }
         let (line, column) = position(text, error.span().map_or(0, |span| span.start));
         PlanError::Syntax {
             file: file.to_owned(),

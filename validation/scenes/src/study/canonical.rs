@@ -93,7 +93,7 @@ impl AnyCase for CanonicalStudy {
     }
 
     fn show(&self, _: Tier) -> String {
-        let schemas = [("", schema_of::<StudyText>()), ("parameters", self.parameter_schema())];
+        let schemas = [("", schema_of::<StudyText>()), ("set", self.parameter_schema())];
         self.text.to_owned() + &tables_to_add(&schemas)
     }
 
@@ -104,7 +104,7 @@ impl AnyCase for CanonicalStudy {
         if let Some(fields) = parameters.as_object_mut() {
             fields.retain(|name, _| self.parameter_schema()["properties"].get(name).is_some());
         }
-        for table in ["parameters", "paper"] {
+        for table in ["set", "paper"] {
             schema["properties"][table]["properties"] = parameters.clone();
             schema["properties"][table]["additionalProperties"] = false.into();
         }
@@ -123,7 +123,7 @@ impl AnyCase for CanonicalStudy {
         let mut study = self.study().of_tier(tier);
         if let Some((_, fields)) = &changes.file {
             // a sweep hands the study back as it was written
-            let whole = fields.get("parameters").and_then(toml::Value::as_table);
+            let whole = fields.get("set").and_then(toml::Value::as_table);
             study.base.lay_over(whole.filter(|_| fields.contains_key("checks")).unwrap_or(fields));
         }
         let base_tier = study.tier();

@@ -36,8 +36,8 @@ pub(super) struct StudyText {
     /// Base values: the case's parameters, as in a case file.
     #[serde(default, skip_serializing_if = "Table::is_empty")]
     #[schemars(with = "Fields")]
-    pub(super) parameters: Table,
-    /// Parameters that a canonical study has in their place at the paper tier.
+    pub(super) set: Table,
+    /// Values that a canonical study has in their place at the paper tier.
     #[serde(default, skip_serializing_if = "Table::is_empty")]
     #[schemars(with = "Fields")]
     pub(super) paper: Table,
@@ -204,7 +204,7 @@ impl StudyText {
         match (&self.case, &self.base) {
             (Some(_), None) | (None, Some(_)) => {}
             (None, None) => {
-                let remedy = "add case = \"scene\" with [parameters], or base = \"my-case.toml\"";
+                let remedy = "add case = \"scene\" with [set], or base = \"my-case.toml\"";
                 return Err(FieldError::new("case", "missing", "the name of a case, or `base` a case file", remedy));
             }
             (Some(case), Some(_)) => {

@@ -7,7 +7,7 @@
 //! ```toml
 //! study = "collapse-in-my-flume"
 //! summary = "Glass beads collapse in a flume of 10 cm"
-//! base = "flume.toml"                       # a case file; or case = "scene" and [parameters]
+//! base = "flume.toml"                       # a case file; or case = "scene" and [set]
 //!
 //! [[vary]]
 //! path = "spacing"
@@ -88,10 +88,10 @@ impl Study {
         text.check().map_err(in_file)?;
         let beside = file.parent().unwrap_or(Path::new(""));
         let base = match (&text.case, &text.base) {
-            (Some(case), _) => CaseFile::of_parameters(file, case, text.tier, text.parameters.clone())?,
+            (Some(case), _) => CaseFile::of_parameters(file, case, text.tier, &text.set)?,
             (None, Some(path)) => {
                 let mut base = CaseFile::read(&beside.join(path))?;
-                base.lay_over(&text.parameters);
+                base.lay_over(&text.set);
                 base.tier = text.tier.or(base.tier);
                 base
             }
@@ -401,7 +401,7 @@ impl Study {
             case: Some(self.base.case.clone()),
             base: None,
             tier: Some(tier),
-            parameters: self.base.fields.clone(),
+            set: self.base.fields.clone(),
             ..self.text.clone()
         };
         for (own, check) in text.checks.iter_mut().zip(&self.checks) {

@@ -17,7 +17,7 @@ A file that varies the viscosity of a film over a grid:
   case = \"film\"
   with = { resolution = 10 }
 
-  [[parameters]]
+  [[vary]]
   path = \"material.viscosity\"
   values = [0.5, 1.0, 2.0]         # or lower, upper, levels, scale = \"log\"
 

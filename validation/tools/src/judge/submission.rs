@@ -142,7 +142,7 @@ impl Submission {
 
     /// The parameters: those of `base` with those of `with` laid over them.
     fn parameters(&self, path: &Path) -> Result<toml::Table, PlanError> {
-        let own = CaseFile::of_parameters(path, &self.case, None, self.with.clone())?;
+        let own = CaseFile::of_parameters(path, &self.case, None, &self.with)?;
         let Some(base) = &self.base else { return Ok(own.fields) };
         let mut file = CaseFile::read(&path.parent().unwrap_or(Path::new("")).join(base))?;
         let wrong = |field: &str, value: String, rule: String| {

@@ -18,7 +18,6 @@ mod manifest;
 mod map;
 mod plan;
 pub mod slurm;
-mod values;
 
 pub use error::SweepError;
 pub use folder::{SweepFolder, SweepProgress};

@@ -2,15 +2,15 @@
 
 use super::error::SweepError;
 use super::manifest::{Manifest, SweepRun};
-use super::values::{check_levels, check_values};
-use crate::case::{Limits, ParameterError, PreparedCase, Registry};
-use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan, toml_number};
+use crate::case::list::ListedChange;
+use crate::case::{Limits, ListOfRuns, ParameterError, PreparedCase, Registry, VariedParameter};
+use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan};
 use crate::input::{FieldError, check_name};
+use crate::metric::Variant;
 use crate::sampling::{Bounds, Spacing, design};
 use crate::store::identity_or_unique;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use toml::Value;
 
@@ -95,7 +95,7 @@ pub(super) struct SweepText {
     /// Cases that are run at every point
     cases: Vec<CaseRequest>,
     /// Parameters that vary
-    parameters: Vec<SweptParameter>,
+    vary: Vec<SweptParameter>,
     /// Metrics that are drawn; those that change, if it is left out
     #[serde(default)]
     metrics: Vec<String>,
@@ -126,27 +126,19 @@ impl SweepPlan {
         if self.text.cases.is_empty() {
             return missing("cases", "such as case = \"film\"");
         }
-        if self.text.parameters.is_empty() {
-            return missing("parameters", "with path and values, or lower and upper");
+        if self.text.vary.is_empty() {
+            return missing("vary", "with path and values, or lower and upper");
         }
-        let mut names = BTreeSet::new();
-        for (index, parameter) in self.text.parameters.iter().enumerate() {
-            let field = format!("parameters[{index}]");
-            parameter.check(&field, self.text.design == Design::GRID)?;
-            let name = parameter.name();
-            if let Some(own) = &parameter.name {
-                check_name(&format!("{field}.name"), own)?;
-            }
-            if !names.insert(name.clone()) || TAKEN.contains(&name.as_str()) {
-                let remedy = "give each a `name` of its own that is no column of the results";
-                return Err(FieldError::new(&format!("{field}.name"), name, "unique", remedy));
-            }
-            if self.text.parameters[..index].iter().any(|other| other.path == parameter.path) {
-                let field = format!("{field}.path");
-                return Err(FieldError::new(&field, "given twice", "unique", "vary a path once"));
+        for (index, varied) in self.text.vary.iter().enumerate() {
+            let field = format!("vary[{index}]");
+            varied.check(&field, self.text.design == Design::GRID)?;
+            let name = varied.name();
+            if TAKEN.contains(&name.as_str()) {
+                let remedy = "give it a `name` of its own";
+                return Err(FieldError::new(&format!("{field}.name"), name, "no column of the results", remedy));
             }
             for request in &self.text.cases {
-                if parameter.path.in_case(&request.case).is_none() {
+                if varied.path.in_case(&request.case).is_none() {
                     let remedy = format!("add {} = \"…\"", request.case);
                     return Err(FieldError::new(&format!("{field}.path"), "a table", "one with every case", &remedy));
                 }
@@ -161,57 +153,54 @@ impl SweepPlan {
                 return Err(FieldError::new(&format!("cases[{index}].name"), request.label(), rule, remedy));
             }
         }
-        match self.text.design {
-            Design::Word(Word::Grid) => {
-                let levels = |parameter: &SweptParameter| {
-                    parameter.values.as_ref().map_or_else(|| parameter.levels.unwrap_or(1), Vec::len)
-                };
-                let product = self.text.parameters.iter().try_fold(1usize, |product, parameter| {
-                    product.checked_mul(levels(parameter)).filter(|product| *product <= MOST_RUNS)
-                });
-                let rule = format!("a grid of at most {MOST_RUNS} points");
-                let too_many =
-                    || FieldError::new("parameters", "too many values", &rule, "take fewer values or levels");
-                product.map(|_| ()).ok_or_else(too_many)
-            }
-            Design::Spread(design) => {
-                let (points, most) = match design {
-                    SpaceFillingDesign::LatinHypercube { points, .. } => (points, MOST_RUNS),
-                    SpaceFillingDesign::Sobol { points, .. } => (points, MOST_SOBOL_POINTS),
-                };
-                if (1..=most).contains(&points) {
-                    return Ok(());
-                }
-                let rule = format!("between 1 and {most}");
-                Err(FieldError::new("design.points", points, &rule, "every point is one run of each case"))
-            }
+        for request in &self.text.cases {
+            self.list(&request.case).check_at_most(MOST_RUNS, "take fewer values or levels")?;
         }
+        let (points, most) = match self.text.design {
+            Design::Word(Word::Grid) => return Ok(()),
+            Design::Spread(SpaceFillingDesign::LatinHypercube { points, .. }) => (points, MOST_RUNS),
+            Design::Spread(SpaceFillingDesign::Sobol { points, .. }) => (points, MOST_SOBOL_POINTS),
+        };
+        if (1..=most).contains(&points) {
+            return Ok(());
+        }
+        let rule = format!("between 1 and {most}");
+        Err(FieldError::new("design.points", points, &rule, "every point is one run of each case"))
     }
 
-    /// One setting text a parameter, for every point.
-    fn points(&self) -> Vec<Vec<String>> {
-        let parameters = &self.text.parameters;
-        let in_cube = |points: Vec<Vec<f64>>| -> Vec<Vec<String>> {
-            let at =
-                |(parameter, &coordinate): (&SweptParameter, &f64)| toml_number(parameter.bounds().value(coordinate));
-            points.iter().map(|point| parameters.iter().zip(point).map(at).collect()).collect()
+    /// The list of a grid's points in a case. Outside a grid it stands for the names and paths alone.
+    fn list(&self, case: &str) -> ListOfRuns {
+        let listed = |varied: &SweptParameter| VariedParameter {
+            path: varied.path.in_case(case).unwrap_or_default().to_owned(),
+            name: Some(varied.name()),
+            values: if self.text.design == Design::GRID {
+                varied.grid()
+            } else {
+                varied.lower.into_iter().map(Value::from).collect()
+            },
+            paper: None,
+            fine: None,
         };
-        match self.text.design {
-            Design::Word(Word::Grid) => {
-                let values: Vec<Vec<String>> = parameters.iter().map(SweptParameter::grid).collect();
-                let place = |levels: &[usize]| -> Vec<String> {
-                    levels.iter().zip(&values).map(|(&level, values)| values[level].clone()).collect()
-                };
-                let counts: Vec<usize> = values.iter().map(Vec::len).collect();
-                design::combinations(&counts).iter().map(|levels| place(levels)).collect()
-            }
+        ListOfRuns { variants: Vec::new(), vary: self.text.vary.iter().map(listed).collect() }
+    }
+
+    /// The values of every point, by their paths in a case.
+    fn points(&self, case: &str) -> Vec<ListedChange> {
+        let (list, axes) = (self.list(case), self.text.vary.len());
+        let points = match self.text.design {
+            Design::Word(Word::Grid) => return list.changes(),
             Design::Spread(SpaceFillingDesign::LatinHypercube { points, seed }) => {
-                in_cube(design::latin_hypercube(points, parameters.len(), seed))
+                design::latin_hypercube(points, axes, seed)
             }
-            Design::Spread(SpaceFillingDesign::Sobol { points, seed }) => {
-                in_cube(design::sobol(points, parameters.len(), seed))
-            }
-        }
+            Design::Spread(SpaceFillingDesign::Sobol { points, seed }) => design::sobol(points, axes, seed),
+        };
+        let change = |point: Vec<f64>| {
+            let values = self.text.vary.iter().zip(&list.vary).zip(point).map(|((varied, listed), coordinate)| {
+                (String::new(), listed.path.clone(), varied.bounds().value(coordinate).into())
+            });
+            ListedChange { variant: Variant::default(), values: values.collect() }
+        };
+        points.into_iter().map(change).collect()
     }
 
     /// Every run with its checked parameters. A point that its case refuses is an entry too: it fails with the reason,
@@ -220,22 +209,19 @@ impl SweepPlan {
     /// # Errors
     /// A case's fields or a path that do not exist, or values that no run accepts or that all ask for more than `limits`.
     pub fn manifest(&self, registry: Registry, limits: Limits) -> Result<Manifest, SweepError> {
-        let points = self.points();
-        let runs = points.len() * self.text.cases.len();
+        let points: Vec<Vec<ListedChange>> = self.text.cases.iter().map(|request| self.points(&request.case)).collect();
+        let runs: usize = points.iter().map(Vec::len).sum();
         if runs > MOST_RUNS {
             let rule = format!("at most {MOST_RUNS} runs");
-            return Err(FieldError::new("parameters", runs, &rule, "take fewer values").in_file(&self.file).into());
+            return Err(FieldError::new("vary", runs, &rule, "take fewer values").in_file(&self.file).into());
         }
         let mut entries = Vec::with_capacity(runs);
         let mut refusal = None;
-        for (index, request) in self.text.cases.iter().enumerate() {
+        for (index, (request, points)) in self.text.cases.iter().zip(points).enumerate() {
             let prepared = request.prepare(registry, &self.file, &[], limits);
             prepared.map_err(|error| error.of_block(&format!("cases[{index}]")))?;
-            for point in &points {
-                let setting = |(parameter, value): (&SweptParameter, &String)| {
-                    format!("{}={value}", parameter.path.in_case(&request.case).unwrap_or_default())
-                };
-                let settings: Vec<String> = self.text.parameters.iter().zip(point).map(setting).collect();
+            for point in points {
+                let settings: Vec<String> = point.settings().collect();
                 let number = entries.len() + 1;
                 let folder = format!("{number:04}-{}", file_name(request.label()));
                 let mut entry = SweepRun {
@@ -244,7 +230,7 @@ impl SweepPlan {
                     label: request.label().to_owned(),
                     tier: request.tier,
                     folder,
-                    point: point.clone(),
+                    point: point.values.iter().map(|(.., value)| value.to_string()).collect(),
                     key: String::new(),
                     particle_steps: 0.0,
                     parameters_toml: String::new(),
@@ -273,7 +259,7 @@ impl SweepPlan {
             Some(error) if entries.iter().all(|entry| entry.refusal.is_some()) => Err(error.into()),
             _ => Ok(Manifest {
                 source_hash: identity_or_unique(registry.origin()).to_owned(),
-                parameters: self.text.parameters.iter().map(SweptParameter::name).collect(),
+                parameters: self.text.vary.iter().map(SweptParameter::name).collect(),
                 metrics: self.text.metrics.clone(),
                 entries,
             }),
@@ -301,56 +287,50 @@ impl SweptParameter {
         Bounds { lower: self.lower.unwrap_or(f64::NAN), upper: self.upper.unwrap_or(f64::NAN), spacing: self.scale }
     }
 
-    /// The values of a grid as TOML.
-    fn grid(&self) -> Vec<String> {
-        match (&self.values, self.levels) {
-            (Some(values), _) => values.iter().map(Value::to_string).collect(),
-            (None, levels) => {
-                let points = design::full_grid(&[levels.unwrap_or(2)]);
-                points.iter().map(|point| toml_number(self.bounds().value(point[0]))).collect()
-            }
-        }
+    /// The values of a grid.
+    fn grid(&self) -> Vec<Value> {
+        let levels = || {
+            let points = design::full_grid(&[self.levels.unwrap_or(2)]);
+            points.iter().map(|point| self.bounds().value(point[0]).into()).collect()
+        };
+        self.values.clone().unwrap_or_else(levels)
     }
 
+    /// Refuses values beside a range, and what does not fit the design.
     fn check(&self, field: &str, grid: bool) -> Result<(), FieldError> {
-        let has_range = self.lower.is_some() || self.upper.is_some();
-        match (&self.values, has_range) {
-            (Some(_), true) => {
-                let remedy = "keep either the values or the range";
-                Err(FieldError::new(&format!("{field}.values"), "given", "alone, without lower and upper", remedy))
-            }
-            (Some(values), false) if values.is_empty() => {
-                Err(FieldError::new(&format!("{field}.values"), "[]", "at least one value", "list them"))
-            }
-            (Some(_), false) if !grid => {
-                let remedy = "give lower and upper, or take design = \"grid\"";
-                Err(FieldError::new(&format!("{field}.values"), "given", "absent outside a grid", remedy))
-            }
-            (Some(_), false) if self.levels.is_some() => {
-                let remedy = "keep either the values or the levels";
-                Err(FieldError::new(&format!("{field}.levels"), "given", "absent beside values", remedy))
-            }
-            (Some(values), false) => check_values(values, &format!("{field}.values")),
-            (None, _) => {
-                for (name, bound) in [("lower", self.lower), ("upper", self.upper)] {
-                    if bound.is_none() {
-                        let remedy = if grid { "or list `values`" } else { "give both bounds" };
-                        return Err(FieldError::new(&format!("{field}.{name}"), "missing", "a number", remedy));
-                    }
+        let refused = |name: &str, value: String, rule: &str, remedy: &str| {
+            Err(FieldError::new(&format!("{field}.{name}"), value, rule, remedy))
+        };
+        let range =
+            [("lower", self.lower.is_some()), ("upper", self.upper.is_some()), ("levels", self.levels.is_some())];
+        if self.values.is_some() {
+            return match range.iter().find(|(_, given)| *given) {
+                _ if !grid => {
+                    let remedy = "give lower and upper, or take design = \"grid\"";
+                    refused("values", "given".to_owned(), "absent outside a grid", remedy)
                 }
-                self.bounds().check().map_err(|error| FieldError::of_bounds(field, &error))?;
-                match (self.levels, grid) {
-                    (None, false) => Ok(()),
-                    (Some(2..=MOST_RUNS), true) => check_levels(&self.grid(), &format!("{field}.levels")),
-                    // the grid as a whole is refused
-                    (Some(2..), true) => Ok(()),
-                    (levels, _) => {
-                        let shown = levels.map_or_else(|| "missing".to_owned(), |levels| levels.to_string());
-                        let rule = if grid { "2 or more" } else { "absent outside a grid" };
-                        let remedy = "the levels divide the range of a grid's parameter";
-                        Err(FieldError::new(&format!("{field}.levels"), shown, rule, remedy))
-                    }
+                Some((name, _)) => refused(name, "given".to_owned(), "absent beside values", "keep one of the two"),
+                None => Ok(()),
+            };
+        }
+        if let Some((name, _)) = range[..2].iter().find(|(_, given)| !given) {
+            let remedy = if grid { "or list `values`" } else { "give both bounds" };
+            return refused(name, "missing".to_owned(), "a number", remedy);
+        }
+        self.bounds().check().map_err(|error| FieldError::of_bounds(field, &error))?;
+        match (self.levels, grid) {
+            (None, false) => Ok(()),
+            (Some(levels @ 2..=MOST_RUNS), true) => match self.grid().windows(2).find(|pair| pair[0] == pair[1]) {
+                None => Ok(()),
+                Some(pair) => {
+                    let value = format!("{levels}, of which several are {}", pair[0]);
+                    refused("levels", value, "so many that all differ", "take fewer levels, or a wider range")
                 }
+            },
+            (levels, _) => {
+                let shown = levels.map_or_else(|| "missing".to_owned(), |levels| levels.to_string());
+                let rule = if grid { format!("between 2 and {MOST_RUNS}") } else { "absent outside a grid".to_owned() };
+                refused("levels", shown, &rule, "the levels divide the range of a grid's parameter")
             }
         }
     }

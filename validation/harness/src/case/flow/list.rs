@@ -19,13 +19,14 @@ use crate::input::{FieldError, check_name};
 use crate::metric::{Value as VariantValue, Variant};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 use toml::{Table, Value};
 
 /// More runs than this are a slip of the pen.
 const MOST_RUNS: usize = 1000;
 
 /// For the schema: fields of any name and type.
-pub type Fields = std::collections::BTreeMap<String, serde_json::Value>;
+pub type Fields = BTreeMap<String, serde_json::Value>;
 
 /// For the schema: a value of a varied parameter.
 #[derive(JsonSchema)]
@@ -177,15 +178,21 @@ impl ListOfRuns {
     /// # Errors
     /// The first place that breaks a rule.
     pub fn check(&self) -> Result<(), FieldError> {
+        self.check_at_most(MOST_RUNS, "take fewer values; `bagnold sweep` has no such limit")
+    }
+
+    /// The same for another number of runs at most, with the remedy for more.
+    ///
+    /// # Errors
+    /// The first place that breaks a rule.
+    pub fn check_at_most(&self, most: usize, remedy: &str) -> Result<(), FieldError> {
         let product = |vary: &[VariedParameter], start: usize| {
             vary.iter().map(|varied| varied.values.len()).fold(start, usize::saturating_mul)
         };
         let variants = self.variants.iter().map(|named| product(&named.vary, 1)).fold(0, usize::saturating_add);
         let count = product(&self.vary, if self.variants.is_empty() { 1 } else { variants });
-        if count > MOST_RUNS {
-            let rule = format!("at most {MOST_RUNS} runs");
-            let remedy = "take fewer values; `bagnold sweep` has no such limit";
-            return Err(FieldError::new("vary", count, &rule, remedy));
+        if count > most {
+            return Err(FieldError::new("vary", count, &format!("at most {most} runs"), remedy));
         }
         for (place, named) in self.variants.iter().enumerate() {
             let field = format!("variants[{place}].name");
@@ -259,6 +266,11 @@ fn forget_below(table: &mut Table, above: &str, is_it: &dyn Fn(&str) -> bool) {
 fn check_vary(above: &str, vary: &[VariedParameter], beside: &[VariedParameter]) -> Result<(), FieldError> {
     for (place, varied) in vary.iter().enumerate() {
         let field = format!("{above}vary[{place}]");
+        if varied.path.split('.').any(str::is_empty) {
+            let (rule, remedy) =
+                ("the dotted path of a parameter", "such as \"slope_angle\"; `bagnold show` prints all");
+            return Err(FieldError::new(&format!("{field}.path"), format!("{:?}", varied.path), rule, remedy));
+        }
         check_name(&format!("{field}.name"), varied.label())?;
         let twin = |other: &VariedParameter| other.label() == varied.label() || other.path == varied.path;
         if varied.label() == "variant" || vary[..place].iter().chain(beside).any(twin) {
@@ -269,14 +281,39 @@ fn check_vary(above: &str, vary: &[VariedParameter], beside: &[VariedParameter])
             let remedy = "list the values, such as [0.01, 0.005]";
             return Err(FieldError::new(&format!("{field}.values"), "empty", "at least one value", remedy));
         }
-        if let Some(place) =
-            (0..varied.values.len()).find(|&index| varied.values[..index].contains(&varied.values[index]))
-        {
-            let remedy = "list every value once: equal ones are the same run";
-            return Err(FieldError::new(&format!("{field}.values[{place}]"), &varied.values[place], "unique", remedy));
+        let mut seen = BTreeMap::new();
+        for (place, value) in varied.values.iter().enumerate() {
+            let refused = |value: String, rule: &str, remedy: &str| {
+                Err(FieldError::new(&format!("{field}.values[{place}]"), value, rule, remedy))
+            };
+            let known_by = identity(value);
+            if known_by.contains("NaN") && !value.is_str() {
+                let remedy = "nothing can be simulated with it: correct it, or leave it out";
+                return refused(value.to_string(), "a number", remedy);
+            }
+            if let Some(earlier) = seen.insert(known_by, place) {
+                let value = format!("{value}, equal to `{field}.values[{earlier}]`");
+                return refused(value, "unique", "list every value once: equal ones are the same run");
+            }
         }
     }
     Ok(())
+}
+
+/// A text that equal values share, also where one is written as a whole number.
+fn identity(value: &Value) -> String {
+    match value {
+        // both zeros are equal
+        Value::Float(number) => format!("{:?}", number + 0.0),
+        // beyond 2⁵³ several whole numbers share a float
+        Value::Integer(whole) if whole.abs() < 1 << 53 => format!("{:?}", *whole as f64),
+        Value::Array(values) => format!("[{}]", values.iter().map(identity).collect::<Vec<_>>().join(", ")),
+        Value::Table(table) => {
+            let fields: BTreeMap<&String, String> = table.iter().map(|(key, value)| (key, identity(value))).collect();
+            format!("{fields:?}")
+        }
+        other => other.to_string(),
+    }
 }
 
 /// A value as a variant has it: numbers and words.
@@ -320,4 +357,42 @@ pub fn settings_to_vary(arguments: &[String]) -> Result<Vec<String>, FieldError>
     let list =
         Value::try_from(vary).map_err(|error| FieldError::new("--vary", error, "values of TOML", "change it"))?;
     Ok(vec!["variants=[]".to_owned(), format!("vary={list}")])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(values: &str) -> String {
+        let list: ListOfRuns =
+            toml::from_str(&format!("vary = [{{ path = \"a\", values = {values} }}]")).expect("TOML");
+        list.check().map_or_else(|error| error.to_string(), |()| String::new())
+    }
+
+    #[test]
+    fn every_value_is_a_number_and_stands_once() {
+        for sound in [
+            "[1, 2.0, 3]",
+            "[\"a\", \"b\"]",
+            "[[1, 2], [2, 1]]",
+            "[9007199254740993, 9007199254740992]",
+            "[true, false]",
+            "[inf]",
+        ] {
+            assert_eq!(message(sound), "", "{sound}");
+        }
+        assert_eq!(
+            message("[0.5, 1.0, 1]"),
+            "`vary[0].values[2]` is 1, equal to `vary[0].values[1]`, but must be unique; list every value once: equal ones are \
+             the same run"
+        );
+        for equal in ["[0.0, -0.0]", "[\"a\", \"a\"]", "[[1, 2.0], [1.0, 2]]", "[{ a = 1 }, { a = 1.0 }]"] {
+            assert!(message(equal).contains("unique"), "{equal}");
+        }
+        assert_eq!(
+            message("[1.0, nan]"),
+            "`vary[0].values[1]` is nan, but must be a number; nothing can be simulated with it: correct it, or leave it out"
+        );
+        assert!(message("[[1.0, nan]]").contains("must be a number"));
+    }
 }

@@ -4,7 +4,7 @@ pub mod cost;
 pub mod list;
 
 use self::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
-use crate::case::given::changes::{overlay, table_of, unknown_law};
+use crate::case::given::changes::{lay_at, lay_over, overlay, table_of, unknown_law};
 use crate::case::given::fault;
 use crate::case::{ParameterError, Parameters, Run, Tier};
 use crate::input::FieldError;
@@ -171,29 +171,6 @@ fn placed(fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
     }
 }
 
-/// Puts a value at a dotted path of a table.
-fn lay_at(table: &mut Table, path: &str, value: &Value) {
-    match path.split_once('.') {
-        Some((first, rest)) => {
-            let inner = table.entry(first).or_insert_with(|| Value::Table(Table::new()));
-            if !inner.is_table() {
-                *inner = Value::Table(Table::new());
-            }
-            if let Value::Table(inner) = inner {
-                lay_at(inner, rest, value);
-            }
-        }
-        None => match (table.get_mut(path), value) {
-            (Some(Value::Table(inner)), Value::Table(changes)) => {
-                changes.iter().for_each(|(key, value)| lay_at(inner, key, value));
-            }
-            _ => {
-                table.insert(path.to_owned(), value.clone());
-            }
-        },
-    }
-}
-
 impl<'de, F: Flow> Deserialize<'de> for RunList<F> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut table = Table::deserialize(deserializer)?;
@@ -214,7 +191,7 @@ impl<F: Flow> Parameters for RunList<F> {
         let mut changes = file.set;
         for (lowest, values) in [(Tier::Paper, &file.paper), (Tier::Fine, &file.fine)] {
             if lowest <= tier {
-                values.iter().for_each(|(path, value)| lay_at(&mut changes, path, value));
+                lay_over(&mut changes, values);
             }
         }
         let values = changes.into_iter().map(|(path, value)| ("set".to_owned(), path, value)).collect();

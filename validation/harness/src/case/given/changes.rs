@@ -309,6 +309,34 @@ fn entry_of(key: &str) -> Option<(&str, usize)> {
     Some((list, index.parse().ok()?))
 }
 
+/// Lays values over those of a table by their dotted paths: tables field by field, everything else as a whole.
+pub(in crate::case) fn lay_over(table: &mut Table, over: &Table) {
+    over.iter().for_each(|(path, value)| lay_at(table, path, value));
+}
+
+/// Puts a value at a dotted path of a table.
+pub(in crate::case) fn lay_at(table: &mut Table, path: &str, value: &Value) {
+    match path.split_once('.') {
+        Some((first, rest)) => {
+            let inner = table.entry(first).or_insert_with(|| Value::Table(Table::new()));
+            if !inner.is_table() {
+                *inner = Value::Table(Table::new());
+            }
+            if let Value::Table(inner) = inner {
+                lay_at(inner, rest, value);
+            }
+        }
+        None => match (table.get_mut(path), value) {
+            (Some(Value::Table(inner)), Value::Table(changes)) => {
+                lay_over(inner, changes);
+            }
+            _ => {
+                table.insert(path.to_owned(), value.clone());
+            }
+        },
+    }
+}
+
 /// Whether `changes` picks another variant of an enum than `table`.
 fn is_other_choice(shape: &Shape<'_>, table: &Table, changes: &Table) -> bool {
     match shape {

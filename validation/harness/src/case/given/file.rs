@@ -1,5 +1,6 @@
 //! A case as a TOML file: `case` and `tier` on top, the parameters below.
 
+use super::changes::lay_over;
 use super::error::ParameterError;
 use super::{meshes, rates};
 use crate::case::{OutputPlan, Tier};
@@ -80,16 +81,13 @@ impl CaseFile {
         Ok(Self { path: path.to_owned(), case, tier, overlay, output, fields })
     }
 
-    /// Parameters that stand in a file of another form; files that they name stand beside it.
+    /// Values by their dotted paths in a file of another form; files that they name stand beside it.
     ///
     /// # Errors
     /// A file of triangles that cannot be read.
-    pub fn of_parameters(
-        path: &Path,
-        case: &str,
-        tier: Option<Tier>,
-        mut fields: Table,
-    ) -> Result<Self, ParameterError> {
+    pub fn of_parameters(path: &Path, case: &str, tier: Option<Tier>, values: &Table) -> Result<Self, ParameterError> {
+        let mut fields = Table::new();
+        lay_over(&mut fields, values);
         meshes::read_beside(&mut fields, path)?;
         rates::read_beside(&mut fields, path)?;
         let case = shortened(case.to_owned());
@@ -149,18 +147,6 @@ fn numbered(head: &str, entries: &mut BTreeMap<String, usize>) -> String {
         path.extend(entries.get(&list).map(|index| format!("[{index}]")));
     }
     path
-}
-
-/// Lays fields over others: tables field by field, everything else as a whole.
-fn lay_over(base: &mut Table, over: &Table) {
-    for (key, value) in over {
-        match (base.get_mut(key), value) {
-            (Some(toml::Value::Table(below)), toml::Value::Table(above)) => lay_over(below, above),
-            _ => {
-                base.insert(key.clone(), value.clone());
-            }
-        }
-    }
 }
 
 #[cfg(test)]
