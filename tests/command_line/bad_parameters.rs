@@ -9,20 +9,20 @@ fn a_layer_of_water_and_grains_that_cannot_be() {
     let place = Place::new();
     let cases = [
         (
-            "similar.shields_number=9.0",
-            "`similar.shields_number` is 9, but must be for a slope below 0.06348, where the bed slides (here 0.72000); no bed of these grains lies on such a slope: choose a gentler one",
+            r#"stream={given="shields-number",shields_number=9.0,relative_depth=20.0,relative_bed_depth=6.0,cells_per_diameter=12.0}"#,
+            "`stream.shields_number` is 9, but must be for a slope below 0.06348, where the bed slides (here 0.72000); no bed of these grains lies on such a slope: choose a gentler one",
         ),
         (
-            "onset.relative_depth=12.33",
-            "`onset.relative_depth` is 12.33, but must be a whole multiple of a cell; choose whole numbers",
+            r#"stream={given="onset",relative_depth=12.33,relative_bed_depth=4.0,cells_per_diameter=10.0}"#,
+            "`stream.relative_depth` is 12.33, but must be a whole multiple of a cell; choose whole numbers",
         ),
         (
-            "grains.density=900.0",
-            "`grains.density` is 900, but must be greater than the density of the water; grains that float are no bed load",
+            "grain_density=900.0",
+            "`grain_density` is 900, but must be greater than the density of the water; grains that float are no bed load",
         ),
         (
-            "cell_height=3e-4",
-            "`cell_height` is 0.0003, but must be such that the depths of water, bed and held grains are whole multiples of it, at most 1e5 in all; 2.5e-4 divides all depths that are given in quarters of a millimetre",
+            "stream.cell_height=3e-4",
+            "`stream.cell_height` is 0.0003, but must be such that the depths of water, bed and held grains are whole multiples of it, at most 1e5 in all; 2.5e-4 divides all depths that are given in quarters of a millimetre",
         ),
     ];
     for (setting, message) in cases {

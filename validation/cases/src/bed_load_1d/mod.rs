@@ -1,32 +1,18 @@
 //! Steady bed load in one dimension: water over grains that dilate, with closures of the literature.
 
-mod bed_at_rest;
 mod figures;
-mod grain_units;
+mod flow;
 mod laws;
 mod metrics;
-mod onset;
 mod onset_criterion;
-mod others;
-mod parameters;
 mod quantities;
 mod records;
-mod regimes;
-mod replacements;
 mod run;
-mod sensitivities;
-mod similar;
-mod suspension;
-mod suspension_inputs;
-mod tiers;
 
-pub use grain_units::{GrainUnits, LayerConditions, Onset};
-pub use parameters::{BedGrains, BedLoad1dParameters, WaterStream};
-pub use replacements::Sensitivities;
-pub use run::{BedLoad1dRun, BedLoadLayerObservation, LayerPurpose};
-pub use suspension_inputs::{SuspendedFlow, SuspensionInput, SuspensionInputs};
+pub use flow::{BedLoad1dFlow, BedMotion, GrainUnits, LayerStart, LayerStream, SimilarStream, SlopedStream};
+pub use run::BedLoadLayerObservation;
 
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf, Run, RunList};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -38,7 +24,7 @@ use crate::store::CodeOrigin;
 pub struct BedLoad1d;
 
 /// A run with what it left behind.
-type BedLoad1dRecord = RecordOf<BedLoad1dParameters>;
+type BedLoad1dRecord = RecordOf<RunList<BedLoad1dFlow>>;
 
 impl Case for BedLoad1d {
     const NAME: &'static str = "bed-load-1d";
@@ -56,19 +42,19 @@ impl Case for BedLoad1d {
         Observed only. Depth of the moving layer, the decay of grain velocity with depth, and sensitivities to each \
         closure (paper tier). The layer is also the reference of `bed-load`. Both share their closures, so their \
         agreement verifies the particles and does not validate the physics.";
-    type Parameters = BedLoad1dParameters;
+    type Parameters = RunList<BedLoad1dFlow>;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
-    fn metrics(_: &BedLoad1dParameters, records: &[BedLoad1dRecord]) -> Vec<Metric> {
+    fn metrics(_: &Self::Parameters, records: &[BedLoad1dRecord]) -> Vec<Metric> {
         metrics::all(records).into_iter().chain(laws::metrics()).collect()
     }
 
-    fn figures(_: &BedLoad1dParameters, records: &[BedLoad1dRecord]) -> Vec<Figure> {
+    fn figures(_: &Self::Parameters, records: &[BedLoad1dRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &BedLoad1dParameters, records: &[BedLoad1dRecord]) -> Vec<Table> {
-        records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Literature).map(profile_table).collect()
+    fn tables(_: &Self::Parameters, records: &[BedLoad1dRecord]) -> Vec<Table> {
+        records.iter().filter(|(run, _)| run.is_from_rest()).map(profile_table).collect()
     }
 }
 

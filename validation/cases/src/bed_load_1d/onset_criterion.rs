@@ -42,7 +42,7 @@ impl Crossing {
             Self::At(_) => String::new(),
             Self::Below(lowest) => format!(
                 "; not reached: it is below {lowest:.4}, the least Shields number that was tried, at which the bed creeps by more than \
-                 the criterion: take a smaller onset.regularisation_rate"
+                 the criterion: take a smaller `closures.regularisation_rate`"
             ),
             Self::Above(highest) => {
                 format!("; not reached: it is above {highest:.4}, the largest Shields number that was tried")

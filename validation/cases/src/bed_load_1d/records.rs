@@ -1,53 +1,62 @@
 //! Records by what they were computed for, and what a value is known to by inputs that were varied.
 
 use super::BedLoad1dRecord;
-use super::quantities::START_DIFFERENCE;
-use super::run::{BedLoad1dRun, LayerPurpose, ONE_STATE, ONE_STATE_REASON};
+use super::flow::{BedLoad1dFlow, LayerStart};
+use super::run::BedLoadLayerObservation;
 use crate::case::Run;
-use crate::metric::{Limit, Metric, Variant};
+use crate::metric::Variant;
 use crate::observation::Outcome;
+use crate::reference::bed_load::MeasuredBedLoad;
 use crate::reference::one_dimension::bed_load::LayerState;
 
 /// A run with its steady layer.
-pub(super) type SolvedLayer<'a> = (&'a BedLoad1dRun, &'a LayerState);
+pub(super) type SolvedLayer<'a> = (&'a BedLoad1dFlow, &'a LayerState);
 
-/// Layers from rest with the case's closures, that became steady.
-pub(super) fn literature(records: &[BedLoad1dRecord]) -> impl Iterator<Item = SolvedLayer<'_>> {
-    of(records, |purpose| *purpose == LayerPurpose::Literature)
-}
-
-/// Steady layers of a purpose.
+/// Steady layers.
 pub(super) fn of(
     records: &[BedLoad1dRecord],
-    wanted: impl Fn(&LayerPurpose) -> bool,
+    wanted: impl Fn(&BedLoad1dFlow) -> bool,
 ) -> impl Iterator<Item = SolvedLayer<'_>> {
     records
         .iter()
-        .filter(move |(run, record)| wanted(&run.purpose) && !matches!(record.outcome, Outcome::Diverged { .. }))
+        .filter(move |(run, record)| wanted(run) && !matches!(record.outcome, Outcome::Diverged { .. }))
         .map(|(run, record)| (run, &record.data.state))
 }
 
-/// Steady layers of a purpose on the slope of a run.
+/// Steady layers on the slope of a run.
 pub(super) fn on_slope<'a>(
     records: &'a [BedLoad1dRecord],
-    run: &'a BedLoad1dRun,
-    wanted: impl Fn(&LayerPurpose) -> bool,
+    run: &'a BedLoad1dFlow,
+    wanted: impl Fn(&BedLoad1dFlow) -> bool,
 ) -> impl Iterator<Item = SolvedLayer<'a>> {
-    of(records, wanted).filter(|(other, _)| other.stream.slope == run.stream.slope)
+    of(records, wanted).filter(|(other, _)| other.stream().slope == run.stream().slope)
+}
+
+/// Layers about the onset of motion.
+pub(super) fn scans(records: &[BedLoad1dRecord]) -> impl Iterator<Item = (&BedLoad1dFlow, &BedLoadLayerObservation)> {
+    records.iter().filter(|(run, _)| run.seeks_onset()).map(|(run, record)| (run, &record.data))
+}
+
+/// Layers from both starts with the stream of a measured one.
+pub(super) fn measured_layers(
+    records: &[BedLoad1dRecord],
+) -> impl Iterator<Item = (&BedLoad1dRecord, MeasuredBedLoad)> {
+    let judged = records.iter().filter(|(run, _)| run.start == LayerStart::Both);
+    judged.filter_map(|record| Some((record, record.0.measured()?)))
 }
 
 /// The other state of a layer that has two.
-pub(super) fn second_variant(run: &BedLoad1dRun) -> Variant {
+pub(super) fn second_variant(run: &BedLoad1dFlow) -> Variant {
     run.variant().and("start", "fast")
 }
 
-/// The difference of the states from two starts, judged.
-pub(super) fn one_state(variant: &Variant, difference: f64, source: &str) -> Metric {
-    START_DIFFERENCE
-        .of(variant, difference)
-        .exactly(0.0, source)
-        .gated(Limit::AtMost(ONE_STATE), ONE_STATE_REASON)
-        .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE)
+/// (height above where grains begin to move, over d; u_f/u_*) of the cells among moving grains.
+pub(super) fn lowest_layer(run: &BedLoad1dFlow, state: &LayerState, speed: f64) -> Vec<(f64, f64)> {
+    let Some(bottom) = state.moves_above(speed) else { return Vec::new() };
+    let top = state.top_of_grains();
+    let stream = run.stream();
+    let cells = state.height.iter().zip(&state.fluid_velocity).filter(|(z, u)| **z > bottom && **z < top && **u > 0.0);
+    cells.map(|(z, u)| ((z - bottom) / stream.grain_diameter, u / stream.shear_velocity())).collect()
 }
 
 /// Ranges of a value over inputs, each varied alone.

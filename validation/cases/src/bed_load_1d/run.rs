@@ -1,85 +1,27 @@
-//! One run: a layer and what it is computed for.
+//! Runs: the steady state of a layer from one start or two, and transports about the onset of motion.
 
+use super::flow::{BedLoad1dFlow, BedMotion, LayerStart, LayerStream};
 use super::onset_criterion::moves_by_some_criterion;
-use super::replacements::Replaced;
-use super::suspension_inputs::{self, SuspendedFlow, SuspensionInput};
-use crate::case::{ParameterError, Progress, Run};
+use crate::case::{ParameterError, Progress, Run, RunCost};
 use crate::checkpoint::is_interrupted;
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::{Outcome, Recorded, state_hash};
-use crate::reference::bed_load::MeasuredBedLoad;
 use crate::reference::one_dimension::LayerError;
 use crate::reference::one_dimension::bed_load::{
-    Approach, BedLoadLayer, Closures, GrainMotion, InitialVelocity, LayerState, SAME_STATE, SolidFractionProfile,
-    Stream,
+    Approach, BedLoadLayer, Closures, InitialVelocity, LayerState, SAME_STATE, Stream,
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
-
-/// Largest difference between the steady states from two starts `[-]`, and why.
-pub(super) const ONE_STATE: f64 = 1e-6;
-pub(super) const ONE_STATE_REASON: &str = "a steady state does not remember its start: what is left is how near to steady both are, at most 8e-8 of all layers";
-
-/// Half the height over which the given fraction falls from φ_max to 0 in studies of the order, in grain diameters.
-const TRANSITION: f64 = 1.2;
 
 /// Steps that a layer takes, for estimates.
 const USUAL_STEPS: f64 = 350.0;
 
 /// Shields numbers at which a layer is computed, over that of the curve `[-]`.
-pub(super) const SCANNED: [f64; 6] = [0.55, 0.75, 1.0, 1.3, 1.7, 2.3];
+const SCANNED: [f64; 6] = [0.55, 0.75, 1.0, 1.3, 1.7, 2.3];
 /// Where the least of them still carries more than a criterion asks for, the scan goes on below by this factor, as from 0.75 to 0.55.
 const NEXT_BELOW: f64 = 0.75;
 /// But not below this: nobody has measured an onset at a tenth of the curve.
 const LOWEST_SCANNED: f64 = 0.1;
-
-/// What a layer is computed for.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LayerPurpose {
-    /// The layer with the case's closures, from rest.
-    Literature,
-    /// The same from a fast start at this speed `[m/s]`.
-    FastStart(f64),
-    /// The water over the bed at rest that the moving bed is compared with.
-    BedAtRest,
-    /// The order of convergence with dilation.
-    DilatingOrder,
-    /// The order of convergence with a given fraction.
-    FrozenOrder,
-    /// A replaced closure.
-    Sensitivity(Replaced),
-    /// A layer whose lengths are counted in grains.
-    Similar,
-    /// Layers about the onset of motion.
-    Onset,
-    /// A layer that others have simulated or measured.
-    Measured(MeasuredBedLoad),
-    /// A layer whose grains eddies also carry.
-    Suspended(SuspendedFlow, SuspensionInput),
-}
-
-impl LayerPurpose {
-    /// What the grains do, in a variant.
-    pub(super) fn grains(self) -> &'static str {
-        if self == Self::FrozenOrder { "frozen" } else { "dilating" }
-    }
-}
-
-/// One layer.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BedLoad1dRun {
-    /// What for.
-    pub purpose: LayerPurpose,
-    /// The stream.
-    pub stream: Stream,
-    /// Closures.
-    pub closures: Closures,
-    /// Height of a cell `[m]`.
-    pub cell_height: f64,
-    /// Change of a step below which it counts as steady `[-]`.
-    pub steady_change: f64,
-}
 
 /// What a run leaves behind.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -100,116 +42,115 @@ pub struct BedLoadLayerObservation {
     pub scan_at_half_rate: Vec<(f64, f64)>,
 }
 
-impl Run for BedLoad1dRun {
+impl Run for BedLoad1dFlow {
     type Observation = BedLoadLayerObservation;
 
     fn regime(&self, _: &BedLoadLayerObservation) -> FlowRegime {
-        let stream = &self.stream;
+        let stream = self.stream();
         let regime = FlowRegime::of_stream(stream.slope, stream.flow_depth, stream.grain_diameter);
         // at the onset many streams stand for one
-        if self.purpose == LayerPurpose::Onset { FlowRegime { slope_angle: None, ..regime } } else { regime }
+        if self.seeks_onset() { FlowRegime { slope_angle: None, ..regime } } else { regime }
     }
 
     fn variant(&self) -> Variant {
-        let slope = Variant::of("slope", self.stream.slope);
-        match self.purpose {
-            LayerPurpose::Literature => slope.and("start", "rest"),
-            LayerPurpose::FastStart(_) => slope.and("start", "fast"),
-            LayerPurpose::BedAtRest => slope.and("grains", "at-rest"),
-            LayerPurpose::DilatingOrder | LayerPurpose::FrozenOrder => {
-                slope.and("grains", self.purpose.grains()).and("cell_height", self.cell_height)
-            }
-            LayerPurpose::Sensitivity(replaced) => slope.and(replaced.closure(), replaced.value_text()),
+        let layer = match (self.stream, self.published()) {
+            (LayerStream::Onset(_), _) => return Variant::of("diameter", self.grain_diameter),
             // a sweep's points differ in its parameters only
-            LayerPurpose::Similar => Variant::of("layer", "similar"),
-            LayerPurpose::Onset => Variant::of("diameter", self.stream.grain_diameter),
-            LayerPurpose::Measured(of) => {
-                let schmidt = self.closures.turbulent_schmidt;
-                Variant::of("layer", of.name()).and("turbulent_schmidt", schmidt)
+            (LayerStream::ShieldsNumber(_), _) => return Variant::of("layer", "similar"),
+            (_, Some(name)) if !self.is_suspended() => {
+                return Variant::of("layer", name).and("turbulent_schmidt", self.closures.turbulent_schmidt);
             }
-            LayerPurpose::Suspended(flow, input) => suspension_inputs::variant(flow, input, &self.stream),
+            (_, Some(name)) => {
+                let layer = Variant::of("layer", name).and("grains", "suspended");
+                return if self.start == LayerStart::Both { layer } else { self.with_changes(layer) };
+            }
+            (LayerStream::Slope(own), None) => Variant::of("slope", own.slope),
+        };
+        match (self.motion, self.start) {
+            (BedMotion::AtRest, _) => layer.and("grains", "at-rest"),
+            (BedMotion::Frozen, _) => layer.and("grains", "frozen").and("cell_height", self.cell_height()),
+            (_, LayerStart::Rest) => layer.and("start", "rest"),
+            (_, LayerStart::Moving { .. }) => layer.and("start", "fast"),
+            (_, LayerStart::Both) if self.is_suspended() => layer.and("grains", "suspended"),
+            (_, LayerStart::Both) => self.with_changes(layer),
         }
     }
 
-    fn particles(&self) -> f64 {
-        (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        0.5e-6
-    }
-
-    fn particle_steps(&self) -> f64 {
-        let layers = match self.purpose {
+    fn cost(&self) -> RunCost {
+        let stream = self.stream();
+        let cells = (stream.flow_depth + stream.bed_depth) / self.cell_height();
+        let layers = match self.start {
             // both starts, and one of half the rate
-            LayerPurpose::Onset => 3.0 * SCANNED.len() as f64,
-            _ if self.has_both_starts() => 2.0,
+            _ if self.seeks_onset() => 3.0 * SCANNED.len() as f64,
+            LayerStart::Both => 2.0,
             _ => 1.0,
         };
-        layers * USUAL_STEPS * (self.stream.flow_depth + self.stream.bed_depth) / self.cell_height
+        RunCost { seconds_per_particle_step: 0.5e-6, ..RunCost::weakly_compressible(cells, layers * USUAL_STEPS) }
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadLayerObservation>, ParameterError> {
-        if progress.conditions().is_some() {
-            return Err(ParameterError::Interrupted);
-        }
-        let started = Instant::now();
-        let start = match self.purpose {
-            LayerPurpose::FastStart(speed) => InitialVelocity::Moving(speed),
-            _ => InitialVelocity::Rest,
-        };
-        let layer = self.layer().map_err(refused)?;
-        let approach = approach(&layer, start)?;
-        let fast = self.has_both_starts().then(|| self::approach(&layer, layer.fast_start())).transpose()?;
-        let mut done = Done::of(&approach, fast.as_ref());
-        let (mut scan, mut scan_at_half_rate) = (Vec::new(), Vec::new());
-        if self.purpose == LayerPurpose::Onset {
-            scan = self.scan(&approach, &mut done)?;
-            scan_at_half_rate = self.scan_at_half_rate(&scan, &mut done)?;
-        }
-        if is_interrupted() {
-            return Err(ParameterError::Interrupted);
-        }
-        let simulated_time = approach.steps as f64 * approach.time_step;
-        let cells = approach.state.height.len();
-        progress.advance(simulated_time, simulated_time, (cells * done.steps) as f64);
-        let outcome = match done.unsteady {
-            None if done.difference > SAME_STATE => Outcome::Stopped {
-                criterion: format!(
-                    "two steady states, from rest and from a fast start, differ by {:.1e}",
-                    done.difference
-                ),
-            },
-            None => Outcome::Stopped {
-                criterion: format!("a step changes u/u_* and φ by less than {:e}", self.steady_change),
-            },
-            Some(reason) => Outcome::Diverged {
-                message: format!("no steady state after {} steps: {reason}", done.steps),
-                expected: false,
-            },
-        };
-        let second = fast.filter(|_| done.difference > SAME_STATE).map(|fast| fast.state);
-        Ok(Recorded {
-            outcome,
-            state_hash: state_hash(&approach.state.to_bytes()),
-            particles: cells,
-            steps: done.steps as u64,
-            simulated_time,
-            wall_seconds: started.elapsed().as_secs_f64(),
-            threads: 1,
-            frames: Vec::new(),
-            first_bad: None,
-            data: BedLoadLayerObservation {
-                velocity_change: approach.velocity_change,
-                fraction_change: approach.fraction_change,
-                start_difference: done.difference,
-                second,
-                scan,
-                scan_at_half_rate,
-                state: approach.state,
-            },
-        })
+        solve(self, progress)
     }
+}
+
+/// Seeks the steady state of a layer.
+fn solve(flow: &BedLoad1dFlow, progress: &dyn Progress) -> Result<Recorded<BedLoadLayerObservation>, ParameterError> {
+    if progress.conditions().is_some() {
+        return Err(ParameterError::Interrupted);
+    }
+    let started = Instant::now();
+    let start = match flow.start {
+        LayerStart::Moving { speed } => InitialVelocity::Moving(speed),
+        LayerStart::Rest | LayerStart::Both => InitialVelocity::Rest,
+    };
+    let layer = flow.layer().map_err(refused)?;
+    let approach = approach(&layer, start)?;
+    let fast = (flow.start == LayerStart::Both).then(|| self::approach(&layer, layer.fast_start())).transpose()?;
+    let mut done = Done::of(&approach, fast.as_ref());
+    let (mut scan, mut scan_at_half_rate) = (Vec::new(), Vec::new());
+    if flow.seeks_onset() {
+        scan = self::scan(&layer, &approach, &mut done)?;
+        scan_at_half_rate = self::scan_at_half_rate(&layer, &scan, &mut done)?;
+    }
+    if is_interrupted() {
+        return Err(ParameterError::Interrupted);
+    }
+    let simulated_time = approach.steps as f64 * approach.time_step;
+    let cells = approach.state.height.len();
+    progress.advance(simulated_time, simulated_time, (cells * done.steps) as f64);
+    let outcome = match done.unsteady {
+        None if done.difference > SAME_STATE => Outcome::Stopped {
+            criterion: format!("two steady states, from rest and from a fast start, differ by {:.1e}", done.difference),
+        },
+        None => {
+            Outcome::Stopped { criterion: format!("a step changes u/u_* and φ by less than {:e}", flow.steady_change) }
+        }
+        Some(reason) => Outcome::Diverged {
+            message: format!("no steady state after {} steps: {reason}", done.steps),
+            expected: false,
+        },
+    };
+    let second = fast.filter(|_| done.difference > SAME_STATE).map(|fast| fast.state);
+    Ok(Recorded {
+        outcome,
+        state_hash: state_hash(&approach.state.to_bytes()),
+        particles: cells,
+        steps: done.steps as u64,
+        simulated_time,
+        wall_seconds: started.elapsed().as_secs_f64(),
+        threads: 1,
+        frames: Vec::new(),
+        first_bad: None,
+        data: BedLoadLayerObservation {
+            velocity_change: approach.velocity_change,
+            fraction_change: approach.fraction_change,
+            start_difference: done.difference,
+            second,
+            scan,
+            scan_at_half_rate,
+            state: approach.state,
+        },
+    })
 }
 
 /// What several layers of one run have come to.
@@ -240,94 +181,47 @@ fn approach(layer: &BedLoadLayer, start: InitialVelocity) -> Result<Approach, Pa
     layer.approach_unless(start, &is_interrupted).map_err(refused)
 }
 
-impl BedLoad1dRun {
-    /// Whether the run itself seeks its state from two starts; those of a slope and of an order are runs of their own.
-    fn has_both_starts(&self) -> bool {
-        matches!(
-            self.purpose,
-            LayerPurpose::BedAtRest
-                | LayerPurpose::Sensitivity(_)
-                | LayerPurpose::Similar
-                | LayerPurpose::Onset
-                | LayerPurpose::Measured(_)
-                | LayerPurpose::Suspended(_, SuspensionInput::Own)
-        )
-    }
-
-    /// Shields numbers and transports about the onset, from both starts; that of the run itself is known. It begins below every
-    /// criterion, or at [`LOWEST_SCANNED`].
-    fn scan(&self, own: &Approach, done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
-        let mut scan = Vec::new();
-        for factor in SCANNED {
-            let stream = scaled(&self.stream, factor);
-            if stream == self.stream {
-                scan.push((stream.shields_number(), own.state.transport()));
-            } else {
-                scan.push(self.scanned(stream, done)?);
-            }
+/// Shields numbers and transports about the onset, from both starts; that of the run itself is known. It begins below every
+/// criterion, or at [`LOWEST_SCANNED`].
+fn scan(layer: &BedLoadLayer, own: &Approach, done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
+    let mut scan = Vec::new();
+    for factor in SCANNED {
+        let scaled = scaled(layer, factor);
+        if scaled == *layer {
+            scan.push((layer.stream.shields_number(), own.state.transport()));
+        } else {
+            scan.push(scanned(&scaled, done)?);
         }
-        let mut factor = NEXT_BELOW * SCANNED[0];
-        while moves_by_some_criterion(scan[0]) && factor >= LOWEST_SCANNED {
-            scan.insert(0, self.scanned(scaled(&self.stream, factor), done)?);
-            factor *= NEXT_BELOW;
-        }
-        Ok(scan)
     }
-
-    /// The transports of a scan's Shields numbers with half the rate of the regularisation, from rest.
-    fn scan_at_half_rate(&self, scan: &[(f64, f64)], done: &mut Done) -> Result<Vec<(f64, f64)>, ParameterError> {
-        let closures = Closures { regularisation_rate: 0.5 * self.closures.regularisation_rate, ..self.closures };
-        let own = self.stream.shields_number();
-        let transport = |&(shields_number, _): &(f64, f64)| {
-            let stream = scaled(&self.stream, shields_number / own);
-            let layer = BedLoadLayer { stream, closures, ..self.layer().map_err(refused)? };
-            let slow = approach(&layer, InitialVelocity::Rest)?;
-            done.add(Done::of(&slow, None));
-            Ok((shields_number, slow.state.transport()))
-        };
-        scan.iter().map(transport).collect()
+    let mut factor = NEXT_BELOW * SCANNED[0];
+    while moves_by_some_criterion(scan[0]) && factor >= LOWEST_SCANNED {
+        scan.insert(0, scanned(&scaled(layer, factor), done)?);
+        factor *= NEXT_BELOW;
     }
-
-    /// Shields number and transport of a stream, from both starts.
-    fn scanned(&self, stream: Stream, done: &mut Done) -> Result<(f64, f64), ParameterError> {
-        let layer = BedLoadLayer { stream, ..self.layer().map_err(refused)? };
-        let slow = approach(&layer, InitialVelocity::Rest)?;
-        done.add(Done::of(&slow, Some(&approach(&layer, layer.fast_start())?)));
-        Ok((stream.shields_number(), slow.state.transport()))
-    }
-
-    /// The layer.
-    fn layer(&self) -> Result<BedLoadLayer, LayerError> {
-        let grains = match self.purpose {
-            LayerPurpose::FrozenOrder => GrainMotion::Frozen(smooth_bed(&self.stream, self.closures.largest_fraction)?),
-            LayerPurpose::BedAtRest => {
-                GrainMotion::Resting(SolidFractionProfile::flat_bed(self.closures.largest_fraction)?)
-            }
-            _ => GrainMotion::Dilating,
-        };
-        let Self { stream, closures, cell_height, steady_change, .. } = *self;
-        Ok(BedLoadLayer { stream, closures, grains, cell_height, steady_change })
-    }
+    Ok(scan)
 }
 
-/// A bed whose fraction falls smoothly (with two continuous derivatives) across z = 0.
-fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFractionProfile, LayerError> {
-    let half = TRANSITION * stream.grain_diameter;
-    SolidFractionProfile::sampled(-half, half, 4096, |z| {
-        let x = (0.5 * (z / half + 1.0)).clamp(0.0, 1.0);
-        largest_fraction * (1.0 - x * x * x * (10.0 - x * (15.0 - 6.0 * x)))
-    })
+/// The transports of a scan's Shields numbers with half the rate of the regularisation, from rest.
+fn scan_at_half_rate(
+    layer: &BedLoadLayer,
+    scan: &[(f64, f64)],
+    done: &mut Done,
+) -> Result<Vec<(f64, f64)>, ParameterError> {
+    let closures = Closures { regularisation_rate: 0.5 * layer.closures.regularisation_rate, ..layer.closures };
+    let own = layer.stream.shields_number();
+    let transport = |&(shields_number, _): &(f64, f64)| {
+        let slow = approach(&BedLoadLayer { closures, ..scaled(layer, shields_number / own) }, InitialVelocity::Rest)?;
+        done.add(Done::of(&slow, None));
+        Ok((shields_number, slow.state.transport()))
+    };
+    scan.iter().map(transport).collect()
 }
 
-/// Refuses a layer whose bed slides on its base.
-pub(super) fn check_sliding(field: &str, value: f64, run: &BedLoad1dRun) -> Result<(), ParameterError> {
-    match run.layer().and_then(|layer| layer.check()) {
-        Err(LayerError::BedSlides { slope, limit, remedy }) => {
-            let rule = format!("for a slope below {limit:.5}, where the bed slides (here {slope:.5})");
-            Err(ParameterError::field(field, value, &rule, &remedy))
-        }
-        _ => Ok(()),
-    }
+/// Shields number and transport of a layer, from both starts.
+fn scanned(layer: &BedLoadLayer, done: &mut Done) -> Result<(f64, f64), ParameterError> {
+    let slow = approach(layer, InitialVelocity::Rest)?;
+    done.add(Done::of(&slow, Some(&approach(layer, layer.fast_start())?)));
+    Ok((layer.stream.shields_number(), slow.state.transport()))
 }
 
 /// What the solver refuses although each parameter is in its range.
@@ -345,7 +239,8 @@ fn refused(error: LayerError) -> ParameterError {
     }
 }
 
-/// A stream with so many times the Shields number: the slope follows.
-fn scaled(stream: &Stream, factor: f64) -> Stream {
-    Stream { slope: factor * stream.slope, ..*stream }
+/// A layer with so many times the Shields number: the slope follows.
+fn scaled(layer: &BedLoadLayer, factor: f64) -> BedLoadLayer {
+    let stream = Stream { slope: factor * layer.stream.slope, ..layer.stream };
+    BedLoadLayer { stream, ..layer.clone() }
 }

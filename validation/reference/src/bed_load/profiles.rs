@@ -5,12 +5,9 @@ use crate::evidence::read_shipped;
 use crate::evidence::{MeasuredData, ReferenceError};
 use crate::one_dimension::bed_load::Stream;
 use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Whose layer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeasuredBedLoad {
     /// Grains of 6 mm and density 2.5 on a slope of 0.05, simulated one by one.
     GrainSimulation,
@@ -41,7 +38,10 @@ pub struct BedLoadProfiles {
 }
 
 impl MeasuredBedLoad {
-    /// Its name in parameters and results.
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::GrainSimulation, Self::SheetFlow];
+
+    /// Its name in results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,32 +1,38 @@
 //! The case's figures.
 
+mod bed_at_rest;
+mod lowest_layer;
+mod measured;
+mod onset;
+mod sensitivities;
+
 use super::BedLoad1dRecord;
-use super::metrics::difference;
-use super::records::{SolvedLayer, literature, on_slope};
-use super::run::LayerPurpose;
+use super::flow::{BedLoad1dFlow, BedMotion};
+use super::metrics::{MOVING, difference, order_study};
+use super::records::{SolvedLayer, of};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::one_dimension::bed_load::LayerState;
 use crate::shared::{percent, transport_panel};
 
 pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
-    let layers: Vec<SolvedLayer<'_>> = literature(records).collect();
+    let layers: Vec<SolvedLayer<'_>> = of(records, BedLoad1dFlow::is_from_rest).collect();
     if layers.is_empty() {
         return Vec::new();
     }
-    let mut figures = vec![super::bed_at_rest::figure(records, &layers), profiles(&layers), transport(&layers)];
+    let mut figures = vec![bed_at_rest::figure(records, &layers), profiles(&layers), transport(&layers)];
     figures.extend(convergence(records, &layers));
-    figures.extend(super::onset::figure(records));
-    figures.extend(super::others::figure(records));
-    figures.extend(super::regimes::figure(&layers, super::metrics::MOVING));
-    figures.extend(super::sensitivities::figure(records, &layers));
+    figures.extend(onset::figure(records));
+    figures.extend(measured::figure(records));
+    figures.extend(lowest_layer::figure(&layers, MOVING));
+    figures.extend(sensitivities::figure(records, &layers));
     figures
 }
 
 fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
-    let in_grains = |(run, _): &SolvedLayer<'_>, z: f64| z / run.stream.grain_diameter;
+    let in_grains = |(run, _): &SolvedLayer<'_>, z: f64| z / run.grain_diameter;
     let near = |layer: &SolvedLayer<'_>| in_grains(layer, 1.6 * layer.1.top_of_grains());
     let top = layers.iter().map(near).fold(0.0, f64::max);
-    let depth = layers.iter().map(|layer| in_grains(layer, layer.0.stream.bed_depth)).fold(0.0, f64::max).min(2.0);
+    let depth = layers.iter().map(|layer| in_grains(layer, layer.0.stream().bed_depth)).fold(0.0, f64::max).min(2.0);
     let height = || Axis { limits: Some((-depth, top)), ..Axis::linear("z/d [-]") };
     let mut panels = [
         Panel::new("water", Axis::linear("u_f/u_* [-]"), Axis::logarithmic("z/d [-]").between(0.02, 12.0)),
@@ -41,8 +47,8 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
         Panel::new("stresses", Axis { limits: Some((0.0, 1.6)), ..Axis::linear("τ/(ρ_f g h tanθ) [-]") }, height()),
     ];
     for (slot, &(run, state)) in layers.iter().enumerate() {
-        let label = percent(run.stream.slope);
-        let stream = &run.stream;
+        let stream = run.stream();
+        let label = percent(stream.slope);
         let cells = |values: &[f64], keep: &dyn Fn(usize) -> bool| -> Vec<(f64, f64)> {
             let inside = (0..state.height.len()).filter(|k| keep(*k));
             inside.map(|k| (values[k], state.height[k] / stream.grain_diameter)).collect()
@@ -95,7 +101,7 @@ fn carried(state: &LayerState) -> Vec<f64> {
 
 fn transport(layers: &[SolvedLayer<'_>]) -> Figure {
     let mut panel = transport_panel::formulas();
-    let points = layers.iter().map(|(run, state)| (run.stream.shields_number(), state.transport()));
+    let points = layers.iter().map(|(run, state)| (run.stream().shields_number(), state.transport()));
     panel.points("layer, closures of the literature", 0, points);
     Figure::new(
         "transport",
@@ -108,18 +114,17 @@ fn transport(layers: &[SolvedLayer<'_>]) -> Figure {
 /// Differences between neighbouring cell heights.
 fn convergence(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Option<Figure> {
     let studies = [
-        (LayerPurpose::DilatingOrder, "with dilation: q*", "relative difference of q* [-]"),
-        (LayerPurpose::FrozenOrder, "given fraction: profiles", "relative L2 difference [-]"),
+        (BedMotion::Dilating, "with dilation: q*", "relative difference of q* [-]"),
+        (BedMotion::Frozen, "given fraction: profiles", "relative L2 difference [-]"),
     ];
     let mut panels = Vec::new();
-    for (purpose, title, label) in studies {
+    for (motion, title, label) in studies {
         let mut panel = Panel::new(title, Axis::logarithmic("height of a cell [mm]"), Axis::logarithmic(label));
         for (slot, (run, _)) in layers.iter().enumerate() {
-            let study = on_slope(records, run, |other| *other == purpose).map(|(_, state)| state);
-            let study: Vec<&LayerState> = study.collect();
+            let study = order_study(records, run, motion);
             let points: Vec<(f64, f64)> = study
                 .windows(2)
-                .map(|pair| (1e3 * pair[0].cell_height, difference(pair[0], pair[1], purpose)))
+                .map(|pair| (1e3 * pair[0].cell_height, difference(pair[0], pair[1], motion)))
                 .collect();
             if slot == 0
                 && let (Some(first), Some(last)) = (points.first(), points.last())
@@ -129,7 +134,7 @@ fn convergence(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Optio
                 panel.reference("second order", guide);
             }
             if !points.is_empty() {
-                panel.line_points(&percent(run.stream.slope), slot, points);
+                panel.line_points(&percent(run.stream().slope), slot, points);
             }
         }
         if !panel.series.is_empty() {

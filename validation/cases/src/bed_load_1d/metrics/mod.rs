@@ -1,13 +1,23 @@
 //! How the layers are judged.
 
+mod bed_at_rest;
+mod lowest_layer;
+mod measured;
+mod onset;
+mod sensitivities;
+mod suspension;
+
+pub(super) use measured::{TRANSPORT_FACTOR, VELOCITY_LIMIT, grain_velocity_difference};
+pub(super) use suspension::RESTING;
+
+use super::BedLoad1dRecord;
+use super::flow::{BedLoad1dFlow, BedMotion, LayerStart, LayerStream};
 use super::quantities::{
     DECAY_LENGTH, DECAY_LENGTH_GROWTH, DRAG_BALANCE_ERROR, DRAG_DEPTH_GROWTH, DRAG_FROM, DRAG_PEAK_HEIGHT, DRAG_TO,
     GRAIN_CURVATURE, LOGARITHMIC_SLOPE, MEAN_FLUID_VELOCITY, MOTION_DEPTH_GROWTH, MOVES_ABOVE, OBSERVED_ORDER,
     START_DIFFERENCE, STRESS_BALANCE_ERROR, TOP_OF_GRAINS, TRANSPORT_RATIO,
 };
-use super::records::{SolvedLayer, literature, on_slope, one_state, second_variant};
-use super::run::{BedLoad1dRun, LayerPurpose};
-use super::{BedLoad1dRecord, bed_at_rest, onset, others, regimes, sensitivities, suspension};
+use super::records::{SolvedLayer, of, on_slope, second_variant};
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
@@ -33,42 +43,62 @@ const MODEL: &str = "the layer's own equations";
 
 const SCATTER: &str = "the scatter of the formula's own data";
 
+/// Largest difference between the steady states from two starts `[-]`.
+const ONE_STATE: f64 = 1e-6;
+
 pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     let mut metrics = Vec::new();
-    for (run, state) in literature(records) {
+    let judged: Vec<SolvedLayer<'_>> = of(records, BedLoad1dFlow::is_from_rest).collect();
+    for &(run, state) in &judged {
         transport(&mut metrics, records, run, state);
         balances(&mut metrics, run, state);
-        for (_, fast) in on_slope(records, run, |purpose| matches!(purpose, LayerPurpose::FastStart(_))) {
+        let starts_fast = |other: &BedLoad1dFlow| {
+            other.is_on_slope(BedMotion::Dilating) && matches!(other.start, LayerStart::Moving { .. })
+        };
+        for (_, fast) in on_slope(records, run, starts_fast) {
             start(&mut metrics, run, state, fast);
         }
-        metrics.extend(order(records, run, LayerPurpose::DilatingOrder, 1.0));
-        metrics.extend(order(records, run, LayerPurpose::FrozenOrder, 1.8));
+        metrics.extend(
+            [BedMotion::Dilating, BedMotion::Frozen].into_iter().filter_map(|motion| order(records, run, motion)),
+        );
         profiles(&mut metrics, run, state);
-        if let Some((_, rest)) = on_slope(records, run, |purpose| *purpose == LayerPurpose::BedAtRest).next() {
+        if let Some((_, rest)) = on_slope(records, run, |other| other.is_on_slope(BedMotion::AtRest)).next() {
             metrics.extend(bed_at_rest::metrics(run, state, rest));
         }
-        metrics.extend(regimes::metrics(run, state, MOVING));
+        metrics.extend(lowest_layer::metrics(run, state, MOVING));
     }
     similar(&mut metrics, records);
     metrics.extend(onset::metrics(records));
-    metrics.extend(others::metrics(records));
+    metrics.extend(measured::metrics(records));
     metrics.extend(suspension::metrics(records));
-    with_slope(&mut metrics, &literature(records).collect::<Vec<_>>());
+    with_slope(&mut metrics, judged);
     metrics.extend(sensitivities::metrics(records));
     metrics
 }
 
+/// The difference of the states from two starts, judged.
+fn one_state(variant: &Variant, difference: f64, source: &str) -> Metric {
+    START_DIFFERENCE
+        .of(variant, difference)
+        .exactly(0.0, source)
+        .gated(
+            Limit::AtMost(ONE_STATE),
+            "a steady state does not remember its start: what is left is how near to steady both are, at most 8e-8 of all layers",
+        )
+        .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE)
+}
+
 /// Transport over that of the formula, judged where the layer is one of bed load; none where the formula has no transport.
-fn over_formula(variant: &Variant, run: &BedLoad1dRun, state: &LayerState, reason: &str) -> Option<Metric> {
+fn over_formula(variant: &Variant, run: &BedLoad1dFlow, state: &LayerState, reason: &str) -> Option<Metric> {
     let formula = TransportFormula::WongParker;
-    let expected = formula.transport(run.stream.shields_number());
+    let expected = formula.transport(run.stream().shields_number());
     let limit = is_bed_load(run).then_some(Limit::Within(MEASURED_BAND.0, MEASURED_BAND.1));
     let metric = || TRANSPORT_RATIO.of(variant, state.transport() / expected);
     (expected > 0.0).then(|| metric().against(Some(1.0), formula.name(), formula.confidence()).gated_by(limit, reason))
 }
 
 /// Transport against the formula and against measured runs.
-fn transport(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord], run: &BedLoad1dRun, state: &LayerState) {
+fn transport(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord], run: &BedLoad1dFlow, state: &LayerState) {
     let reason = "nine tenths of measured rates lie so about the formula, and the closures leave as much open: the length over which \
                   the bed's roughness fades is no literature's, and from 0.01 to 0.3 grain diameters takes the ratio at 2 % from 1.15 \
                   to 0.33";
@@ -78,20 +108,20 @@ fn transport(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord], run: &BedLo
         ratio.map(|ratio| ratio.known_to(Origin::Input, Some(input), &words).with_snapshot_tolerance(1e-3, 0.0)),
     );
     if is_bed_load(run) {
-        metrics.extend(regimes::beside_measured(run, state, input, &words));
+        metrics.extend(lowest_layer::beside_measured(run, state, input, &words));
     }
     metrics
         .push(MEAN_FLUID_VELOCITY.of(&run.variant(), state.mean_fluid_velocity()).with_snapshot_tolerance(1e-3, 0.0));
 }
 
 /// Whether the layer is one of bed load: elsewhere no formula of bed load judges it.
-fn is_bed_load(run: &BedLoad1dRun) -> bool {
-    run.stream.outside_bed_load().is_none()
+fn is_bed_load(run: &BedLoad1dFlow) -> bool {
+    run.stream().outside_bed_load().is_none()
 }
 
 /// The layer of a sweep, and both of its states if there are two.
 fn similar(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord]) {
-    for (run, record) in records.iter().filter(|(run, _)| run.purpose == LayerPurpose::Similar) {
+    for (run, record) in records.iter().filter(|(run, _)| matches!(run.stream, LayerStream::ShieldsNumber(_))) {
         let data = &record.data;
         metrics.extend(over_formula(&run.variant(), run, &data.state, SCATTER));
         let second = data.second.as_ref();
@@ -101,7 +131,7 @@ fn similar(metrics: &mut Vec<Metric>, records: &[BedLoad1dRecord]) {
 }
 
 /// Both balances of momentum.
-fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
+fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) {
     let errors = [
         (STRESS_BALANCE_ERROR, state.stress_balance_error(), "τ_f + τ_s = g sinθ ∫ ρ dz, error over ρ_f g h tanθ"),
         (
@@ -125,24 +155,26 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 }
 
 /// Two starts, one state.
-fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, rest: &LayerState, fast: &LayerState) {
+fn start(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, rest: &LayerState, fast: &LayerState) {
     let difference = rest.start_difference(fast);
     if difference > SAME_STATE {
         metrics.extend(over_formula(&run.variant().and("second", "fast"), run, fast, SCATTER));
     }
     // the two starts of the runs behind it, as one word
-    let variant = Variant::of("slope", run.stream.slope).and("start", "rest_fast");
+    let variant = Variant::of("slope", run.stream().slope).and("start", "rest_fast");
     metrics.push(one_state(&variant, difference, "the layer from rest: q*, u_f and φ u_s"));
 }
 
 /// The order of convergence: from the profiles where the fraction is given, from q* where it is not. The topmost grains
-/// end inside a cell, so that profiles of a dilating layer converge everywhere but there.
-fn order(records: &[BedLoad1dRecord], run: &BedLoad1dRun, purpose: LayerPurpose, least: f64) -> Option<Metric> {
-    let study: Vec<&LayerState> = on_slope(records, run, |other| *other == purpose).map(|(_, state)| state).collect();
-    let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], purpose)).collect();
+/// end inside a cell, so that profiles of a dilating layer converge everywhere but there. None without three heights of a cell, each half the
+/// one before.
+fn order(records: &[BedLoad1dRecord], run: &BedLoad1dFlow, motion: BedMotion) -> Option<Metric> {
+    let study = order_study(records, run, motion);
+    let differences: Vec<f64> = study.windows(2).map(|pair| difference(pair[0], pair[1], motion)).collect();
     let [.., coarse, fine] = differences[..] else { return None };
+    let (grains, least) = if motion == BedMotion::Frozen { ("frozen", 1.8) } else { ("dilating", 1.0) };
     let heights = Value::list(study.iter().map(|state| state.cell_height));
-    let variant = Variant::of("slope", run.stream.slope).and("grains", purpose.grains()).and("cell_height", heights);
+    let variant = Variant::of("slope", run.stream().slope).and("grains", grains).and("cell_height", heights);
     let metric = OBSERVED_ORDER
         .of(&variant, libm::log2(coarse / fine))
         .exactly(2.0, MODEL)
@@ -151,16 +183,31 @@ fn order(records: &[BedLoad1dRecord], run: &BedLoad1dRun, purpose: LayerPurpose,
     Some(metric)
 }
 
+/// Layers on the slope of a run that differ in the height of a cell alone, from the coarsest on, each of half the height of the one before.
+pub(super) fn order_study<'a>(
+    records: &'a [BedLoad1dRecord],
+    run: &'a BedLoad1dFlow,
+    motion: BedMotion,
+) -> Vec<&'a LayerState> {
+    let is_of_study = |other: &BedLoad1dFlow| {
+        other.closures == run.closures && other.is_on_slope(motion) && !matches!(other.start, LayerStart::Moving { .. })
+    };
+    let mut study: Vec<&LayerState> = on_slope(records, run, is_of_study).map(|(_, state)| state).collect();
+    study.sort_by(|a, b| b.cell_height.total_cmp(&a.cell_height));
+    let is_half = |pair: &[&LayerState]| (pair[0].cell_height / pair[1].cell_height - 2.0).abs() < 1e-6;
+    if study.windows(2).all(is_half) { study } else { Vec::new() }
+}
+
 /// What is taken for the error of the coarser of two layers `[-]`.
-pub(super) fn difference(coarse: &LayerState, fine: &LayerState, purpose: LayerPurpose) -> f64 {
-    match purpose {
-        LayerPurpose::FrozenOrder => coarse.difference(fine, STUDIED_ABOVE),
-        _ => (coarse.transport() / fine.transport() - 1.0).abs(),
+pub(super) fn difference(coarse: &LayerState, fine: &LayerState, motion: BedMotion) -> f64 {
+    match motion {
+        BedMotion::Frozen => coarse.difference(fine, STUDIED_ABOVE),
+        BedMotion::Dilating | BedMotion::AtRest => (coarse.transport() / fine.transport() - 1.0).abs(),
     }
 }
 
 /// What the profiles look like: observed, for there is no table to gate them by.
-fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
+fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) {
     let variant = run.variant();
     let millimetres = |quantity: Quantity, value: Option<f64>| {
         quantity.of(&variant, 1e3 * value.unwrap_or(f64::NAN)).with_snapshot_tolerance(0.01, 0.01)
@@ -176,7 +223,7 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
     ]);
     for (side, curved, limit) in [
         ("above", curvature(&grains_beside(run, state, 0.0..state.top_of_grains())), Limit::AtMost(0.0)),
-        ("below", curvature(&grains_beside(run, state, -run.stream.bed_depth..0.0)), Limit::AtLeast(0.0)),
+        ("below", curvature(&grains_beside(run, state, -run.stream().bed_depth..0.0)), Limit::AtLeast(0.0)),
     ] {
         metrics.push(
             GRAIN_CURVATURE
@@ -204,20 +251,20 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dRun, state: &LayerState) {
 }
 
 /// (z/d, u_s/u_*) of the moving grains in a range of heights `[m]`.
-fn grains_beside(run: &BedLoad1dRun, state: &LayerState, range: std::ops::Range<f64>) -> Vec<(f64, f64)> {
+fn grains_beside(run: &BedLoad1dFlow, state: &LayerState, range: std::ops::Range<f64>) -> Vec<(f64, f64)> {
     let cells = state.height.iter().zip(&state.grain_velocity);
     let moving = cells.filter(|(z, velocity)| range.contains(*z) && **velocity > MOVING);
-    moving.map(|(z, velocity)| (z / run.stream.grain_diameter, velocity / run.stream.shear_velocity())).collect()
+    let unit = run.stream().shear_velocity();
+    moving.map(|(z, velocity)| (z / run.grain_diameter, velocity / unit)).collect()
 }
 
 /// What must grow from slope to slope: the smallest ratio of two neighbours.
-fn with_slope(metrics: &mut Vec<Metric>, layers: &[SolvedLayer<'_>]) {
-    let mut layers = layers.to_vec();
-    layers.sort_by(|a, b| a.0.stream.slope.total_cmp(&b.0.stream.slope));
+fn with_slope(metrics: &mut Vec<Metric>, mut layers: Vec<SolvedLayer<'_>>) {
+    layers.sort_by(|a, b| a.0.stream().slope.total_cmp(&b.0.stream().slope));
     if layers.len() < 2 {
         return;
     }
-    let variant = Variant::of("slope", Value::list(layers.iter().map(|(run, _)| run.stream.slope)));
+    let variant = Variant::of("slope", Value::list(layers.iter().map(|(run, _)| run.stream().slope)));
     let growth = |value: fn(&LayerState) -> Option<f64>| {
         let values: Vec<f64> = layers.iter().map(|(_, state)| value(state).unwrap_or(f64::NAN)).collect();
         values

@@ -1,38 +1,25 @@
 //! How grains move: how many rows of them at once, whether the water among them follows a power of the height, and what streams of
 //! about the same Shields number carried in flumes.
 
-use super::quantities::{
+use super::super::flow::BedLoad1dFlow;
+use super::super::quantities::{
     LOWEST_LAYER_EXPONENT, POWER_LAW_MISFIT, POWER_LAW_MISFIT_RATIO, ROWS_IN_MOTION, TRANSPORT_OVER_MEASURED,
 };
-use super::records::SolvedLayer;
-use super::run::BedLoad1dRun;
+use super::super::records::lowest_layer;
 use crate::case::Run;
-use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Origin};
-use crate::reference::bed_load::{
-    LOWEST_LAYER_TOP, MeasuredRates, SHEET_FLOW_LOWEST_VELOCITY, TransportFormula, measured_rates_about,
-};
+use crate::reference::bed_load::{MeasuredRates, SHEET_FLOW_LOWEST_VELOCITY, TransportFormula, measured_rates_about};
 use crate::reference::one_dimension::bed_load::LayerState;
-use crate::shared::percent;
-use crate::statistics::{Exponent, linear_fit, power_law};
+use crate::statistics::{linear_fit, power_law};
 
 /// Fewest cells that a power is fitted to.
 const FEWEST: usize = 6;
 
 /// Rows of packed grains that the moving ones make `[-]`: ∫ φ dz over φ_max d, where they are faster than `speed` `[m/s]`.
-fn rows_in_motion(run: &BedLoad1dRun, state: &LayerState, speed: f64) -> f64 {
+fn rows_in_motion(run: &BedLoad1dFlow, state: &LayerState, speed: f64) -> f64 {
     let moving = state.solid_fraction.iter().zip(&state.grain_velocity).filter(|(_, velocity)| **velocity > speed);
     let volume: f64 = moving.map(|(fraction, _)| fraction * state.cell_height).sum();
-    volume / (run.closures.largest_fraction * run.stream.grain_diameter)
-}
-
-/// (height above where grains begin to move, over d; u_f/u_*) of the cells among moving grains.
-fn lowest_layer(run: &BedLoad1dRun, state: &LayerState, speed: f64) -> Vec<(f64, f64)> {
-    let Some(bottom) = state.moves_above(speed) else { return Vec::new() };
-    let top = state.top_of_grains();
-    let stream = &run.stream;
-    let cells = state.height.iter().zip(&state.fluid_velocity).filter(|(z, u)| **z > bottom && **z < top && **u > 0.0);
-    cells.map(|(z, u)| ((z - bottom) / stream.grain_diameter, u / stream.shear_velocity())).collect()
+    volume / (run.closures.largest_fraction * run.grain_diameter)
 }
 
 /// How well a power c zⁿ describes a velocity.
@@ -64,7 +51,7 @@ impl PowerMisfit {
 }
 
 /// What a layer of the case's own closures says of the regime of transport.
-pub(super) fn metrics(run: &BedLoad1dRun, state: &LayerState, speed: f64) -> Vec<Metric> {
+pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, speed: f64) -> Vec<Metric> {
     let variant = run.variant();
     let single = "statements of the bed-load paper: up to 3 % grains saltate, one by one, and under stronger shear upper layers of them slide \
                   over lower ones, which takes more than a row";
@@ -96,8 +83,8 @@ pub(super) fn metrics(run: &BedLoad1dRun, state: &LayerState, speed: f64) -> Vec
 
 /// Transport against the runs of flumes at about the same Shields number, with the uncertainty of the ratio to the formula by the
 /// closures; none where there are too few.
-pub(super) fn beside_measured(run: &BedLoad1dRun, state: &LayerState, input: f64, words: &str) -> Option<Metric> {
-    let shields = run.stream.shields_number();
+pub(super) fn beside_measured(run: &BedLoad1dFlow, state: &LayerState, input: f64, words: &str) -> Option<Metric> {
+    let shields = run.stream().shields_number();
     let MeasuredRates { median, bounds, deviation, number, source, confidence } = measured_rates_about(shields)?;
     let expected = median * TransportFormula::WongParker.transport(shields);
     let metric = TRANSPORT_OVER_MEASURED
@@ -116,45 +103,6 @@ pub(super) fn beside_measured(run: &BedLoad1dRun, state: &LayerState, input: f64
         )
         .with_snapshot_tolerance(1e-3, 0.0);
     Some(metric)
-}
-
-/// The water among moving grains beside the measured sheet flow.
-pub(super) fn figure(layers: &[SolvedLayer<'_>], speed: f64) -> Option<Figure> {
-    let measured = &*SHEET_FLOW_LOWEST_VELOCITY;
-    let mut panel = Panel::new(
-        "",
-        Axis::logarithmic("height above the grains at rest, over d [-]"),
-        Axis::logarithmic("u_f/u_* [-]"),
-    );
-    panel.points("Sumer et al. 1996, τ* = 1.4", 0, measured.points.iter().copied());
-    let fit = |name: &str, law: Exponent, range: (f64, f64)| {
-        let point = |z: f64| (z, law.coefficient * libm::pow(z, law.value));
-        let label = format!("{name}: exponent {:.2} ± {:.2}", law.value, law.standard_error);
-        (label, [point(range.0), point(range.1)])
-    };
-    let range = |points: &[(f64, f64)]| Some((points.first()?.0, points.last()?.0));
-    let lowest: Vec<(f64, f64)> = measured.points.iter().copied().filter(|point| point.0 <= LOWEST_LAYER_TOP).collect();
-    let (entry, line) = fit("lowest layer of Sumer et al.", measured.law, range(&lowest)?);
-    panel.reference(&entry, line);
-    let mut bends = Vec::new();
-    for (slot, (run, state)) in layers.iter().enumerate() {
-        let points = lowest_layer(run, state, speed);
-        let (Some(law), Some(ends)) = (power_law(&points), range(&points)) else { continue };
-        let (entry, line) = fit(&percent(run.stream.slope), law, ends);
-        let local = points.windows(2).filter_map(power_law).map(|law| law.value);
-        let (least, most) = local.fold((f64::INFINITY, 0.0_f64), |(least, most), n| (least.min(n), most.max(n)));
-        bends.push(format!("{least:.2} to {most:.2} at {}", percent(run.stream.slope)));
-        panel.line(&entry, slot + 1, points);
-        panel.reference("", line);
-    }
-    let caption = format!(
-        "Velocity of the water among moving grains over the height above the grains at rest, where a power law is straight. Dashed are the \
-         fits, each over its range, with the standard error of the exponent from the scatter about the fit. The layers bend: their local \
-         exponents are {}. Points are the sheet flow that Sumer et al. (1996) measured at a much greater Shields number, whose columns are \
-         inferred. Its lowest layer are the points up to {LOWEST_LAYER_TOP} d.",
-        bends.join(", ")
-    );
-    Some(Figure::new("lowest-layer", &caption, vec![panel]))
 }
 
 #[cfg(test)]
