@@ -17,7 +17,7 @@ data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x 
 /// Run-outs of three columns of sand, eight particles over the half width.
 const COLUMNS: &str = r#"
 [[parameters]]
-path = "sand.law.static_friction"
+path = "material.static_friction"
 name = "mu_s"
 unit = "-"
 lower = 0.4
@@ -35,16 +35,7 @@ data = [
 
 [fit.with]
 resolution = 8
-tall_resolution = 8
-sand.aspect_ratios = [0.9, 1.5, 3.0]
-lagree.aspect_ratios = []
-sensitivity.aspect_ratios = []
-regularised.aspect_ratios = []
-bars.aspect_ratios = []
-bars_frictions.aspect_ratios = []
-bars_limiting_frictions.aspect_ratios = []
-other_numerics.eddy_aspect_ratios = []
-other_numerics.uncoupled_aspect_ratios = []
+vary = [{ path = "aspect_ratio", values = [0.9, 1.5, 3.0] }]
 "#;
 
 /// Outcomes of the experiments of a problem.

@@ -77,11 +77,8 @@ impl Simulated {
 fn columns() -> Simulated {
     Simulated {
         case: "column-planar",
-        with: "resolution = 10\ntall_resolution = 10\nsand = { aspect_ratios = [0.9, 1.5, 3.0] }\nlagree = { aspect_ratios = [] }\n\
-               sensitivity = { aspect_ratios = [] }\nregularised = { aspect_ratios = [] }\n\
-               bars = { aspect_ratios = [] }\nbars_frictions = { aspect_ratios = [] }\nbars_limiting_frictions = { aspect_ratios = [] }\n\
-               other_numerics = { eddy_aspect_ratios = [], uncoupled_aspect_ratios = [] }\n",
-        setting: |u| format!("sand.law.static_friction={}", 0.4 + 0.4 * u),
+        with: "resolution = 10\nvary = [{ path = \"aspect_ratio\", values = [0.9, 1.5, 3.0] }]\n",
+        setting: |u| format!("material.static_friction={}", 0.4 + 0.4 * u),
         predict: |record| {
             // the front's; other measures of the run-out say which they are
             let is_front = |variant: &str| !variant.contains("quantity=");

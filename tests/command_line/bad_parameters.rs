@@ -164,11 +164,11 @@ fn an_implicit_step_without_a_viscous_law_or_its_divergence() {
         &["film", "--set", "numerics.viscous_step=\"implicit\"", "--set", "numerics.momentum_operator=\"pairwise\""],
         "`numerics.viscous_step` is implicit, but must be explicit with the pairwise momentum operators; choose the operator \"single-divergence\", or \"explicit\"",
     );
-    // the implicit runs that a list asks for
+    // the implicit run of the list
     refused(
         &place,
         &["column-planar", "--set", "numerics.momentum_operator=\"pairwise\""],
-        "`numerics.momentum_operator` is pairwise, but must be \"single-divergence\" or \"uncorrected-divergence\" with the implicit runs of `regularised.aspect_ratios`; choose one of these, or empty that list",
+        "`numerics.momentum_operator` is \"pairwise\", and so `numerics.viscous_step` is implicit, but must be explicit with the pairwise momentum operators; choose the operator \"single-divergence\", or \"explicit\"",
     );
 }
 

@@ -70,11 +70,11 @@ fn one_when_a_search_is_left_undecided() {
 #[test]
 fn zero_for_a_material_that_published_laws_do_not_judge() {
     let place = Place::new();
-    let file = "case = \"column-planar\"\n[sand]\naspect_ratios = [1.5]\nlaw = { law = \"mu-i\", friction_angle = 33.0, limiting_friction = 0.9, \
+    let file = "case = \"column-planar\"\naspect_ratio = 1.5\nmaterial = { law = \"mu-i\", friction_angle = 33.0, limiting_friction = 0.9, \
                 reference_inertia = 0.279, grain_diameter = 0.0008, grain_density = 2600.0 }\n";
     let file = place.file("my-sand.toml", file);
     // the run of the table's sand has gates, and an expected failure
-    let said = place.run(&[&file, "--only", "material=sand,aspect_ratio=1.5,resolution=20"]).code(0);
+    let said = place.run(&[&file]).code(0);
     let said = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
     assert!(said.contains("without a reference for these parameters, so not judged: "), "{said}");
     assert!(said.contains("run_out") && !said.contains("NOT JUDGED"), "{said}");

@@ -86,14 +86,8 @@ fn a_run_that_cannot_continue_a_finished_one_says_why() {
 
 #[test]
 fn longer_runs_of_cases_of_both_models_continue_finished_ones() {
-    let column = |duration: f64| {
-        let lists = "lagree sensitivity regularised bars bars_frictions bars_limiting_frictions";
-        let empty = lists.split(' ').map(|list| format!("{list}.aspect_ratios=[]"));
-        let others = ["eddy", "uncoupled"].map(|list| format!("other_numerics.{list}_aspect_ratios=[]"));
-        let own = [format!("duration={duration}"), "resolution=10".to_owned(), "sand.aspect_ratios=[0.9]".to_owned()];
-        let settings: Vec<String> = empty.chain(others).chain(own).collect();
-        set("column-planar", &settings.iter().map(String::as_str).collect::<Vec<_>>())
-    };
+    let column =
+        |duration: f64| set("column-planar", &[&format!("duration={duration}"), "resolution=10", "variants=[]"]);
     let incline = |duration: f64| {
         let duration = format!("duration={duration}");
         set("incline-collapse", &["slope_angle=16", "resolution=15", &duration])

@@ -25,7 +25,7 @@ pub(crate) const RUN_IN_PLANE: Work = Work {
 
 pub(crate) const RUN_IN_SPACE: Work = Work {
     name: "run, model A, space",
-    arguments: &["run", "column-round", "--set", "columns=[{ aspect_ratio = 0.7, resolution = 6 }]"],
+    arguments: &["run", "column-round", "--vary", "aspect_ratio=0.7", "--set", "resolution=6"],
     states: "metrics.json",
     only: Some("\"state_hash\""),
 };

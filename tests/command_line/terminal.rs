@@ -111,7 +111,7 @@ fn texts_of_files_do_not_reach_the_terminal_as_they_stand() {
     place.file("field.toml", &format!("case = \"film\"\n\"slope{toml}\" = 1\n"));
     place.file("case.toml", &format!("case = \"fi{toml}lm\"\n"));
     place.file("value.toml", &format!("case = \"film\"\nresolution = \"a{toml}\"\n"));
-    place.file("law.toml", &format!("case = \"column-planar\"\n[sand.law]\nlaw = \"a{toml}\"\n"));
+    place.file("law.toml", &format!("case = \"column-planar\"\n[material]\nlaw = \"a{toml}\"\n"));
     place.file("plan.toml", &format!("design = \"grid\"\n[[cases]]\ncase = \"film\"\nname = \"a{toml}\"\n[[vary]]\npath = \"slope_angle\"\nvalues = [1.0]\n"));
     place.file(&format!("raw{controls}.toml"), "case = 1\n");
     place.file("raw.toml", &format!("case = \"film\"\n# {controls}\nx = {controls}\n"));

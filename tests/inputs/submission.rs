@@ -1,10 +1,8 @@
 //! Every part of a submission alone, and what is refused.
 
-use bagnold_cases::collapse::planar::ColumnPlanarParameters;
-use bagnold_cases::collapse::round::ColumnRoundParameters;
-use bagnold_cases::collapse::{ColumnRun, SlopeFlow};
+use bagnold_cases::collapse::{ColumnFlow, SlopeFlow};
 use bagnold_harness::case::{
-    Changes, ExternalColumn, ExternalData, ExternalSchema, NamedColumns, Parameters, ParticleFrame, Tier,
+    Changes, ExternalColumn, ExternalData, ExternalSchema, NamedColumns, Parameters, ParticleFrame, RunList, Tier,
 };
 use bagnold_tools::judge::{CaseSubmissions, JudgeError};
 use bagnold_validation::REGISTRY;
@@ -28,12 +26,14 @@ fn columns(items: &[ExternalColumn], is_planar: bool, size: f64) -> NamedColumns
 
 /// Area or volume of what collapses in a run of a case.
 fn size_of(case: &str, run: usize) -> f64 {
-    let (planar, round) = (ColumnPlanarParameters::of_tier(Tier::Quick), ColumnRoundParameters::of_tier(Tier::Quick));
-    let section = |run: &ColumnRun| run.half_width * run.half_width * run.initial_height();
+    fn section<const D: usize>(run: usize) -> (f64, f64) {
+        let run = RunList::<ColumnFlow<D>>::of_tier(Tier::Quick).flows()[run].clone();
+        (run.half_width * run.half_width * run.initial_height(), run.half_width)
+    }
     let reservoir = SlopeFlow::default();
     match case {
-        "column-planar" => section(&planar.runs()[run]),
-        "column-round" => section(&round.runs()[run]) * std::f64::consts::FRAC_PI_4 * round.runs()[run].half_width,
+        "column-planar" => section::<2>(run).0,
+        "column-round" => section::<3>(run).0 * std::f64::consts::FRAC_PI_4 * section::<3>(run).1,
         _ => reservoir.reservoir_length * reservoir.initial_height,
     }
 }

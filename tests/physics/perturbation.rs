@@ -1,9 +1,10 @@
 //! The deterministic path of a collapse is not a matter of chance: a displacement of 1e-10 spacings changes nothing
 //! that is measured of it.
 
+use super::run_out::column;
 use bagnold_cases::collapse::Collapse;
-use bagnold_cases::collapse::planar::ColumnPlanarParameters;
-use bagnold_harness::case::{Parameters, Run, Silent, Tier};
+use bagnold_cases::collapse::planar::PlanarColumn;
+use bagnold_harness::case::{Run, Silent};
 
 /// Relative change that the baseline allows `[-]`.
 const TOLERANCE: f64 = 1e-3;
@@ -17,18 +18,7 @@ const RUN_OUT_TOLERANCE: f64 = 1.2e-2;
 
 /// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.
 fn collapse(jitter: f64) -> Collapse {
-    let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
-    parameters.release.jitter = jitter;
-    parameters.sand.aspect_ratios.clear();
-    parameters.lagree.aspect_ratios = vec![1.0];
-    parameters.regularised.aspect_ratios.clear();
-    parameters.bars.aspect_ratios.clear();
-    parameters.bars_frictions.aspect_ratios.clear();
-    parameters.bars_limiting_frictions.aspect_ratios.clear();
-    parameters.sensitivity.aspect_ratios.clear();
-    let runs = parameters.runs();
-    assert_eq!(runs.len(), 1);
-    runs[0].simulate(&Silent).expect("a valid scene").data
+    PlanarColumn { jitter, ..column(1.0) }.simulate(&Silent).expect("a valid scene").data
 }
 
 #[test]

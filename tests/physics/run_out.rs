@@ -1,25 +1,17 @@
 //! Run-out of columns: the measurement at rest, and the uncertainty at the default resolution.
 
-use bagnold_cases::collapse::Collapse;
-use bagnold_cases::collapse::planar::{ColumnPlanar, ColumnPlanarParameters};
-use bagnold_harness::case::{Case, Parameters, Run, Silent, Tier};
+use bagnold_cases::collapse::planar::{ColumnPlanar, PlanarColumn};
+use bagnold_cases::collapse::{Collapse, Material};
+use bagnold_harness::case::{Case, Parameters, Run, RunList, Silent, Tier};
 use bagnold_harness::metric::{COVERAGE, Origin};
 use bagnold_harness::observation::{Frame, Recorded};
 use bagnold_solver::material::rheology::Rheology;
 
-/// Columns of Lagrée's grains alone, 20 particles over the half width.
-fn columns(aspect_ratios: &[f64]) -> ColumnPlanarParameters {
-    let mut parameters = ColumnPlanarParameters::of_tier(Tier::Quick);
-    parameters.sand.aspect_ratios.clear();
-    parameters.bars.aspect_ratios.clear();
-    parameters.other_numerics.eddy_aspect_ratios.clear();
-    parameters.other_numerics.uncoupled_aspect_ratios.clear();
-    parameters.bars_frictions.aspect_ratios.clear();
-    parameters.bars_limiting_frictions.aspect_ratios.clear();
-    parameters.regularised.aspect_ratios.clear();
-    parameters.sensitivity.aspect_ratios.clear();
-    parameters.lagree.aspect_ratios = aspect_ratios.to_vec();
-    parameters
+/// A column of Lagrée's grains, 20 particles over the half width.
+pub(super) fn column(aspect_ratio: f64) -> PlanarColumn {
+    let runs = RunList::<PlanarColumn>::of_tier(Tier::Quick);
+    let lagree = runs.flows().iter().find(|run| run.made_of() == Material::LAGREE).expect("the tier has them");
+    PlanarColumn { aspect_ratio, ..lagree.clone() }
 }
 
 fn records<R: Run<Observation = Collapse>>(runs: Vec<R>) -> Vec<(R, Recorded<Collapse>)> {
@@ -32,13 +24,15 @@ fn records<R: Run<Observation = Collapse>>(runs: Vec<R>) -> Vec<(R, Recorded<Col
 
 #[test]
 fn a_column_that_does_not_move_has_no_run_out() {
-    let mut parameters = columns(&[0.1, 0.5, 1.0, 3.0]);
     // nothing yields
-    if let Rheology::MuI(law) = &mut parameters.lagree.law {
-        (law.static_friction, law.limiting_friction) = (5.0, 6.0);
-    }
-    parameters.release.duration = 1.0;
-    for (run, record) in records(parameters.runs()) {
+    let standing = |aspect_ratio: f64| {
+        let mut run = PlanarColumn { duration: 1.0, ..column(aspect_ratio) };
+        if let Rheology::MuI(law) = &mut run.material {
+            (law.static_friction, law.limiting_friction) = (5.0, 6.0);
+        }
+        run
+    };
+    for (run, record) in records([0.1, 0.5, 1.0, 3.0].map(standing).to_vec()) {
         let (start, end) = (record.data.front[0] - 1.0, record.data.run_out());
         let half_spacing = 0.5 / run.resolution as f64;
         println!("a = {}: {start} at the start, {end} at the end", run.aspect_ratio);
@@ -55,12 +49,10 @@ const APPROACHED: f64 = 0.924;
 
 #[test]
 fn the_interval_of_a_shallow_column_holds_what_finer_ones_approach() {
-    let mut parameters = columns(&[0.5]);
-    parameters.sensitivity.aspect_ratios = vec![0.5];
-    parameters.sensitivity.seeds = (1..=20).collect();
-    let records = records(parameters.runs());
+    let members = (2..=20).map(|ensemble_member| PlanarColumn { ensemble_member, ..column(0.5) });
+    let records = records([column(0.5)].into_iter().chain(members).collect());
     assert_eq!(records.len(), 20);
-    let metrics = ColumnPlanar::metrics(&parameters, &records);
+    let metrics = ColumnPlanar::metrics(&RunList::of_tier(Tier::Quick), &records);
     let shown = metrics.iter().find(|metric| metric.name == "run_out").expect("the column's own run-out");
     let own = records.iter().map(|(_, record)| record.data.run_out());
     let mean = own.clone().sum::<f64>() / records.len() as f64;
@@ -86,8 +78,8 @@ const STIFFNESS: f64 = 50.0;
 
 #[test]
 fn grains_of_the_papers_stiffness_are_nearly_incompressible() {
-    for (run, record) in records(columns(&[1.0, 3.0]).runs()) {
-        let densest = |frame: &Frame| frame.scalar("density").iter().copied().fold(0.0, f64::max) / run.bulk_density;
+    for (run, record) in records([1.0, 3.0].map(column).to_vec()) {
+        let densest = |frame: &Frame| frame.scalar("density").iter().copied().fold(0.0, f64::max) / run.density();
         let compressions: Vec<f64> = record.frames.iter().map(|frame| densest(frame) - 1.0).collect();
         // the lowest grains are half a row above the bed, and displaced
         let row = 1.0 / (run.aspect_ratio * run.resolution as f64);

@@ -164,19 +164,11 @@ mod tests {
         };
         let honey = ["material.law=honey".to_owned(), "material.viscosity=1".to_owned()];
         let layer = ["resolution=4", "preparation=none", "duration=2.2"];
-        let column = ["resolution=4", "duration=0.1", "sand.bulk_density=1500", "sand.aspect_ratios=[1]"];
-        let alone = [
-            "bars.aspect_ratios=[]",
-            "bars_frictions.aspect_ratios=[]",
-            "bars_limiting_frictions.aspect_ratios=[]",
-            "regularised.aspect_ratios=[]",
-            "lagree.aspect_ratios=[]",
-            "sensitivity.aspect_ratios=[]",
-        ];
+        let column = ["resolution=4", "duration=0.1", "bulk_density=1500", "aspect_ratio=1", "variants=[]"];
         for (case, own, law) in [
             ("hydrostatic", layer.to_vec(), honey.to_vec()),
             ("hydrostatic", layer.to_vec(), bingham("material").to_vec()),
-            ("column-planar", [&column[..], &alone[..]].concat(), bingham("sand.law").to_vec()),
+            ("column-planar", column.to_vec(), bingham("material").to_vec()),
         ] {
             let settings: Vec<&str> = own.into_iter().chain(law.iter().map(String::as_str)).collect();
             let prepared = prepared(case, &settings).expect("valid");

@@ -100,9 +100,15 @@ fn ranges_are_about_the_values_that_the_cases_have() {
         let parameters: toml::Value = toml::from_str(prepared.parameters_toml()).expect("parameters");
         for range in &stated.ranges {
             let path = range.path().unwrap_or_else(|| panic!("{name}: {} has no path", range.name));
-            let at = path.split('.').try_fold(&parameters, |table, key| table.get(key));
-            let own = at.and_then(|value| value.as_float().or(value.as_integer().map(|value| value as f64)));
-            let is_own = own.is_some_and(|own| (own - range.own).abs() <= 1e-9 * own.abs());
+            let number = |value: &toml::Value| value.as_float().or(value.as_integer().map(|value| value as f64));
+            let at =
+                |table| path.split('.').try_fold(table, |table: &toml::Value, key| table.get(key)).and_then(number);
+            // what a range is only for may have its own value in the list of runs
+            let variants = parameters.get("variants").and_then(toml::Value::as_array);
+            let listed = variants.into_iter().flatten().filter_map(|variant| variant.get("set")).filter_map(at);
+            let listed: Vec<f64> = listed.filter(|_| !range.only_for.is_empty()).collect();
+            let own: Vec<f64> = at(&parameters).into_iter().chain(listed).collect();
+            let is_own = own.iter().any(|own| (own - range.own).abs() <= 1e-9 * own.abs());
             assert!(is_own, "{name}: {path} is {own:?} in the case and {} in uncertainty.toml", range.own);
         }
     }

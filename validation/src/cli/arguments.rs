@@ -101,13 +101,13 @@ A file with one parameter and one fitted value; [[hold_out]] has the form of [[f
   title = \"static friction of our sand\"
 
   [[parameters]]
-  path = \"sand.law.static_friction\"
+  path = \"material.static_friction\"
   lower = 0.4
   upper = 0.8
 
   [[fit]]
   case = \"column-planar\"
-  with = { sand = { aspect_ratios = [0.9] } }
+  with = { aspect_ratio = 0.9 }
   data = [{ metric = \"run_out\", variant = \"material=sand,aspect_ratio=0.9,resolution=20\",
             value = 1.2, unit = \"-\", uncertainty = 0.1, source = \"own, May\" }]
 

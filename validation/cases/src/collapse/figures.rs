@@ -5,8 +5,8 @@ use super::metrics::{convergence, measured, scaling, stress_updates};
 use crate::case::Run;
 use crate::collapse::column::PICTURES;
 use crate::collapse::metrics::other_codes::Beside;
-use crate::collapse::metrics::{Measure, bands};
-use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, ExperimentGrains, Geometry, Material};
+use crate::collapse::metrics::{Measure, bands, laws_among};
+use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, ExperimentGrains, Geometry, Material};
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::metric::Confidence;
 use crate::observation::energy;
@@ -17,17 +17,17 @@ use crate::reference::collapse::{
 };
 use crate::shared::distinct;
 
-pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
-    let laws: Vec<&CollapseRecord> = records.iter().filter(|(run, _)| run.purpose == ColumnPurpose::Law).collect();
+pub(crate) fn all<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Figure> {
+    let laws = laws_among(records);
     let mut figures = Vec::new();
     // the pile of bars has points of its own, and a figure with them
-    let others: Vec<&CollapseRecord> =
-        laws.iter().copied().filter(|(run, _)| run.material.grains != ExperimentGrains::Bars).collect();
+    let others: Vec<&CollapseRecord<D>> =
+        laws.iter().copied().filter(|(run, _)| run.grains != ExperimentGrains::Bars).collect();
     if !others.is_empty() {
         figures.push(scaling_figure(&others));
     }
-    for material in distinct(laws.iter().map(|(run, _)| run.material)) {
-        let own: Vec<&CollapseRecord> = laws.iter().copied().filter(|(run, _)| run.material == material).collect();
+    for material in distinct(laws.iter().map(|(run, _)| run.made_of())) {
+        let own: Vec<&CollapseRecord<D>> = laws.iter().copied().filter(|(run, _)| run.made_of() == material).collect();
         if is_shown(&own[0].0) {
             figures.extend([deposits(&own), histories(&own), energy_budget(&own), wedges(&own)]);
         }
@@ -44,18 +44,18 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Figure> {
 }
 
 /// A name with the material of its columns.
-fn of_material(name: &str, records: &[&CollapseRecord]) -> String {
-    records.first().map_or(name.to_owned(), |(run, _)| format!("{name}-{}", run.material))
+fn of_material<const D: usize>(name: &str, records: &[&CollapseRecord<D>]) -> String {
+    records.first().map_or(name.to_owned(), |(run, _)| format!("{name}-{}", run.made_of()))
 }
 
 /// Whether a column gets pictures of its own: variants of the grains look like their originals.
-fn is_shown(run: &ColumnRun) -> bool {
-    run.purpose == ColumnPurpose::Law && run.material.is_published()
+fn is_shown<const D: usize>(run: &ColumnFlow<D>) -> bool {
+    run.made_of().is_published()
 }
 
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
-fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
-    let round = records.iter().any(|(run, _)| run.geometry == Geometry::Round);
+fn scaling_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
+    let round = records.iter().any(|(run, _)| run.geometry() == Geometry::Round);
     let (own, other) =
         if round { (&*ROUND_COLLAPSE, &*PLANAR_COLLAPSE) } else { (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE) };
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
@@ -90,19 +90,20 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
             panel.draw("measured", Mark::OpenPoints, 13, measured.points.iter().copied()).error = bars;
             panel.draw("measured, doubtful", Mark::OpenPoints, 9, measured.doubtful.iter().copied());
         }
-        let gate = |run: &ColumnRun| if legend { bands::run_out(run, false) } else { bands::height(run) };
+        let gate = |run: &ColumnFlow<D>| if legend { bands::run_out(run, false) } else { bands::height(run) };
         for (run, _) in records {
             if let Some(((low, high), _)) = gate(run) {
                 let entry = if legend && panel.bands.is_empty() { "where a result must lie" } else { "" };
                 panel.band(entry, [0.93, 1.07].map(|part| (part * run.initial_height(), low, high)));
             }
         }
-        let kinds = distinct(records.iter().map(|(run, _)| (run.material, run.resolution)));
+        let kinds = distinct(records.iter().map(|(run, _)| (run.made_of(), run.resolution)));
         for (slot, (material, resolution)) in kinds.into_iter().enumerate() {
-            let own = || records.iter().filter(|(run, _)| (run.material, run.resolution) == (material, resolution));
-            let holds =
-                |run: &ColumnRun, value: f64| gate(run).is_none_or(|((low, high), _)| (low..=high).contains(&value));
-            let title = own().next().map_or(String::new(), |(run, _)| run.material.title_with(&run.law));
+            let own = || records.iter().filter(|(run, _)| (run.made_of(), run.resolution) == (material, resolution));
+            let holds = |run: &ColumnFlow<D>, value: f64| {
+                gate(run).is_none_or(|((low, high), _)| (low..=high).contains(&value))
+            };
+            let title = own().next().map_or(String::new(), |(run, _)| run.made_of().title_with(&run.material));
             // short, so that two stand on a line of the legend
             let title = title.replace(" of Table 2", "").replace("grains of ", "").replace(" et al.", "");
             for (mark, inside) in [(Mark::Points, true), (Mark::OpenPoints, false)] {
@@ -120,7 +121,7 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
                 }
             }
         }
-        for material in distinct(records.iter().map(|(run, _)| run.material)) {
+        for material in distinct(records.iter().map(|(run, _)| run.made_of())) {
             if let Some(found) = scaling::fit(records, material, measure) {
                 let ends = [found.range.0, found.range.1];
                 let curve = ends.map(|a| (a, found.law.coefficient * libm::pow(a, found.law.value)));
@@ -156,9 +157,9 @@ fn scaling_figure(records: &[&CollapseRecord]) -> Figure {
     Figure::new("scaling", &caption, panels)
 }
 
-fn label(run: &ColumnRun) -> String {
-    let material = match run.material {
-        own if own.title() != own.title_with(&run.law) => own.title_with(&run.law),
+fn label<const D: usize>(run: &ColumnFlow<D>) -> String {
+    let material = match run.made_of() {
+        own if own.title() != own.title_with(&run.material) => own.title_with(&run.material),
         Material::LAGREE => "Lagrée".to_owned(),
         published if published.is_published() => published.to_string(),
         altered => altered.title(),
@@ -166,7 +167,7 @@ fn label(run: &ColumnRun) -> String {
     format!("{material}, a = {}", run.aspect_ratio)
 }
 
-fn deposits(records: &[&CollapseRecord]) -> Figure {
+fn deposits<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     let [x, thickness] = [("x/r0 [-]", "x"), ("thickness/r0 [-]", "thickness")]
         .map(|(label, name)| Axis::linear(label).over(name, "m", records.iter().map(|(run, _)| run.half_width)));
     let mut panel = Panel::new("", x, thickness);
@@ -181,7 +182,7 @@ fn deposits(records: &[&CollapseRecord]) -> Figure {
     )
 }
 
-fn histories(records: &[&CollapseRecord]) -> Figure {
+fn histories<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     let mut front = Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("(front − r0)/r0 over a [-]"));
     let mut energy =
         Panel::new("", Axis::linear("t/√(h0/g) [-]"), Axis::linear("kinetic/initial potential energy [-]"));
@@ -214,11 +215,11 @@ fn histories(records: &[&CollapseRecord]) -> Figure {
 }
 
 /// The values of a run's variant as a file name: `sand-0.9-20`.
-fn stem(run: &ColumnRun) -> String {
+fn stem<const D: usize>(run: &ColumnFlow<D>) -> String {
     run.variant().file_name_of_values()
 }
 
-fn view(run: &ColumnRun) -> View {
+fn view<const D: usize>(run: &ColumnFlow<D>) -> View {
     View {
         unit_length: run.half_width,
         unit: "r0",
@@ -229,10 +230,10 @@ fn view(run: &ColumnRun) -> View {
 }
 
 /// The animation of every run.
-pub(crate) fn animations(records: &[CollapseRecord]) -> Vec<Animation> {
-    let moving = |(run, record): &CollapseRecord| {
+pub(crate) fn animations<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Animation> {
+    let moving = |(run, record): &CollapseRecord<D>| {
         let section =
-            if run.geometry == Geometry::Round { " The section beside a symmetry plane is shown." } else { "" };
+            if run.geometry() == Geometry::Round { " The section beside a symmetry plane is shown." } else { "" };
         let caption = format!(
             "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
              front, where it falls below 0.02 r0. The left half is the mirror image of the simulated right one.{section}",
@@ -240,12 +241,12 @@ pub(crate) fn animations(records: &[CollapseRecord]) -> Vec<Animation> {
         );
         animation(&format!("collapse-{}", stem(run)), &caption, &record.data.motion, &view(run))
     };
-    records.iter().filter(|(run, _)| is_shown(run)).map(moving).collect()
+    laws_among(records).into_iter().filter(|(run, _)| is_shown(run)).map(moving).collect()
 }
 
 /// The paper's pictures: speed and pressure at absolute times.
-fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
-    let shown: Vec<&Frame> = run.shown_times.iter().filter_map(|&time| Frame::nearest(frames, time)).collect();
+fn shown<const D: usize>(run: &ColumnFlow<D>, frames: &[Frame]) -> Option<Figure> {
+    let shown: Vec<&Frame> = run.shown_times().iter().filter_map(|&time| Frame::nearest(frames, time)).collect();
     let source = match run.aspect_ratio {
         0.9 => "figure 7 (0.07 and 0.30 s), which is captioned glass beads, and of its text (0.11 s)",
         2.75 => "figure 8",
@@ -255,12 +256,12 @@ fn shown(run: &ColumnRun, frames: &[Frame]) -> Option<Figure> {
         "{}, {}: speed on the left and pressure on the right of the symmetry plane. The times are those of the collapse paper's {source}. The \
          left half is the mirror image of the simulated right one.",
         label(run),
-        run.material.title()
+        run.made_of().title()
     );
     (!shown.is_empty()).then(|| halves(&format!("halves-{}", stem(run)), &caption, &shown, &view(run)))
 }
 
-fn energy_budget(records: &[&CollapseRecord]) -> Figure {
+fn energy_budget<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     let runs: Vec<_> =
         records.iter().map(|(run, record)| (label(run), run.time_scale(), energies(&record.data))).collect();
     energy::figure(
@@ -271,7 +272,7 @@ fn energy_budget(records: &[&CollapseRecord]) -> Figure {
     )
 }
 
-fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Figure> {
+fn velocity_profiles<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Collapse>) -> Option<Figure> {
     let stations = stations(run, record);
     let caption = format!(
         "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a linear fit to the flowing layer, \
@@ -283,7 +284,7 @@ fn velocity_profiles(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<Fig
     (!stations.is_empty()).then(|| velocity_profile::figure(&name, &caption, &stations, (run.half_width, "r0")))
 }
 
-fn wedges(records: &[&CollapseRecord]) -> Figure {
+fn wedges<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     let panels = records.iter().filter_map(|(run, record)| {
         let wedge = interior::wedge_of(run, &record.frames)?;
         Some(wedge::panel(&label(run), run, record.frames.last()?, &wedge))
@@ -298,7 +299,7 @@ fn wedges(records: &[&CollapseRecord]) -> Figure {
 }
 
 /// Speed and pressure at the pictures' times; of a round column the slice beside a symmetry plane.
-fn pictures(run: &ColumnRun, frames: &[Frame]) -> Figure {
+fn pictures<const D: usize>(run: &ColumnFlow<D>, frames: &[Frame]) -> Figure {
     let r = run.half_width;
     let times = PICTURES.iter().map(|time| time * run.time_scale());
     let mut frames: Vec<&Frame> = times.filter_map(|time| Frame::nearest(frames, time)).chain(frames.last()).collect();

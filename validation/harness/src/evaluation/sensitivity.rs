@@ -2,7 +2,7 @@
 
 use crate::case::{AnyCase, CaseResult, Changes, Limits, ParameterError, PreparedCase, Tier};
 use crate::evidence::{RangeEnd, SensitivityRow, StatedUncertainty};
-use crate::metric::{Metric, MetricKind};
+use crate::metric::{Metric, MetricKind, Variant};
 use std::collections::BTreeMap;
 
 /// A case with an input at an end of its range.
@@ -12,6 +12,8 @@ struct Step {
     end: RangeEnd,
     repeat: usize,
     settings: Vec<String>,
+    /// Keys of the runs that the input concerns; all runs where there are none.
+    only: &'static [Variant],
 }
 
 /// Runs of a case that propagate its input uncertainty.
@@ -28,22 +30,25 @@ impl SensitivityPlan {
         if stated.ranges.is_empty() && stated.spacings.is_empty() {
             return Self { steps: Vec::new() };
         }
-        let mut ends: Vec<(&str, RangeEnd, &[String])> = vec![("", RangeEnd::Own, &[])];
+        let all = &stated.runs.only[..];
+        let mut ends: Vec<(&str, RangeEnd, &[String], &[Variant])> = vec![("", RangeEnd::Own, &[], all)];
         for range in &stated.ranges {
-            ends.push((&range.name, RangeEnd::Low, &range.low));
-            ends.push((&range.name, RangeEnd::High, &range.high));
+            let only = if range.only_for.is_empty() { all } else { &range.only_for };
+            ends.push((&range.name, RangeEnd::Low, &range.low, only));
+            ends.push((&range.name, RangeEnd::High, &range.high, only));
         }
-        ends.extend(stated.spacings.iter().map(|own| (own.name.as_str(), RangeEnd::Refined, &own.refined[..])));
+        ends.extend(stated.spacings.iter().map(|own| (own.name.as_str(), RangeEnd::Refined, &own.refined[..], all)));
         let mut seeds: Vec<Vec<String>> = stated.runs.seeds.iter().map(|seed| vec![format!("seed={seed}")]).collect();
         if seeds.is_empty() {
             seeds.push(Vec::new());
         }
-        let of_end = |(input, end, changes): &(&str, RangeEnd, &[String])| {
+        let of_end = |(input, end, changes, only): &(&str, RangeEnd, &[String], &'static [Variant])| {
             let of_seed = |(repeat, seed): (usize, &Vec<String>)| Step {
                 input: (*input).to_owned(),
                 end: *end,
                 repeat,
                 settings: [&stated.runs.settings[..], seed, changes].concat(),
+                only,
             };
             seeds.iter().enumerate().map(of_seed).collect::<Vec<Step>>()
         };
@@ -65,8 +70,8 @@ impl SensitivityPlan {
         case: &'static dyn AnyCase,
         limits: Limits,
     ) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
-        let only = StatedUncertainty::of(case.name()).map_or(&[][..], |stated| &stated.runs.only);
         let prepare = |step: &Step| {
+            let only = step.only;
             case.prepare(Tier::Quick, &Changes { file: None, settings: &step.settings, limits, only }).map(|prepared| {
                 let is_chosen =
                     |run: &usize| only.is_empty() || only.iter().any(|keys| prepared.variant(*run).includes(keys));
@@ -87,7 +92,14 @@ impl SensitivityPlan {
         for (step, result) in self.steps.iter().zip(results) {
             let here = validations(result);
             for (name, named) in &own {
+                let is_of = |metric: &&&Metric| {
+                    step.only.is_empty() || step.only.iter().any(|keys| metric.variant.includes(keys))
+                };
+                let named: Vec<&&Metric> = named.iter().filter(is_of).collect();
                 let found = here.get(name).map_or(&[][..], Vec::as_slice);
+                if named.is_empty() {
+                    continue;
+                }
                 if found.len() != named.len() {
                     tracing::warn!(
                         "{} {:?}: {} of {} values of {name}",

@@ -154,19 +154,15 @@ def material(law, is_nonlocal):
 
 def column_file(grains, aspect_ratio, law, is_nonlocal, resolution):
     width = COLUMNS[grains][aspect_ratio] * D
-    tall = aspect_ratio > 5
     return "\n".join([
         'case = "column-planar"',
-        f"{'tall_resolution' if tall else 'resolution'} = {resolution}",
-        "[lagree]",
-        f"aspect_ratios = [{float(aspect_ratio)}]",
-        f"{'tall_half_width' if tall else 'half_width'} = {width}",
+        'grains = "lagree"',
+        f"resolution = {resolution}",
+        f"aspect_ratio = {float(aspect_ratio)}",
+        f"half_width = {width}",
         f"solid_fraction = {law['phi']}",
-        "[lagree.law]",
+        "[material]",
         *material(law, is_nonlocal),
-        "[sensitivity]",
-        "aspect_ratios = []",
-        "profile_aspect_ratios = []",
     ]) + "\n"
 
 
@@ -318,9 +314,10 @@ def collapse(folder, grains, aspect_ratio, seed):
         size = width * D, width * D * aspect_ratio
         case, names = "column-planar", QUANTITIES
         variant = f"material=lagree,aspect_ratio={aspect_ratio}"
-        half = "tall_half_width" if aspect_ratio > 5 else "half_width"
-        parameters = (f"with = {{ lagree = {{ aspect_ratios = [{float(aspect_ratio)}], "
-                      f"{half} = {size[0]} }} }}")
+        parameters = (f'with = {{ grains = "lagree", aspect_ratio = {float(aspect_ratio)}, '
+                      f"half_width = {size[0]}, solid_fraction = 0.6, material = {{ "
+                      "static_friction = 0.32, limiting_friction = 0.6, reference_inertia = 0.4, "
+                      "grain_diameter = 0.002, grain_density = 2500.0 } }")
     lammps(folder, deck, variables)
     subprocess.run([sys.executable, tables, *map(str, size), "1000"], cwd=folder, check=True,
                    stdout=subprocess.DEVNULL)

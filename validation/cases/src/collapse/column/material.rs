@@ -2,12 +2,13 @@
 
 use crate::reference::grains::{ALUMINIUM_BARS, GLASS_BEADS, LAGREE_GRAINS, PublishedGrains, TABLE_2_SAND};
 use bagnold_solver::material::rheology::Rheology;
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// The grains of a published experiment.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum ExperimentGrains {
     /// Sand of Table 2.
     Sand,
@@ -19,39 +20,56 @@ pub enum ExperimentGrains {
     Bars,
 }
 
-/// The one property in which grains differ from their originals.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
+/// The number of μ(I) in which grains differ from their originals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Alteration {
-    /// I_0 of the law `[-]`.
-    ReferenceInertia(f64),
-    /// Diameter `[m]`.
-    GrainDiameter(f64),
-    /// Friction, whatever the rate `[-]`.
-    Friction(f64),
-    /// μ_2, to which friction rises with the rate as that of Lagrée's grains `[-]`.
-    LimitingFriction(f64),
+    /// None: the grains are the originals, or a user's own.
+    Nothing,
+    /// I_0.
+    ReferenceInertia,
+    /// Diameter.
+    GrainDiameter,
+    /// Friction, whatever the rate.
+    Friction,
+    /// μ_2, to which friction rises with the rate.
+    LimitingFriction,
 }
 
 impl Alteration {
-    /// Name in variants, symbol in legends, and value.
-    fn named(self) -> (&'static str, &'static str, f64) {
+    /// Name in variants and symbol in legends.
+    fn names(self) -> Option<(&'static str, &'static str)> {
         match self {
-            Self::ReferenceInertia(value) => ("inertia", "I_0", value),
-            Self::GrainDiameter(value) => ("diameter", "D", value),
-            Self::Friction(value) => ("friction", "μ", value),
-            Self::LimitingFriction(value) => ("limiting_friction", "μ_2", value),
+            Self::Nothing => None,
+            Self::ReferenceInertia => Some(("inertia", "I_0")),
+            Self::GrainDiameter => Some(("diameter", "D")),
+            Self::Friction => Some(("friction", "μ")),
+            Self::LimitingFriction => Some(("limiting_friction", "μ_2")),
+        }
+    }
+
+    /// The number in a law; 0 where there is none.
+    pub(super) fn value_in(self, law: &Rheology) -> f64 {
+        let Rheology::MuI(law) = law else { return 0.0 };
+        match self {
+            Self::Nothing => 0.0,
+            Self::ReferenceInertia => law.reference_inertia,
+            Self::GrainDiameter => law.grain_diameter,
+            Self::Friction => law.static_friction,
+            Self::LimitingFriction => law.limiting_friction,
         }
     }
 }
 
-/// Grains as published, or with one property altered.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// Grains as published, or with one number altered.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// The published grains.
     pub grains: ExperimentGrains,
     /// What is altered.
-    pub alteration: Option<Alteration>,
+    pub altered: Alteration,
+    /// The altered number; 0 for none.
+    pub value: f64,
 }
 
 impl ExperimentGrains {
@@ -67,7 +85,7 @@ impl ExperimentGrains {
     }
 
     /// What their source gives them.
-    fn as_published(self) -> &'static PublishedGrains {
+    pub(super) fn as_published(self) -> &'static PublishedGrains {
         match self {
             Self::Sand => &TABLE_2_SAND,
             Self::Glass => &GLASS_BEADS,
@@ -84,26 +102,19 @@ impl Material {
     pub const GLASS: Self = Self::published(ExperimentGrains::Glass);
     /// Grains of Lagrée et al. as published.
     pub const LAGREE: Self = Self::published(ExperimentGrains::Lagree);
-
     /// Aluminium bars as published.
     pub const BARS: Self = Self::published(ExperimentGrains::Bars);
 
     /// Grains as published.
     #[must_use]
     pub const fn published(grains: ExperimentGrains) -> Self {
-        Self { grains, alteration: None }
-    }
-
-    /// Grains with one property altered.
-    #[must_use]
-    pub const fn altered(grains: ExperimentGrains, alteration: Alteration) -> Self {
-        Self { grains, alteration: Some(alteration) }
+        Self { grains, altered: Alteration::Nothing, value: 0.0 }
     }
 
     /// Whether they are as published.
     #[must_use]
     pub fn is_published(self) -> bool {
-        self.alteration.is_none()
+        self.altered == Alteration::Nothing
     }
 
     /// Whether a law is a user's own, in the place of the published one; grains that the case itself alters are none.
@@ -129,9 +140,9 @@ impl Material {
             (ExperimentGrains::Bars, true) => "aluminium bars",
             (other, false) => other.name(),
         };
-        match self.alteration.map(Alteration::named) {
+        match self.altered.names() {
             None => grains.to_owned(),
-            Some((_, symbol, value)) => format!("{grains}, {symbol} = {value}"),
+            Some((_, symbol)) => format!("{grains}, {symbol} = {}", self.value),
         }
     }
 }
@@ -140,9 +151,9 @@ impl Material {
 impl fmt::Display for Material {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.grains.name())?;
-        match self.alteration.map(Alteration::named) {
+        match self.altered.names() {
             None => Ok(()),
-            Some((name, _, value)) => write!(formatter, "_{name}_{value}"),
+            Some((name, _)) => write!(formatter, "_{name}_{}", self.value),
         }
     }
 }
@@ -158,7 +169,7 @@ mod tests {
         let own = MuI { static_friction: published.static_friction + 0.01, ..published };
         assert_eq!(Material::SAND.title_with(&Rheology::MuI(published)), "sand of Table 2");
         assert_eq!(Material::SAND.title_with(&Rheology::MuI(own)), "own grains as sand");
-        let altered = Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(0.279));
+        let altered = Material { altered: Alteration::ReferenceInertia, value: 0.279, ..Material::SAND };
         assert_eq!(altered.title_with(&Rheology::MuI(own)), "sand, I_0 = 0.279");
     }
 
@@ -168,19 +179,19 @@ mod tests {
             (Material::SAND, "sand", "sand of Table 2"),
             (Material::BARS, "bars", "aluminium bars"),
             (
-                Material::altered(ExperimentGrains::Bars, Alteration::Friction(0.34)),
+                Material { altered: Alteration::Friction, value: 0.34, ..Material::BARS },
                 "bars_friction_0.34",
                 "bars, μ = 0.34",
             ),
             (Material::GLASS, "glass", "glass beads of Table 1"),
             (Material::LAGREE, "lagree", "grains of Lagrée et al."),
             (
-                Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(0.279)),
+                Material { altered: Alteration::ReferenceInertia, value: 0.279, ..Material::SAND },
                 "sand_inertia_0.279",
                 "sand, I_0 = 0.279",
             ),
             (
-                Material::altered(ExperimentGrains::Lagree, Alteration::GrainDiameter(0.001)),
+                Material { altered: Alteration::GrainDiameter, value: 0.001, ..Material::LAGREE },
                 "lagree_diameter_0.001",
                 "Lagrée et al., D = 0.001",
             ),

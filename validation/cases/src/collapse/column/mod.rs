@@ -1,12 +1,10 @@
-//! Columns on a horizontal bed, planar and round: grains, release and run.
+//! Columns on a horizontal bed, planar and round: the flow and its grains.
 
+mod flow;
 mod material;
 mod pile;
-mod release;
-mod run;
 
+pub use flow::{ColumnFlow, Geometry};
+pub(crate) use flow::{EARLIEST_REST, PICTURES};
 pub use material::{Alteration, ExperimentGrains, Material};
 pub(crate) use pile::{failure_angle, pile_of, with_friction};
-pub use release::Release;
-pub use run::{ColumnPurpose, ColumnRun, Geometry};
-pub(crate) use run::{EARLIEST_REST, PICTURES, TALLEST_FINE};

@@ -1,7 +1,7 @@
 //! The pile of aluminium bars that was measured, among the columns.
 
+use super::flow::{ColumnFlow, Geometry};
 use super::material::{Alteration, ExperimentGrains};
-use super::run::{ColumnPurpose, ColumnRun, Geometry};
 use crate::collapse::CollapseRecord;
 use crate::metric::{Metric, Origin};
 use crate::reference::collapse::{ALUMINIUM_BAR_PILE, MeasuredPile};
@@ -11,11 +11,11 @@ const RATE: &str = "friction at a rate (distance to the pile whose friction rise
 const FRICTION: &str = "meaning of the friction angle (distance to the pile whose friction is the sine of the measured angle instead of the tangent, over √3)";
 
 /// The measured pile that a column is, if it is one.
-pub(crate) fn pile_of(run: &ColumnRun) -> Option<&'static MeasuredPile> {
+pub(crate) fn pile_of<const D: usize>(run: &ColumnFlow<D>) -> Option<&'static MeasuredPile> {
     let pile = &*ALUMINIUM_BAR_PILE;
     let same = |own: f64, measured: f64| (own / measured - 1.0).abs() < 1e-9;
-    let is_it = (run.geometry, run.material.grains) == (Geometry::Planar, ExperimentGrains::Bars)
-        && run.purpose == ColumnPurpose::Law
+    let is_it = (run.geometry(), run.grains) == (Geometry::Planar, ExperimentGrains::Bars)
+        && run.ensemble_member == 0
         && same(run.half_width, pile.length)
         && same(run.initial_height() * run.half_width, pile.height);
     is_it.then_some(pile)
@@ -30,26 +30,24 @@ pub(crate) fn failure_angle(pile: &MeasuredPile) -> Option<(f64, f64)> {
 
 /// A metric with what it moves by if the pile's friction has another meaning or rises with the rate, as standard uncertainties: the pile
 /// stands at one end of each even spread.
-pub(crate) fn with_friction(
+pub(crate) fn with_friction<const D: usize>(
     metric: Metric,
-    records: &[CollapseRecord],
-    run: &ColumnRun,
-    difference: impl Fn(&CollapseRecord) -> Option<f64>,
+    records: &[CollapseRecord<D>],
+    run: &ColumnFlow<D>,
+    difference: impl Fn(&CollapseRecord<D>) -> Option<f64>,
 ) -> Metric {
-    if !run.material.is_published() {
+    if !run.made_of().is_published() {
         return metric;
     }
-    let widest = |is_it: fn(&Alteration) -> bool| {
+    let widest = |altered: Alteration| {
         let altered = records.iter().filter(|(other, _)| {
-            pile_of(other).is_some()
-                && other.material.alteration.is_some_and(|own| is_it(&own))
-                && other.resolution == run.resolution
+            pile_of(other).is_some() && other.altered == altered && other.resolution == run.resolution
         });
         Some(altered.filter_map(|other| Some(difference(other)?.abs())).fold(0.0, f64::max) / 3.0_f64.sqrt())
     };
-    metric.known_to(Origin::Input, widest(|own| matches!(own, Alteration::Friction(_))), FRICTION).known_to(
+    metric.known_to(Origin::Input, widest(Alteration::Friction), FRICTION).known_to(
         Origin::Input,
-        widest(|own| matches!(own, Alteration::LimitingFriction(_))),
+        widest(Alteration::LimitingFriction),
         RATE,
     )
 }

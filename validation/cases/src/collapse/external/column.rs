@@ -6,7 +6,7 @@ use crate::collapse::column::EARLIEST_REST;
 use crate::collapse::interior::PROFILE_TIME;
 use crate::collapse::metrics::other_codes::MID_COLLAPSE;
 use crate::collapse::metrics::quantities::*;
-use crate::collapse::{Collapse, ColumnRun, Geometry};
+use crate::collapse::{Collapse, ColumnFlow, Geometry};
 use crate::input::FieldError;
 use crate::metric::Quantity;
 use crate::setup::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
@@ -80,14 +80,10 @@ const STILL: f64 = 0.1;
 /// Distance of a picture from a time of the metrics over √(h_0/g) `[-]`.
 const NEAR: f64 = 0.15;
 
-pub(crate) fn observe(run: &ColumnRun, given: &ExternalData) -> Result<ExternalObservation<Collapse>, FieldError> {
-    match run.geometry {
-        Geometry::Planar => of::<2>(run, given),
-        Geometry::Round => of::<3>(run, given),
-    }
-}
-
-fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalObservation<Collapse>, FieldError> {
+pub(crate) fn observe<const D: usize>(
+    run: &ColumnFlow<D>,
+    given: &ExternalData,
+) -> Result<ExternalObservation<Collapse>, FieldError> {
     let mut collapse = Collapse {
         top: f64::NAN,
         centroid: f64::NAN,
@@ -98,14 +94,14 @@ fn of<const D: usize>(run: &ColumnRun, given: &ExternalData) -> Result<ExternalO
     let mut measured = Vec::new();
     let (r, scale) = (run.half_width, run.time_scale());
     let has_fallen = |time: f64| time >= EARLIEST_REST * scale;
-    let (size, middle) = match run.geometry {
+    let (size, middle) = match run.geometry() {
         Geometry::Planar => (1.0, 0.5),
         Geometry::Round => (std::f64::consts::FRAC_PI_4 * r, 2.0 / 3.0),
     };
     let room = Room {
         spacing: run.spacing(),
         reach: REACH * r * (1.0 + run.aspect_ratio),
-        density: run.bulk_density,
+        density: run.density(),
         size: size * r * r * run.initial_height(),
         start: Some(Start { until: STILL * scale, width: r, height: run.initial_height() * r, middle: middle * r }),
         kind: "column",
@@ -179,7 +175,7 @@ fn width_around(x: &[f64], point: usize) -> f64 {
 
 /// Names of what pictures up to a deposit tell: all metrics of the case but those that need more than was given.
 fn told<const D: usize>(
-    run: &ColumnRun,
+    run: &ColumnFlow<D>,
     given: &ExternalData,
     snapshots: &[Snapshot<D>],
     collapse: &Collapse,
@@ -196,7 +192,7 @@ fn told<const D: usize>(
     let follows = from_start && !is_mesh && snapshots.windows(2).all(grains);
     let rests = collapse.rest_time().is_finite();
     // a run that was ended early does not say that it never rests
-    let is_long = times.last().is_some_and(|end| *end >= run.release.duration);
+    let is_long = times.last().is_some_and(|end| *end >= run.duration);
     let lacks: [(bool, &[Quantity]); 6] = [
         (true, &[ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WORK, MOMENTUM_RESIDUAL]),
         (!(moves && from_start && is_seen(PROFILE_TIME)), &OF_MOTION.concat()),
@@ -240,17 +236,15 @@ const ORIGIN: &str = "check the unit and the origin: it lies on the bed in the s
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{NamedColumns, Parameters, Run, Tier};
-    use crate::collapse::planar::ColumnPlanarParameters;
+    use crate::case::{NamedColumns, Run};
 
     /// A column higher than half of it is wide.
-    fn run() -> ColumnRun {
-        let runs = ColumnPlanarParameters::of_tier(Tier::Quick).runs();
-        runs.into_iter().find(|run| (run.aspect_ratio - 1.5).abs() < 0.5).expect("a column")
+    fn run() -> ColumnFlow<2> {
+        ColumnFlow { aspect_ratio: 1.5, ..ColumnFlow::default() }
     }
 
     /// A wedge of thickness (1 − x/3) r_0 in square cells; what is less than a cell goes to the next column.
-    fn wedge(run: &ColumnRun) -> ParticleFrame {
+    fn wedge<const D: usize>(run: &ColumnFlow<D>) -> ParticleFrame {
         let (r, spacing) = (run.half_width, run.spacing());
         let mut columns: NamedColumns = ["x", "y", "area"].map(|name| (name.to_owned(), Vec::new())).into();
         let mut push = |name: &str, value: f64| columns.get_mut(name).expect("declared").push(value);
@@ -299,7 +293,7 @@ mod tests {
     fn columns_over_the_half_width_and_the_time_of_fall_are_those_of_the_run() {
         let (run, scales) = (run(), run().scales().expect("a column has scales"));
         assert_eq!(scales.length, run.half_width);
-        let nominal = (run.aspect_ratio * run.half_width / run.release.gravity).sqrt();
+        let nominal = (run.aspect_ratio * run.half_width / run.gravity).sqrt();
         // the height is a whole number of rows
         assert!((scales.time / nominal - 1.0).abs() < 0.03, "{} and {nominal}", scales.time);
     }
@@ -318,7 +312,7 @@ mod tests {
     }
 
     /// The start in square cells, by factors of its width, its height and the area of a cell.
-    fn block(run: &ColumnRun, [wide, high, area]: [f64; 3]) -> ParticleFrame {
+    fn block<const D: usize>(run: &ColumnFlow<D>, [wide, high, area]: [f64; 3]) -> ParticleFrame {
         let (rows, spacing) = (40, run.half_width / 40.0);
         let count = (rows as f64 * run.initial_height()).round() as usize;
         let place = |cell: usize| (cell as f64 + 0.5) * spacing;

@@ -6,7 +6,7 @@ pub(crate) mod wedge;
 pub(crate) use velocity_profile::{Station, decay_length, linear_misfit_ratio};
 pub(crate) use wedge::Wedge;
 
-use super::{BIN_WIDTH, Collapse, ColumnRun, Geometry};
+use super::{BIN_WIDTH, Collapse, ColumnFlow, Geometry};
 use crate::observation::energy::Energies;
 use crate::observation::{Frame, Recorded};
 
@@ -19,10 +19,10 @@ pub(crate) fn energies(collapse: &Collapse) -> Energies<'_> {
 }
 
 /// Velocity profiles in mid-collapse: inside the initial column, at its edge, and halfway from there to the front.
-pub(crate) fn stations(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Station> {
+pub(crate) fn stations<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Collapse>) -> Vec<Station> {
     // a ring is no bin along x
     let time = PROFILE_TIME * run.time_scale();
-    let Some(frame) = Frame::nearest(&record.frames, time).filter(|_| run.geometry == Geometry::Planar) else {
+    let Some(frame) = Frame::nearest(&record.frames, time).filter(|_| run.geometry() == Geometry::Planar) else {
         return Vec::new();
     };
     let front = record.data.nearest(time).map_or(1.0, |index| record.data.front[index]);
@@ -32,7 +32,7 @@ pub(crate) fn stations(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Stat
 }
 
 /// The undisturbed part of a deposit.
-pub(crate) fn wedge_of(run: &ColumnRun, frames: &[Frame]) -> Option<Wedge> {
+pub(crate) fn wedge_of<const D: usize>(run: &ColumnFlow<D>, frames: &[Frame]) -> Option<Wedge> {
     let (start, end) = (frames.first()?, frames.last()?);
     Some(Wedge::between(start, end, run.half_width, run.spacing()))
 }

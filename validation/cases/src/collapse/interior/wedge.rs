@@ -1,6 +1,6 @@
 //! What never moved: the part of a heap that the collapse leaves in its place, and the surface that bounds it.
 
-use crate::collapse::ColumnRun;
+use crate::collapse::ColumnFlow;
 use crate::figure::{Axis, Field, Panel};
 use crate::observation::Frame;
 use crate::statistics::linear_regression;
@@ -62,7 +62,7 @@ impl Wedge {
 
 /// A deposit in the colours of the displacement, undisturbed particles in grey, dashed the initial column and the line
 /// through the failure surface.
-pub(crate) fn panel(title: &str, run: &ColumnRun, end: &Frame, wedge: &Wedge) -> Panel {
+pub(crate) fn panel<const D: usize>(title: &str, run: &ColumnFlow<D>, end: &Frame, wedge: &Wedge) -> Panel {
     let (unit, spacing, height) = (run.half_width, run.spacing(), run.initial_height() * run.half_width);
     let mut panel = Panel::new(title, Axis::linear("x/r0 [-]"), Axis::linear("y/r0 [-]"));
     let seen: Vec<usize> = (0..end.position.len()).filter(|&index| end.position[index][2] < spacing).collect();

@@ -4,7 +4,7 @@ use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
 use super::quantities::*;
 use super::{Measure, RESULTS};
 use crate::collapse::heap::with_resolution;
-use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, Material};
+use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, Material};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Limit, Metric, Origin, Variant};
 use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
@@ -12,8 +12,6 @@ use crate::shared::{distinct, range};
 use crate::statistics::{GridConvergence, Mean, grid_convergence, mean};
 use std::collections::BTreeMap;
 
-/// Purposes of the runs of an ensemble: a run that stands for itself is one of it.
-const ENSEMBLES: [ColumnPurpose; 2] = [ColumnPurpose::Law, ColumnPurpose::Convergence];
 /// Fewest seeds whose scatter counts as a spread.
 const ENSEMBLE: usize = 5;
 
@@ -26,23 +24,23 @@ const MEASURED: [(&str, Measure, f64); 3] = [
 
 /// A column that is studied, and all records.
 #[derive(Clone, Copy)]
-struct ConvergenceStudy<'a> {
+struct ConvergenceStudy<'a, const D: usize> {
     material: Material,
     aspect_ratio: f64,
-    records: &'a [CollapseRecord],
+    records: &'a [CollapseRecord<D>],
 }
 
-impl<'a> ConvergenceStudy<'a> {
-    /// The columns that have runs of a purpose, in their order.
-    fn all(records: &'a [CollapseRecord], purpose: ColumnPurpose) -> Vec<Self> {
-        let studied = records.iter().map(|(run, _)| run).filter(|run| run.purpose == purpose);
-        let columns = distinct(studied.map(|run| (run.material, run.aspect_ratio))).into_iter();
+impl<'a, const D: usize> ConvergenceStudy<'a, D> {
+    /// The columns that have runs of a kind, in their order.
+    fn all(records: &'a [CollapseRecord<D>], is_of_kind: fn(&ColumnFlow<D>) -> bool) -> Vec<Self> {
+        let studied = records.iter().map(|(run, _)| run).filter(|run| is_of_kind(run));
+        let columns = distinct(studied.map(|run| (run.made_of(), run.aspect_ratio))).into_iter();
         columns.map(|(material, aspect_ratio)| Self { material, aspect_ratio, records }).collect()
     }
 
     /// Whether its grains are the published ones.
     fn is_published(&self) -> bool {
-        self.records.iter().any(|(run, _)| run.material == self.material && run.has_published_law())
+        self.records.iter().any(|(run, _)| run.made_of() == self.material && run.has_published_law())
     }
 
     fn label(&self) -> String {
@@ -54,13 +52,16 @@ impl<'a> ConvergenceStudy<'a> {
         variant.and("material", self.material.to_string()).and("aspect_ratio", self.aspect_ratio)
     }
 
-    /// Its runs of some purposes by return mapping, resolution by resolution.
-    fn by_resolution(&self, purposes: &[ColumnPurpose]) -> BTreeMap<usize, Vec<&'a CollapseRecord>> {
-        let is_own = |(run, _): &&CollapseRecord| {
-            let is_column = run.material == self.material && run.aspect_ratio == self.aspect_ratio;
-            is_column && run.regularisation_rate.is_none() && purposes.contains(&run.purpose)
+    /// Its runs of a kind, resolution by resolution.
+    fn by_resolution(
+        &self,
+        is_of_kind: impl Fn(&ColumnFlow<D>) -> bool,
+    ) -> BTreeMap<usize, Vec<&'a CollapseRecord<D>>> {
+        let is_own = |(run, _): &&CollapseRecord<D>| {
+            let is_column = run.made_of() == self.material && run.aspect_ratio == self.aspect_ratio;
+            is_column && is_of_kind(run)
         };
-        let mut found = BTreeMap::<usize, Vec<&CollapseRecord>>::new();
+        let mut found = BTreeMap::<usize, Vec<&CollapseRecord<D>>>::new();
         for record in self.records.iter().filter(is_own) {
             found.entry(record.0.resolution).or_default().push(record);
         }
@@ -69,24 +70,29 @@ impl<'a> ConvergenceStudy<'a> {
 
     /// Means over the seeds, resolution by resolution.
     fn means(&self, measure: Measure) -> Vec<Mean> {
-        let of = |(resolution, runs): (usize, Vec<&CollapseRecord>)| {
+        let of = |(resolution, runs): (usize, Vec<&CollapseRecord<D>>)| {
             let values: Vec<f64> = runs.iter().map(|(_, record)| measure(&record.data)).collect();
             Mean::of(resolution, &values)
         };
-        self.by_resolution(&ENSEMBLES).into_iter().filter_map(of).collect()
+        self.ensembles().into_iter().filter_map(of).collect()
+    }
+
+    /// Its runs of ensembles: one that stands for itself is one of them.
+    fn ensembles(&self) -> BTreeMap<usize, Vec<&'a CollapseRecord<D>>> {
+        self.by_resolution(|run| run.is_of_ensemble() || run.stands_for_itself(self.records))
     }
 
     /// What a share of a row makes of the run-out at a resolution, over r_0 `[-]`: the largest of the seeds.
     fn row(&self, resolution: usize) -> Option<f64> {
-        let runs = self.by_resolution(&ENSEMBLES).remove(&resolution)?;
+        let runs = self.ensembles().remove(&resolution)?;
         runs.iter().filter_map(|(_, record)| record.data.front_uncertainty()).reduce(f64::max)
     }
 
     /// Resolutions at which the hourglass coefficient was varied, with (coefficient, mean over the seeds) in ascending
     /// order.
     fn hourglasses(&self, measure: Measure) -> Vec<(usize, Vec<(f64, f64)>)> {
-        let point = |(run, record): &CollapseRecord| (run.release.numerics.hourglass, measure(&record.data));
-        let sorted = |(resolution, runs): (usize, Vec<&CollapseRecord>)| {
+        let point = |(run, record): &CollapseRecord<D>| (run.numerics.hourglass, measure(&record.data));
+        let sorted = |(resolution, runs): (usize, Vec<&CollapseRecord<D>>)| {
             let mut points: Vec<(f64, f64)> = runs.into_iter().map(point).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
             let of_one = |points: &[(f64, f64)]| {
@@ -95,13 +101,13 @@ impl<'a> ConvergenceStudy<'a> {
             };
             (resolution, points.chunk_by(|a, b| a.0 == b.0).map(of_one).collect())
         };
-        self.by_resolution(&[ColumnPurpose::Hourglass]).into_iter().map(sorted).collect()
+        self.by_resolution(ColumnFlow::varies_hourglass).into_iter().map(sorted).collect()
     }
 }
 
-pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
+pub(crate) fn metrics<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Metric> {
     let mut metrics = Vec::new();
-    for study in ConvergenceStudy::all(records, ColumnPurpose::Convergence) {
+    for study in ConvergenceStudy::all(records, ColumnFlow::is_of_ensemble) {
         for (quantity, measure, largest) in MEASURED {
             let means = study.means(measure);
             let variant = study.name(Variant::of("quantity", quantity));
@@ -119,7 +125,7 @@ pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
             metrics.push(metric.against(None, source, Confidence::Exact).with_snapshot_tolerance(0.02, 0.02));
         }
     }
-    for study in ConvergenceStudy::all(records, ColumnPurpose::Hourglass) {
+    for study in ConvergenceStudy::all(records, ColumnFlow::varies_hourglass) {
         metrics
             .extend(MEASURED.iter().flat_map(|(quantity, measure, _)| hourglass_spreads(&study, quantity, *measure)));
     }
@@ -128,7 +134,7 @@ pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
 
 /// An ensemble's mean run-out against the law of the same material: one run alone scatters too much to be judged by it.
 /// Its seeds share the error of the spacing.
-fn against_law(study: &ConvergenceStudy<'_>, variant: &Variant, mean: &Mean) -> Metric {
+fn against_law<const D: usize>(study: &ConvergenceStudy<'_, D>, variant: &Variant, mean: &Mean) -> Metric {
     let law = CollapseLawSource::Lagree.law(&PLANAR_COLLAPSE.run_out);
     let expected = law.value(study.aspect_ratio);
     let metric = ENSEMBLE_RUN_OUT.of(&variant.clone().and("resolution", mean.resolution), mean.value);
@@ -146,7 +152,7 @@ fn against_law(study: &ConvergenceStudy<'_>, variant: &Variant, mean: &Mean) -> 
 }
 
 /// How far the choice of the hourglass coefficient moves a result, resolution by resolution.
-fn hourglass_spreads(study: &ConvergenceStudy<'_>, quantity: &str, measure: Measure) -> Vec<Metric> {
+fn hourglass_spreads<const D: usize>(study: &ConvergenceStudy<'_, D>, quantity: &str, measure: Measure) -> Vec<Metric> {
     let spread = |(resolution, points): (usize, Vec<(f64, f64)>)| {
         let values: Vec<f64> = points.into_iter().map(|point| point.1).collect();
         let (least, most) = range(values.iter().copied());
@@ -205,8 +211,12 @@ fn finest(means: &[Mean]) -> Option<GridConvergence> {
 }
 
 /// Relative standard uncertainty of a measure from the spacing where a study of the run's column has its resolution `[-]`.
-pub(crate) fn numerical_uncertainty(records: &[CollapseRecord], run: &ColumnRun, measure: Measure) -> Option<f64> {
-    let study = ConvergenceStudy { material: run.material, aspect_ratio: run.aspect_ratio, records };
+pub(crate) fn numerical_uncertainty<const D: usize>(
+    records: &[CollapseRecord<D>],
+    run: &ColumnFlow<D>,
+    measure: Measure,
+) -> Option<f64> {
+    let study = ConvergenceStudy { material: run.made_of(), aspect_ratio: run.aspect_ratio, records };
     uncertainty_at(&study.means(measure), run.resolution)
 }
 
@@ -221,19 +231,19 @@ fn uncertainty_at(means: &[Mean], resolution: usize) -> Option<f64> {
 }
 
 /// Largest relative standard deviation of a measure over an ensemble of [`ENSEMBLE`] seeds or more `[-]`; 0 without one.
-pub(crate) fn relative_spread(records: &[CollapseRecord], measure: Measure) -> f64 {
-    let studies = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
+pub(crate) fn relative_spread<const D: usize>(records: &[CollapseRecord<D>], measure: Measure) -> f64 {
+    let studies = ConvergenceStudy::all(records, ColumnFlow::is_of_ensemble);
     let ensembles = studies.iter().flat_map(|study| study.means(measure)).filter(|mean| mean.runs >= ENSEMBLE);
     let spread = |mean: Mean| mean.standard_error * (mean.runs as f64).sqrt() / mean.value.abs();
     ensembles.map(spread).fold(0.0, f64::max)
 }
 
 /// Figures of the studies that were made.
-pub(crate) fn figures(records: &[CollapseRecord]) -> Vec<Figure> {
-    let mut resolution = ConvergenceStudy::all(records, ColumnPurpose::Convergence);
+pub(crate) fn figures<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Figure> {
+    let mut resolution = ConvergenceStudy::all(records, ColumnFlow::is_of_ensemble);
     // an ensemble at one resolution says nothing of convergence
     resolution.retain(|study| study.means(|collapse| collapse.centroid).len() > 1);
-    let coefficient = ConvergenceStudy::all(records, ColumnPurpose::Hourglass);
+    let coefficient = ConvergenceStudy::all(records, ColumnFlow::varies_hourglass);
     let mut figures = Vec::new();
     if !resolution.is_empty() {
         figures.push(grid_convergence_figure(&resolution));
@@ -256,7 +266,7 @@ pub(crate) fn figures(records: &[CollapseRecord]) -> Vec<Figure> {
     figures
 }
 
-fn grid_convergence_figure(studies: &[ConvergenceStudy<'_>]) -> Figure {
+fn grid_convergence_figure<const D: usize>(studies: &[ConvergenceStudy<'_, D>]) -> Figure {
     let panels = MEASURED.map(|(name, measure, _)| {
         let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
         let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));

@@ -4,7 +4,7 @@ use super::quantities::*;
 use crate::case::Run;
 use crate::collapse::column::{failure_angle, pile_of, with_friction};
 use crate::collapse::interior::{decay_length, energies, linear_misfit_ratio, stations, wedge_of};
-use crate::collapse::{CollapseRecord, ColumnPurpose, ColumnRun, ExperimentGrains};
+use crate::collapse::{CollapseRecord, ColumnFlow, ExperimentGrains};
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity};
 use crate::statistics::Mean;
 
@@ -20,27 +20,27 @@ const AT_THE_SURFACE: &str = "statement of the collapse paper: the velocity is l
 const SHALLOW: f64 = 1.0;
 
 /// Whether a column is one of the grains that the statements of the collapse paper are judged by.
-fn is_of_paper(run: &ColumnRun) -> bool {
-    run.is_published() && run.material.grains != ExperimentGrains::Bars
+fn is_of_paper<const D: usize>(run: &ColumnFlow<D>) -> bool {
+    run.is_published() && run.grains != ExperimentGrains::Bars
 }
 
 /// Share of the variance of the velocity over the flowing layer at the column's edge that a line explains, of a run `[-]`.
-fn edge_r_squared((run, record): &CollapseRecord) -> Option<f64> {
+fn edge_r_squared<const D: usize>((run, record): &CollapseRecord<D>) -> Option<f64> {
     Some(stations(run, record).get(1)?.shear?.r_squared)
 }
 
 /// The same of the further seeds of a column: rows of a few particles at one instant scatter, by 0.1 from seed to seed of a column of
 /// 20 particles over the half width.
-fn r_squared_of_seeds(run: &ColumnRun, records: &[CollapseRecord]) -> Vec<f64> {
-    let is_seed = |(other, _): &&CollapseRecord| {
-        let same = (other.material, other.aspect_ratio, other.resolution);
-        other.purpose == ColumnPurpose::ProfileSeed && same == (run.material, run.aspect_ratio, run.resolution)
+fn r_squared_of_seeds<const D: usize>(run: &ColumnFlow<D>, records: &[CollapseRecord<D>]) -> Vec<f64> {
+    let is_seed = |(other, _): &&CollapseRecord<D>| {
+        let same = (other.made_of(), other.aspect_ratio, other.resolution);
+        other.tells_velocity_alone() && same == (run.made_of(), run.aspect_ratio, run.resolution)
     };
     records.iter().filter(is_seed).filter_map(edge_r_squared).collect()
 }
 
 /// All metrics of one run, among all records.
-pub(super) fn of_run((run, record): &CollapseRecord, records: &[CollapseRecord]) -> Vec<Metric> {
+pub(super) fn of_run<const D: usize>((run, record): &CollapseRecord<D>, records: &[CollapseRecord<D>]) -> Vec<Metric> {
     let variant = run.variant();
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
     let mut metrics = vec![
@@ -80,7 +80,7 @@ pub(super) fn of_run((run, record): &CollapseRecord, records: &[CollapseRecord])
     }
     if let Some(decay) = decay_length(&stations) {
         let over_diameter = |diameter: f64| observed(TAIL_DECAY_LENGTH_OVER_DIAMETER, decay.value / diameter);
-        metrics.extend(run.law.grain_diameter().map(over_diameter));
+        metrics.extend(run.material.grain_diameter().map(over_diameter));
         metrics.push(observed(TAIL_DECAY_LENGTH_OVER_SPACING, decay.value / spacing));
         metrics.push(observed(TAIL_DECAY_LENGTH_STANDARD_ERROR, decay.standard_error / spacing));
     }
@@ -92,7 +92,7 @@ pub(super) fn of_run((run, record): &CollapseRecord, records: &[CollapseRecord])
         let metric = observed(FAILURE_SURFACE_ANGLE, angle);
         let measured = pile_of(run).and_then(|pile| Some((pile, failure_angle(pile)?)));
         let Some((pile, (angle, error))) = measured else {
-            let active = 45.0 + 0.5 * libm::atan(run.law.contact_friction()).to_degrees();
+            let active = 45.0 + 0.5 * libm::atan(run.material.contact_friction()).to_degrees();
             let source = "Coulomb's active failure plane, 45° + ½ arctan μ_s";
             return metric.against(Some(active), source, Confidence::Unverified);
         };

@@ -6,7 +6,7 @@ use super::uncertainty::Known;
 use crate::case::Run;
 use crate::collapse::column::{pile_of, with_friction};
 use crate::collapse::interior::wedge_of;
-use crate::collapse::{Collapse, CollapseRecord, ColumnRun, FRONT_THICKNESS, Geometry};
+use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, FRONT_THICKNESS, Geometry};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Limit, Metric, Origin, Value, Variant};
 use crate::observation::{Frame, Recorded};
@@ -47,9 +47,9 @@ fn over_surface(pile: &MeasuredPile, difference: impl Fn(f64, f64) -> f64) -> f6
 }
 
 /// Run-out, height, surface and line of failure of the pile of bars against the measured ones.
-pub(super) fn of_pile(
-    records: &[CollapseRecord],
-    (run, record): &CollapseRecord,
+pub(super) fn of_pile<const D: usize>(
+    records: &[CollapseRecord<D>],
+    (run, record): &CollapseRecord<D>,
     pile: &MeasuredPile,
     known: [Known; 2],
 ) -> Vec<Metric> {
@@ -66,7 +66,7 @@ pub(super) fn of_pile(
     let tall = collapse.final_height();
     let of_height = known[1].of(of(FINAL_HEIGHT.of(&variant, tall), height), None);
     let distance = over_surface(pile, |x, measured| thickness(collapse, x) - measured);
-    let moved = |(_, other): &CollapseRecord| {
+    let moved = |(_, other): &CollapseRecord<D>| {
         Some(over_surface(pile, |x, _| thickness(&other.data, x) - thickness(collapse, x)))
     };
     let of_surface = of(SURFACE_DISTANCE.of(&variant, distance), 0.0);
@@ -92,7 +92,7 @@ pub(super) fn of_pile(
             )
             .gated_by(judged(Limit::AtMost(PILE_SURFACE)), "5 % of the initial height, a row of twenty"),
     ];
-    let lengths = |run: &ColumnRun, frames: &[Frame]| {
+    let lengths = |run: &ColumnFlow<D>, frames: &[Frame]| {
         Some(wedge_of(run, frames)?.boundary.iter().map(|&(x, y)| (y, x)).collect::<Vec<(f64, f64)>>())
     };
     let over_line = |difference: &dyn Fn(f64, f64) -> Option<f64>| {
@@ -112,9 +112,13 @@ pub(super) fn of_pile(
 }
 
 /// The run-out of a round column over the measured one of its aspect ratio; none where none was measured.
-pub(super) fn of_round_column(run: &ColumnRun, collapse: &Collapse, known: Known) -> Option<Metric> {
+pub(super) fn of_round_column<const D: usize>(
+    run: &ColumnFlow<D>,
+    collapse: &Collapse,
+    known: Known,
+) -> Option<Metric> {
     let measured = &*ROUND_COLUMN_RUN_OUTS;
-    let expected = measured.at(run.initial_height()).filter(|_| run.geometry == Geometry::Round)?;
+    let expected = measured.at(run.initial_height()).filter(|_| run.geometry() == Geometry::Round)?;
     let ratio = RUN_OUT_RATIO
         .of(&run.variant(), collapse.run_out() / expected)
         .against(Some(1.0), &measured.source, measured.confidence)
@@ -161,8 +165,8 @@ pub(super) fn of_round_columns(ratios: &[(f64, Metric)]) -> Option<Metric> {
 }
 
 /// The pile's surface and line of failure beside the measured ones.
-pub(crate) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
-    let piles: Vec<(&ColumnRun, &Recorded<Collapse>, &MeasuredPile)> =
+pub(crate) fn pile_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Option<Figure> {
+    let piles: Vec<(&ColumnFlow<D>, &Recorded<Collapse>, &MeasuredPile)> =
         records.iter().filter_map(|(run, record)| Some((run, record, pile_of(run)?))).collect();
     let (_, _, pile) = *piles.first()?;
     let centimetres = |points: &[(f64, f64)]| points.iter().map(|(x, y)| (100.0 * x, 100.0 * y)).collect::<Vec<_>>();
@@ -178,7 +182,7 @@ pub(crate) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
         let r = 100.0 * run.half_width;
         let label = format!(
             "{}, {} rows",
-            run.material.title_with(&run.law),
+            run.made_of().title_with(&run.material),
             (run.initial_height() * run.resolution as f64).round()
         );
         let deposit = record.data.drawn().map(|(x, thickness)| (r * x, r * thickness));
@@ -187,7 +191,7 @@ pub(crate) fn pile_figure(records: &[&CollapseRecord]) -> Option<Figure> {
             failure.line("", slot + 1, centimetres(&wedge.boundary));
         }
     }
-    let altered = if piles.iter().any(|(run, ..)| !run.material.is_published()) {
+    let altered = if piles.iter().any(|(run, ..)| !run.made_of().is_published()) {
         " μ and μ_2 in the legend are friction coefficients that differ from the bars' own."
     } else {
         ""

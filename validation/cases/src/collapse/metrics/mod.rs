@@ -14,7 +14,7 @@ mod uncertainty;
 
 use crate::case::Run;
 use crate::collapse::column::pile_of;
-use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose, ColumnRun, Geometry, Material};
+use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, Geometry, Material};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Quantity, Variant};
 use crate::reference::collapse::{
@@ -38,21 +38,21 @@ const CONES: std::ops::RangeInclusive<f64> = 2.0..=3.5;
 /// Share of the variance that a line explains of a flank whose lower half is half as steep as its upper one `[-]`.
 const BENT_FLANK: f64 = 0.973;
 
-pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
+pub(crate) fn all<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Metric> {
     let spreads = RESULTS.map(|(_, measure)| relative_spread(records, measure));
     let mut metrics = Vec::new();
     let mut ratios = Vec::new();
     for column in records {
         let (run, record) = column;
-        let is_law = run.purpose == ColumnPurpose::Law;
+        let is_law = run.stands_for_itself(records);
         if let Some(beside) = Beside::of_column(run, &record.data).filter(|_| is_law) {
             metrics.extend(beside.metrics(&run.variant(), MID_COLLAPSE));
         }
         let conservation =
-            conservation(&run.variant(), &record.data, &run.release.numerics, energy_scale(run.initial_height()));
+            conservation(&run.variant(), &record.data, &run.numerics, energy_scale(run.initial_height()));
         metrics.extend(conservation);
         // no experiment has round columns of these grains
-        if !is_law || (run.geometry, run.material) == (Geometry::Round, Material::LAGREE) {
+        if !is_law || (run.geometry(), run.made_of()) == (Geometry::Round, Material::LAGREE) {
             continue;
         }
         let known = [0, 1].map(|result| Known {
@@ -82,15 +82,19 @@ pub(crate) fn all(records: &[CollapseRecord]) -> Vec<Metric> {
     metrics.extend(convergence::metrics(records));
     metrics.extend(stress_updates::metrics(records));
     metrics.extend(other_numerics::metrics(records));
-    metrics.extend(scaling::metrics(records));
+    metrics.extend(scaling::metrics(&laws_among(records)));
     metrics
 }
 
+/// The columns that laws judge.
+pub(crate) fn laws_among<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<&CollapseRecord<D>> {
+    records.iter().filter(|(run, _)| run.stands_for_itself(records)).collect()
+}
+
 /// Whether further seeds of a column are judged together.
-fn has_seeds(records: &[CollapseRecord], run: &ColumnRun) -> bool {
+fn has_seeds<const D: usize>(records: &[CollapseRecord<D>], run: &ColumnFlow<D>) -> bool {
     records.iter().any(|(other, _)| {
-        other.purpose == ColumnPurpose::Convergence
-            && (other.material, other.aspect_ratio) == (run.material, run.aspect_ratio)
+        other.is_of_ensemble() && (other.made_of(), other.aspect_ratio) == (run.made_of(), run.aspect_ratio)
     })
 }
 
@@ -131,8 +135,8 @@ pub(crate) fn conservation(
 
 /// Slope `[°]` of a heap from the final height to the front of the experiment with the longest run-out, less as much as heights may be
 /// off by; of planar columns of the sand, whose grains that experiment's are like.
-fn flattest(run: &ColumnRun) -> Option<f64> {
-    let of_sand = run.geometry == Geometry::Planar && run.material == Material::SAND && run.has_published_law();
+fn flattest<const D: usize>(run: &ColumnFlow<D>) -> Option<f64> {
+    let of_sand = run.geometry() == Geometry::Planar && run.made_of() == Material::SAND && run.has_published_law();
     let value =
         |laws: &[CollapseLaw]| CollapseLawSource::Lajeunesse.law(laws).value(run.initial_height()).filter(|_| of_sand);
     let (height, run_out) = (value(&PLANAR_COLLAPSE.height)?, value(&PLANAR_COLLAPSE.run_out)?);
@@ -160,13 +164,23 @@ pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, lo
 }
 
 /// Where the true value of a user's own grains lies, by how far those of published ones were off.
-fn predicted(run: &ColumnRun, collapse: &Collapse, quantities: &[&str], value: f64) -> Option<PredictionInterval> {
+fn predicted<const D: usize>(
+    run: &ColumnFlow<D>,
+    collapse: &Collapse,
+    quantities: &[&str],
+    value: f64,
+) -> Option<PredictionInterval> {
     let regime = run.is_of_own_grains().then(|| run.regime(collapse))?;
     ValidationSet::shipped().predict(quantities, regime, value)
 }
 
 /// Run-out and height against the laws of experiments and other codes.
-fn against_laws(run: &ColumnRun, collapse: &Collapse, known: [Known; 2], has_seeds: bool) -> [Metric; 2] {
+fn against_laws<const D: usize>(
+    run: &ColumnFlow<D>,
+    collapse: &Collapse,
+    known: [Known; 2],
+    has_seeds: bool,
+) -> [Metric; 2] {
     let (variant, a) = (run.variant(), run.initial_height());
     let by_law = |quantity: Quantity, value: f64, law: &CollapseLaw, laws: &[CollapseLaw], band: AcceptanceBand| {
         let metric = quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
@@ -188,21 +202,21 @@ fn against_laws(run: &ColumnRun, collapse: &Collapse, known: [Known; 2], has_see
         metric.against(law.value(a), &source, law.confidence).gated_by(limit, reason)
     };
     let (run_out_law, height_law) = bands::laws_of(run);
-    let laws = if run.geometry == Geometry::Planar { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
+    let laws = if run.geometry() == Geometry::Planar { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
     let run_out = by_law(RUN_OUT, collapse.run_out(), run_out_law, &laws.run_out, bands::run_out(run, has_seeds));
     let height = by_law(FINAL_HEIGHT, collapse.final_height(), height_law, &laws.height, bands::height(run));
     [known[0].of(run_out, collapse.front_uncertainty()), known[1].of(height, None)]
 }
 
 /// Stop, rest and shape of the heap.
-fn of_column(run: &ColumnRun, collapse: &Collapse) -> Vec<Metric> {
+fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Metric> {
     let (variant, a) = (run.variant(), run.initial_height());
     let observed = |quantity: Quantity, value: f64| quantity.of(&variant, value).with_snapshot_tolerance(1e-3, 1e-3);
     let (duration, source, confidence) = &*COLLAPSE_DURATION;
     let stopping_time = collapse.stopping_time() / run.time_scale();
-    let of_sand = run.material == Material::SAND && run.has_published_law();
+    let of_sand = run.made_of() == Material::SAND && run.has_published_law();
     let slope = observed(DEPOSIT_SLOPE_ANGLE, collapse.slope_angle());
-    let friction = run.law.contact_friction();
+    let friction = run.material.contact_friction();
     let steepest = libm::atan(friction).to_degrees();
     let mut metrics = vec![
         observed(STOPPING_TIME, stopping_time)
@@ -216,7 +230,7 @@ fn of_column(run: &ColumnRun, collapse: &Collapse) -> Vec<Metric> {
                 of_sand.then_some(Limit::Within(2.25, 3.6)),
                 "three sources say 2.5, 3 and 3.3 for grains; 10 % to either side for what each calls the stop",
             ),
-        at_rest(&variant, collapse, &run.law, run.release.duration * run.time_scale()),
+        at_rest(&variant, collapse, &run.material, run.duration * run.time_scale()),
         if friction > 0.0 {
             slope
                 .exactly(steepest, "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front")

@@ -5,7 +5,7 @@ use super::bands;
 use super::quantities::*;
 use super::{Measure, RESULTS};
 use crate::case::Run;
-use crate::collapse::{Collapse, CollapseRecord, ColumnPurpose};
+use crate::collapse::{Collapse, CollapseRecord};
 use crate::metric::{Confidence, Metric, Variant};
 use crate::observation::Frame;
 
@@ -16,17 +16,17 @@ const NEAR: f64 = 2.1;
 /// Fewest neighbours whose mean says something: fewer stand at a surface.
 const FEWEST: usize = 10;
 
-pub(super) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
-    let of = |record: &CollapseRecord| match (record.0.purpose, record.0.partner(records)) {
-        (ColumnPurpose::Eddies, Some(own)) => with_eddies(record, own),
-        (ColumnPurpose::Uncoupled, Some(own)) => without_coupling(record, own),
+pub(super) fn metrics<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Metric> {
+    let of = |record: &CollapseRecord<D>| match record.0.partner(records) {
+        Some(own) if record.0.has_eddies() => with_eddies(record, own),
+        Some(own) if !record.0.is_coupled() => without_coupling(record, own),
         _ => Vec::new(),
     };
     records.iter().flat_map(of).collect()
 }
 
 /// By how much an eddy viscosity moves run-out and height, and how much nearer to the laws it brings the run-out.
-fn with_eddies((run, record): &CollapseRecord, (_, own): &CollapseRecord) -> Vec<Metric> {
+fn with_eddies<const D: usize>((run, record): &CollapseRecord<D>, (_, own): &CollapseRecord<D>) -> Vec<Metric> {
     let variant = run.variant();
     let change = |of: Measure| 100.0 * (of(&record.data) / of(&own.data) - 1.0);
     let acts = "statement of the collapse paper: turbulence acts in such fluids at high Reynolds numbers";
@@ -53,7 +53,7 @@ fn with_eddies((run, record): &CollapseRecord, (_, own): &CollapseRecord) -> Vec
 }
 
 /// Noise of pressure and velocity in mid-collapse without the coupling over that with it.
-fn without_coupling((run, record): &CollapseRecord, (_, own): &CollapseRecord) -> Vec<Metric> {
+fn without_coupling<const D: usize>((run, record): &CollapseRecord<D>, (_, own): &CollapseRecord<D>) -> Vec<Metric> {
     let statement = "statement of the collapse paper: oscillations of the pressure can disturb velocity and surface, for the law depends on it";
     let time = MID_COLLAPSE * run.time_scale();
     let (Some(without), Some(with)) = (Frame::nearest(&record.frames, time), Frame::nearest(&own.frames, time)) else {

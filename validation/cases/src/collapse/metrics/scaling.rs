@@ -2,7 +2,7 @@
 
 use super::quantities::*;
 use super::{Measure, RESULTS};
-use crate::collapse::{Alteration, CollapseRecord, ColumnPurpose, ExperimentGrains, Geometry, Material};
+use crate::collapse::{Alteration, CollapseRecord, Geometry, Material};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
 use crate::shared::range;
@@ -32,7 +32,7 @@ type Family = (Material, f64, Option<Limit>, Option<Limit>);
 const FAMILIES: [Family; 3] = [
     (Material::SAND, 5.0, Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), None),
     (Material::LAGREE, 7.0, Some(Limit::Within(0.65, 0.75)), Some(Limit::Within(0.3, 0.45))),
-    (Material::altered(ExperimentGrains::Sand, Alteration::ReferenceInertia(0.279)), 5.0, None, None),
+    (Material { altered: Alteration::ReferenceInertia, value: 0.279, ..Material::SAND }, 5.0, None, None),
 ];
 
 /// A power law through the tall columns of a material.
@@ -46,17 +46,25 @@ pub(crate) struct Scaling {
     pub(crate) range: (f64, f64),
 }
 
-/// The planar columns of a material that the laws are compared with, between two aspect ratios.
-fn columns<'a>(records: &[&'a CollapseRecord], material: Material, from: f64, to: f64) -> Vec<&'a CollapseRecord> {
-    let own = |(run, _): &&CollapseRecord| {
-        let planar = run.geometry == Geometry::Planar && run.purpose == ColumnPurpose::Law;
-        planar && run.material == material && (from..=to).contains(&run.aspect_ratio)
+/// The planar columns of a material, between two aspect ratios.
+fn columns<'a, const D: usize>(
+    records: &[&'a CollapseRecord<D>],
+    material: Material,
+    from: f64,
+    to: f64,
+) -> Vec<&'a CollapseRecord<D>> {
+    let own = |(run, _): &&CollapseRecord<D>| {
+        run.geometry() == Geometry::Planar && run.made_of() == material && (from..=to).contains(&run.aspect_ratio)
     };
     records.iter().copied().filter(|record| own(record)).collect()
 }
 
 /// The fit of a quantity; none for fewer than four tall columns.
-pub(crate) fn fit(records: &[&CollapseRecord], material: Material, quantity: Measure) -> Option<Scaling> {
+pub(crate) fn fit<const D: usize>(
+    records: &[&CollapseRecord<D>],
+    material: Material,
+    quantity: Measure,
+) -> Option<Scaling> {
     let smallest = FAMILIES.iter().find(|family| family.0 == material)?.1;
     let tall = columns(records, material, smallest, f64::INFINITY);
     let points: Vec<(f64, f64)> =
@@ -72,7 +80,7 @@ fn half_width(law: &Exponent, points: usize) -> f64 {
 }
 
 /// Mean of the run-out over the aspect ratio of shallow columns `[-]`; none without any.
-fn shallow_coefficient(records: &[&CollapseRecord], material: Material) -> Option<f64> {
+fn shallow_coefficient<const D: usize>(records: &[&CollapseRecord<D>], material: Material) -> Option<f64> {
     let shallow = columns(records, material, 0.0, SHALLOW);
     let sum: f64 = shallow.iter().map(|(run, record)| record.data.run_out() / run.initial_height()).sum();
     (!shallow.is_empty()).then(|| sum / shallow.len() as f64)
@@ -92,14 +100,13 @@ fn against_lube(metric: Metric) -> Metric {
     metric.against(Some(0.5 * (shallow.to + tall.from)), &source, lube.confidence)
 }
 
-pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
-    let records: Vec<&CollapseRecord> = records.iter().collect();
+pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Metric> {
     let mut metrics = Vec::new();
     for (material, smallest, run_out_gate, height_gate) in FAMILIES {
-        let columns = columns(&records, material, smallest, f64::INFINITY);
+        let columns = columns(records, material, smallest, f64::INFINITY);
         let ratios = Value::list(columns.iter().map(|(run, _)| run.aspect_ratio));
         for ((quantity, measure), gate) in RESULTS.into_iter().zip([run_out_gate, height_gate]) {
-            let Some(scaling) = fit(&records, material, measure) else { continue };
+            let Some(scaling) = fit(records, material, measure) else { continue };
             let variant = Variant::of("quantity", quantity)
                 .and("material", material.to_string())
                 .and("aspect_ratio", ratios.clone());
@@ -123,7 +130,7 @@ pub(crate) fn metrics(records: &[CollapseRecord]) -> Vec<Metric> {
                 observed(SCALING_COEFFICIENT, scaling.law.coefficient),
             ]);
             if quantity == RUN_OUT.name
-                && let Some(shallow) = shallow_coefficient(&records, material)
+                && let Some(shallow) = shallow_coefficient(records, material)
             {
                 metrics.push(against_lube(observed(BREAK_POINT, break_point(shallow, &scaling.law))));
             }

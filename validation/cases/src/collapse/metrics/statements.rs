@@ -4,7 +4,7 @@
 use super::quantities::*;
 use crate::case::Run;
 use crate::collapse::interior::Station;
-use crate::collapse::{BIN_WIDTH, Collapse, ColumnRun, Geometry, Material};
+use crate::collapse::{BIN_WIDTH, Collapse, ColumnFlow, Geometry, Material};
 use crate::metric::{Confidence, Metric};
 use crate::observation::{Frame, Recorded};
 
@@ -24,8 +24,8 @@ const FOOT: (f64, f64) = (1.5, 0.9);
 const SAME_TIME: f64 = 5e-3;
 
 /// The statements of a column that has pictures for them.
-pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric> {
-    if run.geometry != Geometry::Planar || !matches!(run.material, Material::SAND | Material::GLASS) {
+pub(super) fn of_run<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Collapse>) -> Vec<Metric> {
+    if run.geometry() != Geometry::Planar || !matches!(run.made_of(), Material::SAND | Material::GLASS) {
         return Vec::new();
     }
     let at = |time: f64| Frame::nearest(&record.frames, time).filter(|frame| (frame.time - time).abs() < SAME_TIME);
@@ -56,7 +56,7 @@ pub(super) fn of_run(run: &ColumnRun, record: &Recorded<Collapse>) -> Vec<Metric
 }
 
 /// Fast grains within the initial half width and at the surface: their number at the second time over that at the first.
-fn fast_upstream(run: &ColumnRun, first: &Frame, second: &Frame) -> f64 {
+fn fast_upstream<const D: usize>(run: &ColumnFlow<D>, first: &Frame, second: &Frame) -> f64 {
     let speeds = first.speeds();
     let fast = FAST_SHARE * speeds.iter().copied().fold(0.0, f64::max);
     let count = |frame: &Frame| {
@@ -89,7 +89,7 @@ fn distortion_of_top(start: &Frame, frame: &Frame) -> f64 {
 }
 
 /// Velocity of the lowest row near the front over that of the fastest row there, in mid-collapse; none where there is but one row.
-fn foot_velocity_ratio(run: &ColumnRun, record: &Recorded<Collapse>) -> Option<f64> {
+fn foot_velocity_ratio<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Collapse>) -> Option<f64> {
     let time = FOOT.0 * run.time_scale();
     let frame = Frame::nearest(&record.frames, time)?;
     let place = 1.0 + FOOT.1 * (record.data.front[record.data.nearest(time)?] - 1.0);

@@ -1,13 +1,7 @@
 //! Planar granular columns that collapse and spread on a rough horizontal bed.
 
-mod parameters;
-mod runs;
-mod tiers;
-
-pub use parameters::{ColumnPlanarParameters, OtherNumerics, PlanarColumns, Regularised, Sensitivity, Variants};
-
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
-use crate::collapse::{self, Collapse, CollapseRecord, ColumnRun};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::collapse::{self, Collapse, ColumnFlow};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -17,6 +11,10 @@ use crate::store::CodeOrigin;
 /// The case.
 #[derive(Debug)]
 pub struct ColumnPlanar;
+
+/// A planar column.
+pub type PlanarColumn = ColumnFlow<2>;
+type Record = RecordOf<RunList<PlanarColumn>>;
 
 impl Case for ColumnPlanar {
     const NAME: &'static str = "column-planar";
@@ -36,29 +34,29 @@ impl Case for ColumnPlanar {
         Observed only. The undisturbed core, the failure surface and the profile of the flowing layer. The published \
         laws under any other law than μ(I): their coefficients depend on the material, their exponents much less.";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::column::EXTERNAL_SCHEMA;
-    type Parameters = ColumnPlanarParameters;
+    type Parameters = RunList<PlanarColumn>;
     const QUANTITIES: &'static [Quantity] = collapse::metrics::quantities::QUANTITIES;
 
-    fn metrics(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Metric> {
+    fn metrics(_: &RunList<PlanarColumn>, records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)
     }
 
-    fn figures(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Figure> {
+    fn figures(_: &RunList<PlanarColumn>, records: &[Record]) -> Vec<Figure> {
         collapse::figures::all(records)
     }
 
-    fn animations(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Animation> {
+    fn animations(_: &RunList<PlanarColumn>, records: &[Record]) -> Vec<Animation> {
         collapse::figures::animations(records)
     }
 
     fn from_external(
-        run: &ColumnRun,
+        run: &PlanarColumn,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
         collapse::external::column::observe(run, given).map(Some)
     }
 
-    fn tables(_: &ColumnPlanarParameters, records: &[CollapseRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<PlanarColumn>, records: &[Record]) -> Vec<Table> {
         records.iter().flat_map(collapse::tables).collect()
     }
 }

@@ -1,11 +1,7 @@
 //! Round granular columns, the experiment of Lube et al. (2004), in three dimensions.
 
-mod parameters;
-
-pub use parameters::{ColumnRoundParameters, RoundColumn};
-
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema};
-use crate::collapse::{self, Collapse, CollapseRecord, ColumnRun};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::collapse::{self, Collapse, ColumnFlow};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -15,6 +11,10 @@ use crate::store::CodeOrigin;
 /// The case.
 #[derive(Debug)]
 pub struct ColumnRound;
+
+/// A round column.
+pub type RoundColumn = ColumnFlow<3>;
+type Record = RecordOf<RunList<RoundColumn>>;
 
 impl Case for ColumnRound {
     const NAME: &'static str = "column-round";
@@ -31,29 +31,29 @@ impl Case for ColumnRound {
         Observed only. The height law of the same source, which is unverified. The published laws under any other \
         law than μ(I).";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::column::EXTERNAL_SCHEMA;
-    type Parameters = ColumnRoundParameters;
+    type Parameters = RunList<RoundColumn>;
     const QUANTITIES: &'static [Quantity] = collapse::metrics::quantities::QUANTITIES;
 
-    fn metrics(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Metric> {
+    fn metrics(_: &RunList<RoundColumn>, records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)
     }
 
-    fn figures(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Figure> {
+    fn figures(_: &RunList<RoundColumn>, records: &[Record]) -> Vec<Figure> {
         collapse::figures::all(records)
     }
 
-    fn animations(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Animation> {
+    fn animations(_: &RunList<RoundColumn>, records: &[Record]) -> Vec<Animation> {
         collapse::figures::animations(records)
     }
 
     fn from_external(
-        run: &ColumnRun,
+        run: &RoundColumn,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<Collapse>>, FieldError> {
         collapse::external::column::observe(run, given).map(Some)
     }
 
-    fn tables(_: &ColumnRoundParameters, records: &[CollapseRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<RoundColumn>, records: &[Record]) -> Vec<Table> {
         records.iter().flat_map(collapse::tables).collect()
     }
 }
