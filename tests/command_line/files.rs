@@ -150,6 +150,34 @@ fn a_report_has_the_verdicts_and_is_self_contained() {
     }
 }
 
+/// The name of a film's run has no viscosity: the varied one is a label of its runs, numbers, tables and figures.
+#[test]
+fn runs_of_one_name_are_labelled_by_what_is_varied() {
+    let place = Place::new();
+    let arguments =
+        ["run", "film", "--vary", "resolution=10,12", "--vary", "material.viscosity=0.5,1.0", "--out", "films"];
+    place.bagnold(&arguments).assert().success();
+    let document = std::fs::read_to_string(place.path("films/metrics.json")).expect("written");
+    for variant in ["resolution=10,viscosity=0.5", "resolution=12,viscosity=1", "resolution=10_12,viscosity=1"] {
+        assert!(document.contains(&format!("fluid=newtonian,particles=jittered,{variant}\"")), "{variant}: {document}");
+    }
+    assert!(place.path("films/figures/velocity-profile-viscosity-0.5.svg").is_file());
+    let profile = "films/tables/profile-fluid-newtonian-particles-jittered-resolution-12-viscosity-1.csv";
+    assert!(place.path(profile).is_file());
+    let chosen = place
+        .bagnold(&[&arguments[..6], &["--only", "resolution=12,viscosity=0.5", "--out", "one"]].concat())
+        .assert()
+        .code(0);
+    let said = String::from_utf8_lossy(&chosen.get_output().stdout).into_owned();
+    assert!(said.starts_with("film, quick tier: 1 run"), "{said}");
+    // laws have no name in a variant: they are numbered
+    let laws = "numerics=[{ artificial_viscosity = 0.1 }, { artificial_viscosity = 0.2 }]";
+    let mut numbered = place.bagnold(&["run", "film", "--vary", laws, "--vary", "resolution=10", "--out", "numbered"]);
+    let said = numbered.assert().code(0);
+    let said = String::from_utf8_lossy(&said.get_output().stdout).into_owned();
+    assert!(said.contains("resolution=10,numerics=1 ") && said.contains("resolution=10,numerics=2 "), "{said}");
+}
+
 /// A store that cannot be written has one reason, and is warned of once.
 #[test]
 fn a_store_that_cannot_be_written_is_warned_of_once() {

@@ -116,6 +116,21 @@ pub trait Parameters: Serialize + DeserializeOwned + JsonSchema + Clone + Send +
         let runs = self.runs();
         self.check_runs(&runs.iter().collect::<Vec<_>>())
     }
+    /// The parameters of a table whose fields are sound.
+    ///
+    /// # Errors
+    /// What no schema can tell, such as a place in a list of runs that breaks a rule.
+    fn of_table(case: &str, table: toml::Table) -> Result<Self, ParameterError> {
+        given::changes::typed(case, table)
+    }
+    /// Keys that tell a run apart from others with its own name.
+    fn label(&self, _run: &Self::Run) -> Variant {
+        Variant::default()
+    }
+    /// Full name of a run.
+    fn variant_of(&self, run: &Self::Run) -> Variant {
+        run.variant().followed_by(&self.label(run))
+    }
     /// The independent simulations that these parameters ask for, in report order.
     fn runs(&self) -> Vec<Self::Run>;
     /// The field that takes the place of one of earlier files.

@@ -45,7 +45,7 @@ use crate::evaluation::{PlanError, parse_plan};
 use crate::figure::Figure;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::measured::Measurements;
-use crate::metric::{Metric, Variant};
+use crate::metric::Metric;
 use crate::output::FileError;
 use check::{CheckedQuantity, StudyCheck};
 use file::StudyText;
@@ -325,40 +325,9 @@ impl Study {
         let own: Vec<Figure> = self.text.figures.iter().map(|figure| figure.draw(&judged.metrics)).collect();
         let mut hash = Sha256::new();
         for (changed, result) in self.changes.iter().zip(results) {
-            let suffix =
-                if changed.variant.is_empty() { String::new() } else { format!("-{}", changed.variant.file_name()) };
-            let caption = |caption: &str| match changed.variant.is_empty() {
-                true => caption.to_owned(),
-                false => format!("{}: {caption}", changed.variant),
-            };
             hash.update(result.state_hash.as_bytes());
             hash.update([0]);
-            let joined = |variant: &Variant| joined(&changed.variant, variant);
-            judged
-                .metrics
-                .extend(result.metrics.into_iter().map(|metric| Metric { variant: joined(&metric.variant), ..metric }));
-            judged.runs.extend(result.runs.into_iter().map(|mut run| {
-                run.variant = joined(&run.variant);
-                run
-            }));
-            judged.tables.extend(result.tables.into_iter().map(|mut table| {
-                table.name += &suffix;
-                table
-            }));
-            judged.figures.extend(result.figures.into_iter().map(|mut figure| {
-                figure.caption = caption(&figure.caption);
-                figure.name += &suffix;
-                figure
-            }));
-            judged.animations.extend(result.animations.into_iter().map(|mut animation| {
-                animation.caption = caption(&animation.caption);
-                animation.name += &suffix;
-                animation
-            }));
-            judged.run_parameters.extend(result.run_parameters);
-            judged.regimes.extend(result.regimes);
-            judged.frames.extend(result.frames);
-            judged.first_bad.extend(result.first_bad);
+            judged = judged.and(result.labelled(&changed.variant, |variant| joined(&changed.variant, variant)));
         }
         judged.state_hash = crate::store::hexadecimal(&hash.finalize());
         for (place, figure) in own.iter().enumerate() {

@@ -223,13 +223,18 @@ impl ListOfRuns {
         let common = self.vary.iter().enumerate().map(|(index, varied)| (format!("vary[{index}]"), varied));
         let mut all = vec![ListedChange { variant, values }];
         for (field, varied) in own.chain(common) {
-            let with = |changed: &ListedChange, value: &Value| {
+            let with = |changed: &ListedChange, (place, value): (usize, &Value)| {
                 let mut next = changed.clone();
                 next.values.push((field.clone(), varied.path.clone(), value.clone()));
-                next.variant = next.variant.and(varied.label(), in_variant(value).unwrap_or_else(|| "-".into()));
+                // what has no name is numbered
+                next.variant =
+                    next.variant.and(varied.label(), in_variant(value).unwrap_or((place as f64 + 1.0).into()));
                 next
             };
-            all = all.iter().flat_map(|changed| varied.values.iter().map(|value| with(changed, value))).collect();
+            all = all
+                .iter()
+                .flat_map(|changed| varied.values.iter().enumerate().map(|value| with(changed, value)))
+                .collect();
         }
         all
     }

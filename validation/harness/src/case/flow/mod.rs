@@ -4,15 +4,16 @@ pub mod cost;
 pub mod list;
 
 use self::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
-use crate::case::given::changes::{lay_at, lay_over, overlay, table_of, unknown_law};
+use crate::case::given::changes::{lay_at, lay_over, overlay, table_of, typed, unknown_law};
 use crate::case::given::fault;
 use crate::case::{ParameterError, Parameters, Run, Tier};
 use crate::input::FieldError;
+use crate::metric::{Value as VariantValue, Variant};
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value};
 
 /// One simulation with all of its parameters, each declared once: a field with its doc comment, unit and range.
@@ -74,25 +75,30 @@ pub struct RunList<F> {
     /// The runs.
     #[serde(skip)]
     flows: Vec<F>,
+    /// Keys that tell them apart where their own names do not; empty where these suffice.
+    #[serde(skip)]
+    labels: Vec<Variant>,
 }
 
 impl<F: Flow> RunList<F> {
-    /// The runs of a list over base values.
+    /// The runs of a list over base values of a case.
     ///
     /// # Errors
     /// The first place in the list that breaks a rule.
-    pub fn new(base: F, list: ListOfRuns) -> Result<Self, ParameterError> {
+    pub fn new(case: &str, base: F, list: ListOfRuns) -> Result<Self, ParameterError> {
         list.check()?;
         let table = table_of(&base);
-        let mut flows: Vec<F> = Vec::new();
+        let (mut flows, mut listed) = (Vec::<F>::new(), Vec::new());
         for change in list.changes() {
-            let flow = if change.values.is_empty() { base.clone() } else { changed(&table, &change)? };
+            let flow = if change.values.is_empty() { base.clone() } else { changed(case, &table, &change)? };
             // a value that is set for all runs can leave several of them equal
             if !flows.contains(&flow) {
                 flows.push(flow);
+                listed.push(change.variant);
             }
         }
-        Ok(Self { base, list, flows })
+        let labels = labels(&flows, &listed);
+        Ok(Self { base, list, flows, labels })
     }
 
     /// The runs.
@@ -102,8 +108,29 @@ impl<F: Flow> RunList<F> {
     }
 }
 
+/// Of the keys that a list gives its runs, those that tell runs apart which have one name; none where there are no such runs.
+fn labels<F: Flow>(flows: &[F], listed: &[Variant]) -> Vec<Variant> {
+    let own: Vec<Variant> = flows.iter().map(F::variant).collect();
+    let mut first: BTreeMap<String, usize> = BTreeMap::new();
+    let mut keys: BTreeSet<&str> = BTreeSet::new();
+    for (place, (own, listed_here)) in own.iter().zip(listed).enumerate() {
+        let twin = *first.entry(own.to_string()).or_insert(place);
+        let differs =
+            |(key, value): &(&str, &VariantValue)| own.get(key).is_none() && listed[twin].get(key) != Some(*value);
+        keys.extend(listed_here.parts().filter(differs).map(|(key, _)| key));
+    }
+    if keys.is_empty() {
+        return Vec::new();
+    }
+    let label = |listed: &Variant| {
+        let parts = listed.parts().filter(|(key, _)| keys.contains(key));
+        parts.fold(Variant::default(), |label, (key, value)| label.and(key, value.clone()))
+    };
+    listed.iter().map(label).collect()
+}
+
 /// A flow with the values of one run.
-fn changed<F: Flow>(base: &Table, change: &ListedChange) -> Result<F, ParameterError> {
+fn changed<F: Flow>(case: &str, base: &Table, change: &ListedChange) -> Result<F, ParameterError> {
     let schema = schema_of::<F>();
     let mut changes = Table::new();
     for (_, path, value) in &change.values {
@@ -114,7 +141,7 @@ fn changed<F: Flow>(base: &Table, change: &ListedChange) -> Result<F, ParameterE
     overlay(schema, &mut table, &changes);
     let value = Value::Table(table);
     if let Some(fault) = first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
-        return Err(placed(fault, base, change));
+        return Err(placed(case, fault, base, change));
     }
     value.try_into().map_err(|error: toml::de::Error| {
         let place = change.values.first().map_or("variants", |(place, ..)| place);
@@ -138,7 +165,7 @@ fn keep_shared(schema: &serde_json::Value, base: &Table, changes: &mut Table) {
 }
 
 /// A fault in a run, by the place in the list that gives the value.
-fn placed(fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
+fn placed(case: &str, fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
     let path = fault.path().to_owned();
     let gives = |own: &str| own == path || path.starts_with(&format!("{own}.")) || own.starts_with(&format!("{path}."));
     let given = change
@@ -147,20 +174,20 @@ fn placed(fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
         .rev()
         .find(|(_, own, value)| gives(own) || value.is_table() && path.starts_with(own.as_str()));
     let Some((place, own, value)) = given else {
-        return fault::in_parameters(fault, "CASE", &crate::case::given::changes::paths(base));
+        return fault::in_parameters(fault, case, &crate::case::given::changes::paths(base));
     };
     match fault {
         Fault::Unknown { known, .. } => {
             let known = [known, crate::case::given::changes::paths(base)];
             let nearest = fault::nearest_path(&path, &[&known[0], &known[1]]);
             let remedy = nearest.map_or_else(
-                || "`bagnold show CASE` prints all fields".to_owned(),
+                || format!("`bagnold show {case}` prints all fields"),
                 |nearest| format!("did you mean `{nearest}`?"),
             );
             let field = if place.starts_with("vary") || place.contains("].vary") { "path" } else { path.as_str() };
             FieldError::new(&format!("{place}.{field}"), format!("\"{path}\""), "a field of the flow", &remedy).into()
         }
-        fault => match fault::in_parameters(fault, "CASE", &crate::case::given::changes::paths(base)) {
+        fault => match fault::in_parameters(fault, case, &crate::case::given::changes::paths(base)) {
             ParameterError::Field(error) => {
                 let text = error.value.clone();
                 let shown = if own == &path { value.to_string() } else { text };
@@ -173,12 +200,7 @@ fn placed(fault: Fault, base: &Table, change: &ListedChange) -> ParameterError {
 
 impl<'de, F: Flow> Deserialize<'de> for RunList<F> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut table = Table::deserialize(deserializer)?;
-        let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.remove(key)?)));
-        let list: ListOfRuns = Value::Table(parts.collect()).try_into().map_err(D::Error::custom)?;
-        let base: F =
-            Value::Table(table).try_into().map_err(|error: toml::de::Error| D::Error::custom(error.message()))?;
-        Self::new(base, list).map_err(D::Error::custom)
+        Self::of_table("CASE", Table::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }
 
@@ -195,10 +217,10 @@ impl<F: Flow> Parameters for RunList<F> {
             }
         }
         let values = changes.into_iter().map(|(path, value)| ("set".to_owned(), path, value)).collect();
-        let change = ListedChange { variant: crate::metric::Variant::default(), values };
-        let base = changed(&table_of(&F::default()), &change).unwrap_or_else(|error| panic!("{tier}: {error}"));
+        let change = ListedChange { variant: Variant::default(), values };
+        let base = changed("CASE", &table_of(&F::default()), &change).unwrap_or_else(|error| panic!("{tier}: {error}"));
         let list = ListOfRuns { variants: file.variants, vary: file.vary }.of_tier(tier);
-        Self::new(base, list).unwrap_or_else(|error| panic!("{tier}: {error}"))
+        Self::new("CASE", base, list).unwrap_or_else(|error| panic!("{tier}: {error}"))
     }
 
     fn check(&self) -> Result<(), ParameterError> {
@@ -219,8 +241,19 @@ impl<F: Flow> Parameters for RunList<F> {
         doubts
     }
 
+    fn of_table(case: &str, mut table: Table) -> Result<Self, ParameterError> {
+        let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.remove(key)?)));
+        let list = typed(case, parts.collect())?;
+        Self::new(case, typed(case, table)?, list)
+    }
+
     fn runs(&self) -> Vec<F> {
         self.flows.clone()
+    }
+
+    fn label(&self, run: &F) -> Variant {
+        let place = if self.labels.is_empty() { None } else { self.flows.iter().position(|own| own == run) };
+        place.map(|place| self.labels[place].clone()).unwrap_or_default()
     }
 
     fn field_now(former: &str) -> Option<String> {

@@ -8,7 +8,6 @@ use crate::metric::Variant;
 use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
-use schemars::JsonSchema;
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value as Schema;
 use std::path::{Path, PathBuf};
@@ -56,6 +55,13 @@ impl Changes<'_> {
         }
     }
 
+    /// An error of the parameters as a whole, with the file where it is to blame. Of a field that is named without its path only what else
+    /// was given tells whether an argument or the file holds it.
+    fn blamed(&self, error: ParameterError) -> ParameterError {
+        let has_path = error.field_path().is_some_and(|field| field.contains('['));
+        if has_path || self.settings.is_empty() { self.source().placed(error) } else { error }
+    }
+
     /// The same, with lists empty that a file leaves out.
     #[must_use]
     pub(in crate::case) fn with_lists(&self, [of_flow, of_runs]: [&[&str]; 2]) -> Self {
@@ -82,20 +88,31 @@ pub(in crate::case) fn resolve<P: Parameters>(
     changes: &Changes<'_>,
 ) -> Result<P, ParameterError> {
     refuse_former(P::field_now, changes)?;
-    typed(case, defaults, changes, P::set_for_all)
+    let table = checked(case, schema_of::<P>(), &table_of(defaults), changes, P::set_for_all)?;
+    P::of_table(case, table).map_err(|error| changes.blamed(error))
 }
 
-fn typed<P>(
+/// The values of a table whose fields are sound.
+///
+/// # Errors
+/// What no schema can tell, such as what the maker of a law of the user's own says of its parameters.
+pub(in crate::case) fn typed<T: DeserializeOwned>(case: &str, table: Table) -> Result<T, ParameterError> {
+    Value::Table(table).try_into().map_err(|error: toml::de::Error| {
+        let usual = format!("`bagnold show {case}` prints valid ones");
+        let (field, value, rule, remedy) =
+            said(error.message()).unwrap_or(("parameters", "not valid", error.message(), &usual));
+        ParameterError::field(field, value, rule, remedy)
+    })
+}
+
+/// The defaults with the changes, each field checked along the schema.
+fn checked(
     case: &str,
-    defaults: &P,
+    schema: &'static Schema,
+    defaults: &Table,
     changes: &Changes<'_>,
     set_for_all: fn(&mut Table, &[String]),
-) -> Result<P, ParameterError>
-where
-    P: Serialize + DeserializeOwned + JsonSchema + 'static,
-{
-    let schema = schema_of::<P>();
-    let defaults = table_of(defaults);
+) -> Result<Table, ParameterError> {
     let mut table = defaults.clone();
     if let Some((_, fields)) = &changes.file {
         overlay(schema, &mut table, fields);
@@ -103,7 +120,7 @@ where
     let mut settings = Table::new();
     for (index, argument) in changes.settings.iter().enumerate() {
         refuse_twice(&changes.settings[..index], argument)?;
-        add_setting(case, &defaults, &mut settings, argument)?;
+        add_setting(case, defaults, &mut settings, argument)?;
     }
     let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
     for (file, fields) in file.into_iter().chain([(None, &settings)]) {
@@ -123,24 +140,12 @@ where
     let given = of_file.chain(plausible::warnings(&settings)).map(|(_, text)| text);
     let unlikely: Vec<String> = given.chain(plausible::wide_grains(&table)).collect();
     let value = Value::Table(table);
-    match first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
-        Some(fault) => Err(blame(fault, case, &defaults, changes)),
-        // What no schema can tell, such as what the maker of a law of the user's own says of its parameters.
-        None => {
-            unlikely.iter().for_each(|warning| caution(warning));
-            value.try_into().map_err(|error: toml::de::Error| {
-                let usual = format!("`bagnold show {case}` prints valid ones");
-                let (field, value, rule, remedy) =
-                    said(error.message()).unwrap_or(("parameters", "not valid", error.message(), &usual));
-                let error = ParameterError::field(field, value, rule, remedy);
-                // the name alone does not tell whether an argument or the file holds the value
-                match &changes.file {
-                    Some((file, _)) if changes.settings.is_empty() => error.in_file(file),
-                    _ => error,
-                }
-            })
-        }
+    if let Some(fault) = first_fault(schema, &value).or_else(|| unknown_law(schema, &value, "")) {
+        return Err(blame(fault, case, defaults, changes));
     }
+    unlikely.iter().for_each(|warning| caution(warning));
+    let Value::Table(table) = value else { return Ok(Table::new()) };
+    Ok(table)
 }
 
 /// Refuses lists of values that are runs of one flow now.

@@ -106,6 +106,45 @@ impl CaseResult {
         microseconds_each(self.wall_seconds(), self.particle_steps())
     }
 
+    /// The result with a label beside the name of each run, number, table and picture; `named` adds it to a variant.
+    #[must_use]
+    pub fn labelled(mut self, label: &Variant, named: impl Fn(&Variant) -> Variant) -> Self {
+        if label.is_empty() {
+            return self;
+        }
+        let suffix = label.suffix();
+        let caption = |caption: &mut String| *caption = format!("{label}: {caption}");
+        let variants = self.metrics.iter_mut().map(|metric| &mut metric.variant);
+        for variant in variants.chain(self.runs.iter_mut().map(|run| &mut run.variant)) {
+            *variant = named(variant);
+        }
+        self.tables.iter_mut().for_each(|table| table.name += &suffix);
+        for figure in &mut self.figures {
+            figure.name += &suffix;
+            caption(&mut figure.caption);
+        }
+        for animation in &mut self.animations {
+            animation.name += &suffix;
+            caption(&mut animation.caption);
+        }
+        self
+    }
+
+    /// The result with the runs of another one behind its own, and all that was made of them.
+    #[must_use]
+    pub fn and(mut self, other: Self) -> Self {
+        self.metrics.extend(other.metrics);
+        self.figures.extend(other.figures);
+        self.animations.extend(other.animations);
+        self.tables.extend(other.tables);
+        self.runs.extend(other.runs);
+        self.run_parameters.extend(other.run_parameters);
+        self.regimes.extend(other.regimes);
+        self.frames.extend(other.frames);
+        self.first_bad.extend(other.first_bad);
+        self
+    }
+
     /// Trial of a control that gave this result, beside the right case.
     #[must_use]
     pub fn trial(&self, control: Control, right: &Self) -> ControlTrial {

@@ -17,8 +17,9 @@ use crate::control::{self, Control};
 use crate::evidence::completed;
 use crate::figure::Figure;
 use crate::input::FieldError;
-use crate::metric::{Quantity, Variant};
+use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
+use crate::output::Table;
 use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
 use sha2::{Digest, Sha256};
@@ -242,6 +243,74 @@ impl<C: Case> CasePlan<C> {
         let trajectory = self.slots[run].0.trajectory().filter(|_| store.keeps_ends())?;
         store.key(C::ORIGIN, C::NAME, &("trajectory", trajectory)).map(|key| store.ends(&key))
     }
+
+    /// Judges and draws the records of runs with one label.
+    fn result(&self, slots: Vec<Slot<RunOf<C::Parameters>>>) -> CaseResult {
+        let (mut summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Parameters>>) = slots
+            .into_iter()
+            .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
+            .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
+            .unzip();
+        let mut metrics = completed(C::NAME, C::metrics(&self.parameters, &records));
+        let figures = C::figures(&self.parameters, &records);
+        let animations = C::animations(&self.parameters, &records);
+        let tables = C::tables(&self.parameters, &records);
+        let regimes = records.iter().map(|(run, record)| run.regime(&record.data)).collect();
+        let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
+        let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
+        fail_broken_profiles(&mut summaries, &tables);
+        fail_diverged(&mut metrics, &summaries);
+        CaseResult {
+            name: C::NAME.to_owned(),
+            origin: C::ORIGIN,
+            summary: C::SUMMARY.to_owned(),
+            description: C::DESCRIPTION.to_owned(),
+            tier: self.tier,
+            parameters_toml: self.parameters_toml.clone(),
+            command: self.command.clone(),
+            metrics,
+            figures,
+            animations,
+            tables,
+            state_hash: String::new(),
+            runs: summaries,
+            run_parameters,
+            regimes,
+            frames,
+            first_bad,
+        }
+    }
+
+    /// What the case says of records, those of one label together.
+    fn said(&self, records: Vec<RecordOf<C::Parameters>>) -> ExternalResult {
+        let mut said = ExternalResult::default();
+        for (label, records) in by_label(records, |(run, _)| self.parameters.label(run)) {
+            let metrics = C::metrics(&self.parameters, &records).into_iter();
+            said.metrics
+                .extend(metrics.map(|metric| Metric { variant: metric.variant.clone().followed_by(&label), ..metric }));
+            let figures = C::figures(&self.parameters, &records).into_iter();
+            said.figures.extend(figures.map(|figure| Figure { name: figure.name + &label.suffix(), ..figure }));
+            let tables = C::tables(&self.parameters, &records).into_iter();
+            said.tables.extend(tables.map(|table| Table { name: table.name + &label.suffix(), ..table }));
+        }
+        said
+    }
+}
+
+/// Items with one label together, in the order of the labels; a group of none where there are no items.
+fn by_label<T>(items: Vec<T>, label: impl Fn(&T) -> Variant) -> Vec<(Variant, Vec<T>)> {
+    let mut groups: Vec<(Variant, Vec<T>)> = Vec::new();
+    for item in items {
+        let label = label(&item);
+        match groups.iter_mut().find(|(own, _)| *own == label) {
+            Some((_, own)) => own.push(item),
+            None => groups.push((label, vec![item])),
+        }
+    }
+    if groups.is_empty() {
+        groups.push((Variant::default(), Vec::new()));
+    }
+    groups
 }
 
 impl<C: Case> PreparedCase for CasePlan<C> {
@@ -266,7 +335,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     }
 
     fn variant(&self, run: usize) -> Variant {
-        self.slots[run].0.variant()
+        self.parameters.variant_of(&self.slots[run].0)
     }
 
     fn run_parameters(&self, run: usize) -> serde_json::Value {
@@ -346,11 +415,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             .iter()
             .filter_map(|(run, _)| Some((run.clone(), nothing.record(seen(run)?.observation))))
             .collect();
-        ExternalResult {
-            metrics: C::metrics(&self.parameters, &records),
-            figures: C::figures(&self.parameters, &records),
-            ..ExternalResult::default()
-        }
+        ExternalResult { tables: Vec::new(), ..self.said(records) }
     }
 
     fn conditions(&self, run: usize) -> Option<Conditions> {
@@ -370,54 +435,21 @@ impl<C: Case> PreparedCase for CasePlan<C> {
                 continue;
             }
             if let Some(foreign) = C::from_external(run, given).map_err(|error| (number, error))? {
-                measured.push((run.variant(), foreign.measured));
+                measured.push((self.parameters.variant_of(run), foreign.measured));
                 records.push((run.clone(), given.record(foreign.observation)));
             }
         }
-        Ok(ExternalResult {
-            metrics: C::metrics(&self.parameters, &records),
-            figures: C::figures(&self.parameters, &records),
-            tables: C::tables(&self.parameters, &records),
-            measured,
-        })
+        Ok(ExternalResult { measured, ..self.said(records) })
     }
 
-    fn finish(self: Box<Self>) -> Result<CaseResult, ParameterError> {
-        let plan = *self;
-        let (mut summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Parameters>>) = plan
-            .slots
+    fn finish(mut self: Box<Self>) -> Result<CaseResult, ParameterError> {
+        let slots = by_label(std::mem::take(&mut self.slots), |(run, _)| self.parameters.label(run));
+        let named = |variant: &Variant, label: &Variant| variant.clone().followed_by(label);
+        let parts = slots
             .into_iter()
-            .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
-            .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
-            .unzip();
-        let mut metrics = completed(C::NAME, C::metrics(&plan.parameters, &records));
-        let figures = C::figures(&plan.parameters, &records);
-        let animations = C::animations(&plan.parameters, &records);
-        let tables = C::tables(&plan.parameters, &records);
-        let regimes = records.iter().map(|(run, record)| run.regime(&record.data)).collect();
-        let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
-        let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
-        fail_broken_profiles(&mut summaries, &tables);
-        fail_diverged(&mut metrics, &summaries);
-        Ok(CaseResult {
-            name: C::NAME.to_owned(),
-            origin: C::ORIGIN,
-            summary: C::SUMMARY.to_owned(),
-            description: C::DESCRIPTION.to_owned(),
-            tier: plan.tier,
-            parameters_toml: plan.parameters_toml,
-            command: plan.command,
-            metrics,
-            figures,
-            animations,
-            tables,
-            state_hash: hash_of_states(&summaries),
-            runs: summaries,
-            run_parameters,
-            regimes,
-            frames,
-            first_bad,
-        })
+            .map(|(label, slots)| self.result(slots).labelled(&label, |variant| named(variant, &label)));
+        let whole = parts.reduce(CaseResult::and).unwrap_or_else(|| self.result(Vec::new()));
+        Ok(CaseResult { state_hash: hash_of_states(&whole.runs), ..whole })
     }
 }
 

@@ -39,7 +39,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
         if runs.is_empty() {
             return Err(ParameterError::NothingToRun { case: self.case.to_owned(), empty: self.emptied() });
         }
-        let chosen = self.chosen(&runs);
+        let chosen = self.chosen(self.parameters, &runs);
         self.parameters.check_runs(&chosen).map_err(|error| source.placed(self.named(error)))?;
         self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
         self.check_unique(&chosen).map_err(|error| source.placed(error))?;
@@ -48,10 +48,10 @@ impl<'a, P: Parameters> Guard<'a, P> {
     }
 
     /// Those of the runs that are to be simulated.
-    fn chosen<'r>(&self, runs: &'r [P::Run]) -> Vec<&'r P::Run> {
+    fn chosen<'r>(&self, parameters: &P, runs: &'r [P::Run]) -> Vec<&'r P::Run> {
         let only = self.changes.only;
         let is_chosen = |run: &&P::Run| {
-            let variant = run.variant();
+            let variant = parameters.variant_of(run);
             only.is_empty() || only.iter().any(|asked| variant.includes(asked))
         };
         runs.iter().filter(is_chosen).collect()
@@ -63,7 +63,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
             return false;
         }
         let runs = parameters.runs();
-        let chosen = self.chosen(&runs);
+        let chosen = self.chosen(parameters, &runs);
         !chosen.is_empty() && parameters.check_runs(&chosen).is_ok()
     }
 
@@ -112,12 +112,12 @@ impl<'a, P: Parameters> Guard<'a, P> {
         let last = keys.pop()?;
         let holder = keys.into_iter().try_fold(&mut table, |table, key| table.get_mut(key)?.as_table_mut())?;
         holder.insert(last.to_owned(), before);
-        Value::Table(table).try_into().ok()
+        P::of_table(self.case, table).ok()
     }
 
     /// Checks that the names of runs are unique: two of one name would be taken for each other.
     fn check_unique(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
-        let Some(twin) = twin(runs) else { return Ok(()) };
+        let Some(twin) = twin(self.parameters, runs) else { return Ok(()) };
         let remedy = format!("two runs would both be called `{twin}`: name it once");
         let lists = leaves(&self.asked).into_iter().filter_map(|path| {
             let values = find(&self.asked, &path)?.as_array()?;
@@ -136,7 +136,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
 
     /// The name that two runs of other parameters share.
     fn twin_of(&self, parameters: &P) -> Option<String> {
-        if self.holds(parameters) { twin(&self.chosen(&parameters.runs())) } else { None }
+        if self.holds(parameters) { twin(parameters, &self.chosen(parameters, &parameters.runs())) } else { None }
     }
 
     /// Check of memory and time against the limits; the field is the one that, as the tier has it, saves most.
@@ -149,7 +149,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
             let Some(parameters) = self.restored(&field.0).filter(|parameters| self.holds(parameters)) else {
                 continue;
             };
-            let without = of_runs(&self.chosen(&parameters.runs()));
+            let without = of_runs(&self.chosen(&parameters, &parameters.runs()));
             let best = least.as_ref().map_or(&estimate, |(best, _)| best);
             if without.is_less_than(best, limits) {
                 least = Some((without, field));
@@ -167,9 +167,9 @@ fn of_runs<R: Run>(runs: &[&R]) -> Estimate {
 }
 
 /// The name that two runs share.
-fn twin<R: Run>(runs: &[&R]) -> Option<String> {
+fn twin<P: Parameters>(parameters: &P, runs: &[&P::Run]) -> Option<String> {
     let mut seen = BTreeMap::new();
-    runs.iter().map(|run| run.variant().to_string()).find(|name| seen.insert(name.clone(), ()).is_some())
+    runs.iter().map(|run| parameters.variant_of(run).to_string()).find(|name| seen.insert(name.clone(), ()).is_some())
 }
 
 /// Whether a field is another, or lies within it, or holds it.

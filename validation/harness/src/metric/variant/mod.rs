@@ -91,6 +91,12 @@ impl Variant {
         file_name(&self.to_string())
     }
 
+    /// End of a file name that tells this variant from others; empty where it has no key.
+    #[must_use]
+    pub fn suffix(&self) -> String {
+        if self.is_empty() { String::new() } else { format!("-{}", self.file_name()) }
+    }
+
     /// File name of this variant if the keys are known, from its values alone: `rest-40`.
     #[must_use]
     pub fn file_name_of_values(&self) -> String {

@@ -1,13 +1,15 @@
 use super::*;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::not_negative;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, ParameterError>
 where
     P: Serialize + DeserializeOwned + JsonSchema + 'static,
 {
-    typed(case, defaults, changes, |_, _| {})
+    let table = checked(case, schema_of::<P>(), &table_of(defaults), changes, |_, _| {})?;
+    typed(case, table).map_err(|error| changes.blamed(error))
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
