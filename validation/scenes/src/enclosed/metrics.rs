@@ -22,7 +22,7 @@ const FARTHEST: f64 = 0.7;
 /// Least way of a front, in particle spacings, from which its return is said `[-]`.
 const FRONT_ROWS: f64 = 5.0;
 
-quantities! { shared pub(super)
+quantities! { pub(super) [ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WORK]
     MASS_RESIDUAL: accounted("mass_residual", "%", "mass inside plus outflow minus initial mass minus inflow, over the total"),
     MOMENTUM_RESIDUAL:
         accounted("momentum_residual", "%", "impulse not explained by gravity, walls and sides, over the impulse of gravity or of the inflow"),
@@ -64,31 +64,14 @@ const fn mass_fed<S: Dimension<D>, const D: usize>() -> Quantity {
 
 /// All quantities of a case of scenes.
 pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 23] {
-    [
-        ENERGY_RESIDUAL,
-        ENERGY_RISE,
-        WALL_WORK,
-        CORRECTION_WORK,
-        MASS_RESIDUAL,
-        MOMENTUM_RESIDUAL,
-        FORCE_RESIDUAL,
-        UNSOLVED,
-        VISCOUS_ITERATIONS,
-        THROUGH_WALLS,
-        MASS_LEFT,
-        WATER_RESIDUAL,
-        CUT_OFF,
-        FEED_ERROR,
-        FINAL_RMS_SPEED,
-        MACH_NUMBER,
-        ARTIFICIAL_VISCOSITY,
-        FRONT,
-        DEPTH,
-        GAUGE_ERROR,
-        mean_force::<S, D>(),
-        mass_crossed::<S, D>(),
-        mass_fed::<S, D>(),
-    ]
+    let mut all = [mass_fed::<S, D>(); 23];
+    (all[20], all[21]) = (mean_force::<S, D>(), mass_crossed::<S, D>());
+    let mut place = 0;
+    while place < QUANTITIES.len() {
+        all[place] = QUANTITIES[place];
+        place += 1;
+    }
+    all
 }
 
 /// The metrics of all runs.

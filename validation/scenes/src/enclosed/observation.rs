@@ -81,7 +81,7 @@ pub(super) struct SumsBefore {
 }
 
 /// Series and balances; every series has the shape `[samples]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct SceneObservation<const D: usize> {
     /// Times `[s]`.
     pub time: Vec<f64>,
@@ -110,8 +110,8 @@ pub struct SceneObservation<const D: usize> {
     pub unassigned_impulse: f64,
     /// Impulse of gravity up to the last sample, its size, and more under pressure `[kg m/s]`.
     pub gravity_impulse: f64,
-    /// Momentum at the start, without what a state has got before `[kg m/s]`.
-    pub momentum_at_start: Vector<D>,
+    /// Momentum at the start, without what a state has got before `[kg m/s]`; none before the first sample.
+    pub momentum_at_start: Option<Vector<D>>,
     /// Sums at the start: those of a state that the scene starts from.
     pub(super) before: SumsBefore,
     /// The same without directions, Σ m |v| `[kg m/s]`.
@@ -126,33 +126,6 @@ pub struct SceneObservation<const D: usize> {
     pub water: WaterBook,
     /// Share of the sites of bodies that are behind walls, as `cut_at_most` limits it of each `[-]`.
     pub cut_off: f64,
-}
-
-impl<const D: usize> Default for SceneObservation<D> {
-    fn default() -> Self {
-        Self {
-            time: Vec::new(),
-            mass: Vec::new(),
-            rms_speed: Vec::new(),
-            gauges: Vec::new(),
-            energy: EnergyBook::default(),
-            left: Vec::new(),
-            fed: Vec::new(),
-            missing_mass: 0.0,
-            missing_impulse: 0.0,
-            unsolved_impulse: 0.0,
-            viscous_iterations: 0.0,
-            unassigned_impulse: 0.0,
-            gravity_impulse: 0.0,
-            momentum_at_start: Vector::zeros(),
-            before: SumsBefore::default(),
-            motion_at_start: 0.0,
-            largest_speed: 0.0,
-            behind: 0,
-            water: WaterBook::default(),
-            cut_off: 0.0,
-        }
-    }
 }
 
 impl<const D: usize> SceneObservation<D> {
@@ -183,13 +156,13 @@ impl<const D: usize> SceneObservation<D> {
         let taken = supports + simulation.side_wall_impulse();
         self.water.enter(simulation, snapshot, self.time.is_empty());
         if self.time.is_empty() {
-            self.momentum_at_start = held + gone + unsolved - came - taken - given;
             let ledger = snapshot.energy.map_or_else(EnergyLedger::default, |account| account.ledger);
             self.before = SumsBefore { mass: inside + outside - brought, mass_times_time: over_time, ledger };
             self.motion_at_start = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm() * m).sum();
             self.gauges = vec![Vec::new(); gauges.len()];
         }
-        let missing = held + gone + unsolved - came - self.momentum_at_start - taken - given;
+        let start = *self.momentum_at_start.get_or_insert(held + gone + unsolved - came - taken - given);
+        let missing = held + gone + unsolved - came - start - taken - given;
         self.time.push(snapshot.time);
         self.mass.push(inside);
         let squares: f64 = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm_squared() * m).sum();

@@ -23,7 +23,6 @@ pub(super) struct FigureText {
     #[serde(default, skip_serializing_if = "is_false")]
     pub(super) logarithmic: bool,
     /// The varied number that is the abscissa, by the name that it has in variants.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) over: Option<String>,
     /// Abscissa of each named variant, in place of `over`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
@@ -37,19 +36,15 @@ pub(super) struct FigureText {
 #[serde(deny_unknown_fields)]
 pub(super) struct SeriesText {
     /// Name of the check; left out beside `curve`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) check: Option<String>,
     /// Points of a curve that `reference` labels, as [x, y].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) curve: Vec<[f64; 2]>,
     /// Label of the check's values in the legend; without one they are not drawn.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) simulated: Option<String>,
     /// Label of the check's references in the legend; without one they are not drawn.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) reference: Option<String>,
     /// Variants that are drawn, as `key=value`; all, if it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<String>")]
     pub(super) only: Option<Variant>,
 }

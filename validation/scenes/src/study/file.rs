@@ -25,13 +25,10 @@ pub(super) struct StudyText {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(super) description: String,
     /// The case that simulates.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) case: Option<String>,
     /// A case file with the base values, in place of `case`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) base: Option<PathBuf>,
     /// The tier whose parameters fill what the base values leave out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) tier: Option<Tier>,
     /// Base values: the case's parameters, as in a case file.
     #[serde(default, skip_serializing_if = "Table::is_empty")]
@@ -66,48 +63,34 @@ pub(super) struct CheckText {
     /// Name of the metric: lower-case letters, digits and `_`.
     pub(super) name: String,
     /// Variants that are judged, as `key=value`; all, if it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<String>")]
     pub(super) only: Option<Variant>,
 
     /// A metric of the case itself.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) metric: Option<String>,
     /// A table that the case writes, by its name or the beginning of it; beside `value` or `compare`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) table: Option<String>,
     /// Heading of the column that is measured; beside `value` or `compare`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) column: Option<String>,
     /// Heading of a column of the same table that is added to it; beside `value` or `compare`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) plus: Option<String>,
     /// Heading of a column of the same table that is taken from it, such as that of a mirror image; beside `value` or `compare`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) minus: Option<String>,
     /// Heading of the column that it is measured over; the first one, if it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) over: Option<String>,
     /// First value of the column `over` that counts, in its unit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) from: Option<f64>,
     /// Last value of the column `over` that counts, in its unit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) to: Option<f64>,
     /// Value of the column that is judged.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) value: Option<Reduction>,
     /// CSV file with a measured series in three columns: what was varied, what was measured, its standard uncertainty.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) compare: Option<PathBuf>,
     /// Distance from the measured series.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) distance: Option<Distance>,
     /// Name of an earlier check, an error whose order of convergence is judged.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) order_of: Option<String>,
     /// Name of the varied parameter that the order is taken in; beside `order_of`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) order_in: Option<String>,
     /// Name of an earlier check whose values in two variants are compared, in % of the second.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -118,33 +101,24 @@ pub(super) struct CheckText {
     pub(super) between: Option<(Variant, Variant)>,
 
     /// Expected value, in the unit of what is measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) reference: Option<f64>,
     /// Standard uncertainty of the reference, in its unit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = positive("give a standard deviation in the unit of the value"))]
     pub(super) standard_uncertainty: Option<f64>,
     /// Source of the reference; required beside one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) source: Option<String>,
     /// Confidence in the reference; unverified ones allow no limit.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) confidence: Option<Confidence>,
     /// Limit: largest value, in the unit of what is measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) at_most: Option<f64>,
     /// Limit: smallest value, in the unit of what is measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) at_least: Option<f64>,
     /// Limit: smallest and largest value, in the unit of what is measured.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) within: Option<(f64, f64)>,
     /// Limit: largest distance from the reference in its standard uncertainties `[-]`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = positive("2 is a common choice"))]
     pub(super) within_uncertainties: Option<f64>,
     /// Reason of the limit; required beside `at_most`, `at_least` and `within`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) reason: Option<String>,
 }
 

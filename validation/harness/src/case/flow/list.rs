@@ -47,7 +47,6 @@ pub struct NamedVariant {
     /// Name of the variant.
     pub name: String,
     /// Lowest tier at which it is run; the quick one, if it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tier: Option<Tier>,
     /// Values by the dotted paths of parameters, in their units.
     #[serde(default, skip_serializing_if = "Table::is_empty")]
@@ -65,17 +64,14 @@ pub struct VariedParameter {
     /// Dotted path of the parameter.
     pub path: String,
     /// Name of the parameter in variants of a study; the last key of the path, if it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Values of the parameter in its unit, each once.
     #[schemars(with = "Vec<VariedValue>")]
     pub values: Vec<Value>,
     /// Values at the paper tier and above.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<Vec<VariedValue>>")]
     pub paper: Option<Vec<Value>>,
     /// Values at the fine tier.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<Vec<VariedValue>>")]
     pub fine: Option<Vec<Value>>,
 }
