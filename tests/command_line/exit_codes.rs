@@ -60,7 +60,8 @@ fn one_when_a_gate_fails() {
 fn one_when_a_search_is_left_undecided() {
     let place = Place::new();
     // half a second: at 24° the layer neither stops nor becomes steady in it
-    let search = ["--set", "slope_angles=[]", "--set", "steady_flows=[]", "--set", "stopping_duration=0.5"];
+    let angles = ["--set", "slope_angle=20.0", "--set", "flowing_angle=24.0"];
+    let search = [&["--vary", "material.law=mu-i", "--set", "duration=0.5"], &angles[..]].concat();
     let document = document(&place.run(&[&["flow-thickness", "--json"], &search[..]].concat()).code(1).stderr(""));
     let angle = document.metrics.iter().find(|metric| metric.name == "stopping_angle").expect("judged");
     assert_eq!((angle.value, angle.verdict), (None, Verdict::Fail));

@@ -2,6 +2,7 @@
 
 use super::Record;
 use super::metrics::MARGIN;
+use super::passage;
 use crate::collapse::figures::{DrawnField, field_panel};
 use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::{BIN_WIDTH, SlopeCollapse, SlopeFlow};
@@ -21,6 +22,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         return Vec::new();
     }
     let mut figures = vec![fronts(records), thickness(records), run_outs(records)];
+    figures.extend(passage::figure(records));
     for record in records.iter().filter(|(run, _)| run.slope_angle > 15.0) {
         figures.extend([velocities(record), viscosities(record)]);
     }

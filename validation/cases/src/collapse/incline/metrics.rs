@@ -18,6 +18,7 @@ use crate::statistics::mean;
 
 quantities! {
     [PARTICLES_LOST, MOMENTUM_RESIDUAL, REST_TIME, DEPOSIT_SLOPE_ANGLE, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK, FRONT_DISPLACEMENT, FRONT, KINETIC_ENERGY, LINEAR_MISFIT_RATIO]
+    LARGEST_THICKNESS: stated("largest_thickness", "cm", "largest thickness of the flow at a station"),
     FASTEST_DEPTH: stated("fastest_depth", "-", "mean depth of the fastest twentieth of the grains along the slope, over the local thickness, at a time"),
     VISCOSITY_AND_DEPTH: stated("viscosity_and_depth", "-", "rank correlation of the apparent viscosity and the depth below the surface, at a time"),
     VISCOSITY_LIKE_PRESSURE: stated("viscosity_like_pressure", "-", "rank correlation of the apparent viscosity with the pressure less that with the shear rate, both as sizes, at a time"),

@@ -3,6 +3,7 @@
 mod figures;
 mod inside;
 mod metrics;
+mod passage;
 
 use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run, RunList};
 use crate::collapse::{self, SlopeCollapse, SlopeFlow};
@@ -30,7 +31,9 @@ impl Case for InclineCollapse {
         Judged. Front and kinetic energy over time against another code; no measured front is available. Below the friction angle, \
         the final run-out against x_f = h_0 2k/(tan δ − tan θ) with k = 0.4 to 0.5 and tan δ = μ_s, the fit of \
         Mangeney et al. (2010) as quoted by later works.\n\n\
-        Observed only. Profiles of viscosity and shear over the depth. Run-outs above the friction angle, where the \
+        Observed only. Thickness at stations, in the paper tier, beside (44) of the paper, which describes a steady \
+        discharge of β √(g h_0³) per width that the study `fed-slope` feeds; a released block discharges less and less. \
+        Profiles of viscosity and shear over the depth. Run-outs above the friction angle, where the \
         local μ(I) law has no deposit and the flow thins as long as the channel lasts. The fit under any other law \
         than μ(I); the wall contact friction then replaces μ_s.";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::slope::EXTERNAL_SCHEMA;
@@ -38,7 +41,7 @@ impl Case for InclineCollapse {
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Metric> {
-        records.iter().flat_map(metrics::of_run).collect()
+        records.iter().flat_map(|record| [metrics::of_run(record), passage::metrics(record)].concat()).collect()
     }
 
     fn figures(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Figure> {

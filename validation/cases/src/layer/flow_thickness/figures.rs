@@ -1,52 +1,16 @@
 //! The case's figures.
 
-use super::metrics::{froude_number, incline, relative_thickness};
-use super::{
-    FlowThicknessParameters, FlowThicknessRecord, LayerFate, StartStop, StartStopRun, collapses, flows_of, searches,
-};
+use super::metrics::{froude_number, relative_thickness};
+use super::{FlowThicknessFlow, LayerFate, Record, StartStop, flows, searches};
 use crate::figure::{Axis, Figure, Mark, Panel};
-use crate::reference::collapse::RoughIncline;
 
-pub(super) fn all(parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Figure> {
-    let Some(incline) = incline(parameters) else { return Vec::new() };
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let drawn = [
-        (collapses(records).next().is_some(), histories as fn(_, _, _) -> _),
-        (searches(records).next().is_some(), stopping as fn(_, _, _) -> _),
-        (flows_of(records, false).next().is_some(), flow_rule as fn(_, _, _) -> _),
-        (flows_of(records, true).next().is_some(), froude as fn(_, _, _) -> _),
+        searches(records).next().map(|(flow, _)| stopping(flow, records)),
+        flows(records, false).next().map(|(flow, _)| flow_rule(flow, records)),
+        flows(records, true).next().map(|(flow, _)| froude(flow, records)),
     ];
-    drawn.into_iter().filter(|(present, _)| *present).map(|(_, draw)| draw(&incline, parameters, records)).collect()
-}
-
-/// Thickness at the stations over time, one panel per slope.
-fn histories(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
-    let panels = collapses(records).enumerate().map(|(place, (run, data))| {
-        let y = Axis::linear("thickness [cm]").between(0.0, 6.0);
-        let mut panel = Panel::new(&format!("{}°", run.slope_angle), Axis::linear("t [s]"), y);
-        let time = &data.collapse.time;
-        for (slot, &station) in parameters.stations.iter().enumerate() {
-            let thickness = data.thickness_at(station / run.reservoir_length);
-            let points = time.iter().zip(thickness).map(|(t, h)| (*t, 100.0 * h * run.reservoir_length));
-            let entry = if place == 0 { format!("x = {station} m") } else { String::new() };
-            panel.line(&entry, slot, points);
-        }
-        if let (Some(law), Some(&end)) =
-            (incline.flow_thickness(run.initial_height, run.slope_angle.to_radians()), time.last())
-        {
-            let entry = if place == 0 { "h_s of (44)" } else { "" };
-            let points = vec![(0.0, 100.0 * law), (end, 100.0 * law)];
-            panel.reference(entry, points);
-        }
-        panel
-    });
-    Figure::new(
-        "thickness-in-time",
-        "Thickness of the flow of a collapse at three places of the slope (volume in a bin of 2 cm over its width), \
-         with the paper's h_s (44). The flow passes as a wave: no plateau is reached before the grains have gone by, \
-         so that (44) is an order of magnitude and not a law of this flow.",
-        panels.collect(),
-    )
-    .in_columns(2)
+    drawn.into_iter().flatten().collect()
 }
 
 /// Colour slot of each law, which has a mark of its own shape.
@@ -55,7 +19,8 @@ const LAWS: [usize; 3] = [0, 3, 4];
 const DRAWN: (f64, f64) = (2.5e-3, 40e-3);
 
 /// Which layers stop: the local law and the experiments.
-fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
+fn stopping(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
+    let incline = first.incline();
     let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("layer thickness [mm]"));
     let experiment = thicknesses().map(|h| (incline.stopping_angle(h).to_degrees(), 1e3 * h)).collect::<Vec<_>>();
     let local = libm::atan(incline.static_friction).to_degrees();
@@ -64,7 +29,7 @@ fn stopping(incline: &RoughIncline, _: &FlowThicknessParameters, records: &[Flow
     draw_searches(&mut panel, searches(records));
     let mut tried: Vec<(String, Vec<String>)> = Vec::new();
     for (run, _) in searches(records) {
-        let (law, thickness) = (law_name(run), format!("{:.0}", 1e3 * run.layer.layer.layer_height));
+        let (law, thickness) = (law_name(run), format!("{:.0}", 1e3 * run.layer.layer_height));
         match tried.iter_mut().find(|(known, _)| *known == law) {
             Some((_, thicknesses)) => thicknesses.push(thickness),
             None => tried.push((law, vec![thickness])),
@@ -91,12 +56,12 @@ fn thicknesses() -> impl Iterator<Item = f64> {
 }
 
 /// Name of the law of a search.
-fn law_name(run: &StartStopRun) -> String {
-    run.layer.nonlocal.map_or("local law".to_owned(), |choice| format!("nonlocal law, {}", choice.surface_name()))
+fn law_name(flow: &FlowThicknessFlow) -> String {
+    flow.surface_name().map_or("local law".to_owned(), |surface| format!("nonlocal law, {surface}"))
 }
 
 /// Marks of each law, filled where a layer kept flowing and open where it stopped, and the curve of its own h_stop.
-fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a StartStopRun, &'a StartStop)>) {
+fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a FlowThicknessFlow, &'a StartStop)>) {
     let mut laws: Vec<String> = Vec::new();
     for (run, found) in searches {
         let law = law_name(run);
@@ -110,7 +75,7 @@ fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a Star
         ];
         for (label, fate, mark, slot) in ends {
             let ended = found.trials.iter().filter(|trial| trial.fate == fate).map(|trial| trial.slope_angle);
-            let points: Vec<_> = ended.map(|angle| (angle, 1e3 * run.layer.layer.layer_height)).collect();
+            let points: Vec<_> = ended.map(|angle| (angle, 1e3 * run.layer.layer_height)).collect();
             // most searches leave nothing open, and then the legend need not speak of it
             if !points.is_empty() {
                 panel.draw(label, mark, slot, points);
@@ -118,9 +83,9 @@ fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a Star
         }
         if place == laws.len() {
             let angle = |h: f64| {
-                let mut layer = run.layer.clone();
-                layer.layer.layer_height = h;
-                layer.exact(0.0).map(|layer| (layer.stopping_angle().to_degrees(), 1e3 * h))
+                let mut flow = run.clone();
+                flow.layer.layer_height = h;
+                flow.exact(0.0).map(|layer| (layer.stopping_angle().to_degrees(), 1e3 * h))
             };
             let curve: Vec<_> = thicknesses().filter_map(angle).collect();
             let entry = if curve.is_empty() { String::new() } else { format!("{law}: exact") };
@@ -131,17 +96,17 @@ fn draw_searches<'a>(panel: &mut Panel, searches: impl Iterator<Item = (&'a Star
 }
 
 /// (h/h_stop, Froude number) of the steady flows of the local or the nonlocal law.
-fn froude_numbers(incline: &RoughIncline, records: &[FlowThicknessRecord], nonlocal: bool) -> Vec<(f64, f64)> {
-    let flows = flows_of(records, nonlocal);
-    flows.filter_map(|(run, data)| Some((relative_thickness(incline, run)?, froude_number(run, data)))).collect()
+fn froude_numbers(records: &[Record], nonlocal: bool) -> Vec<(f64, f64)> {
+    let numbers = |(flow, data)| Some((relative_thickness(flow)?, froude_number(flow, data)));
+    flows(records, nonlocal).filter_map(numbers).collect()
 }
 
 /// The flow rule (42).
-fn flow_rule(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
+fn flow_rule(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     let mut panel = Panel::new("", Axis::linear("h/h_stop(θ) [-]"), Axis::linear("Ū/√(gh) [-]"));
-    let points = froude_numbers(incline, records, false);
+    let points = froude_numbers(records, false);
     let far = points.iter().fold(1.0_f64, |most, point| most.max(point.0));
-    let line = vec![(0.0, 0.0), (1.05 * far, 1.05 * far * parameters.flow_coefficient)];
+    let line = vec![(0.0, 0.0), (1.05 * far, 1.05 * far * first.flow_coefficient)];
     panel.reference("β of Table 1", line);
     panel.points("steady flows", 0, points);
     Figure::new(
@@ -160,12 +125,12 @@ const CURVE_POINTS: i32 = 200;
 const SLOPE_ERROR: f64 = 0.5;
 
 /// The Froude number of both laws beside the flow rule.
-fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Figure {
+fn froude(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     let axis = Axis::logarithmic;
     let mut panel = Panel::new("", axis("h/h_stop(θ) of the experiments [-]"), axis("Ū/√(gh) [-]"));
-    let [local, nonlocal] = [false, true].map(|nonlocal| froude_numbers(incline, records, nonlocal));
+    let [local, nonlocal] = [false, true].map(|nonlocal| froude_numbers(records, nonlocal));
     let farthest = local.iter().chain(&nonlocal).fold(1.0_f64, |most, point| most.max(point.0));
-    let (angle, coefficient) = (parameters.nonlocal.profile_angle, parameters.flow_coefficient);
+    let (angle, coefficient, incline) = (first.slope_angle, first.flow_coefficient, first.incline());
     let thickness = |angle: f64| incline.deposit_thickness(angle.to_radians());
     let relative = |step: i32| libm::pow(1.3 * farthest, f64::from(step) / f64::from(CURVE_POINTS));
     let steps = || (0..=CURVE_POINTS).map(relative);
@@ -176,16 +141,12 @@ fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records:
         let along = |thickness: f64| move |times: f64| coefficient * times * own / thickness;
         let (lower, upper) = (along(thick), along(thin));
         panel.band("the same at a slope half a degree gentler or steeper", steps().map(|x| (x, lower(x), upper(x))));
-        let layer = flows_of(records, true).next().map(|(run, _)| run.layer.clone());
-        let curve = layer.into_iter().flat_map(|layer| {
-            steps().filter_map(move |times| {
-                let mut layer = layer.clone();
-                layer.layer.layer_height = times * own;
-                let velocity = layer.exact(angle)?.steady(CURVE_CELLS).ok()?.depth_mean();
-                let froude = velocity / (layer.layer.gravity * layer.layer.layer_height).sqrt();
-                // below its own h_stop it is at rest
-                (velocity > 0.0).then_some((times, froude))
-            })
+        let curve = steps().filter_map(|times| {
+            let mut flow = first.clone();
+            flow.layer.layer_height = times * own;
+            let velocity = flow.exact(angle)?.steady(CURVE_CELLS).ok()?.depth_mean();
+            // below its own h_stop it is at rest
+            (velocity > 0.0).then(|| (times, velocity / flow.speed()))
         });
         let curve: Vec<(f64, f64)> = curve.collect();
         if let [.., (x, y), (far, end)] = curve[..] {
@@ -210,20 +171,17 @@ fn froude(incline: &RoughIncline, parameters: &FlowThicknessParameters, records:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Parameters, Tier};
-    use crate::layer::flow_thickness::{FlowThicknessRun, SlopeTrial};
+    use crate::case::{Parameters, RunList, Tier};
+    use crate::layer::flow_thickness::SlopeTrial;
 
     #[test]
     fn laws_have_a_mark_each_that_is_open_where_a_layer_stopped() {
         let trial = |(slope_angle, fate)| SlopeTrial { slope_angle, fate, time: 1.0, mean_velocity: 0.0, lost: 0 };
         let found = StartStop { trials: [(20.0, LayerFate::Stops), (24.0, LayerFate::Flows)].map(trial).to_vec() };
-        let runs = FlowThicknessParameters::of_tier(Tier::Quick).runs();
+        let list = RunList::<FlowThicknessFlow>::of_tier(Tier::Quick);
         let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("h [mm]"));
-        let searches = runs.iter().filter_map(|run| match run {
-            FlowThicknessRun::StartStop(run) => Some((run, &found)),
-            _ => None,
-        });
-        draw_searches(&mut panel, searches);
+        let searches = list.flows().iter().filter(|flow| flow.is_sought());
+        draw_searches(&mut panel, searches.map(|flow| (flow, &found)));
         let laws = ["local law: runs", "nonlocal law, vanishing: runs", "nonlocal law, no-flux: runs"];
         for (law, slot) in laws.into_iter().zip(LAWS) {
             for (mark, angle) in [(Mark::Points, 24.0), (Mark::OpenPoints, 20.0)] {

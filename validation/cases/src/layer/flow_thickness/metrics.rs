@@ -1,25 +1,14 @@
 //! How the case is judged.
 
-use super::start_stop::REFERENCE_CELLS;
-use super::{
-    FlowThicknessParameters, FlowThicknessRecord, FlowThicknessRun, StartStop, StartStopRun, SteadyRun, collapses,
-    flows_of, searches,
-};
+use super::{FlowThicknessFlow, Record, StartStop, flows, searches};
 use crate::case::Run;
-use crate::collapse::metrics::conservation;
-use crate::collapse::metrics::quantities::{MOMENTUM_RESIDUAL, PARTICLES_LOST};
-use crate::layer::LayerObservation;
-use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant, quantities};
-use crate::reference::collapse::RoughIncline;
+use crate::layer::{LayerObservation, PARTICLES_LOST};
+use crate::metric::{Limit, Metric, Origin, Quantity, Variant, quantities};
 use crate::reference::grains::GLASS_BEADS_FLOW_RULE;
-use crate::setup::energy_ledger::{self, EnergyScale};
 use crate::statistics::mean;
-use bagnold_solver::material::rheology::Rheology;
-use bagnold_solver::material::rheology::field::FieldBoundary;
 
 quantities! {
-    [PARTICLES_LOST, MOMENTUM_RESIDUAL, energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
-    LARGEST_THICKNESS: stated("largest_thickness", "cm", "largest thickness of the flow at a station"),
+    [PARTICLES_LOST]
     STOPPING_ANGLE: verified("stopping_angle", "°", "slope at which a layer stops"),
     EXPERIMENTAL_EXCESS:
         validated("experimental_excess", "°", "measured minus computed stopping slope"),
@@ -33,57 +22,20 @@ quantities! {
 /// Part of a steady flow's time series that its mean velocity is taken over, the last `[-]`.
 const WINDOW: f64 = 0.3;
 
-pub(super) fn all(parameters: &FlowThicknessParameters, records: &[FlowThicknessRecord]) -> Vec<Metric> {
-    let Some(incline) = incline(parameters) else { return Vec::new() };
-    let mut metrics = thicknesses(&incline, parameters, records);
-    metrics.extend(searches(records).flat_map(|(run, found)| stopping(&incline, run, found)));
-    metrics.extend(flow_rule(&incline, parameters, records));
-    metrics.extend(flows_of(records, true).flat_map(|(run, data)| profile(run, data)));
+pub(super) fn all(records: &[Record]) -> Vec<Metric> {
+    let mut metrics: Vec<Metric> = searches(records).flat_map(|(flow, found)| stopping(flow, found)).collect();
+    metrics.extend(flow_rule(records));
+    metrics.extend(flows(records, true).filter_map(|(flow, data)| profile(flow, data)).flatten());
     metrics
 }
 
-/// The incline that the grains make rough; they are those of μ(I), as the parameters were checked to be.
-pub(super) fn incline(parameters: &FlowThicknessParameters) -> Option<RoughIncline> {
-    let Rheology::MuI(grains) = &parameters.collapse.material else { return None };
-    Some(RoughIncline {
-        length_scale: parameters.deposit_length * grains.grain_diameter,
-        static_friction: grains.static_friction,
-        limiting_friction: grains.limiting_friction,
-    })
-}
-
-/// Part (i): the thickness of the flow at the stations.
-fn thicknesses(
-    incline: &RoughIncline,
-    parameters: &FlowThicknessParameters,
-    records: &[FlowThicknessRecord],
-) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for (run, data) in collapses(records) {
-        metrics.extend(conservation(&run.variant(), &data.collapse, &run.numerics, EnergyScale::Fall));
-        let law = incline.flow_thickness(run.initial_height, run.slope_angle.to_radians());
-        let source = "h_s of (44) as reconstructed: the paper's estimate of the flow's thickness";
-        for &station in &parameters.stations {
-            let history = data.thickness_at(station / run.reservoir_length);
-            let largest = history.iter().fold(0.0_f64, |most, &h| most.max(h)) * run.reservoir_length;
-            // 0 where the front did not come so far
-            if largest != 0.0 {
-                let variant = Variant::of("station", station).followed_by(&run.variant());
-                let metric = LARGEST_THICKNESS.of(&variant, 100.0 * largest).with_snapshot_tolerance(1e-3, 1e-3);
-                metrics.push(metric.against(law.map(|law| 100.0 * law), source, Confidence::Medium));
-            }
-        }
-    }
-    metrics
-}
-
-/// Part (ii): the slope at which a layer stops.
-fn stopping(incline: &RoughIncline, run: &StartStopRun, found: &StartStop) -> [Metric; 3] {
-    let variant = FlowThicknessRun::StartStop(run.clone()).variant();
+/// The slope at which a layer stops.
+fn stopping(flow: &FlowThicknessFlow, found: &StartStop) -> [Metric; 3] {
+    let variant = flow.variant();
     let lost = found.trials.iter().map(|trial| trial.lost).sum::<usize>();
-    let local = libm::atan(run.layer.material.static_friction).to_degrees();
+    let local = libm::atan(flow.grains().static_friction).to_degrees();
     // the slope of the layer does not enter its stopping angle
-    let nonlocal = run.layer.exact(0.0).map(|layer| layer.stopping_angle().to_degrees());
+    let nonlocal = flow.exact(0.0).map(|layer| layer.stopping_angle().to_degrees());
     let (exact, source) = match nonlocal {
         Some(angle) => {
             (angle, "slope below which the first mode of the fluidity decays, an exact statement of the nonlocal law")
@@ -92,18 +44,21 @@ fn stopping(incline: &RoughIncline, run: &StartStopRun, found: &StartStop) -> [M
     };
     // a bracket of this width has its middle within half of it of the true angle
     let (limit, reason) = if nonlocal.is_some() {
-        (0.5 * run.tolerance, "half the width of the bracket: the layer stops at its lower and flows at its upper end")
+        (
+            0.5 * flow.stopping_tolerance,
+            "half the width of the bracket: the layer stops at its lower and flows at its upper end",
+        )
     } else {
         (
-            run.tolerance,
+            flow.stopping_tolerance,
             "the width of the bracket: its middle lies within half of it of the true angle, the rest is the solver's",
         )
     };
     // which condition holds at a free surface experiments say, not the model: they favour that under which the fluidity vanishes
-    let judged = run.layer.nonlocal.is_none_or(|choice| choice.surface == FieldBoundary::Vanishing);
+    let judged = flow.surface_name().is_none_or(|surface| surface == "vanishing");
     let bracket = found.bracket();
     let measured = bracket.map_or(f64::NAN, |(stops, flows)| 0.5 * (stops + flows));
-    let experiment = incline.stopping_angle(run.layer.layer.layer_height).to_degrees();
+    let experiment = flow.incline().stopping_angle(flow.layer.layer_height).to_degrees();
     [
         PARTICLES_LOST
             .of(&variant, lost as f64)
@@ -134,14 +89,12 @@ fn stopping(incline: &RoughIncline, run: &StartStopRun, found: &StartStop) -> [M
 }
 
 /// The profile of a steady flow under the nonlocal law, against the solution without particles.
-fn profile(run: &SteadyRun, data: &LayerObservation) -> Vec<Metric> {
-    let Some(layer) = run.layer.exact(run.slope_angle) else { return Vec::new() };
-    let Ok(exact) = layer.steady(REFERENCE_CELLS) else { return Vec::new() };
-    let variant = FlowThicknessRun::Steady(run.clone()).variant();
+fn profile(flow: &FlowThicknessFlow, data: &LayerObservation) -> Option<[Metric; 2]> {
+    let (exact, variant) = (flow.steady()?, flow.variant());
     let error = 100.0 * data.profile.velocity_l2(|height| exact.velocity(height));
-    let froude = exact.depth_mean() / (run.layer.layer.gravity * run.layer.layer.layer_height).sqrt();
-    let allowed = 20.0 / run.layer.layer.resolution as f64;
-    vec![
+    let froude = exact.depth_mean() / flow.speed();
+    let allowed = 20.0 / flow.layer.resolution as f64;
+    Some([
         PROFILE_L2
             .of(&variant, error)
             .with_snapshot_tolerance(2e-2, 1e-3)
@@ -151,48 +104,39 @@ fn profile(run: &SteadyRun, data: &LayerObservation) -> Vec<Metric> {
                 "1 % at 20 rows and half of it at twice as many: near h_stop an error of 0.1 % of the friction coefficient is one of 1.2 % of the velocity",
             ),
         FLUIDITY_FROUDE
-            .of(&variant, froude_number(run, data))
+            .of(&variant, froude_number(flow, data))
             .with_snapshot_tolerance(1e-2, 0.0)
             .exactly(froude, "the same solution"),
-    ]
+    ])
 }
 
 /// Depth mean of the velocity over √(gh) of a steady flow, over its last part `[-]`.
-pub(super) fn froude_number(run: &SteadyRun, data: &LayerObservation) -> f64 {
+pub(super) fn froude_number(flow: &FlowThicknessFlow, data: &LayerObservation) -> f64 {
     let means = &data.series.mean_velocity;
     let window = &means[means.len() - ((WINDOW * means.len() as f64) as usize).clamp(1, means.len())..];
-    mean(window) / (run.layer.layer.gravity * run.layer.layer.layer_height).sqrt()
+    mean(window) / flow.speed()
 }
 
 /// h/h_stop(θ) of a steady flow `[-]`.
-pub(super) fn relative_thickness(incline: &RoughIncline, run: &SteadyRun) -> Option<f64> {
-    incline.deposit_thickness(run.slope_angle.to_radians()).map(|h| run.layer.layer.layer_height / h)
+pub(super) fn relative_thickness(flow: &FlowThicknessFlow) -> Option<f64> {
+    flow.incline().deposit_thickness(flow.slope_angle.to_radians()).map(|h| flow.layer.layer_height / h)
 }
 
-/// Part (iii): β of (42) from the steady flows.
-fn flow_rule(
-    incline: &RoughIncline,
-    parameters: &FlowThicknessParameters,
-    records: &[FlowThicknessRecord],
-) -> Vec<Metric> {
-    let (mut xx, mut xy, mut count) = (0.0, 0.0, 0);
-    let mut expected = 0.0;
-    for (run, data) in flows_of(records, false) {
-        let Some(relative) = relative_thickness(incline, run) else { continue };
-        let froude = froude_number(run, data);
-        // relative residuals: every flow counts the same
-        (xx, xy, count) = (xx + 1.0, xy + froude / relative, count + 1);
-        let grains = &run.layer.material;
-        // (41) solved for β at this slope
-        expected += 0.4 * grains.reference_inertia * incline.length_scale / grains.grain_diameter
-            * (run.layer.solid_fraction * libm::cos(run.slope_angle.to_radians())).sqrt();
-    }
-    if count == 0 {
-        return Vec::new();
-    }
-    let (measured, expected) = (xy / xx, expected / f64::from(count));
+/// β of (42) from the steady flows of the local law.
+fn flow_rule(records: &[Record]) -> Vec<Metric> {
+    let Some((first, _)) = flows(records, false).next() else { return Vec::new() };
+    // the mean of ratios: every flow counts the same
+    let of_flow = |(flow, data)| Some(froude_number(flow, data) / relative_thickness(flow)?);
+    let measured = mean(&flows(records, false).filter_map(of_flow).collect::<Vec<_>>());
+    // (41) solved for β at the slope of a flow
+    let of_law = |(flow, _): (&FlowThicknessFlow, _)| {
+        let (grains, incline) = (flow.grains(), flow.incline());
+        0.4 * grains.reference_inertia * incline.length_scale / grains.grain_diameter
+            * (flow.solid_fraction * libm::cos(flow.slope_angle.to_radians())).sqrt()
+    };
+    let expected = mean(&flows(records, false).map(of_law).collect::<Vec<_>>());
     let of = |quantity: Quantity| quantity.of(&Variant::default(), measured).with_snapshot_tolerance(2e-3, 0.0);
-    let (published, confidence) = (parameters.flow_coefficient, GLASS_BEADS_FLOW_RULE.confidence);
+    let (published, confidence) = (first.flow_coefficient, GLASS_BEADS_FLOW_RULE.confidence);
     vec![
         of(FLOW_COEFFICIENT)
             .exactly(expected, "(41) solved for β at the slopes of the flows: an identity of the law")

@@ -1,14 +1,9 @@
 //! The slope at which a layer of given thickness stops flowing, bisected.
 
-use super::nonlocal::NonlocalChoice;
 use crate::case::recording::{Ending, RestartableRun, SimulationStage, follow, resumed};
 use crate::case::{ParameterError, Progress};
-use crate::layer::{Layer, PeriodicLayer, bulk_modulus};
-use crate::metric::Variant;
+use crate::layer::{Layer, PeriodicLayer};
 use crate::observation::Recorded;
-use crate::reference::one_dimension::{BagnoldProfile, NonlocalLayer};
-use crate::shared::Arrangement;
-use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -20,36 +15,15 @@ const STOPPED: f64 = 1e-4;
 const STEADY: f64 = 5e-3;
 /// `[s]`
 const STEADY_TIME: f64 = 1.0;
-/// Cells of a steady profile of the nonlocal law: its discretisation is then below what particles do.
-pub(super) const REFERENCE_CELLS: usize = 4000;
-/// Interval of the observations `[s]`.
-const INTERVAL: f64 = 0.02;
 
-/// A layer that is set in motion at a slope, and what is asked of it.
-#[derive(Debug, Clone, Serialize)]
-pub struct LayerAtSlope {
-    /// Its size, particles and numerics.
-    pub layer: PeriodicLayer,
-    pub(super) solid_fraction: f64,
-    /// Grains.
-    pub material: MuI,
-    /// How they cooperate; none for the local law.
-    pub nonlocal: Option<NonlocalChoice>,
-    /// Simulated time `[s]`.
-    pub duration: f64,
-}
-
-/// The bracket of slopes in which a layer stops.
-#[derive(Debug, Clone, Serialize)]
-pub struct StartStopRun {
-    /// The layer.
-    pub layer: LayerAtSlope,
+/// A search for the slope at which a layer stops.
+pub(super) struct SlopeSearch<'a> {
+    /// The layer and its motion at the start; each trial has a slope of its own.
+    pub layer: Layer<'a>,
     /// Slopes between which it is sought `[°]`: it must stop at the first and flow at the second.
     pub bracket: (f64, f64),
     /// Width of the bracket that ends the search `[°]`.
     pub tolerance: f64,
-    /// Slope whose steady profile every layer starts with `[°]`.
-    pub start_angle: f64,
 }
 
 /// What became of a layer.
@@ -99,99 +73,9 @@ impl StartStop {
     }
 }
 
-impl LayerAtSlope {
-    /// Steady profile at a slope `[°]`.
-    #[must_use]
-    pub fn profile(&self, angle: f64) -> BagnoldProfile {
-        let PeriodicLayer { layer_height, gravity, .. } = self.layer;
-        BagnoldProfile::of(&self.material, layer_height, self.solid_fraction, gravity, angle)
-    }
-
-    /// The layer at a slope `[°]`, from the steady profile of another.
-    pub(super) fn layer<'a>(&self, angle: f64, start: &'a InitialMotion) -> Layer<'a> {
-        let density = self.solid_fraction * self.material.grain_density;
-        Layer {
-            bulk_modulus: bulk_modulus(density, self.layer.gravity, self.layer.layer_height, start.depth_mean),
-            velocity: &*start.velocity,
-            shear_stress: &*start.shear_stress,
-            duration: self.duration,
-            window: 0.3 * self.duration,
-            interval: INTERVAL,
-            ..self.layer.of(self.law(), density, angle)
-        }
-    }
-
-    /// Its law.
-    pub(super) fn law(&self) -> Rheology {
-        self.nonlocal.map_or(Rheology::MuI(self.material), |choice| choice.law(self.material))
-    }
-
-    /// The model's own layer on a slope `[°]`, without particles; none of the local law.
-    pub(super) fn exact(&self, slope_angle: f64) -> Option<NonlocalLayer> {
-        self.nonlocal.map(|choice| choice.exact(self.profile(slope_angle)))
-    }
-
-    /// Its name, on a slope `[°]` if it has one.
-    pub(super) fn variant(&self, slope_angle: Option<f64>) -> Variant {
-        let mut variant = Variant::of("thickness", self.layer.layer_height);
-        if let Some(angle) = slope_angle {
-            variant = variant.and("slope_angle", angle);
-        }
-        variant = variant.and("rows", self.layer.resolution);
-        match &self.nonlocal {
-            // displaced layers are the rule, of both laws
-            Some(choice) if self.layer.jitter == 0.0 => {
-                variant.and("surface", choice.surface_name()).and("particles", Arrangement::Lattice.name())
-            }
-            Some(choice) => variant.and("surface", choice.surface_name()),
-            None => variant,
-        }
-    }
-
-    /// Expected particle-steps of one layer.
-    pub(super) fn particles(&self) -> f64 {
-        self.layer.particles()
-    }
-
-    pub(super) fn particle_steps(&self) -> f64 {
-        let PeriodicLayer { layer_height, gravity, resolution, numerics, .. } = &self.layer;
-        let step = numerics.acoustic_courant * numerics.smoothing_ratio * layer_height
-            / (*resolution as f64 * (50.0 * gravity * layer_height).sqrt());
-        self.duration / step * self.layer.particles()
-    }
-}
-
-/// How a layer moves at the start.
-pub(super) struct InitialMotion {
-    velocity: Box<dyn Fn(f64) -> f64 + Sync>,
-    shear_stress: Box<dyn Fn(f64) -> f64 + Sync>,
-    depth_mean: f64,
-}
-
-impl InitialMotion {
-    /// The motion of a steady profile.
-    pub(super) fn of(profile: BagnoldProfile) -> Self {
-        Self {
-            velocity: Box::new(move |y| profile.velocity(y).unwrap_or(0.0)),
-            shear_stress: Box::new(move |y| profile.shear_stress(y)),
-            depth_mean: profile.depth_mean().unwrap_or(0.0),
-        }
-    }
-
-    /// The motion of the steady profile of the nonlocal law, where it has one.
-    pub(super) fn of_nonlocal(layer: NonlocalLayer) -> Option<Self> {
-        let profile = layer.steady(REFERENCE_CELLS).ok()?;
-        let depth_mean = profile.depth_mean();
-        Some(Self {
-            velocity: Box::new(move |y| profile.velocity(y)),
-            shear_stress: Box::new(move |y| layer.layer.shear_stress(y)),
-            depth_mean,
-        })
-    }
-}
-
-impl StartStopRun {
-    pub(super) fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, ParameterError> {
+impl SlopeSearch<'_> {
+    /// Bisects.
+    pub(super) fn run(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, ParameterError> {
         let (stopping, flowing) = self.bracket;
         let new = SlopeBisection { stopping, flowing, trials: Vec::new(), steps: 0, simulated_time: 0.0, seconds: 0.0 };
         let mut search: SlopeBisection = resumed(progress).unwrap_or(new);
@@ -222,13 +106,12 @@ impl StartStopRun {
         progress: &dyn Progress,
         search: &SlopeBisection,
     ) -> Result<(SlopeTrial, Simulation<2>, Ending<Snapshot<2>>), ParameterError> {
-        let start = InitialMotion::of(self.layer.profile(self.start_angle));
-        let layer = self.layer.layer(angle, &start);
+        let layer = Layer { inclination: angle.to_radians(), ..self.layer.clone() };
         let (round, rounds) = (search.trials.len() as f64, self.rounds());
-        let (h, duration) = (self.layer.layer.layer_height, self.layer.duration);
-        let threshold = STOPPED * (self.layer.layer.gravity * h).sqrt();
-        let lag = (STEADY_TIME / INTERVAL) as usize;
-        let stage = SimulationStage { progress, end: duration, interval: INTERVAL, window: 0.0, context: search };
+        let Layer { layer: PeriodicLayer { layer_height: h, gravity, .. }, duration, interval, .. } = layer;
+        let threshold = STOPPED * (gravity * h).sqrt();
+        let lag = (STEADY_TIME / interval) as usize;
+        let stage = SimulationStage { progress, end: duration, interval, window: 0.0, context: search };
         let begin = |simulation: &Simulation<2>| LayerObserver {
             means: Vec::new(),
             trial: SlopeTrial {
