@@ -2,22 +2,15 @@
 
 use crate::source::sources;
 
-/// Folders whose limits are still elsewhere.
-const NOT_YET: [&str; 1] = ["layer/hydrostatic/"];
-
 #[test]
 fn limits_stand_beside_their_metrics() {
     let mut found = Vec::new();
-    let mut unused = NOT_YET.to_vec();
     for source in sources("validation/cases/src").iter().filter(|source| !source.module.contains(&"metrics".to_owned()))
     {
         let lines = source.code.lines().enumerate();
         let is_limit = |line: &str| ["Limit::", ".gated(", ".gated_by("].iter().any(|mark| line.contains(mark));
         let Some((line, _)) = lines.into_iter().find(|(_, line)| is_limit(line)) else { continue };
-        match NOT_YET.iter().find(|folder| source.path.contains(*folder)) {
-            Some(folder) => unused.retain(|other| other != folder),
-            None => found.push(format!("{}:{}", source.path, line + 1)),
-        }
+        found.push(format!("{}:{}", source.path, line + 1));
     }
     assert!(
         found.is_empty(),
@@ -25,5 +18,4 @@ fn limits_stand_beside_their_metrics() {
          `shared`; move those of\n{}",
         found.join("\n")
     );
-    assert!(unused.is_empty(), "no limit stands elsewhere in {unused:?}: shorten the list");
 }

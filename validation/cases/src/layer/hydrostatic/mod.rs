@@ -1,10 +1,8 @@
 //! A layer at rest: pressure, pressure noise, drift.
 
-mod elasticity;
 mod figures;
 mod flow;
 mod foreign;
-mod kernel;
 mod metrics;
 
 pub use flow::HydrostaticFlow;
@@ -39,11 +37,7 @@ impl Case for Hydrostatic {
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
     fn metrics(_: &RunList<HydrostaticFlow>, records: &[HydrostaticRecord]) -> Vec<Metric> {
-        let mut metrics = metrics::all(records);
-        metrics.extend(records.first().into_iter().flat_map(|(run, _)| kernel::all(&run.layer.numerics)));
-        let grains = records.iter().map(|(run, _)| &run.material).find(|material| material.is_plastic());
-        metrics.extend(grains.into_iter().flat_map(elasticity::all));
-        metrics
+        metrics::all(records)
     }
 
     fn figures(_: &RunList<HydrostaticFlow>, records: &[HydrostaticRecord]) -> Vec<Figure> {

@@ -1,5 +1,8 @@
 //! How the runs are judged.
 
+mod elasticity;
+mod kernel;
+
 use super::HydrostaticRecord;
 use super::flow::HydrostaticFlow;
 use crate::case::Run;
@@ -39,6 +42,9 @@ pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Metric> {
         let partner = coupled.iter().find(|(other, _)| other.material == record.0.material);
         metrics.extend(without_coupling(record, partner.copied()));
     }
+    metrics.extend(records.first().into_iter().flat_map(|(run, _)| kernel::all(&run.layer.numerics)));
+    let grains = records.iter().map(|(run, _)| &run.material).find(|material| material.is_plastic());
+    metrics.extend(grains.into_iter().flat_map(elasticity::all));
     metrics
 }
 

@@ -1,6 +1,6 @@
 //! The grains below their yield: what a layer at rest is held by, and cannot tell, because its stress neither grows nor turns.
 
-use super::metrics::{ELASTIC_SHEAR_ERROR, STRESS_ROTATION_ERROR};
+use super::{ELASTIC_SHEAR_ERROR, STRESS_ROTATION_ERROR};
 use crate::metric::{Limit, Metric, Variant};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Tensor;

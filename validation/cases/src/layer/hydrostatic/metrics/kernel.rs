@@ -1,7 +1,7 @@
 //! The kernel itself: what every pair sum of the layer rests on. A layer at rest forgives a kernel that is 2 % too large,
 //! because its corrections divide by what the kernel gives.
 
-use super::metrics::{KERNEL_INTEGRAL_ERROR, KERNEL_MOMENT_ERROR};
+use super::{KERNEL_INTEGRAL_ERROR, KERNEL_MOMENT_ERROR};
 use crate::metric::{Limit, Metric, Variant};
 use bagnold_solver::kernel::{Kernel, KernelShape};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
