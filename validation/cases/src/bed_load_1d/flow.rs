@@ -333,7 +333,7 @@ impl BedLoad1dFlow {
         self.is_on_slope(BedMotion::Dilating) && self.start == LayerStart::Both && !self.is_suspended()
     }
 
-    /// A variant with what differs from the usual inputs; the height of a cell, if nothing else does.
+    /// A variant with what differs from the usual inputs, and the height of a cell where nothing else does or it differs as well.
     pub(super) fn with_changes(&self, variant: Variant) -> Variant {
         let mut usual = Self::default();
         if self.published().is_some() {
@@ -346,7 +346,8 @@ impl BedLoad1dFlow {
         let inputs = self.inputs().into_iter().zip(usual.inputs());
         let changed = inputs.filter(|(own, usual)| own != usual).map(|(own, _)| own);
         let named = changed.fold(variant.clone(), |named, (name, value)| named.and(name, value));
-        if named == variant { variant.and("cell_height", self.cell_height()) } else { named }
+        let has_usual_cells = self.published().is_some() || self.cell_height() == usual.cell_height();
+        if named != variant && has_usual_cells { named } else { named.and("cell_height", self.cell_height()) }
     }
 
     /// Inputs by their names in variants.
