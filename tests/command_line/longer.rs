@@ -97,13 +97,9 @@ fn longer_runs_of_cases_of_both_models_continue_finished_ones() {
         set("still-water", &[&duration, "averaging_time=0.2", "vary=[]", "variants=[]"])
     };
     let bed_load = |duration: f64| {
-        let grains = format!("stabilised.duration={duration}");
-        let continuum = format!(
-            "continuum.runs=[{{ stage = \"dilating\", slopes = [0.03], pair_laws = [], starts = [1.0], spacings = [0.001], \
-             duration = {duration}, averaging_time = 0.05 }}]"
-        );
-        let lists = ["stabilised.slopes=[0.03]", "beside=[]", "continuum.numerics.time_step=4e-4"];
-        set("bed-load", &[&lists[..], &["stabilised.averaging_time=0.05", &grains, &continuum]].concat())
+        let runs = r#"variants=[{name="stabilised"},{name="dilating",set={formulation="dilating"}}]"#;
+        let duration = format!("duration={duration}");
+        set("bed-load", &[runs, &duration, "averaging_time=0.05", "continuum.numerics.time_step=4e-4"])
     };
     let cases = [
         (column(0.5), column(0.7)),

@@ -2,14 +2,13 @@
 //!
 //! Its law of friction is that of the layer, which knows no other: it is part of the closures and cannot be chosen.
 
-use super::parameters::{Continuum, Materials, Stage};
-use super::run::{BedLoadRun, ContinuumRun};
+use super::flow::{BedLoadFlow, BedLoadFormulation, Continuum, LAYER_CELL};
 use crate::case::ParameterError;
 use crate::channel::Channel;
 use crate::checkpoint::is_interrupted;
 use crate::reference::one_dimension::LayerError;
 use crate::reference::one_dimension::bed_load::{
-    BedLoadLayer, GrainMotion, LayerState, STEADY, SolidFractionProfile, SteadyStates, Stream,
+    BedLoadLayer, GrainMotion, LayerState, STEADY, SolidFractionProfile, SteadyStates,
 };
 use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
@@ -17,9 +16,6 @@ use bagnold_solver::incompressible::{Bed, ParticleSet, ProjectionNumerics, Sedim
 use bagnold_solver::material::dilatancy::Dilatancy;
 use bagnold_solver::material::rheology::{Rheology, RootMuI};
 use bagnold_solver::vector::Vector;
-
-/// Height of a cell of the 1-D layer `[m]`.
-pub(super) const LAYER_CELL: f64 = 2.5e-4;
 
 /// Rows of held grains below the water's floor, as many as a kernel reaches.
 const WALL_ROWS: usize = 3;
@@ -37,29 +33,24 @@ struct Placed {
     wall: Vec<Vector<2>>,
 }
 
-impl ContinuumRun {
-    /// Whether its pair law is the one by which its stage is judged.
-    pub(super) fn is_judged(&self) -> bool {
-        self.pair_law == self.stage.judged_pair_law()
-    }
-
-    pub(super) fn numerics(&self) -> ProjectionNumerics {
+impl BedLoadFlow {
+    pub(super) fn continuum_numerics(&self) -> ProjectionNumerics {
         let of_case = self.continuum.numerics;
-        let pair_law = self.pair_law.unwrap_or(of_case.pair_law);
-        ProjectionNumerics { pair_law, time_step: of_case.time_step * self.spacing / 1e-3, ..of_case }
+        ProjectionNumerics { time_step: of_case.time_step * self.spacing() / 1e-3, ..of_case }
     }
 
     /// Particles of the sediment along a spacing of the water.
     fn refinement(&self) -> usize {
-        match self.stage {
-            Stage::Porous | Stage::Frozen => 1,
-            Stage::Dilating => self.continuum.sediment_refinement as usize,
-        }
+        if self.dilates() { self.continuum.sediment_refinement as usize } else { 1 }
+    }
+
+    fn dilates(&self) -> bool {
+        self.formulation == BedLoadFormulation::Dilating
     }
 
     /// The 1-D layer that the run is verified against.
-    pub(super) fn layer(&self, stream: Stream) -> Result<LayerState, ParameterError> {
-        let closures = self.continuum.closures;
+    pub(super) fn layer(&self) -> Result<LayerState, ParameterError> {
+        let (stream, closures) = (self.stream(), self.continuum.closures);
         let layer = |grains| BedLoadLayer { stream, closures, grains, cell_height: LAYER_CELL, steady_change: STEADY };
         let refused = |error: LayerError| {
             let rule = "such that the 1-D layer has one steady state";
@@ -69,82 +60,79 @@ impl ContinuumRun {
             layer.steady_states_unless(&is_interrupted).and_then(SteadyStates::single).map_err(refused)
         };
         let dilating = one_state(layer(GrainMotion::Dilating))?;
-        match self.stage {
-            Stage::Frozen | Stage::Dilating => Ok(dilating),
-            Stage::Porous => {
-                let resting = GrainMotion::Resting(SolidFractionProfile::of_cells(&dilating));
-                one_state(layer(resting))
-            }
+        if self.formulation == BedLoadFormulation::Porous {
+            return one_state(layer(GrainMotion::Resting(SolidFractionProfile::of_cells(&dilating))));
         }
+        Ok(dilating)
     }
 
-    pub(super) fn channel<'a>(
+    pub(super) fn continuum_channel<'a>(
         &self,
-        run: &BedLoadRun,
         layer: &LayerState,
         velocity: &'a (dyn Fn(f64) -> f64 + Sync),
     ) -> Channel<'a> {
         let continuum = &self.continuum;
         // the spacing that divides the height, so that the surface lies where it should
-        let height = run.materials.depth + continuum.bed_depth;
-        let rows = (height / self.spacing).round();
+        let height = self.depth + continuum.bed_depth;
+        let rows = (height / self.spacing()).round();
         let spacing = height / rows;
         let columns = (continuum.length / spacing).round() as usize;
         let fluid = Lattice { spacing, rows: rows as usize, columns, bottom: -continuum.bed_depth };
-        let stratification = self.stratification(&run.materials, layer);
+        let stratification = self.stratification(layer);
         Channel {
             turbulence: Turbulence::Stratified,
             bed: Bed::NoSlip(fluid.bottom),
-            sediment: Some(self.sediment(run, fluid, layer)),
-            solid_fraction: match self.stage {
-                Stage::Porous | Stage::Frozen => solver::SolidFraction::Given(stratification),
-                Stage::Dilating => solver::SolidFraction::Averaged(stratification),
+            sediment: Some(self.sediment(fluid, layer)),
+            solid_fraction: if self.dilates() {
+                solver::SolidFraction::Averaged(stratification)
+            } else {
+                solver::SolidFraction::Given(stratification)
             },
-            numerics: self.numerics(),
-            ..run.water(fluid, velocity)
+            numerics: self.continuum_numerics(),
+            ..self.water(fluid, velocity)
         }
     }
 
-    fn stratification(&self, materials: &Materials, layer: &LayerState) -> solver::Stratification {
+    fn stratification(&self, layer: &LayerState) -> solver::Stratification {
         let closures = &self.continuum.closures;
         solver::Stratification::of(solver::Strata {
             base: layer.face[0],
             interval: layer.cell_height,
             solid_fraction: layer.solid_fraction.clone(),
             packing: closures.largest_fraction,
-            buoyant_weight: (materials.grain_density - materials.fluid_density) * materials.gravity,
+            buoyant_weight: (self.grain_density - self.fluid_density) * self.gravity,
             bed_level: 0.0,
-            depth: materials.depth,
+            depth: self.depth,
             suspension_viscosity: closures.suspension_viscosity,
             grain_roughness: closures.grain_roughness,
-            grain_diameter: materials.grain_diameter,
+            grain_diameter: self.grain_diameter,
         })
     }
 
     /// The bed at rest where it dilates, or the layer's own grains; held where they rest and at the base.
-    fn placed(&self, fluid: Lattice, seed: u64, layer: &LayerState) -> Placed {
+    fn placed(&self, fluid: Lattice, layer: &LayerState) -> Placed {
         let Continuum { closures, least_fraction, held_depth, bed_depth, .. } = &self.continuum;
         let held = held_depth - bed_depth;
         let part = self.refinement();
         let spacing = fluid.spacing / part as f64;
         let (rows, columns) = (part * fluid.rows + WALL_ROWS, part * fluid.columns);
         let lattice = Lattice { spacing, rows, columns, bottom: fluid.bottom - WALL_ROWS as f64 * spacing };
-        let jitter = if self.stage == Stage::Dilating { self.continuum.sediment_jitter } else { 0.0 };
+        let jitter = if self.dilates() { self.continuum.sediment_jitter } else { 0.0 };
         let mut placed = Placed::default();
         let of_rows = self.rows_of_grains(&SolidFractionProfile::of_cells(layer), lattice);
-        for (site, place) in lattice.sites().zip(lattice.displaced(jitter, seed.wrapping_add(1))) {
+        for (site, place) in lattice.sites().zip(lattice.displaced(jitter, self.seed.wrapping_add(1))) {
             let point = layer.at(site[1]);
-            let fraction = match self.stage {
+            let fraction = match self.formulation {
                 // the top row has what lies below the bed's level, so that no grain is lost or won
-                Stage::Dilating => closures.largest_fraction * (0.5 - site[1] / spacing).clamp(0.0, 1.0),
-                Stage::Porous => point.solid_fraction,
-                Stage::Frozen => of_rows[row_of(site[1], lattice)],
+                BedLoadFormulation::Dilating => closures.largest_fraction * (0.5 - site[1] / spacing).clamp(0.0, 1.0),
+                BedLoadFormulation::Porous => point.solid_fraction,
+                _ => of_rows[row_of(site[1], lattice)],
             };
-            if site[1] < held || (self.stage == Stage::Porous && fraction > *least_fraction) {
+            if site[1] < held || (self.formulation == BedLoadFormulation::Porous && fraction > *least_fraction) {
                 placed.wall.push(site);
             } else if fraction > *least_fraction {
                 placed.free.position.push(place);
-                placed.free.velocity.push(Vector::<2>::new(self.start * point.grain_velocity, 0.0));
+                placed.free.velocity.push(Vector::<2>::new(self.start() * point.grain_velocity, 0.0));
                 placed.filling.push(fraction);
             }
         }
@@ -174,24 +162,23 @@ impl ContinuumRun {
     }
 
     /// The law of the grains, at a given fraction or dilating.
-    pub(super) fn law(&self, materials: &Materials) -> Rheology {
+    pub(super) fn continuum_law(&self) -> Rheology {
         let closures = &self.continuum.closures;
         Rheology::RootMuI(RootMuI {
             static_friction: closures.static_friction,
             limiting_friction: closures.limiting_friction,
             reference_inertia: closures.reference_inertia,
-            grain_diameter: materials.grain_diameter,
-            grain_density: materials.grain_density,
+            grain_diameter: self.grain_diameter,
+            grain_density: self.grain_density,
             regularisation_rate: closures.regularisation_rate,
         })
     }
 
-    fn sediment(&self, run: &BedLoadRun, fluid: Lattice, layer: &LayerState) -> Sediment<2> {
-        let Placed { free, filling, wall } = self.placed(fluid, run.seed, layer);
-        let Materials { gravity, fluid_density, grain_density, grain_diameter, .. } = run.materials;
-        let (closures, numerics) = (&self.continuum.closures, self.numerics());
+    fn sediment(&self, fluid: Lattice, layer: &LayerState) -> Sediment<2> {
+        let Placed { free, filling, wall } = self.placed(fluid, layer);
+        let Self { gravity, fluid_density, grain_density, grain_diameter, .. } = *self;
+        let (closures, numerics, dilates) = (&self.continuum.closures, self.continuum_numerics(), self.dilates());
         let packing = closures.largest_fraction;
-        let dilates = self.stage == Stage::Dilating;
         let buoyancy = if dilates { 1.0 - fluid_density / grain_density } else { 0.0 };
         Sediment {
             particles: free,
@@ -202,7 +189,7 @@ impl ContinuumRun {
             density: grain_density,
             grain_diameter,
             drag_diameter: self.continuum.drag_diameter * grain_diameter,
-            law: self.law(&run.materials),
+            law: self.continuum_law(),
             load: solver::SedimentLoad::Stratified,
             pressure: if dilates {
                 let dilatancy = Dilatancy { dilation: closures.dilation, packing, grain_diameter, grain_density };
@@ -218,45 +205,34 @@ impl ContinuumRun {
             drag: closures.drag,
             drag_form: solver::DragForm::Exchange,
             drag_smoothing_length: numerics.smoothing_ratio * fluid.spacing,
-            gravity: Vector::<2>::new(gravity * run.slope, -buoyancy * gravity),
+            gravity: Vector::<2>::new(gravity * self.slope, -buoyancy * gravity),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::parameters::{BedLoadParameters, StageRuns};
-    use super::super::run::BedLoadFormulation;
-    use super::super::runs::runs;
     use super::*;
-    use crate::case::{Parameters, Tier};
     use crate::reference::bed_load::MeasuredBedLoad;
+    use crate::reference::one_dimension::bed_load::Stream;
     use bagnold_solver::incompressible::DrivenGrains;
 
     /// q* of the grains over the layer's where the water is the layer's own, a mean over the last half second, for each physics of
     /// the grains, which may differ from the layer's.
     fn transport_ratios<const N: usize>(
-        mut parameters: BedLoadParameters,
+        flow: &BedLoadFlow,
         (slope, spacing, start): (f64, f64, f64),
         physics: [&dyn Fn(&mut Continuum); N],
     ) -> [f64; N] {
-        parameters.continuum.runs = vec![StageRuns {
-            stage: Stage::Dilating,
-            slopes: vec![slope],
-            pair_laws: Vec::new(),
-            starts: vec![start],
-            spacings: vec![spacing],
-            duration: 1.0,
-            averaging_time: 0.5,
-        }];
-        let run = runs(&parameters).pop().expect("one run");
-        let BedLoadFormulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
-        let layer = own.layer(run.stream()).expect("a steady layer");
+        let formulation = BedLoadFormulation::Dilating;
+        let continuum = Continuum { spacing, start, ..flow.continuum.clone() };
+        let run = BedLoadFlow { formulation, slope, duration: 1.0, averaging_time: 0.5, continuum, ..flow.clone() };
+        let layer = run.layer().expect("a steady layer");
         let water = |z: f64| layer.at(z).fluid_velocity;
         physics.map(|change| {
-            let mut own = own.clone();
+            let mut own = run.clone();
             change(&mut own.continuum);
-            let channel = own.channel(&run, &layer, &water);
+            let channel = own.continuum_channel(&layer, &water);
             let (length, time_step) = (channel.fluid.length(), channel.numerics.time_step);
             let mut grains = DrivenGrains::new(channel.scene()).expect("a valid scene");
             let (mut sum, mut count) = (0.0, 0.0);
@@ -264,7 +240,7 @@ mod tests {
                 assert!(grains.step(time_step), "step {step}");
                 if step as f64 * time_step > run.duration - run.averaging_time {
                     let grains = grains.masses().iter().zip(grains.grains().1);
-                    sum += grains.fold(0.0, |sum, (m, u)| sum + m * u[0]) / run.materials.grain_density / length;
+                    sum += grains.fold(0.0, |sum, (m, u)| sum + m * u[0]) / run.grain_density / length;
                     count += 1.0;
                 }
             }
@@ -272,30 +248,15 @@ mod tests {
         })
     }
 
-    /// A layer that moves has two rows at least, and no run is coarser than its file asks for.
-    #[test]
-    fn a_thin_layer_has_finer_particles() {
-        let materials = BedLoadParameters::of_tier(Tier::Quick).materials;
-        let shallow = Materials { depth: 0.03, ..materials };
-        let of = |stage: Stage, slope, materials| stage.spacing(1e-3, 1.3, slope, materials);
-        assert_eq!(of(Stage::Frozen, 0.02, &materials), 7e-4);
-        assert_eq!(of(Stage::Frozen, 0.03, &materials), 1e-3);
-        assert_eq!(of(Stage::Frozen, 0.02, &shallow), 4e-4);
-        assert_eq!(of(Stage::Dilating, 0.02, &shallow), 1e-3);
-    }
-
     #[test]
     fn a_sparse_topmost_row_gives_its_grains_to_the_row_below() {
-        let mut parameters = BedLoadParameters::of_tier(Tier::Quick);
-        let frozen = parameters.continuum.runs[0].clone();
-        parameters.continuum.runs = vec![StageRuns { stage: Stage::Frozen, slopes: vec![0.02], ..frozen }];
-        let mut rows = |sparse: f64| {
-            parameters.continuum.sparse_row_fraction = sparse;
-            let run = runs(&parameters).pop().expect("one run");
-            let BedLoadFormulation::Continuum(own) = &run.formulation else { panic!("a run of `continuum`") };
-            let layer = own.layer(run.stream()).expect("a steady layer");
+        let rows = |sparse: f64| {
+            let formulation = BedLoadFormulation::Frozen;
+            let mut run = BedLoadFlow { formulation, slope: 0.02, ..BedLoadFlow::default() };
+            run.continuum.sparse_row_fraction = sparse;
+            let layer = run.layer().expect("a steady layer");
             let lattice = Lattice { spacing: 7e-4, rows: 60, columns: 1, bottom: -0.0161 };
-            own.rows_of_grains(&SolidFractionProfile::of_cells(&layer), lattice)
+            run.rows_of_grains(&SolidFractionProfile::of_cells(&layer), lattice)
         };
         let (plain, gathered) = (rows(0.0), rows(0.03));
         let top = gathered.iter().rposition(|fraction| *fraction > 0.0).expect("grains");
@@ -308,8 +269,7 @@ mod tests {
     #[test]
     fn grains_alone_carry_what_the_layer_carries_in_the_layers_water() {
         for (slope, spacing, start) in [(0.02, 7e-4, 1.0), (0.03, 1e-3, 1.0), (0.03, 1e-3, 1.4), (0.05, 1e-3, 1.0)] {
-            let parameters = BedLoadParameters::of_tier(Tier::Quick);
-            let [ratio] = transport_ratios(parameters, (slope, spacing, start), [&|_| {}]);
+            let [ratio] = transport_ratios(&BedLoadFlow::default(), (slope, spacing, start), [&|_| {}]);
             assert!((ratio - 1.0).abs() < 0.02, "slope {slope}, {spacing} m, start {start}: {ratio}");
         }
     }
@@ -317,14 +277,14 @@ mod tests {
     /// The sheet flow of Revil-Baudard et al. 2015: light grains of 3 mm, which eddies carry.
     #[test]
     fn suspended_grains_carry_what_the_layer_carries_and_wrong_eddies_do_not() {
-        let mut parameters = BedLoadParameters::of_tier(Tier::Quick);
-        let Stream { flow_depth, grain_density, grain_diameter, slope, .. } = MeasuredBedLoad::SheetFlow.stream();
-        parameters.materials = Materials { depth: flow_depth, grain_density, grain_diameter, ..parameters.materials };
-        let continuum = &mut parameters.continuum;
+        let Stream { flow_depth: depth, grain_density, grain_diameter, slope, .. } =
+            MeasuredBedLoad::SheetFlow.stream();
+        let mut flow = BedLoadFlow { depth, grain_density, grain_diameter, ..BedLoadFlow::default() };
+        let continuum = &mut flow.continuum;
         (continuum.bed_depth, continuum.held_depth, continuum.length) = (0.03, 0.006, 0.024);
         (continuum.drag_diameter, continuum.closures.turbulent_schmidt) = (0.5, 0.7);
         let [right, wrong @ ..] = transport_ratios(
-            parameters,
+            &flow,
             (slope, 3e-3, 1.0),
             [
                 &|_| {},

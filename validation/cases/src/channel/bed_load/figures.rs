@@ -2,12 +2,10 @@
 
 use super::BedLoadRecord;
 use super::fit::held_out;
-use super::metrics::has_forgotten;
-use super::parameters::Stage;
+use super::flow::{BedLoadFlow, BedLoadFormulation, FITTED};
+use super::metrics::{has_forgotten, is_fastest};
 use super::profiles::{drag_top_ratio, fluid_mean, velocity_at};
-use super::run::{BedLoadFormulation, BedLoadRun, ContinuumRun, GrainKind};
-use super::runs::pair_law_name;
-use super::tiers::FITTED;
+use super::run::pair_law_name;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load::TransportFormula;
 use crate::shared::{ascending, percent, transport_panel};
@@ -23,9 +21,9 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
         figures.push(sediment(records, &slopes));
     }
     let layers: Vec<&BedLoadRecord> = records.iter().filter(|(_, record)| record.data.layer.is_some()).collect();
-    for stage in [Stage::Porous, Stage::Frozen, Stage::Dilating] {
+    for stage in [BedLoadFormulation::Porous, BedLoadFormulation::Frozen, BedLoadFormulation::Dilating] {
         let of_stage: Vec<&BedLoadRecord> =
-            layers.iter().copied().filter(|(run, _)| stage_of(run) == Some(stage)).collect();
+            layers.iter().copied().filter(|(run, _)| run.formulation == stage).collect();
         if !of_stage.is_empty() {
             figures.push(against_layer(stage, &of_stage));
         }
@@ -33,10 +31,6 @@ pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
     figures.push(transport(records));
     figures.push(over_time(records));
     figures
-}
-
-fn stage_of(run: &BedLoadRun) -> Option<Stage> {
-    run.continuum().map(|own| own.stage)
 }
 
 /// Name of particles that are a grain each, in every legend.
@@ -47,50 +41,39 @@ const DILATING: &str = "grains that dilate";
 const FROZEN: &str = "grains of a given solid fraction";
 
 /// Names a run beside others of the case.
-fn label(run: &BedLoadRun) -> String {
-    match &run.formulation {
-        BedLoadFormulation::Grains(kind, grains) => {
-            let model = format!("{PARTICLES}, {}", percent(run.slope));
-            match kind {
-                GrainKind::Stabilised | GrainKind::Fit(_) => model,
-                GrainKind::Paper => format!("{model}, as printed"),
-                GrainKind::AtRest => format!("{model}, held"),
-                GrainKind::OtherStart => format!("{model}, start {}", grains.start),
-            }
-        }
-        BedLoadFormulation::Continuum(own) => {
-            let ContinuumRun { stage, pair_law, start, spacing, .. } = own;
-            let model = match stage {
-                Stage::Porous => "fixed grains",
-                Stage::Frozen => FROZEN,
-                Stage::Dilating => DILATING,
-            };
-            let mut label = format!("{model}, {}", percent(run.slope));
-            if let (false, Some(law)) = (own.is_judged(), pair_law) {
-                label += &format!(", {}", pair_law_name(*law));
-            }
-            if *start != 1.0 {
-                label += &format!(", start {start}");
-            }
-            if *spacing != 1e-3 {
-                label += &format!(", {} mm", 1e3 * spacing);
-            }
-            label
-        }
+fn label(run: &BedLoadFlow) -> String {
+    let (model, as_what) = match run.formulation {
+        BedLoadFormulation::Stabilised | BedLoadFormulation::Fit => (PARTICLES, ""),
+        BedLoadFormulation::Paper => (PARTICLES, ", as printed"),
+        BedLoadFormulation::AtRest => (PARTICLES, ", held"),
+        BedLoadFormulation::Porous => ("fixed grains", ""),
+        BedLoadFormulation::Frozen => (FROZEN, ""),
+        BedLoadFormulation::Dilating => (DILATING, ""),
+    };
+    let mut label = format!("{model}, {}{as_what}", percent(run.slope));
+    if let (false, Some(law)) = (run.is_judged(), run.pair_law()) {
+        label += &format!(", {}", pair_law_name(law));
     }
+    if !run.starts_as_usual() {
+        label += &format!(", start {}", run.start());
+    }
+    if run.formulation.is_continuum() && run.spacing() != 1e-3 {
+        label += &format!(", {} mm", 1e3 * run.spacing());
+    }
+    label
 }
 
-/// The run of a kind on a slope.
-fn of_kind(records: &[BedLoadRecord], kind: GrainKind, slope: f64) -> Option<&BedLoadRecord> {
-    records.iter().find(|(run, _)| run.formulation.kind() == Some(kind) && run.slope == slope)
+/// The run of a formulation on a slope.
+fn of_kind(records: &[BedLoadRecord], kind: BedLoadFormulation, slope: f64) -> Option<&BedLoadRecord> {
+    records.iter().find(|(run, _)| run.formulation == kind && run.slope == slope && is_fastest(records, run))
 }
 
 /// Runs of the paper's flow on a slope, with names and colours: one particle a grain, and grains that dilate from the 1-D layer's water.
 fn beside_paper(records: &[BedLoadRecord], slope: f64) -> impl Iterator<Item = (&'static str, usize, &BedLoadRecord)> {
     let is_dilating = move |(run, _): &&BedLoadRecord| {
-        stage_of(run) == Some(Stage::Dilating) && run.slope == slope && run.start() == 1.0
+        run.formulation == BedLoadFormulation::Dilating && run.slope == slope && run.starts_as_usual()
     };
-    let grains = of_kind(records, GrainKind::Stabilised, slope).map(|record| (PARTICLES, 0, record));
+    let grains = of_kind(records, BedLoadFormulation::Stabilised, slope).map(|record| (PARTICLES, 0, record));
     let dilating = records.iter().find(is_dilating).map(|record| (DILATING, 1, record));
     grains.into_iter().chain(dilating)
 }
@@ -99,9 +82,8 @@ fn beside_paper(records: &[BedLoadRecord], slope: f64) -> impl Iterator<Item = (
 fn parameters(records: &[BedLoadRecord], slopes: &[f64]) -> String {
     let CoulombBingham { yield_stress, friction, plastic_viscosity, .. } = FITTED;
     let drawn = || slopes.iter().flat_map(|slope| beside_paper(records, *slope));
-    let fitted = |run: &BedLoadRun| match &run.formulation {
-        BedLoadFormulation::Grains(_, grains) => grains.material == Rheology::CoulombBingham(FITTED),
-        BedLoadFormulation::Continuum(_) => false,
+    let fitted = |run: &BedLoadFlow| {
+        !run.formulation.is_continuum() && run.particles.material == Rheology::CoulombBingham(FITTED)
     };
     let mut text = "The paper's curves are lost, so that nothing measured is drawn. It calibrated a yield stress of 1220 Pa and a viscosity \
                     of 0.26 Pa·s on the slope of 2 %, by a measured velocity of the water. Its yield stress holds every grain, also as \
@@ -128,7 +110,8 @@ fn with_and_without_motion(records: &[BedLoadRecord], slopes: &[f64]) -> String 
     let mut missing = Vec::new();
     for &slope in slopes {
         let of = |kind| of_kind(records, kind, slope);
-        let (Some((run, own)), Some((_, rest))) = (of(GrainKind::Stabilised), of(GrainKind::AtRest)) else {
+        let (Some((run, own)), Some((_, rest))) = (of(BedLoadFormulation::Stabilised), of(BedLoadFormulation::AtRest))
+        else {
             missing.push(percent(slope));
             continue;
         };
@@ -137,7 +120,7 @@ fn with_and_without_motion(records: &[BedLoadRecord], slopes: &[f64]) -> String 
             let difference = velocity_at(run, &own, height) - velocity_at(run, &rest, height);
             format!("{} by {:.2} u_*", if difference < 0.0 { "slower" } else { "faster" }, difference.abs())
         };
-        let (near, far) = (excess(0.5 * run.materials.grain_diameter), excess(0.5 * run.materials.depth));
+        let (near, far) = (excess(0.5 * run.grain_diameter), excess(0.5 * run.depth));
         text += &format!("At {} it is {near} half a grain above the bed and {far} at half the depth. ", percent(slope));
     }
     if !missing.is_empty() {
@@ -151,9 +134,10 @@ fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
     let panel = |&slope: &f64| {
         let mut panel =
             Panel::new(&percent(slope), Axis::logarithmic("z/d [-]").between(0.08, 12.0), Axis::linear("u_f/u_* [-]"));
-        let at_rest = of_kind(records, GrainKind::AtRest, slope).map(|record| ("the same bed at rest", 2, record));
+        let at_rest =
+            of_kind(records, BedLoadFormulation::AtRest, slope).map(|record| ("the same bed at rest", 2, record));
         for (name, slot, (run, record)) in beside_paper(records, slope).chain(at_rest) {
-            let (diameter, scale) = (run.materials.grain_diameter, run.clear_water().friction_velocity());
+            let (diameter, scale) = (run.grain_diameter, run.clear_water().friction_velocity());
             let points = record.data.channel.profile.points();
             let velocities = record.data.channel.profile.velocities();
             let above: Vec<usize> = (0..points.len()).filter(|&k| points[k].height > 0.0).collect();
@@ -186,7 +170,7 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         let mut velocity = Panel::new(&percent(slope), Axis::linear("u_s [m/s]"), height());
         let mut drag = Panel::new("", Axis::linear("drag on the grains [kN/m³]"), height());
         for (name, slot, (run, record)) in beside_paper(records, slope) {
-            let (data, diameter) = (&record.data, run.materials.grain_diameter);
+            let (data, diameter) = (&record.data, run.grain_diameter);
             let points = data.sediment.points();
             velocity.line_points(name, slot, points.iter().map(|point| (point.velocity, point.height / diameter)));
             drag.line_points("", slot, data.drag_profile().into_iter().map(|(z, force)| (1e-3 * force, z / diameter)));
@@ -204,14 +188,14 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         its figures 12 and 13, over the height. The paper's velocities are concave functions of the height above the bed's level and convex \
         below. Its drag peaks beside the bed and is less on the topmost grains. "
         .to_owned();
-    for (run, record) in slopes.iter().filter_map(|slope| of_kind(records, GrainKind::Stabilised, *slope)) {
+    for (run, record) in slopes.iter().filter_map(|slope| of_kind(records, BedLoadFormulation::Stabilised, *slope)) {
         let drag = record.data.drag_profile();
         let Some((top, _)) = drag.last() else { continue };
         caption += &format!(
             "With one particle a grain a point is a row. At {} the topmost row lies at z = {:.2} d, and the drag on it is {:.2} times the drag \
              on the row below. ",
             percent(run.slope),
-            top / run.materials.grain_diameter,
+            top / run.grain_diameter,
             drag_top_ratio(&drag)
         )
         .replace("= -", "= −");
@@ -226,7 +210,7 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
 }
 
 /// A stage of `continuum` against the 1-D layer.
-fn against_layer(stage: Stage, records: &[&BedLoadRecord]) -> Figure {
+fn against_layer(stage: BedLoadFormulation, records: &[&BedLoadRecord]) -> Figure {
     let mut water = Panel::new("", Axis::linear("u_f/u_* [-]"), Axis::linear("z [mm]"));
     let near = || Axis::linear("z [mm]").between(-8.0, 12.0);
     let mut close = Panel::new("", Axis::linear("u_f/u_* [-]").between(0.0, 12.0), near());
@@ -253,27 +237,27 @@ fn against_layer(stage: Stage, records: &[&BedLoadRecord]) -> Figure {
         water.points(&label(run), slot, own.clone());
         close.points("", slot, own);
         grains.points("", slot, of(&record.data.sediment));
-        if stage == Stage::Dilating {
+        if stage == BedLoadFormulation::Dilating {
             let own = record.data.solid_fraction().into_iter().map(|(z, value)| (value, 1e3 * z));
             fraction.points("", slot, own);
         }
     }
     let panels = match stage {
-        Stage::Porous => vec![water, close],
-        Stage::Frozen => vec![water, close, grains],
-        Stage::Dilating => vec![water, close, grains, fraction],
+        BedLoadFormulation::Porous => vec![water, close],
+        BedLoadFormulation::Dilating => vec![water, close, grains, fraction],
+        _ => vec![water, close, grains],
     };
     let name = stage.name();
     let near = match stage {
-        Stage::Porous => "(b) the water near the bed",
-        Stage::Frozen => "(b) the water near the bed and (c) the grains",
-        Stage::Dilating => "(b) the water near the bed, (c) the grains and (d) their solid fraction",
+        BedLoadFormulation::Porous => "(b) the water near the bed",
+        BedLoadFormulation::Dilating => "(b) the water near the bed, (c) the grains and (d) their solid fraction",
+        _ => "(b) the water near the bed and (c) the grains",
     };
     let mut caption = format!(
         "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is independent. Panels \
          are (a) the water over the whole depth, {near}."
     );
-    for (run, record) in records.iter().filter(|(run, _)| run.start() != 1.0) {
+    for (run, record) in records.iter().filter(|(run, _)| !run.starts_as_usual()) {
         let Some(layer) = &record.data.layer else { continue };
         let reached = fluid_mean(run, &record.data.channel.profile.points(), layer);
         caption += &format!(
@@ -285,29 +269,26 @@ fn against_layer(stage: Stage, records: &[&BedLoadRecord]) -> Figure {
     Figure::new(&format!("layer-{name}"), &caption, panels)
 }
 
-/// Whether a run belongs to a kind.
-type RunFilter = fn(&BedLoadRun, Option<&ContinuumRun>) -> bool;
-
-fn is_dilating(own: &ContinuumRun) -> bool {
-    own.stage == Stage::Dilating && own.is_judged()
-}
+/// Grains that dilate from another start, with their colour.
+const FROM_ANOTHER_START: (&str, usize) = ("grains that dilate, from another start", 4);
+/// Runs that show what a law does, with their colour.
+const OTHER_PAIR_LAWS: (&str, usize) = ("other laws between pairs", 3);
 
 fn transport(records: &[BedLoadRecord]) -> Figure {
     let mut panel = transport_panel::formulas();
     let mut largest_error: f64 = 0.0;
-    let kinds: [(&str, usize, RunFilter); 5] = [
-        (PARTICLES, 0, |run, _| run.formulation.kind() == Some(GrainKind::Stabilised)),
-        (FROZEN, 2, |_, own| own.is_some_and(|own| own.stage == Stage::Frozen && own.is_judged())),
-        (DILATING, 5, |_, own| own.is_some_and(|own| is_dilating(own) && own.start == 1.0)),
-        ("grains that dilate, from another start", 4, |_, own| {
-            own.is_some_and(|own| is_dilating(own) && own.start != 1.0)
-        }),
-        ("other laws between pairs", 3, |_, own| own.is_some_and(|own| !own.is_judged())),
-    ];
-    for (name, slot, belongs) in kinds {
+    let kind = |run: &BedLoadFlow| match run.formulation {
+        _ if !run.is_judged() => Some(OTHER_PAIR_LAWS),
+        BedLoadFormulation::Stabilised if is_fastest(records, run) => Some((PARTICLES, 0)),
+        BedLoadFormulation::Frozen => Some((FROZEN, 2)),
+        BedLoadFormulation::Dilating if run.starts_as_usual() => Some((DILATING, 5)),
+        BedLoadFormulation::Dilating => Some(FROM_ANOTHER_START),
+        _ => None,
+    };
+    for own @ (name, slot) in [(PARTICLES, 0), (FROZEN, 2), (DILATING, 5), FROM_ANOTHER_START, OTHER_PAIR_LAWS] {
         let rates: Vec<(f64, FittedValue)> = records
             .iter()
-            .filter(|(run, _)| belongs(run, run.continuum()))
+            .filter(|(run, _)| kind(run) == Some(own))
             .map(|(run, record)| (run.stream().shields_number(), record.data.mean_transport()))
             .filter(|(_, rate)| rate.value > 0.0)
             .collect();
@@ -337,7 +318,7 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
 fn over_time(records: &[BedLoadRecord]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("t [s]"), Axis::linear("U/U_clear [-]"));
     let mut rate = Panel::new("", Axis::linear("t [s]"), Axis::linear("q* [-]"));
-    let shown = records.iter().filter(|(run, _)| !matches!(run.formulation.kind(), Some(GrainKind::Fit(_))));
+    let shown = records.iter().filter(|(run, _)| run.formulation != BedLoadFormulation::Fit);
     for (slot, (run, record)) in shown.enumerate() {
         let data = &record.data;
         let mean = run.clear_water().mean_velocity();

@@ -1,10 +1,11 @@
 //! The fits of `stabilised`: yield stress and viscosity from the transport on two slopes, judged on the third.
 
 use super::BedLoadRecord;
-use super::run::GrainKind;
+use super::flow::BedLoadFormulation;
 use crate::reference::bed_load::TransportFormula;
 use crate::shared::ascending;
 use crate::statistics::mean;
+use bagnold_solver::material::rheology::Rheology;
 
 /// A fit and its prediction.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,7 +95,7 @@ pub(super) fn held_out(records: &[BedLoadRecord]) -> Vec<HeldOut> {
 fn surfaces(records: &[BedLoadRecord]) -> Vec<TransportSurface> {
     let mut points = Vec::new();
     for (run, record) in records {
-        if let Some(GrainKind::Fit(law)) = run.formulation.kind() {
+        if let (BedLoadFormulation::Fit, Rheology::CoulombBingham(law)) = (run.formulation, run.particles.material) {
             let mean = mean(&record.data.channel.series.within(&record.data.transport, record.data.channel.window));
             let shields = run.stream().shields_number();
             points.push((run.slope, shields, law, libm::log(mean.max(1e-9))));

@@ -1,8 +1,8 @@
 //! Bed load as another code gives it: profiles of water and grains, and the history of the transport.
 
+use super::flow::BedLoadFlow;
 use super::metrics::*;
 use super::observation::{BedLoadObservation, Carried};
-use super::run::BedLoadRun;
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::channel::{self, BlockProfile, ProfilePoint};
 use crate::input::FieldError;
@@ -63,7 +63,7 @@ fn names(groups: &[&[Quantity]]) -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// A 1-D layer to compare with that cannot be computed.
 pub(super) fn observe(
-    run: &BedLoadRun,
+    run: &BedLoadFlow,
     given: &ExternalData,
 ) -> Result<ExternalObservation<BedLoadObservation>, FieldError> {
     let water = channel::foreign::observe(given)?.observation;
@@ -86,7 +86,7 @@ pub(super) fn observe(
     if !given.series("mean_velocity").is_empty() {
         measured.extend([STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
     }
-    let layer = run.continuum().map(|own| own.layer(run.stream())).transpose().map_err(|error| {
+    let layer = run.formulation.is_continuum().then(|| run.layer()).transpose().map_err(|error| {
         FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")
     })?;
     let observation = BedLoadObservation {
@@ -103,25 +103,21 @@ pub(super) fn observe(
 
 #[cfg(test)]
 mod tests {
+    use super::super::flow::BedLoadFormulation;
     use super::super::metrics;
-    use super::super::parameters::BedLoadParameters;
-    use super::super::runs::runs;
     use super::*;
-    use crate::case::{NamedColumns, Parameters, Tier};
+    use crate::case::NamedColumns;
     use crate::metric::Verdict;
 
-    fn dilating() -> BedLoadRun {
-        let runs = runs(&BedLoadParameters::of_tier(Tier::Quick));
-        let is_dilating = |run: &BedLoadRun| run.continuum().is_some_and(|own| own.stage.name() == "dilating");
-        runs.into_iter().find(is_dilating).expect("the quick tier has grains that dilate")
+    fn dilating() -> BedLoadFlow {
+        BedLoadFlow { formulation: BedLoadFormulation::Dilating, ..BedLoadFlow::default() }
     }
 
     /// The layer itself, sampled as another code would give it, agrees with the layer.
     #[test]
     fn the_layer_as_given_by_another_code_is_the_layer() {
         let run = dilating();
-        let own = run.continuum().expect("it is one of a continuum");
-        let layer = own.layer(run.stream()).expect("a layer");
+        let layer = run.layer().expect("a layer");
         let heights: Vec<f64> = (-30..45).map(|k| 1e-3 * (f64::from(k) + 0.5)).collect();
         let of = |pick: fn(&crate::reference::one_dimension::bed_load::LayerState, f64) -> f64| -> Vec<f64> {
             heights.iter().map(|&z| pick(&layer, z)).collect()

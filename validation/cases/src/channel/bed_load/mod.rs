@@ -1,24 +1,20 @@
 //! Bed load on three slopes in three formulations.
 
-mod checks;
 mod continuum;
 mod figures;
 mod fit;
+mod flow;
 mod foreign;
 mod metrics;
 mod observation;
-mod parameters;
 mod profiles;
 mod run;
-mod runs;
 mod scenes;
-mod tiers;
 
+pub use flow::{BedLoadFlow, BedLoadFormulation, Continuum, GrainParticles};
 pub use observation::BedLoadObservation;
-pub use parameters::{BedLoadParameters, Beside, Continuum, Fit, GrainParticles, Materials, Stage, StageRuns};
-pub use run::{BedLoadFormulation, BedLoadRun, ContinuumRun, GrainKind};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run, RunList};
 use crate::channel;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -30,7 +26,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct BedLoad;
 
-type BedLoadRecord = RecordOf<BedLoadParameters>;
+type BedLoadRecord = RecordOf<RunList<BedLoadFlow>>;
 
 impl Case for BedLoad {
     const NAME: &'static str = "bed-load";
@@ -48,25 +44,25 @@ impl Case for BedLoad {
         Observed only. All metrics of `paper`, which fails in documented ways. Transport and profiles of runs that \
         still depend on their start.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
-    type Parameters = BedLoadParameters;
+    type Parameters = RunList<BedLoadFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Metric> {
+    fn metrics(_: &Self::Parameters, records: &[BedLoadRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Figure> {
+    fn figures(_: &Self::Parameters, records: &[BedLoadRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
     fn from_external(
-        run: &BedLoadRun,
+        run: &BedLoadFlow,
         given: &ExternalData,
     ) -> Result<Option<ExternalObservation<BedLoadObservation>>, FieldError> {
         foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &BedLoadParameters, records: &[BedLoadRecord]) -> Vec<Table> {
+    fn tables(_: &Self::Parameters, records: &[BedLoadRecord]) -> Vec<Table> {
         let of_run = |(run, record): &BedLoadRecord| {
             let variant = run.variant();
             let mut tables = channel::tables(&variant, &record.data.channel);

@@ -1,6 +1,6 @@
 //! What a run leaves behind.
 
-use super::run::BedLoadRun;
+use super::flow::BedLoadFlow;
 use crate::channel::{BlockProfile, Channel, ChannelObservation, ProfilePoint};
 use crate::reference::one_dimension::bed_load::LayerState;
 use crate::statistics::{BLOCKS, FittedValue};
@@ -52,7 +52,7 @@ pub(super) struct BedLoadObserver {
 }
 
 impl BedLoadObserver {
-    pub(super) fn new(run: &BedLoadRun, channel: &Channel<'_>) -> Self {
+    pub(super) fn new(run: &BedLoadFlow, channel: &Channel<'_>) -> Self {
         let spacing = channel.sediment.as_ref().map_or(channel.fluid.spacing, |sediment| sediment.spacing);
         let stream = run.stream();
         // a row of grains lies in the middle of its bin
@@ -61,7 +61,7 @@ impl BedLoadObserver {
         Self {
             unit: stream.transport_unit(),
             length: channel.fluid.length(),
-            grain_density: run.materials.grain_density,
+            grain_density: run.grain_density,
             inside: (-stream.bed_depth, stream.flow_depth + stream.bed_depth),
             window_start: None,
             window: run.averaging_time,

@@ -1,7 +1,7 @@
 //! What is read off the profiles of water and grains.
 
+use super::flow::BedLoadFlow;
 use super::observation::BedLoadObservation;
-use super::run::BedLoadRun;
 use crate::channel::ProfilePoint;
 use crate::metric::Variant;
 use crate::output::Table;
@@ -11,20 +11,20 @@ use crate::statistics::{
 };
 
 /// ln((z + z_0)/d) with the offset z_0 of the logarithmic law, over which u of clear water is a straight line `[-]`.
-fn log_height(run: &BedLoadRun, height: f64) -> f64 {
-    libm::log((height + run.clear_water().origin_offset) / run.materials.grain_diameter)
+fn log_height(run: &BedLoadFlow, height: f64) -> f64 {
+    libm::log((height + run.clear_water().origin_offset) / run.grain_diameter)
 }
 
 /// Height of a logarithm `[m]`.
-pub(super) fn height_of(run: &BedLoadRun, logarithm: f64) -> f64 {
-    run.materials.grain_diameter * libm::exp(logarithm) - run.clear_water().origin_offset
+pub(super) fn height_of(run: &BedLoadFlow, logarithm: f64) -> f64 {
+    run.grain_diameter * libm::exp(logarithm) - run.clear_water().origin_offset
 }
 
 /// Heights between which the slope of u over ln(z + z_0) is fitted `[m]`.
 pub(super) const LAYERS: [(f64, f64); 4] = [(5e-4, 3.5e-3), (3e-3, 8e-3), (8e-3, 18e-3), (15e-3, 43e-3)];
 
 /// Slope of u over ln(z + z_0) between two heights, over u_*/κ `[-]`.
-pub(super) fn semi_log_slope(run: &BedLoadRun, points: &[ProfilePoint], lower: f64, upper: f64) -> f64 {
+pub(super) fn semi_log_slope(run: &BedLoadFlow, points: &[ProfilePoint], lower: f64, upper: f64) -> f64 {
     let law = run.clear_water();
     let inside = points.iter().filter(|point| point.height >= lower && point.height <= upper);
     let pairs: Vec<(f64, f64)> = inside.map(|point| (log_height(run, point.height), point.velocity)).collect();
@@ -41,27 +41,27 @@ pub(super) fn semi_log_slope(run: &BedLoadRun, points: &[ProfilePoint], lower: f
 const MOST_LAYERS: usize = 3;
 
 /// u/u_* over ln((z + z_0)/d) above the bed, up to 0.9 h.
-pub(super) fn semi_logarithmic(run: &BedLoadRun, points: &[ProfilePoint]) -> Vec<(f64, f64)> {
+pub(super) fn semi_logarithmic(run: &BedLoadFlow, points: &[ProfilePoint]) -> Vec<(f64, f64)> {
     let scale = run.clear_water().friction_velocity();
-    let top = 0.9 * run.materials.depth;
+    let top = 0.9 * run.depth;
     let inside = points.iter().filter(|point| point.height > 0.0 && point.height < top);
     inside.map(|point| (log_height(run, point.height), point.velocity / scale)).collect()
 }
 
 /// Number of layers of different semi-logarithmic slope, by a segmented regression.
-pub(super) fn number_of_layers(run: &BedLoadRun, points: &[ProfilePoint]) -> usize {
+pub(super) fn number_of_layers(run: &BedLoadFlow, points: &[ProfilePoint]) -> usize {
     number_of_pieces(&semi_logarithmic(run, points), MOST_LAYERS)
 }
 
 /// The layers: breaks in ln((z + z_0)/d), slopes in u_*.
-pub(super) fn layers(run: &BedLoadRun, points: &[ProfilePoint], count: usize) -> Option<Segmented> {
+pub(super) fn layers(run: &BedLoadFlow, points: &[ProfilePoint], count: usize) -> Option<Segmented> {
     segmented_regression(&semi_logarithmic(run, points), count)
 }
 
 /// Second derivative of the grains' velocity above or below the top of the bed, times d²/u_* `[-]`: negative where the
 /// profile is concave. Not a number with fewer than four moving rows.
-pub(super) fn grain_curvature(run: &BedLoadRun, points: &[ProfilePoint], above: bool) -> f64 {
-    let (diameter, scale) = (run.materials.grain_diameter, run.clear_water().friction_velocity());
+pub(super) fn grain_curvature(run: &BedLoadFlow, points: &[ProfilePoint], above: bool) -> f64 {
+    let (diameter, scale) = (run.grain_diameter, run.clear_water().friction_velocity());
     let moving = points.iter().filter(|point| (point.height > 0.0) == above && point.velocity > 1e-4);
     let values: Vec<(f64, f64)> = moving.map(|point| (point.height / diameter, point.velocity / scale)).collect();
     curvature(&values).unwrap_or(f64::NAN)
@@ -72,7 +72,7 @@ const DEPARTURE: f64 = 0.1;
 
 /// Borders of the layer that the moving grains shear `[m]`: below it the water seeps, above it the logarithmic law holds
 /// that is fitted to the outer flow; at both it departs by a tenth of u_*.
-pub(super) fn sheared_borders(run: &BedLoadRun, points: &[ProfilePoint]) -> (f64, f64) {
+pub(super) fn sheared_borders(run: &BedLoadFlow, points: &[ProfilePoint]) -> (f64, f64) {
     let law = run.clear_water();
     let threshold = DEPARTURE * law.friction_velocity();
     let outer: Vec<(f64, f64)> = points
@@ -101,14 +101,14 @@ fn root(pair: [&ProfilePoint; 2], function: impl Fn(&ProfilePoint) -> f64) -> Op
 }
 
 /// Velocity of the water at a height, over u_* `[-]`.
-pub(super) fn velocity_at(run: &BedLoadRun, points: &[ProfilePoint], z: f64) -> f64 {
+pub(super) fn velocity_at(run: &BedLoadFlow, points: &[ProfilePoint], z: f64) -> f64 {
     let points: Vec<(f64, f64)> = points.iter().map(|point| (point.height, point.velocity)).collect();
     interpolated(&points, z, (Extrapolation::Nothing, Extrapolation::Nothing))
         .map_or(f64::NAN, |velocity| velocity / run.clear_water().friction_velocity())
 }
 
 /// Semi-logarithmic slope next to the bed over that of the outer flow, of the lines through all heights that fit best `[-]`.
-pub(super) fn slope_ratio(run: &BedLoadRun, points: &[ProfilePoint]) -> Option<f64> {
+pub(super) fn slope_ratio(run: &BedLoadFlow, points: &[ProfilePoint]) -> Option<f64> {
     let fit = layers(run, points, number_of_layers(run, points).max(2))?;
     Some(fit.slopes.first()? / fit.slopes.last()?)
 }
@@ -129,14 +129,14 @@ pub(super) fn moves_above(points: &[ProfilePoint], speed: f64) -> f64 {
 }
 
 /// Root mean square of u_f − u_1D over 0.5 mm … 0.9 h, over u_* `[-]`.
-pub(super) fn fluid_rms(run: &BedLoadRun, points: &[ProfilePoint], layer: &LayerState) -> f64 {
+pub(super) fn fluid_rms(run: &BedLoadFlow, points: &[ProfilePoint], layer: &LayerState) -> f64 {
     let law = run.clear_water();
     let errors = compared(run, points).map(|p| (p.velocity - layer.at(p.height).fluid_velocity).powi(2));
     root_mean(errors) / law.friction_velocity()
 }
 
 /// Depth mean of u_f over that of the layer at the same heights `[-]`.
-pub(super) fn fluid_mean(run: &BedLoadRun, points: &[ProfilePoint], layer: &LayerState) -> f64 {
+pub(super) fn fluid_mean(run: &BedLoadFlow, points: &[ProfilePoint], layer: &LayerState) -> f64 {
     let (own, other) = compared(run, points)
         .fold((0.0, 0.0), |(own, other), point| (own + point.velocity, other + layer.at(point.height).fluid_velocity));
     own / other
@@ -159,7 +159,7 @@ pub(super) fn drag_top_ratio(drag: &[(f64, f64)]) -> f64 {
 }
 
 /// Root mean square of u_s − u_1D where the layer's grains are faster than 1 cm/s, over u_* `[-]`.
-pub(super) fn grain_rms(run: &BedLoadRun, points: &[ProfilePoint], layer: &LayerState) -> f64 {
+pub(super) fn grain_rms(run: &BedLoadFlow, points: &[ProfilePoint], layer: &LayerState) -> f64 {
     let errors = points.iter().filter_map(|point| {
         let velocity = layer.at(point.height).grain_velocity;
         (velocity > 0.01).then(|| (point.velocity - velocity).powi(2))
@@ -167,8 +167,8 @@ pub(super) fn grain_rms(run: &BedLoadRun, points: &[ProfilePoint], layer: &Layer
     root_mean(errors) / run.clear_water().friction_velocity()
 }
 
-fn compared<'a>(run: &BedLoadRun, points: &'a [ProfilePoint]) -> impl Iterator<Item = &'a ProfilePoint> {
-    let top = 0.9 * run.materials.depth;
+fn compared<'a>(run: &BedLoadFlow, points: &'a [ProfilePoint]) -> impl Iterator<Item = &'a ProfilePoint> {
+    let top = 0.9 * run.depth;
     points.iter().filter(move |point| point.height > 5e-4 && point.height < top)
 }
 
@@ -195,10 +195,7 @@ pub(super) fn grain_table(variant: &Variant, data: &BedLoadObservation) -> Optio
 
 #[cfg(test)]
 mod tests {
-    use super::super::parameters::BedLoadParameters;
-    use super::super::runs::runs;
     use super::*;
-    use crate::case::{Parameters, Tier};
 
     #[test]
     fn drag_on_the_topmost_row_is_compared_with_the_row_below() {
@@ -208,7 +205,7 @@ mod tests {
 
     #[test]
     fn clear_water_has_one_layer_of_the_slope_one() {
-        let run = runs(&BedLoadParameters::of_tier(Tier::Quick)).remove(0);
+        let run = BedLoadFlow::default();
         let law = run.clear_water();
         let point = |k: i32| {
             let height = 1e-3 * (2.0 * f64::from(k) + 1.0);

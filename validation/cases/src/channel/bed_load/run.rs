@@ -1,144 +1,119 @@
-//! One run: its formulation and what it depends on.
+//! Runs: their names, what they cost and how they are observed.
 
-use super::parameters::{Continuum, GrainParticles, Materials, Stage};
-use crate::reference::bed_load::TransportFormula;
-use crate::reference::one_dimension::bed_load::Stream;
+use super::flow::{BedLoadFlow, BedLoadFormulation};
+use super::observation::{BedLoadObservation, BedLoadObserver};
+use crate::case::{ParameterError, Progress, Run, RunCost, cost};
+use crate::channel::Channel;
+use crate::metric::{FlowRegime, Variant};
+use crate::observation::Recorded;
+use crate::reference::one_dimension::bed_load::LayerState;
+use crate::reference::water::RoughChannel;
 use bagnold_solver::incompressible::PairLaw;
-use bagnold_solver::material::rheology::CoulombBingham;
-use serde::Serialize;
+use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 
-/// Which formulation a run is of.
-#[derive(Debug, Clone, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BedLoadFormulation {
-    /// One particle a grain.
-    Grains(GrainKind, GrainParticles),
-    /// Volume fractions.
-    Continuum(ContinuumRun),
-}
+/// Offset of the logarithmic law that a layer of grains is set beside `[m]`.
+const LAYER_OFFSET: f64 = 6e-4;
 
-/// Kind of a run of one particle per grain.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum GrainKind {
-    /// As printed.
-    Paper,
-    /// By the recipe.
-    Stabilised,
-    /// By the recipe, with all grains held: the same bed at rest.
-    AtRest,
-    /// By the recipe, from another start.
-    OtherStart,
-    /// By the recipe, one point of the grid of the fits: its law.
-    Fit(CoulombBingham),
-}
-
-impl GrainKind {
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Paper => "paper",
-            Self::Stabilised => "stabilised",
-            Self::AtRest => "at-rest",
-            Self::OtherStart => "other-start",
-            Self::Fit(_) => "fit",
-        }
+pub(super) fn pair_law_name(law: PairLaw) -> &'static str {
+    match law {
+        PairLaw::PairRate => "pair-rate",
+        PairLaw::PairRateMeanLoad => "pair-rate-mean-load",
+        PairLaw::ArithmeticMean => "arithmetic-mean",
+        PairLaw::HarmonicMean => "harmonic-mean",
     }
 }
 
-impl BedLoadFormulation {
-    /// The kind of a run of one particle a grain.
-    pub(super) fn kind(&self) -> Option<GrainKind> {
-        if let Self::Grains(kind, _) = self { Some(*kind) } else { None }
+impl Run for BedLoadFlow {
+    type Observation = BedLoadObservation;
+
+    fn regime(&self, _: &BedLoadObservation) -> FlowRegime {
+        FlowRegime::of_stream(self.slope, self.depth, self.grain_diameter)
     }
-}
 
-/// What is special to one run.
-#[derive(Debug, Clone, Serialize)]
-pub struct ContinuumRun {
-    /// The formulation's parameters, without its list of runs.
-    pub continuum: Continuum,
-    /// Stage.
-    pub stage: Stage,
-    /// Pair law; none of grains that dilate.
-    pub pair_law: Option<PairLaw>,
-    /// Velocities at the start over those of the 1-D layer `[-]`.
-    pub start: f64,
-    /// Spacing `[m]`.
-    pub spacing: f64,
-}
+    fn laws(&self) -> Vec<Rheology> {
+        if self.formulation.is_continuum() { vec![self.continuum_law()] } else { Vec::new() }
+    }
 
-/// One simulation.
-#[derive(Debug, Clone, Serialize)]
-pub struct BedLoadRun {
-    /// Formulation.
-    pub formulation: BedLoadFormulation,
-    /// Slope `[-]`.
-    pub slope: f64,
-    /// Water and grains.
-    pub materials: Materials,
-    /// Simulated time `[s]`.
-    pub duration: f64,
-    /// Averaging window before its end `[s]`.
-    pub averaging_time: f64,
-    pub(super) jitter: f64,
-    pub(super) seed: u64,
-}
-
-impl BedLoadRun {
-    /// Velocity of the water at the start over that of the logarithmic law or the 1-D layer `[-]`.
-    pub(super) fn start(&self) -> f64 {
-        match &self.formulation {
-            BedLoadFormulation::Grains(_, grains) => grains.start,
-            BedLoadFormulation::Continuum(own) => own.start,
+    fn variant(&self) -> Variant {
+        let named = Variant::of("formulation", self.formulation.name()).and("slope", self.slope);
+        match (self.formulation, self.particles.material) {
+            (
+                BedLoadFormulation::Fit,
+                Rheology::CoulombBingham(CoulombBingham { yield_stress, plastic_viscosity, .. }),
+            ) => named.and("yield_stress", yield_stress).and("viscosity", plastic_viscosity),
+            (BedLoadFormulation::Paper | BedLoadFormulation::Fit, _) => named,
+            // runs of other tiers are longer, and others of their gates hold
+            (BedLoadFormulation::Stabilised | BedLoadFormulation::AtRest, _) => {
+                let named = if self.starts_as_usual() { named } else { named.and("start", self.start()) };
+                named.and("duration", self.duration)
+            }
+            (BedLoadFormulation::Porous | BedLoadFormulation::Frozen | BedLoadFormulation::Dilating, _) => {
+                let laws = self.pair_law().into_iter();
+                let named = laws.fold(named, |named, law| named.and("pair_law", pair_law_name(law)));
+                named.and("start", self.start()).and("spacing", self.spacing())
+            }
         }
     }
 
-    /// What is special to a run of volume fractions.
-    pub(super) fn continuum(&self) -> Option<&ContinuumRun> {
-        if let BedLoadFormulation::Continuum(own) = &self.formulation { Some(own) } else { None }
+    fn trajectory(&self) -> Option<Self> {
+        Some(Self { duration: 0.0, ..self.clone() })
     }
 
-    /// Whether a run differs from this one in its start alone.
-    pub(super) fn has_another_start_than(&self, other: &Self) -> bool {
-        let is_alike = match (&self.formulation, &other.formulation) {
-            (BedLoadFormulation::Grains(a, _), BedLoadFormulation::Grains(b, _)) => {
-                a != b && [a, b].iter().all(|kind| matches!(kind, GrainKind::Stabilised | GrainKind::OtherStart))
-            }
-            (BedLoadFormulation::Continuum(a), BedLoadFormulation::Continuum(b)) => {
-                (a.stage, a.pair_law, a.spacing) == (b.stage, b.pair_law, b.spacing)
-            }
-            _ => false,
+    fn cost(&self) -> RunCost {
+        let (grains, continuum) = (&self.particles, &self.continuum);
+        let (area, time_step) = if self.formulation.is_continuum() {
+            (continuum.length * (self.depth + 2.0 * continuum.bed_depth), self.continuum_numerics().time_step)
+        } else {
+            (grains.length * (self.depth + grains.bed_depth), grains.numerics.time_step)
         };
-        is_alike && self.slope == other.slope && self.duration == other.duration && self.start() != other.start()
+        let particles = area / self.spacing().powi(2);
+        RunCost {
+            // grains and their drag cost as much as the water's particles
+            seconds_per_particle_step: 2.0 * cost::INCOMPRESSIBLE,
+            ..RunCost::incompressible(particles, self.duration / time_step)
+        }
     }
 
-    /// q* of Wong & Parker's formula at the run's Shields number `[-]`.
-    pub(super) fn formula_transport(&self) -> f64 {
-        TransportFormula::WongParker.transport(self.stream().shields_number())
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, ParameterError> {
+        if self.formulation.is_continuum() {
+            let layer = self.layer()?;
+            let start = |z: f64| self.start() * layer.at(z).fluid_velocity;
+            return self.observe(&self.continuum_channel(&layer, &start), Some(&layer), progress);
+        }
+        let law = self.clear_water();
+        let start = |z: f64| if z > 0.0 { self.start() * law.velocity(z) } else { 0.0 };
+        self.observe(&self.grains_channel(&start), None, progress)
+    }
+}
+
+impl BedLoadFlow {
+    fn observe(
+        &self,
+        channel: &Channel<'_>,
+        layer: Option<&LayerState>,
+        progress: &dyn Progress,
+    ) -> Result<Recorded<BedLoadObservation>, ParameterError> {
+        let (record, observer) = channel.run_observed(
+            progress,
+            BedLoadObserver::new(self, channel),
+            |observer, simulation, in_window| {
+                observer.observe(simulation, in_window);
+            },
+        )?;
+        Ok(record.map(|channel| observer.finish(channel, layer)))
     }
 
-    /// The stream of the 1-D layer.
+    /// The logarithmic law of a rough bed of such grains, from which the water starts and by which velocities are scaled.
     #[must_use]
-    pub fn stream(&self) -> Stream {
-        let Materials { depth, gravity, fluid_density, kinematic_viscosity, grain_density, grain_diameter } =
-            self.materials;
-        let (bed_depth, held_depth, drag_diameter) = match &self.formulation {
-            BedLoadFormulation::Grains(_, grains) => (grains.bed_depth, 0.0, 1.0),
-            BedLoadFormulation::Continuum(own) => {
-                (own.continuum.bed_depth, own.continuum.held_depth, own.continuum.drag_diameter)
-            }
-        };
-        Stream {
+    pub fn clear_water(&self) -> RoughChannel {
+        let is_continuum = self.formulation.is_continuum();
+        RoughChannel {
+            depth: self.depth,
             slope: self.slope,
-            flow_depth: depth,
-            bed_depth,
-            held_depth,
-            gravity,
-            fluid_density,
-            kinematic_viscosity,
-            grain_density,
-            grain_diameter,
-            drag_diameter,
+            gravity: self.gravity,
+            density: self.fluid_density,
+            sand_roughness: self.grain_diameter,
+            origin_offset: if is_continuum { LAYER_OFFSET } else { self.particles.origin_offset },
         }
     }
 }

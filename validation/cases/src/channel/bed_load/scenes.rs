@@ -1,23 +1,18 @@
 //! The channel of the formulations with one particle a grain, and the water of all.
 
-use super::parameters::{GrainParticles, Materials};
-use super::run::{BedLoadRun, GrainKind};
+use super::flow::{BedLoadFlow, BedLoadFormulation};
 use crate::channel::{AveragingWindowEnd, Channel};
 use crate::setup::Lattice;
 use bagnold_solver::incompressible as solver;
 use bagnold_solver::incompressible::{Bed, ParticleSet, Sediment};
 use bagnold_solver::vector::Vector;
 
-impl BedLoadRun {
-    pub(super) fn grains_channel<'a>(
-        &self,
-        kind: GrainKind,
-        grains: &GrainParticles,
-        velocity: &'a (dyn Fn(f64) -> f64 + Sync),
-    ) -> Channel<'a> {
-        let Materials { depth, gravity, fluid_density, grain_density, grain_diameter, .. } = self.materials;
+impl BedLoadFlow {
+    pub(super) fn grains_channel<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
+        let Self { depth, gravity, fluid_density, grain_density, grain_diameter, .. } = *self;
+        let grains = &self.particles;
         let rows = |length: f64, spacing: f64| (length / spacing).round() as usize;
-        let printed = kind == GrainKind::Paper;
+        let printed = self.formulation == BedLoadFormulation::Paper;
         // the printed set-up has water above the bed only, on the grains as on a floor
         let below = if printed { 0.0 } else { grains.bed_depth };
         let fluid = Lattice {
@@ -34,7 +29,7 @@ impl BedLoadRun {
         };
         let mut free = bed.displaced(self.jitter, self.seed.wrapping_add(1));
         let mut wall: Vec<Vector<2>> = bed.below(4).sites().collect();
-        if kind == GrainKind::AtRest {
+        if self.formulation == BedLoadFormulation::AtRest {
             wall.append(&mut free);
         }
         let buoyant_weight = (grain_density - fluid_density) * gravity;
@@ -67,15 +62,14 @@ impl BedLoadRun {
 
     /// The run's water without turbulence and sediment.
     pub(super) fn water<'a>(&self, fluid: Lattice, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Channel<'a> {
-        let Materials { gravity, fluid_density, kinematic_viscosity, .. } = self.materials;
         Channel {
             slope: self.slope,
-            kinematic_viscosity,
+            kinematic_viscosity: self.kinematic_viscosity,
             jitter: self.jitter,
             seed: self.seed,
             until: AveragingWindowEnd::Time(self.duration),
             window: self.averaging_time,
-            ..Channel::of(fluid, fluid_density, gravity, velocity)
+            ..Channel::of(fluid, self.fluid_density, self.gravity, velocity)
         }
     }
 }

@@ -1,8 +1,6 @@
 //! Grains as volume fractions against the 1-D layer of the same closures.
 
 use super::*;
-use crate::channel::bed_load::parameters::Stage;
-use crate::channel::bed_load::run::ContinuumRun;
 
 /// Averaging time from which on a run beside the 1-D layer is judged whether it still changes or not `[s]`.
 const JUDGED_FROM: f64 = 1.5;
@@ -15,14 +13,15 @@ const STEADY: f64 = 0.02;
 const FINE: f64 = 6e-4;
 
 /// Whether a run in the layer's water is compared with the layer: it was watched for long, or it does not change.
-fn is_settled(run: &BedLoadRun, data: &BedLoadObservation) -> bool {
+fn is_settled(run: &BedLoadFlow, data: &BedLoadObservation) -> bool {
     run.averaging_time >= JUDGED_FROM || (run.averaging_time >= SHORTEST && drift(run, data).abs() <= STEADY)
 }
 
 /// Metrics of a run of grains as volume fractions.
-pub(super) fn of(record: &BedLoadRecord, own: &ContinuumRun, forgotten: bool) -> Vec<Metric> {
+pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
     let (run, Recorded { data, .. }) = record;
-    let (stage, variant) = (own.stage, run.variant());
+    let variant = run.variant();
+    let dilating = run.formulation == BedLoadFormulation::Dilating;
     let Some(layer) = &data.layer else { return Vec::new() };
     let mut metrics = vec![channel::particles_lost(&variant, &record.1.clone().map(|data| data.channel))];
     metrics.extend(common(record, forgotten));
@@ -41,18 +40,15 @@ pub(super) fn of(record: &BedLoadRecord, own: &ContinuumRun, forgotten: bool) ->
             .with_snapshot_tolerance(0.1, 1e-3),
     );
     let source = "the 1-D layer of the same closures; the water starts at `start` times its velocity";
-    let judged = own.is_judged() && (forgotten || (own.start == 1.0 && is_settled(run, data)));
+    let judged = run.is_judged() && (forgotten || (run.starts_as_usual() && is_settled(run, data)));
     let gate = |limit: Limit| judged.then_some(limit);
     let observed =
         |quantity, estimate, exact| channel::observed(quantity, &variant, estimate, 1.0).exactly(exact, source);
     let profile = &data.channel.profile;
-    let (most, reason) = match stage {
-        Stage::Dilating => {
-            (0.1, "a profile shifted by a twelfth of a spacing of 1 mm, as columns have it at all spacings")
-        }
-        Stage::Porous | Stage::Frozen => {
-            (0.25, "a profile shifted by a fifth of a spacing of 1 mm where it is steepest, 1.4 u_* a mm")
-        }
+    let (most, reason) = if dilating {
+        (0.1, "a profile shifted by a twelfth of a spacing of 1 mm, as columns have it at all spacings")
+    } else {
+        (0.25, "a profile shifted by a fifth of a spacing of 1 mm where it is steepest, 1.4 u_* a mm")
     };
     let rms = profile.estimate(|points| profiles::fluid_rms(run, points, layer));
     let mean = profile.estimate(|points| profiles::fluid_mean(run, points, layer));
@@ -61,10 +57,9 @@ pub(super) fn of(record: &BedLoadRecord, own: &ContinuumRun, forgotten: bool) ->
         observed(FLUID_VELOCITY_MEAN, mean, 1.0)
             .gated_by(gate(Limit::Within(0.97, 1.03)), "the same shift over a depth mean of 10 u_*"),
     ]);
-    if stage == Stage::Porous {
+    if run.formulation == BedLoadFormulation::Porous {
         return metrics;
     }
-    let dilating = stage == Stage::Dilating;
     let rms = data.sediment.estimate(|points| profiles::grain_rms(run, points, layer));
     let force = profiles::drag_ratio(&data.drag_profile(), layer);
     metrics.extend([
@@ -85,10 +80,10 @@ pub(super) fn of(record: &BedLoadRecord, own: &ContinuumRun, forgotten: bool) ->
             "nine tenths of the runs that Meyer-Peter & Müller measured from τ* = 0.1 on lie there; no parameter is fitted to it",
         ));
     }
-    let (within, reason) = match stage {
-        Stage::Dilating if own.spacing < FINE => (0.08, "half of what a spacing of 1 mm is given"),
-        Stage::Dilating => (0.15, "the layer that moves is a few spacings thick, at 2 % one or two"),
-        Stage::Porous | Stage::Frozen => (0.1, "the grains' profile shifted by a third of a spacing of 1 mm"),
+    let (within, reason) = match dilating {
+        true if run.spacing() < FINE => (0.08, "half of what a spacing of 1 mm is given"),
+        true => (0.15, "the layer that moves is a few spacings thick, at 2 % one or two"),
+        false => (0.1, "the grains' profile shifted by a third of a spacing of 1 mm"),
     };
     metrics.push(
         channel::observed(TRANSPORT_RATIO, &variant, rate, 1.0 / layer.transport())

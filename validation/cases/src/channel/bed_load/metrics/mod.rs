@@ -5,9 +5,9 @@ mod statements;
 
 use super::BedLoadRecord;
 use super::fit::{HeldOut, held_out};
+use super::flow::{BedLoadFlow, BedLoadFormulation};
 use super::observation::BedLoadObservation;
 use super::profiles;
-use super::run::{BedLoadFormulation, BedLoadRun, GrainKind};
 use crate::case::Run;
 use crate::channel;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
@@ -75,21 +75,27 @@ quantities! {
 const FORGOTTEN: f64 = 0.05;
 
 pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Metric> {
-    let of_run = |record: &BedLoadRecord| match &record.0.formulation {
-        BedLoadFormulation::Grains(GrainKind::Paper, _) => printed(record),
-        BedLoadFormulation::Grains(GrainKind::Stabilised, grains) => statements::stabilised(records, record, grains),
-        BedLoadFormulation::Grains(GrainKind::AtRest, _) => balances(record),
-        BedLoadFormulation::Grains(GrainKind::OtherStart, _) => {
-            balances(record).into_iter().chain([transport(record, false)]).collect()
+    let of_run = |record: &BedLoadRecord| match record.0.formulation {
+        BedLoadFormulation::Paper => printed(record),
+        BedLoadFormulation::Stabilised if is_fastest(records, &record.0) => statements::stabilised(records, record),
+        BedLoadFormulation::Stabilised => balances(record).into_iter().chain([transport(record, false)]).collect(),
+        BedLoadFormulation::AtRest => balances(record),
+        BedLoadFormulation::Fit => vec![transport(record, true)],
+        BedLoadFormulation::Porous | BedLoadFormulation::Frozen | BedLoadFormulation::Dilating => {
+            continuum::of(record, has_forgotten(records, &record.0))
         }
-        BedLoadFormulation::Grains(GrainKind::Fit(_), _) => vec![transport(record, true)],
-        BedLoadFormulation::Continuum(own) => continuum::of(record, own, has_forgotten(records, &record.0)),
     };
     let mut metrics: Vec<Metric> = records.iter().flat_map(of_run).collect();
     metrics.extend(records.iter().filter_map(|(run, _)| forgets_start(records, run)));
     statements::say_what_is_missing(records);
     metrics.extend(statements::growth(records));
-    metrics.extend(held_out(records).iter().flat_map(of_fit));
+    let held_out = held_out(records);
+    if held_out.is_empty() && records.iter().any(|(run, _)| run.formulation == BedLoadFormulation::Fit) {
+        tracing::warn!(
+            "nothing is fitted: runs of `fit` need two yield stresses, two viscosities and three slopes, each with each"
+        );
+    }
+    metrics.extend(held_out.iter().flat_map(of_fit));
     metrics
 }
 
@@ -118,7 +124,7 @@ fn of_fit(held: &HeldOut) -> Vec<Metric> {
 }
 
 /// A metric against the transport formula at the Shields number of a run.
-fn by_formula(metric: Metric, run: &BedLoadRun) -> Metric {
+fn by_formula(metric: Metric, run: &BedLoadFlow) -> Metric {
     let formula = TransportFormula::WongParker;
     metric.against(Some(run.formula_transport()), formula.name(), formula.confidence())
 }
@@ -151,9 +157,14 @@ fn common(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
     metrics
 }
 
+/// Whether no run that differs from it in its start alone starts faster: the others show only whether the start is forgotten.
+pub(super) fn is_fastest(records: &[BedLoadRecord], run: &BedLoadFlow) -> bool {
+    !records.iter().any(|(other, _)| run.has_another_start_than(other) && other.start() > run.start())
+}
+
 /// A run with the one that differs from it in its start, and the share of their difference that is left in the stream's mean velocity
 /// over the averaging window `[-]`; none without such a run.
-fn memory<'r>(records: &'r [BedLoadRecord], run: &BedLoadRun) -> Option<(&'r BedLoadRun, f64)> {
+fn memory<'r>(records: &'r [BedLoadRecord], run: &BedLoadFlow) -> Option<(&'r BedLoadFlow, f64)> {
     let (_, own) = records.iter().find(|(other, _)| other.variant() == run.variant())?;
     let (other_run, other) = records.iter().find(|(other, _)| run.has_another_start_than(other))?;
     let mean = |data: &BedLoadObservation| data.channel.average(&data.stream_velocity).value;
@@ -163,12 +174,12 @@ fn memory<'r>(records: &'r [BedLoadRecord], run: &BedLoadRun) -> Option<(&'r Bed
 }
 
 /// Whether a run has forgotten its start; transport and profiles are judged of such runs only.
-pub(super) fn has_forgotten(records: &[BedLoadRecord], run: &BedLoadRun) -> bool {
+pub(super) fn has_forgotten(records: &[BedLoadRecord], run: &BedLoadFlow) -> bool {
     memory(records, run).is_some_and(|(_, share)| share <= FORGOTTEN)
 }
 
 /// Memory of the start, a gate for each pair of runs, under the name of the faster start.
-fn forgets_start(records: &[BedLoadRecord], run: &BedLoadRun) -> Option<Metric> {
+fn forgets_start(records: &[BedLoadRecord], run: &BedLoadFlow) -> Option<Metric> {
     let (_, share) = memory(records, run).filter(|(other, _)| run.start() > other.start())?;
     Some(
         FORGETS_START
@@ -183,10 +194,10 @@ fn forgets_start(records: &[BedLoadRecord], run: &BedLoadRun) -> Option<Metric> 
 }
 
 /// Relative change of the stream's velocity over U/(2 g i) `[-]`.
-fn drift(run: &BedLoadRun, data: &BedLoadObservation) -> f64 {
+fn drift(run: &BedLoadFlow, data: &BedLoadObservation) -> f64 {
     let channel = &data.channel;
     let mean = mean(&channel.series.within(&data.stream_velocity, channel.window));
-    let adjustment = mean / (2.0 * run.materials.gravity * run.slope);
+    let adjustment = mean / (2.0 * run.gravity * run.slope);
     channel.trend(&data.stream_velocity) * adjustment / mean
 }
 
@@ -203,7 +214,7 @@ fn printed((run, record): &BedLoadRecord) -> Vec<Metric> {
 }
 
 /// Metrics of the grains; of flows that have forgotten their start the shape of their profile is judged by the paper's statement.
-fn grains(run: &BedLoadRun, data: &BedLoadObservation, judged: bool) -> Vec<Metric> {
+fn grains(run: &BedLoadFlow, data: &BedLoadObservation, judged: bool) -> Vec<Metric> {
     let variant = run.variant();
     let layer = data.layer.as_ref();
     let points = data.sediment.points();

@@ -2,9 +2,8 @@
 
 use super::*;
 use crate::channel::ProfilePoint;
-use crate::channel::bed_load::parameters::GrainParticles;
+use crate::channel::bed_load::flow::FITTED;
 use crate::channel::bed_load::profiles::LAYERS;
-use crate::channel::bed_load::tiers::FITTED;
 use crate::metric::{MetricKind, Value};
 use crate::reference::bed_load::LAYER_STATEMENTS;
 use crate::statistics::{FittedValue, Segmented};
@@ -16,14 +15,13 @@ const GENTLE: f64 = 0.03;
 const STEEP: f64 = 0.05;
 
 /// Whether a run is of the default numerics on a slope `[-]`.
-fn is_stabilised(run: &BedLoadRun, slope: f64) -> bool {
-    run.formulation.kind() == Some(GrainKind::Stabilised) && (run.slope / slope - 1.0).abs() < 1e-9
+fn is_stabilised(run: &BedLoadFlow, slope: f64) -> bool {
+    run.formulation == BedLoadFormulation::Stabilised && (run.slope / slope - 1.0).abs() < 1e-9
 }
 
 /// Says that nothing is judged by the paper's statements, for want of a run of their slope.
 pub(super) fn say_what_is_missing(records: &[BedLoadRecord]) {
-    let mut stabilised =
-        records.iter().filter(|(run, _)| run.formulation.kind() == Some(GrainKind::Stabilised)).peekable();
+    let mut stabilised = records.iter().filter(|(run, _)| run.formulation == BedLoadFormulation::Stabilised).peekable();
     if stabilised.peek().is_some() && !stabilised.any(|(run, _)| is_stabilised(run, GENTLE)) {
         tracing::warn!(
             "no run of `stabilised` has the slope {GENTLE} that the paper's statements are of: its profile and transport are \
@@ -33,7 +31,7 @@ pub(super) fn say_what_is_missing(records: &[BedLoadRecord]) {
 }
 
 /// Metrics of a run of one particle a grain by the default numerics.
-pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord, bed: &GrainParticles) -> Vec<Metric> {
+pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord) -> Vec<Metric> {
     let (run, Recorded { data, .. }) = record;
     let variant = run.variant();
     let forgotten = has_forgotten(records, run);
@@ -46,7 +44,7 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord, bed:
     let mut metrics = balances(record);
     metrics.extend(common(record, forgotten));
     // of the fitted slopes the transport says nothing
-    if judged && bed.material == Rheology::CoulombBingham(FITTED) {
+    if judged && run.particles.material == Rheology::CoulombBingham(FITTED) {
         let formula = TransportFormula::WongParker;
         metrics.push(
             observed(TRANSPORT_RATIO, data.mean_transport(), 1.0 / run.formula_transport())
@@ -66,7 +64,7 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord, bed:
     }));
     metrics.extend(layers(run, data));
     let is_at_rest =
-        |(other, _): &&BedLoadRecord| other.formulation.kind() == Some(GrainKind::AtRest) && other.slope == run.slope;
+        |(other, _): &&BedLoadRecord| other.formulation == BedLoadFormulation::AtRest && other.slope == run.slope;
     if let Some((_, rest)) = records.iter().find(is_at_rest) {
         let rest = &rest.data.channel.profile;
         // the errors of both means are independent
@@ -75,7 +73,7 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord, bed:
             let error = own.standard_error.hypot(rest.standard_error);
             FittedValue { value: own.value - rest.value, standard_error: error }
         };
-        let (low, middle) = (2.5e-3, 0.5 * run.materials.depth);
+        let (low, middle) = (2.5e-3, 0.5 * run.depth);
         let at = |height: f64| move |points: &[ProfilePoint]| profiles::velocity_at(run, points, height);
         let relative = |points: &[ProfilePoint]| at(low)(points) - at(middle)(points);
         let near = observed(NEAR_BED_DEFICIT, difference(&at(low)), 1.0);
@@ -110,7 +108,7 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord, bed:
 /// The layers that a segmented regression finds, with the errors of their slopes and borders. Their number judges nothing: lines are
 /// added as long as the information criterion gains by them, and on a mean profile, whose misfit is a curve and no noise, it finds
 /// three whatever the slope.
-fn layers(run: &BedLoadRun, data: &BedLoadObservation) -> Vec<Metric> {
+fn layers(run: &BedLoadFlow, data: &BedLoadObservation) -> Vec<Metric> {
     let variant = run.variant();
     let profile = &data.channel.profile;
     let count = profiles::number_of_layers(run, &profile.points());
@@ -137,7 +135,7 @@ fn layers(run: &BedLoadRun, data: &BedLoadObservation) -> Vec<Metric> {
         metrics.push(channel::observed(LAYER_SLOPE, &named, slope, 1.0).exactly(1.0, "u_*/κ"));
         if layer + 1 < count {
             let border = of(&|fit| profiles::height_of(run, fit.breaks[layer]));
-            metrics.push(channel::observed(LAYER_BORDER, &named, border, 1.0 / run.materials.grain_diameter));
+            metrics.push(channel::observed(LAYER_BORDER, &named, border, 1.0 / run.grain_diameter));
         }
     }
     metrics
@@ -145,7 +143,8 @@ fn layers(run: &BedLoadRun, data: &BedLoadObservation) -> Vec<Metric> {
 
 /// More transport and a thicker sheared layer at 5 % than at 3 %, of flows that have forgotten their start.
 pub(super) fn growth(records: &[BedLoadRecord]) -> Vec<Metric> {
-    let of = |slope| records.iter().find(|(run, _)| is_stabilised(run, slope) && has_forgotten(records, run));
+    let is_judged = |run: &BedLoadFlow| is_fastest(records, run) && has_forgotten(records, run);
+    let of = |slope| records.iter().find(|(run, _)| is_stabilised(run, slope) && is_judged(run));
     let Some(((low, gentle), (high, steep))) = of(GENTLE).zip(of(STEEP)) else { return Vec::new() };
     let variant = Variant::of("formulation", "stabilised").and("slope", Value::list([low.slope, high.slope]));
     let grown = |quantity: Quantity, value: f64, expected: Option<f64>| {
@@ -154,7 +153,7 @@ pub(super) fn growth(records: &[BedLoadRecord]) -> Vec<Metric> {
             .against(expected, "statement of the paper: larger at 5 % than at 3 %", Confidence::Medium)
             .with_snapshot_tolerance(0.05, 0.0)
     };
-    let thickness = |run: &BedLoadRun, data: &BedLoadObservation| {
+    let thickness = |run: &BedLoadFlow, data: &BedLoadObservation| {
         let (lower, upper) = profiles::sheared_borders(run, &data.channel.profile.points());
         upper - lower
     };
