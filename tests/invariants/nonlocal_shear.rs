@@ -1,30 +1,25 @@
 //! Onset of flow in a chute of the nonlocal law: the case `nonlocal-shear` judges the flow itself.
 
 use crate::nonlocal_layers::on_one_thread;
-use bagnold_cases::nonlocal_shear::{
-    Channel, ChannelGrains, ExactShear, Motion, NonlocalShearParameters, ShearFlow, ShearRun, ShearedGrains,
-    UpperBoundary,
-};
+use bagnold_cases::nonlocal_shear::{Channel, ExactShear, Motion, NonlocalShearFlow, ShearedGrains, UpperBoundary};
 use bagnold_harness::case::recording::StartState;
-use bagnold_harness::case::{Parameters, Tier};
-use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 
 /// A chute of the case that is 20 diameters wide, whose walls bear a friction.
-fn chute(run: &ShearRun, wall_friction: f64) -> ShearFlow {
-    ShearFlow::Chute { half_width: 10.0 * run.grains.law.grain_diameter, wall_friction }
+fn chute(wall_friction: f64) -> NonlocalShearFlow {
+    NonlocalShearFlow { thickness: 10.0, wall_friction, ..NonlocalShearFlow::default() }
 }
 
 /// Velocity of its middle fifth after half a second under a friction, from the steady flow of another, over that.
-fn remaining(run: &ShearRun, grains: &ShearedGrains, start: &ExactShear, wall_friction: f64) -> f64 {
-    let flow = chute(run, wall_friction);
+fn remaining(grains: &ShearedGrains, start: &ExactShear, wall_friction: f64) -> f64 {
+    let flow = chute(wall_friction);
     let channel = Channel {
-        grains: ChannelGrains { rows: 20 * run.particles_per_diameter, ..run.grains },
+        grains: flow.particles(),
         width: flow.width(),
-        gravity: flow.gravity(grains),
+        gravity: flow.driving(grains),
         pressure: &|_| grains.load,
         above: UpperBoundary::Wall(0.0),
-        rheology: Rheology::NonlocalMuI(run.grains.law),
+        rheology: flow.material,
         start: &|y| Motion {
             velocity: start.velocity(y),
             shear_rate: start.shear_rate(y),
@@ -46,17 +41,14 @@ fn remaining(run: &ShearRun, grains: &ShearedGrains, start: &ExactShear, wall_fr
 /// A local law flows in every chute whose walls bear more than μ_s. This one stops below a friction that depends on the width.
 #[test]
 fn a_narrow_chute_stops_where_its_first_mode_does() {
-    let run = NonlocalShearParameters::of_tier(Tier::Quick).runs().remove(0);
-    let law = run.grains.law;
-    let grains = ShearedGrains { law, load: run.load, density: run.grains.density(), gravity: run.gravity };
-    let (mut still, mut flowing) = (law.static_friction, 0.6);
+    let grains = chute(0.6).nominal();
+    let (mut still, mut flowing) = (chute(0.6).law().static_friction, 0.6);
     for _ in 0..12 {
         let middle = 0.5 * (still + flowing);
-        if chute(&run, middle).steady(&grains).is_some() { flowing = middle } else { still = middle }
+        if chute(middle).steady(&grains).is_some() { flowing = middle } else { still = middle }
     }
-    let start = chute(&run, 0.6).steady(&grains).expect("it flows");
-    let [below, above] =
-        [-0.015, 0.015].map(|offset| on_one_thread(|| remaining(&run, &grains, &start, still + offset)));
+    let start = chute(0.6).steady(&grains).expect("it flows");
+    let [below, above] = [-0.015, 0.015].map(|offset| on_one_thread(|| remaining(&grains, &start, still + offset)));
     println!("threshold {still:.4}; {below:.2e} of the start below, {above:.2e} above");
     assert!(below.abs() < 1e-3 && above > 1e-2, "{below}, {above} about {still}");
 }

@@ -5,14 +5,13 @@ use crate::layer::{raised, settled};
 use crate::setup::{Lattice, displaced_flow, wall_rows};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
-use bagnold_solver::material::rheology::{NonlocalMuI, Rheology};
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::walls::wall::fill;
 use bagnold_solver::weakly_compressible::walls::{SideWalls, Wall};
-use serde::Serialize;
 
 /// Bulk modulus over the largest pressure `[-]`.
 pub const STIFFNESS: f64 = 50.0;
@@ -28,13 +27,11 @@ pub struct Motion {
     pub shear_stress: f64,
 }
 
-/// The particles of a channel, and what they are.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+/// The particles of a channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChannelGrains {
-    /// The law.
-    pub law: NonlocalMuI,
-    /// Solid fraction φ `[-]`.
-    pub solid_fraction: f64,
+    /// Density of the bulk without pressure `[kg/m³]`.
+    pub density: f64,
     /// Rows of particles from wall to wall.
     pub rows: usize,
     /// Columns of particles along the period.
@@ -74,14 +71,6 @@ pub struct Channel<'a> {
     pub start: &'a (dyn Fn(f64) -> Motion + Sync),
 }
 
-impl ChannelGrains {
-    /// Density of the bulk without pressure `[kg/m³]`.
-    #[must_use]
-    pub fn density(&self) -> f64 {
-        self.solid_fraction * self.law.grain_density
-    }
-}
-
 impl Channel<'_> {
     /// Particle spacing Δ `[m]`.
     #[must_use]
@@ -100,7 +89,7 @@ impl Channel<'_> {
     pub fn equation_of_state(&self) -> EquationOfState {
         let most = (self.pressure)(0.0).max((self.pressure)(self.width));
         EquationOfState {
-            reference_density: self.grains.density(),
+            reference_density: self.grains.density,
             bulk_modulus: STIFFNESS * most,
             tension: Tension::Cut,
         }

@@ -1,9 +1,9 @@
 //! The case's figures.
 
-use super::NonlocalShearRecord;
-use super::flow::{ExactShear, RheologyChoice, ShearFlow};
+use super::Record;
+use super::exact::ExactShear;
+use super::flow::{Drive, NonlocalShearFlow};
 use super::metrics::plug_velocity;
-use super::run::ShearRun;
 use crate::figure::{Axis, Figure, Panel};
 
 /// Least velocity that a logarithmic axis shows, over its largest `[-]`: three decades of a tail.
@@ -14,7 +14,7 @@ const LEAST_OF_ERRORS: f64 = 1e-2;
 const NONLOCAL: &str = "nonlocal law, without particles";
 const LOCAL: &str = "local law under the same stresses";
 
-fn label(run: &ShearRun) -> String {
+fn label(run: &NonlocalShearFlow) -> String {
     match run.particles_per_diameter {
         1 => "1 particle per diameter".to_owned(),
         count => format!("{count} particles per diameter"),
@@ -27,33 +27,27 @@ fn shown(points: impl IntoIterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, 
 }
 
 /// One row per diameter, which leaves the curve behind them to be seen.
-fn thinned(run: &ShearRun, rows: Vec<(f64, f64)>) -> impl Iterator<Item = (f64, f64)> {
+fn thinned(run: &NonlocalShearFlow, rows: Vec<(f64, f64)>) -> impl Iterator<Item = (f64, f64)> {
     rows.into_iter().skip(run.particles_per_diameter / 2).step_by(run.particles_per_diameter)
 }
 
 /// √(g D) `[m/s]`.
-fn speed(run: &ShearRun) -> f64 {
-    (run.gravity * run.grains.law.grain_diameter).sqrt()
+fn speed(run: &NonlocalShearFlow) -> f64 {
+    (run.gravity * run.diameter()).sqrt()
 }
 
 /// The solution without particles over its distance from where it flows fastest, in units of diameters and √(g D).
-fn solution<'a>(run: &ShearRun, exact: &'a ExactShear) -> impl Iterator<Item = (f64, f64)> + use<'a> {
-    let (diameter, scale) = (run.grains.law.grain_diameter, speed(run));
+fn solution<'a>(run: &NonlocalShearFlow, exact: &'a ExactShear) -> impl Iterator<Item = (f64, f64)> + use<'a> {
+    let (diameter, scale) = (run.diameter(), speed(run));
     exact.profile.distances.iter().zip(&exact.profile.velocities).map(move |(y, u)| (y / diameter, u / scale))
 }
 
-pub(super) fn all(records: &[NonlocalShearRecord]) -> Vec<Figure> {
-    let flows = |kind: fn(&ShearFlow) -> bool| -> Vec<&NonlocalShearRecord> {
-        records.iter().filter(|(run, _)| kind(&run.flow)).collect()
+pub(super) fn all(records: &[Record]) -> Vec<Figure> {
+    let of_drive = |drive: Drive, draw: fn(&[&Record]) -> Figure| {
+        let own: Vec<&Record> = records.iter().filter(|(run, _)| run.drive == drive).collect();
+        (!own.is_empty()).then(|| draw(&own))
     };
-    let chutes = flows(|flow| matches!(flow, ShearFlow::Chute { .. }));
-    let beds = flows(|flow| matches!(flow, ShearFlow::DraggedBed { .. }));
-    let heaps = flows(|flow| matches!(flow, ShearFlow::Heap { .. }));
-    let drawn = [
-        (!beds.is_empty()).then(|| dragged_bed(&beds)),
-        (!chutes.is_empty()).then(|| chute(&chutes)),
-        (!heaps.is_empty()).then(|| heap(&heaps)),
-    ];
+    let drawn = [of_drive(Drive::DraggedBed, dragged_bed), of_drive(Drive::Chute, chute), of_drive(Drive::Heap, heap)];
     drawn.into_iter().flatten().collect()
 }
 
@@ -82,9 +76,9 @@ impl OverDepth {
     }
 
     /// Draws the rows of a run.
-    fn draw(&mut self, (run, record): &NonlocalShearRecord, exact: &ExactShear, slot: usize, name: &str) {
-        let (diameter, scale) = (run.grains.law.grain_diameter, speed(run));
-        let depth = |y: f64| run.flow.distance(y) / diameter;
+    fn draw(&mut self, (run, record): &Record, exact: &ExactShear, slot: usize, name: &str) {
+        let (diameter, scale) = (run.diameter(), speed(run));
+        let depth = |y: f64| run.distance(y) / diameter;
         let rows = record.data.velocities();
         let few = self.shown(thinned(run, rows.clone()).map(|(y, u)| (depth(y), u / scale)));
         self.velocity.points(name, slot, few);
@@ -94,14 +88,11 @@ impl OverDepth {
     }
 }
 
-fn dragged_bed(records: &[&NonlocalShearRecord]) -> Figure {
-    let largest = records.iter().map(|(run, _)| match run.flow {
-        ShearFlow::DraggedBed { plate_velocity, .. } => plate_velocity / speed(run),
-        ShearFlow::Chute { .. } | ShearFlow::Heap { .. } => 0.0,
-    });
-    let mut drawn = OverDepth::new("plate", largest.fold(0.0, f64::max));
+fn dragged_bed(records: &[&Record]) -> Figure {
+    let largest = records.iter().map(|(run, _)| run.plate_velocity).fold(0.0, f64::max);
+    let mut drawn = OverDepth::new("plate", largest);
     for (slot, record) in records.iter().enumerate() {
-        let (run, diameter) = (&record.0, record.0.grains.law.grain_diameter);
+        let (run, diameter) = (&record.0, record.0.diameter());
         let Some(exact) = run.exact(&record.1.data) else { continue };
         if slot == 0 {
             let local = exact.local().into_iter().map(|(y, u)| (y / diameter, u / speed(run)));
@@ -122,24 +113,25 @@ fn dragged_bed(records: &[&NonlocalShearRecord]) -> Figure {
 }
 
 /// Velocities over the depth below the surface, of grains that flow together and of those that do not.
-fn heap(records: &[&NonlocalShearRecord]) -> Figure {
+fn heap(records: &[&Record]) -> Figure {
     let exact: Vec<Option<ExactShear>> = records.iter().map(|(run, record)| run.exact(&record.data)).collect();
     let fastest =
         records.iter().zip(&exact).filter_map(|((run, _), exact)| Some(exact.as_ref()?.profile.fastest / speed(run)));
     let mut drawn = OverDepth::new("surface", fastest.fold(0.0, f64::max));
-    let mut curves: Vec<RheologyChoice> = Vec::new();
+    let mut curves: Vec<bool> = Vec::new();
     for (slot, (record, exact)) in records.iter().zip(&exact).enumerate() {
         let run = &record.0;
-        let (Some(exact), ShearFlow::Heap { cooperation, .. }) = (exact, run.flow) else { continue };
-        if !curves.contains(&cooperation) {
-            curves.push(cooperation);
+        let Some(exact) = exact else { continue };
+        if !curves.contains(&run.is_local()) {
+            curves.push(run.is_local());
             let points = drawn.shown(solution(run, exact));
-            match cooperation {
-                RheologyChoice::Nonlocal => drawn.velocity.reference(NONLOCAL, points),
-                RheologyChoice::Local => drawn.velocity.line("local law, without particles", records.len(), points),
-            };
+            if run.is_local() {
+                drawn.velocity.line("local law, without particles", records.len(), points);
+            } else {
+                drawn.velocity.reference(NONLOCAL, points);
+            }
         }
-        let law = if cooperation == RheologyChoice::Nonlocal { "nonlocal law" } else { "local law" };
+        let law = if run.is_local() { "local law" } else { "nonlocal law" };
         drawn.draw(record, exact, slot, &format!("{law}, {}", label(run)));
     }
     Figure::new(
@@ -152,7 +144,7 @@ fn heap(records: &[&NonlocalShearRecord]) -> Figure {
     )
 }
 
-fn chute(records: &[&NonlocalShearRecord]) -> Figure {
+fn chute(records: &[&Record]) -> Figure {
     let mut velocity = Panel::new("", Axis::linear("distance from the wall/D [-]"), Axis::linear("u/√(g D) [-]"));
     let mut lag = Panel::new(
         "",
@@ -161,9 +153,7 @@ fn chute(records: &[&NonlocalShearRecord]) -> Figure {
     );
     for (slot, (run, record)) in records.iter().enumerate() {
         let Some(exact) = run.exact(&record.data) else { continue };
-        let ShearFlow::Chute { half_width, .. } = run.flow else { continue };
-        let diameter = run.grains.law.grain_diameter;
-        let scale = speed(run);
+        let (diameter, scale, half_width) = (run.diameter(), speed(run), exact.shear.thickness);
         let place = |distance: f64| (half_width - distance) / diameter;
         if slot == 0 {
             let profile = &exact.profile;
@@ -177,7 +167,7 @@ fn chute(records: &[&NonlocalShearRecord]) -> Figure {
         }
         let rows: Vec<(f64, f64)> = thinned(run, record.data.velocities()).collect();
         let plug = plug_velocity(&record.data);
-        let from_wall = |y: f64| place(run.flow.distance(y));
+        let from_wall = |y: f64| place(run.distance(y));
         velocity.points(&label(run), slot, rows.iter().map(|&(y, u)| (from_wall(y), u / scale)));
         lag.points("", slot, shown(rows.iter().map(|&(y, u)| (from_wall(y), 1.0 - u / plug)), LEAST));
     }

@@ -1,297 +1,346 @@
-//! The flows, and what is exact of them without particles.
+//! The flow: grains that are sheared in a chute, below a plate or on a heap.
 
-use super::channel::STIFFNESS;
-use crate::reference::one_dimension::{LayerError, NonlocalShear, NonlocalShearProfile, ShearStress};
-use bagnold_solver::material::rheology::field::FieldBoundary;
+use super::channel::{Channel, ChannelGrains, Motion, UpperBoundary};
+use super::exact::ExactShear;
+use super::probe::{ShearObservation, ShearProbe};
+use crate::case::recording::{SimulationStage, watch};
+use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::metric::Variant;
+use crate::observation::Recorded;
+use crate::reference::grains::GLASS_BEADS;
+use crate::setup::{acoustic_step, rules};
 use bagnold_solver::material::rheology::{MuI, NonlocalMuI, Rheology};
+use bagnold_solver::parameter::{between, inside, positive};
+use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::walls::SideWalls;
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
 
-/// Cells of the solution without particles.
-const CELLS: usize = 2000;
-/// Halvings of a bracket, which leave less than rounding of the solution.
-const HALVINGS: usize = 40;
-/// Largest friction below a plate, and in search of that of a chute, over μ_2 `[-]`: there the shear rate has no bound.
-const MOST_FRICTION: f64 = 0.999;
+/// Samples of a run.
+const SAMPLES: f64 = 200.0;
+/// Part of a run that is averaged over, the last `[-]`.
+const WINDOW: f64 = 0.5;
+/// Velocity of the start over that of the steady flow `[-]`: a run that stayed as it began would not pass.
+const HASTE: f64 = 1.1;
+/// Largest friction of a chute's walls, or below a plate, over μ_2 `[-]`: there the shear rate has no bound.
+pub(super) const MOST_FRICTION: f64 = 0.999;
 
-/// A flow whose stresses the balance of momentum gives.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ShearFlow {
-    /// A vertical chute between two walls.
-    Chute {
-        /// Half the distance of the walls `[m]`.
-        half_width: f64,
-        /// Friction that its walls bear, ρ g W/p `[-]`.
-        wall_friction: f64,
-    },
-    /// Grains under gravity below a plate that drags them.
-    DraggedBed {
-        /// Thickness `[m]`.
-        depth: f64,
-        /// Velocity of the plate `[m/s]`.
-        plate_velocity: f64,
-    },
-    /// A heap between side walls, which flows at its surface over grains that they hold.
-    Heap {
-        /// Thickness down to a rough bed `[m]`.
-        depth: f64,
-        /// Inclination of the surface `[rad]`.
-        inclination: f64,
-        /// The side walls.
-        side_walls: SideWalls,
-        /// Whether its grains cooperate.
-        cooperation: RheologyChoice,
-    },
+/// What shears the grains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Drive {
+    /// Gravity along the two walls of a vertical chute.
+    Chute,
+    /// A plate that drags grains under gravity.
+    DraggedBed,
+    /// Gravity on the slope of a heap, which flows at its surface over grains that side walls hold.
+    Heap,
 }
 
-/// Rheology of a heap: nonlocal, or local for comparison.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RheologyChoice {
-    /// By the nonlocal law.
-    Nonlocal,
-    /// Not at all: the local law of the same grains.
-    Local,
+/// Grains in a steady shear flow, whose stresses the balance of momentum gives.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct NonlocalShearFlow {
+    /// Drive.
+    pub drive: Drive,
+    /// Half the distance of the walls of a chute, depth of a bed or a heap, over the grain diameter `[-]`.
+    #[schemars(transform = between(2.0, 1000.0, "20 diameters have a plug between the sheared layers of a chute, and hold the tail of a bed"))]
+    pub thickness: f64,
+    /// Friction that the walls of a chute bear, ρ g W/p `[-]`.
+    #[schemars(transform = positive("give it between the grains' friction coefficients"))]
+    pub wall_friction: f64,
+    /// Velocity of the plate over √(g D) `[-]`.
+    #[schemars(transform = positive("2 shears some diameters below the plate"))]
+    pub plate_velocity: f64,
+    /// Inclination of the surface of a heap `[°]`.
+    #[schemars(transform = inside(0.0, 90.0, "give it between the angles of the grains' friction coefficients"))]
+    pub slope_angle: f64,
+    /// Distance of the side walls of a heap over the grain diameter `[-]`.
+    #[schemars(transform = between(1.0, 1e4, "30 diameters are a narrow channel"))]
+    pub side_wall_distance: f64,
+    /// Friction of the grains on these side walls `[-]`.
+    #[schemars(transform = between(0.001, 2.0, "0.3 is that of glass beads on glass plates"))]
+    pub side_wall_friction: f64,
+    /// Particles per grain diameter.
+    #[schemars(transform = between(1.0, 100.0, "2 resolve the length over which the flow decays, which is 1.2 diameters at least"))]
+    pub particles_per_diameter: usize,
+    /// Pressure in the chute and below the plate over ρ_s g D `[-]`.
+    #[schemars(transform = positive("10 is the weight of ten grains"))]
+    pub load: f64,
+    /// Gravity `[m/s²]`; along a chute it follows from the friction of its walls.
+    #[schemars(transform = rules::gravity())]
+    pub gravity: f64,
+    /// Solid fraction φ `[-]`.
+    #[schemars(transform = between(0.01, 1.0, "grains fill 0.5 to 0.64 of the space"))]
+    pub solid_fraction: f64,
+    /// The grains; those of a heap may have the local law.
+    pub material: Rheology,
+    /// Columns of particles along the period.
+    pub columns: usize,
+    /// Largest random displacement of a particle in spacings `[-]`.
+    #[schemars(transform = between(0.0, 0.5, "0.1 breaks the lattice without overlaps"))]
+    pub jitter: f64,
+    /// Seed of the displacements.
+    pub seed: u64,
+    /// Simulated time `[s]`.
+    #[schemars(transform = between(0.01, 1000.0, "0.5 s below a plate, 1 s in a chute and 2 s on a heap let the start decay"))]
+    pub duration: f64,
+    /// Numerics.
+    pub numerics: Numerics,
 }
 
-/// Grains that the flow is one of.
+impl Default for NonlocalShearFlow {
+    fn default() -> Self {
+        Self {
+            drive: Drive::Chute,
+            thickness: 20.0,
+            wall_friction: 0.53,
+            plate_velocity: 2.18,
+            slope_angle: 26.0,
+            side_wall_distance: 30.0,
+            side_wall_friction: 0.3,
+            particles_per_diameter: 2,
+            load: 10.0,
+            gravity: 9.81,
+            solid_fraction: GLASS_BEADS.solid_fraction,
+            material: Rheology::NonlocalMuI(NonlocalMuI::of(GLASS_BEADS.law)),
+            columns: 8,
+            jitter: 0.1,
+            seed: 1,
+            duration: 1.0,
+            numerics: Numerics::default(),
+        }
+    }
+}
+
+impl Flow for NonlocalShearFlow {
+    const RUNS: &'static str = include_str!("../../runs/nonlocal-shear.toml");
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let refused = |field, value: String, rule: &str, remedy| Err(ParameterError::field(field, value, rule, remedy));
+        if !(matches!(self.material, Rheology::NonlocalMuI(_)) || self.is_local() && self.drive == Drive::Heap) {
+            let rule = if self.drive == Drive::Heap { "\"nonlocal-mu-i\" or \"mu-i\"" } else { "\"nonlocal-mu-i\"" };
+            let remedy = "a local law has no tail, and its chutes flow at every width; heaps may have \"mu-i\"";
+            return refused("material.law", format!("\"{}\"", self.material.name()), rule, remedy);
+        }
+        rules::material("material", &self.material)?;
+        rules::columns("columns", self.columns, &self.numerics)?;
+        let NonlocalMuI { static_friction, limiting_friction, .. } = self.law();
+        if self.drive == Drive::Chute {
+            let remedy = "beyond the grains' limiting friction nothing is steady";
+            rules::between("wall_friction", self.wall_friction, 0.0, MOST_FRICTION * limiting_friction, remedy)?;
+        }
+        match self.drive {
+            _ if self.steady(&self.nominal()).is_some() => Ok(()),
+            Drive::Chute => {
+                let rule = format!("that of a chute that flows at a half width of {} diameters", self.thickness);
+                let remedy = "the narrower a chute, the more friction it needs; give more, or a larger `thickness`";
+                refused("wall_friction", self.wall_friction.to_string(), &rule, remedy)
+            }
+            Drive::DraggedBed => {
+                let rule = "a velocity that a steady flow below the plate has";
+                let remedy = "a larger `load` or `thickness` bears a faster plate";
+                refused("plate_velocity", self.plate_velocity.to_string(), rule, remedy)
+            }
+            Drive::Heap => {
+                let [least, most] = [static_friction, limiting_friction].map(|mu| libm::atan(mu).to_degrees());
+                let rule = format!(
+                    "between the angles of the grains' friction, {least} and {most} degrees, ends excluded, and so that the layer flows"
+                );
+                let remedy = "a gentler heap is at rest, a steeper one has no steady flow";
+                refused("slope_angle", self.slope_angle.to_string(), &rule, remedy)
+            }
+        }
+    }
+}
+
+impl Run for NonlocalShearFlow {
+    type Observation = ShearObservation;
+
+    fn variant(&self) -> Variant {
+        let flow = match self.drive {
+            Drive::Chute => "chute",
+            Drive::DraggedBed => "dragged-bed",
+            Drive::Heap if self.is_local() => "local-heap",
+            Drive::Heap => "heap",
+        };
+        Variant::of("flow", flow).and("particles_per_diameter", self.particles_per_diameter)
+    }
+
+    fn cost(&self) -> RunCost {
+        self.with_channel(None, |channel| {
+            let ChannelGrains { rows, columns, numerics, .. } = channel.grains;
+            let step = acoustic_step(&numerics, channel.spacing(), channel.equation_of_state().sound_speed());
+            RunCost::weakly_compressible((rows * columns) as f64, self.duration / step)
+        })
+    }
+
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ShearObservation>, ParameterError> {
+        self.with_channel(self.steady(&self.nominal()), |channel| {
+            let stage = SimulationStage {
+                progress,
+                end: self.duration,
+                interval: self.duration / SAMPLES,
+                window: 0.0,
+                context: &(),
+            };
+            let watched = watch(
+                stage,
+                |beginning| channel.scene(beginning),
+                |_| ShearProbe::new(channel, self.duration - self.window()),
+                |probe, snapshot| {
+                    probe.observe(snapshot);
+                    ControlFlow::Continue(())
+                },
+            )?;
+            Ok(watched.ending.record(&watched.simulation, |_| watched.kept.finish()))
+        })
+    }
+}
+
+/// The grains of a flow as they are found: at a pressure and a density.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShearedGrains {
-    /// The law.
-    pub law: NonlocalMuI,
-    /// Mean pressure in a chute, pressure below a plate `[Pa]`.
+    /// Mean pressure in a chute, pressure below a plate; on a heap there is none `[Pa]`.
     pub load: f64,
     /// Density of the bulk `[kg/m³]`.
     pub density: f64,
-    /// Gravity `[m/s²]`; along a chute it is made to fit the friction of the walls.
-    pub gravity: f64,
 }
 
-/// A steady flow without particles.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ExactShear {
-    flow: ShearFlow,
-    /// Its stresses.
-    pub shear: NonlocalShear,
-    /// Its profile over the distance from where it flows fastest.
-    pub profile: NonlocalShearProfile,
-}
-
-impl ShearFlow {
-    /// Its name in a variant.
+impl NonlocalShearFlow {
+    /// Length of the window before the end that is averaged over `[s]`.
     #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Chute { .. } => "chute",
-            Self::DraggedBed { .. } => "dragged-bed",
-            Self::Heap { cooperation: RheologyChoice::Nonlocal, .. } => "heap",
-            Self::Heap { cooperation: RheologyChoice::Local, .. } => "local-heap",
+    pub fn window(&self) -> f64 {
+        WINDOW * self.duration
+    }
+
+    /// Whether its grains have the local law.
+    #[must_use]
+    pub fn is_local(&self) -> bool {
+        matches!(self.material, Rheology::MuI(_))
+    }
+
+    /// The law, without cooperation where it is local; without a friction for one that is refused.
+    #[must_use]
+    pub fn law(&self) -> NonlocalMuI {
+        match self.material {
+            Rheology::NonlocalMuI(law) => law,
+            Rheology::MuI(grains) => NonlocalMuI { cooperativity: 0.0, ..NonlocalMuI::of(grains) },
+            _ => NonlocalMuI::of(MuI { static_friction: f64::NAN, ..GLASS_BEADS.law }),
         }
     }
 
-    /// The law that its grains have.
+    /// Grain diameter D `[m]`.
+    pub(super) fn diameter(&self) -> f64 {
+        self.law().grain_diameter
+    }
+
+    /// Velocity of the plate `[m/s]`.
+    pub(super) fn plate_speed(&self) -> f64 {
+        self.plate_velocity * (self.gravity * self.diameter()).sqrt()
+    }
+
+    /// The side walls of a heap.
+    pub(super) fn side_walls(&self) -> SideWalls {
+        SideWalls { width: self.side_wall_distance * self.diameter(), friction: self.side_wall_friction }
+    }
+
+    /// The grains as the run is made for.
     #[must_use]
-    pub fn law(&self, law: NonlocalMuI) -> Rheology {
-        match self {
-            Self::Heap { cooperation: RheologyChoice::Local, .. } => Rheology::MuI(law.local()),
-            _ => Rheology::NonlocalMuI(law),
+    pub fn nominal(&self) -> ShearedGrains {
+        let NonlocalMuI { grain_density, grain_diameter, .. } = self.law();
+        ShearedGrains {
+            load: self.load * grain_density * self.gravity * grain_diameter,
+            density: self.solid_fraction * grain_density,
         }
     }
 
-    /// Distance of its walls, or of its surface from the bed `[m]`.
+    /// The grains and the flow as they were found: at the pressure and the density of the run.
     #[must_use]
-    pub fn width(&self) -> f64 {
-        match *self {
-            Self::Chute { half_width, .. } => 2.0 * half_width,
-            Self::DraggedBed { depth, .. } | Self::Heap { depth, .. } => depth,
-        }
-    }
-
-    /// Distance `[m]` from where it flows fastest, the middle of a chute, the plate or the surface, of a height above the lower wall `[m]`.
-    #[must_use]
-    pub fn distance(&self, height: f64) -> f64 {
-        match *self {
-            Self::Chute { half_width, .. } => (height - half_width).abs(),
-            Self::DraggedBed { depth, .. } | Self::Heap { depth, .. } => depth - height,
-        }
-    }
-
-    /// Gravity along the walls and across them `[m/s²]`.
-    #[must_use]
-    pub fn gravity(&self, grains: &ShearedGrains) -> [f64; 2] {
-        match *self {
-            Self::Chute { half_width, wall_friction } => {
-                // the compression makes the grains denser by p/K
-                let density = grains.density * (1.0 + 1.0 / STIFFNESS);
-                [wall_friction * grains.load / (density * half_width), 0.0]
+    pub fn found(&self, seen: &ShearObservation) -> (ShearedGrains, Self) {
+        let (density, pressure) = (seen.density, seen.mean_pressure());
+        let half_width = self.thickness * self.diameter();
+        match self.drive {
+            Drive::Chute => {
+                let driving = self.driving(&self.nominal())[0];
+                let wall_friction = density * driving * half_width / pressure;
+                (ShearedGrains { load: pressure, density }, Self { wall_friction, ..self.clone() })
             }
-            Self::DraggedBed { .. } => [0.0, -grains.gravity],
-            Self::Heap { inclination, .. } => {
-                [grains.gravity * libm::sin(inclination), -grains.gravity * libm::cos(inclination)]
+            Drive::DraggedBed => {
+                (ShearedGrains { load: pressure - 0.5 * density * self.gravity * half_width, density }, self.clone())
             }
+            Drive::Heap => (ShearedGrains { load: 0.0, density }, self.clone()),
         }
     }
 
-    /// Pressure at a height `[Pa]`.
+    /// The steady flow without particles at the pressure that was found; none where nothing flows.
     #[must_use]
-    pub fn pressure(&self, grains: &ShearedGrains, height: f64) -> f64 {
-        match *self {
-            Self::Chute { .. } => grains.load,
-            Self::DraggedBed { .. } => grains.load + grains.density * grains.gravity * self.distance(height),
-            Self::Heap { .. } => -grains.density * self.gravity(grains)[1] * self.distance(height).max(0.0),
-        }
+    pub fn exact(&self, seen: &ShearObservation) -> Option<ExactShear> {
+        let (grains, flow) = self.found(seen);
+        flow.steady(&grains)
     }
 
-    /// The steady flow: of a chute at its friction, below a plate with the traction at which the plate moves as it does; none
-    /// where there is no such flow.
+    /// Its particles.
     #[must_use]
-    pub fn steady(&self, grains: &ShearedGrains) -> Option<ExactShear> {
-        match *self {
-            Self::Chute { wall_friction, .. } => self.under(grains, wall_friction),
-            Self::DraggedBed { plate_velocity, .. } => {
-                self.under(grains, self.friction_of(grains, plate_velocity).ok().flatten()?)
-            }
-            Self::Heap { inclination, .. } => {
-                // beyond μ_2 no law of these grains bears the weight
-                let slope = libm::tan(inclination);
-                (slope < grains.law.limiting_friction).then(|| self.under(grains, slope)).flatten()
-            }
-        }
+    pub fn particles(&self) -> ChannelGrains {
+        let Self { columns, jitter, seed, numerics, .. } = *self;
+        let rows = (self.width() / self.diameter() * self.particles_per_diameter as f64).round() as usize;
+        ChannelGrains { density: self.nominal().density, rows, columns, jitter, seed, numerics }
     }
 
-    /// The steady flow whose walls, or plate, bear a friction `[-]`, or whose surface has that slope; none at rest.
-    fn under(&self, grains: &ShearedGrains, friction: f64) -> Option<ExactShear> {
-        let shear = self.stressed(grains, friction);
-        let profile = match self {
-            Self::Heap { cooperation: RheologyChoice::Local, .. } => local_profile(&shear),
-            _ => shear.steady(CELLS).ok()?,
-        };
-        (profile.fastest > 0.0).then_some(ExactShear { flow: *self, shear, profile })
-    }
-
-    /// The stresses under a friction of the walls or the plate, or a slope of the surface `[-]`.
-    fn stressed(&self, grains: &ShearedGrains, friction: f64) -> NonlocalShear {
-        let (load, weight) = (grains.load, grains.density * grains.gravity);
-        let (thickness, stress, near) = match *self {
-            Self::Chute { half_width, .. } => {
-                let stress = ShearStress::Chute { pressure: load, wall_friction: friction };
-                (half_width, stress, FieldBoundary::NoFlux)
-            }
-            Self::DraggedBed { depth, .. } => {
-                let stress = ShearStress::UnderGravity { load, traction: friction * load, weight };
-                (depth, stress, FieldBoundary::Vanishing)
-            }
-            Self::Heap { depth, side_walls, .. } => {
-                let across = -grains.density * self.gravity(grains)[1];
-                let stress = ShearStress::Heap {
-                    slope: friction,
-                    weight: across,
-                    side_friction: side_walls.friction_per_width(),
-                };
-                (depth, stress, grains.law.surface)
+    /// Calls with the channel of particles that the run begins with, in the motion of a steady flow.
+    fn with_channel<T>(&self, steady: Option<ExactShear>, call: impl FnOnce(&Channel<'_>) -> T) -> T {
+        let grains = self.nominal();
+        let start = |height: f64| {
+            let Some(steady) = &steady else { return Motion::default() };
+            let velocity = HASTE * steady.velocity(height);
+            Motion {
+                velocity,
+                shear_rate: HASTE * steady.shear_rate(height),
+                shear_stress: steady.shear_stress(height),
             }
         };
-        NonlocalShear {
-            grains: grains.law.local(),
-            cooperativity: grains.law.cooperativity,
-            thickness,
-            stress,
-            ends: [near, FieldBoundary::Vanishing],
-        }
+        call(&Channel {
+            grains: self.particles(),
+            rheology: self.material,
+            width: self.width(),
+            gravity: self.driving(&grains),
+            pressure: &|height| self.pressure(&grains, height),
+            above: match self.drive {
+                Drive::Chute => UpperBoundary::Wall(0.0),
+                Drive::DraggedBed => UpperBoundary::Wall(self.plate_speed()),
+                Drive::Heap => UpperBoundary::Surface(self.side_walls()),
+            },
+            start: &start,
+        })
     }
-
-    /// Friction of the walls or the plate `[-]` at which the flow is as fast as is asked for `[m/s]`; none beyond what it can be.
-    ///
-    /// # Errors
-    /// A solution that does not converge.
-    pub fn friction_of(&self, grains: &ShearedGrains, fastest: f64) -> Result<Option<f64>, LayerError> {
-        let law = &grains.law;
-        let (mut slow, mut fast) = (law.static_friction, MOST_FRICTION * law.limiting_friction);
-        if self.stressed(grains, fast).steady(CELLS)?.fastest < fastest {
-            return Ok(None);
-        }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (slow + fast);
-            let reached = self.stressed(grains, middle).steady(CELLS)?.fastest;
-            if reached < fastest { slow = middle } else { fast = middle }
-        }
-        Ok(Some(fast))
-    }
-}
-
-impl ExactShear {
-    /// Velocity `[m/s]` at a height above the lower wall `[m]`.
-    #[must_use]
-    pub fn velocity(&self, height: f64) -> f64 {
-        self.profile.velocity(self.flow.distance(height))
-    }
-
-    /// Shear rate `[1/s]` at such a height.
-    #[must_use]
-    pub fn shear_rate(&self, height: f64) -> f64 {
-        self.profile.shear_rate(self.flow.distance(height))
-    }
-
-    /// Shear stress s_xy `[Pa]` at such a height.
-    #[must_use]
-    pub fn shear_stress(&self, height: f64) -> f64 {
-        let (pressure, friction) = self.shear.stress.at(self.flow.distance(height), self.shear.thickness);
-        // the velocity of a chute falls from its middle to either wall
-        let slows_upwards = matches!(self.flow, ShearFlow::Chute { half_width, .. } if height > half_width);
-        if slows_upwards { -pressure * friction } else { pressure * friction }
-    }
-
-    /// Distance from where it flows fastest at which the local law changes from flow to rest, or in a chute from rest to flow `[m]`.
-    #[must_use]
-    pub fn yield_distance(&self) -> f64 {
-        let yielding = self.shear.grains.static_friction;
-        match self.shear.stress {
-            ShearStress::Chute { wall_friction, .. } => self.shear.thickness * yielding / wall_friction,
-            ShearStress::UnderGravity { load, traction, weight } => (traction / yielding - load) / weight,
-            ShearStress::Heap { slope, side_friction, .. } => (slope - yielding) / side_friction,
-        }
-    }
-
-    /// (distance from where it flows fastest `[m]`, velocity `[m/s]`) of the local law under the same stresses.
-    #[must_use]
-    pub fn local(&self) -> Vec<(f64, f64)> {
-        let local = local_profile(&self.shear);
-        local.distances.into_iter().zip(local.velocities).collect()
-    }
-}
-
-/// The steady flow of the local law under stresses that the balance of momentum gives: its shear rate is that of I(μ), and the
-/// velocity its integral from the far end.
-fn local_profile(shear: &NonlocalShear) -> NonlocalShearProfile {
-    let width = shear.thickness / CELLS as f64;
-    let mut profile = NonlocalShearProfile {
-        distances: (0..CELLS).map(|cell| (cell as f64 + 0.5) * width).collect(),
-        frictions: Vec::with_capacity(CELLS),
-        fluidities: Vec::with_capacity(CELLS),
-        velocities: vec![0.0; CELLS],
-        fastest: 0.0,
-    };
-    for &distance in &profile.distances {
-        let (pressure, friction) = shear.stress.at(distance, shear.thickness);
-        profile.frictions.push(friction);
-        profile.fluidities.push(local_shear_rate(&shear.grains, pressure, friction) / friction.max(f64::MIN_POSITIVE));
-    }
-    for cell in (0..CELLS).rev() {
-        let growth = width * profile.fluidities[cell] * profile.frictions[cell];
-        profile.fastest += growth;
-        profile.velocities[cell] = profile.fastest - 0.5 * growth;
-    }
-    profile
-}
-
-/// Shear rate of the local law `[1/s]`.
-fn local_shear_rate(grains: &MuI, pressure: f64, friction: f64) -> f64 {
-    let above = (friction - grains.static_friction).max(0.0);
-    let inertia = grains.reference_inertia * above / (grains.limiting_friction - friction);
-    inertia * (pressure / grains.grain_density).sqrt() / grains.grain_diameter
 }
 
 #[cfg(test)]
-#[path = "flow_tests.rs"]
-mod tests;
+mod tests {
+    use super::*;
+
+    fn message(change: impl FnOnce(&mut NonlocalShearFlow)) -> String {
+        let mut flow = NonlocalShearFlow::default();
+        change(&mut flow);
+        flow.check().expect_err("refused").to_string()
+    }
+
+    #[test]
+    fn flows_that_are_not_steady_are_refused() {
+        let narrow = message(|flow| flow.thickness = 5.0);
+        assert!(narrow.starts_with("`wall_friction` is 0.53, but must be that of a chute that flows"), "{narrow}");
+        let steep = message(|flow| flow.wall_friction = 0.7);
+        assert!(steep.starts_with("`wall_friction` is 0.7, but must be between 0 and 0.64"), "{steep}");
+        let fast = message(|flow| (flow.drive, flow.plate_velocity) = (Drive::DraggedBed, 1e6));
+        assert!(fast.starts_with("`plate_velocity` is 1000000, but must be a velocity that"), "{fast}");
+        for angle in [15.0, 40.0] {
+            let heap = message(|flow| (flow.drive, flow.slope_angle) = (Drive::Heap, angle));
+            let expected =
+                format!("`slope_angle` is {angle}, but must be between the angles of the grains' friction, 20.9");
+            assert!(heap.starts_with(&expected), "{heap}");
+        }
+        let local = message(|flow| flow.material = Rheology::MuI(GLASS_BEADS.law));
+        assert!(local.starts_with("`material.law` is \"mu-i\", but must be \"nonlocal-mu-i\""), "{local}");
+    }
+}

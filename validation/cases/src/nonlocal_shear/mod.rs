@@ -1,20 +1,19 @@
 //! Grains that creep beside a flow: a chute between rough walls, a bed below a plate and a heap between side walls, under the nonlocal law.
 
 mod channel;
+mod exact;
 mod figures;
 mod flow;
 mod metrics;
-mod parameters;
 mod probe;
-mod run;
+mod stresses;
 
 pub use channel::{Channel, ChannelGrains, Motion, STIFFNESS, UpperBoundary};
-pub use flow::{ExactShear, RheologyChoice, ShearFlow, ShearedGrains};
-pub use parameters::{ChuteParameters, DraggedBedParameters, HeapParameters, NonlocalShearParameters};
+pub use exact::ExactShear;
+pub use flow::{Drive, NonlocalShearFlow, ShearedGrains};
 pub use probe::ShearObservation;
-pub use run::ShearRun;
 
-use crate::case::{Case, RecordOf, Run};
+use crate::case::{Case, RecordOf, Run, RunList};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -24,7 +23,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct NonlocalShearFlows;
 
-type NonlocalShearRecord = RecordOf<NonlocalShearParameters>;
+type Record = RecordOf<RunList<NonlocalShearFlow>>;
 
 impl Case for NonlocalShearFlows {
     const NAME: &'static str = "nonlocal-shear";
@@ -40,24 +39,24 @@ impl Case for NonlocalShearFlows {
         Judged. Velocities, the e-folding length of the creeping zone, the width of the shear layer at a wall of the \
         chute, and the traction on the plate. The heap also runs under the local law, whose profile is exact.\n\n\
         Observed only. Velocities at the surface and in the plug, and the decay length deep in the bed.";
-    type Parameters = NonlocalShearParameters;
+    type Parameters = RunList<NonlocalShearFlow>;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &NonlocalShearParameters, records: &[NonlocalShearRecord]) -> Vec<Metric> {
+    fn metrics(_: &RunList<NonlocalShearFlow>, records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &NonlocalShearParameters, records: &[NonlocalShearRecord]) -> Vec<Figure> {
+    fn figures(_: &RunList<NonlocalShearFlow>, records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &NonlocalShearParameters, records: &[NonlocalShearRecord]) -> Vec<Table> {
+    fn tables(_: &RunList<NonlocalShearFlow>, records: &[Record]) -> Vec<Table> {
         records.iter().map(rows).collect()
     }
 }
 
 /// The rows of a run, and the velocity that they ought to have.
-fn rows((run, record): &NonlocalShearRecord) -> Table {
+fn rows((run, record): &Record) -> Table {
     let seen = &record.data;
     let exact = run.exact(seen);
     let expected: Vec<f64> =

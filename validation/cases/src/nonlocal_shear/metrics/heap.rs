@@ -1,33 +1,28 @@
 //! How heaps between side walls are judged.
 
 use super::*;
-use crate::nonlocal_shear::flow::RheologyChoice;
 
 /// Velocity at the depth that a heap counts as flowing down to, over that of its surface `[-]`.
 const STILL: f64 = 0.01;
 const EXACT_LOCAL: &str = "μ(I) inverted under the stresses that gravity and both side walls give, integrated from the depth at which τ/p is μ_s";
 
 /// Metrics of a heap.
-pub(super) fn metrics(
-    run: &ShearRun,
-    seen: &ShearObservation,
-    exact: &ExactShear,
-    cooperation: RheologyChoice,
-) -> Vec<Metric> {
+pub(super) fn metrics(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
     let rows = seen.velocities();
     let expected: Vec<(f64, f64)> = rows.iter().map(|&(y, _)| (y, exact.velocity(y))).collect();
     let surface = |rows: &[(f64, f64)]| rows.last().map_or(f64::NAN, |row| row.1);
     let found = SURFACE_VELOCITY_ERROR.of(&run.variant(), 100.0 * (surface(&rows) / surface(&expected) - 1.0));
-    let (mut metrics, reference) = match cooperation {
-        RheologyChoice::Nonlocal => (creep(run, seen, exact), EXACT),
-        RheologyChoice::Local => (depth(run, seen, exact, &expected), EXACT_LOCAL),
+    let (mut metrics, reference) = if run.is_local() {
+        (depth(run, seen, exact, &expected), EXACT_LOCAL)
+    } else {
+        (creep(run, seen, exact), EXACT)
     };
     metrics.push(found.exactly(0.0, reference).with_snapshot_tolerance(0.1, 1e-1));
     metrics
 }
 
 /// Decay and velocity of grains that flow together.
-fn creep(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
+fn creep(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
     let mut metrics = decay(run, seen, exact);
     metrics.push(velocity_l2(run, seen, exact).gated(
         Limit::AtMost(2.0 * coarseness(run)),
@@ -38,18 +33,18 @@ fn creep(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Met
 }
 
 /// Depth down to which rows, from below, flow `[m]`.
-fn flowing_depth(run: &ShearRun, rows: &[(f64, f64)]) -> f64 {
+fn flowing_depth(run: &NonlocalShearFlow, rows: &[(f64, f64)]) -> f64 {
     let Some(surface) = rows.last().map(|row| row.1) else { return f64::NAN };
     let crossed = rows.windows(2).rev().find(|pair| pair[0].1 < STILL * surface);
     crossed.map_or(f64::NAN, |pair| {
         let ((lower, slower), (upper, faster)) = (pair[0], pair[1]);
-        run.flow.distance(lower + (upper - lower) * (STILL * surface - slower) / (faster - slower))
+        run.distance(lower + (upper - lower) * (STILL * surface - slower) / (faster - slower))
     })
 }
 
 /// Profile and depth of a flow of the local law.
-fn depth(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, expected: &[(f64, f64)]) -> Vec<Metric> {
-    let (diameter, row) = (run.grains.law.grain_diameter, 1.0 / run.particles_per_diameter as f64);
+fn depth(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear, expected: &[(f64, f64)]) -> Vec<Metric> {
+    let (diameter, row) = (run.diameter(), 1.0 / run.particles_per_diameter as f64);
     let (found, expected) =
         (flowing_depth(run, &seen.velocities()) / diameter, flowing_depth(run, expected) / diameter);
     vec![
@@ -70,11 +65,10 @@ fn depth(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, expected: 
 }
 
 /// Orders of convergence under the local law, from each resolution to the next.
-pub(super) fn orders(records: &[NonlocalShearRecord]) -> Vec<Metric> {
-    let local = |flow: &ShearFlow| matches!(flow, ShearFlow::Heap { cooperation: RheologyChoice::Local, .. });
+pub(super) fn orders(records: &[Record]) -> Vec<Metric> {
     let mut errors: Vec<(usize, f64)> = records
         .iter()
-        .filter(|(run, _)| local(&run.flow))
+        .filter(|(run, _)| run.is_local())
         .filter_map(|(run, record)| {
             let exact = run.exact(&record.data)?;
             Some((run.particles_per_diameter, velocity_misfit(&record.data, &exact)))

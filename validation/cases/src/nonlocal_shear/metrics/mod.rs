@@ -2,10 +2,10 @@
 
 mod heap;
 
-use super::NonlocalShearRecord;
-use super::flow::{ExactShear, ShearFlow};
+use super::Record;
+use super::exact::ExactShear;
+use super::flow::{Drive, NonlocalShearFlow};
 use super::probe::ShearObservation;
-use super::run::ShearRun;
 use crate::case::Run;
 use crate::metric::{Confidence, Limit, Metric, Variant, quantities};
 use crate::reference::one_dimension::ShearStress;
@@ -54,33 +54,31 @@ const EXACT: &str = "steady flow of the nonlocal law in finite volumes over 2000
 const TAIL: (f64, f64) = (0.0, 5.0);
 const DEEP_TAIL: (f64, f64) = (2.5, 6.0);
 /// Factor of limits that are given for two particles per diameter `[-]`.
-fn coarseness(run: &ShearRun) -> f64 {
+fn coarseness(run: &NonlocalShearFlow) -> f64 {
     2.0 / run.particles_per_diameter as f64
 }
 
-pub(super) fn all(records: &[NonlocalShearRecord]) -> Vec<Metric> {
+pub(super) fn all(records: &[Record]) -> Vec<Metric> {
     records.iter().flat_map(of_run).chain(heap::orders(records)).collect()
 }
 
-fn of_run((run, record): &NonlocalShearRecord) -> Vec<Metric> {
+fn of_run((run, record): &Record) -> Vec<Metric> {
     let (variant, seen) = (run.variant(), &record.data);
     let lost = PARTICLES_LOST
         .of(&variant, seen.particles_lost as f64)
         .exactly(0.0, "no particle passes a wall")
         .gated(Limit::AtMost(0.0), "a particle behind a wall is lost mass");
-    let energy = match run.flow {
-        ShearFlow::Chute { .. } | ShearFlow::Heap { .. } => {
-            energy_ledger::metrics(&variant, &seen.energy, EnergyScale::Steady)
-        }
+    let energy = match run.drive {
+        Drive::Chute | Drive::Heap => energy_ledger::metrics(&variant, &seen.energy, EnergyScale::Steady),
         // the plate feeds energy in, and its work is none of an error
-        ShearFlow::DraggedBed { .. } if seen.energy.total.is_empty() => Vec::new(),
-        ShearFlow::DraggedBed { .. } => vec![energy_ledger::residual(&variant, &seen.energy, EnergyScale::Steady)],
+        Drive::DraggedBed if seen.energy.total.is_empty() => Vec::new(),
+        Drive::DraggedBed => vec![energy_ledger::residual(&variant, &seen.energy, EnergyScale::Steady)],
     };
     let Some(exact) = run.exact(seen) else { return [lost].into_iter().chain(energy).collect() };
-    let own = match run.flow {
-        ShearFlow::Chute { half_width, .. } => chute(run, seen, &exact, half_width),
-        ShearFlow::DraggedBed { .. } => dragged_bed(run, seen, &exact),
-        ShearFlow::Heap { cooperation, .. } => heap::metrics(run, seen, &exact, cooperation),
+    let own = match run.drive {
+        Drive::Chute => chute(run, seen, &exact),
+        Drive::DraggedBed => dragged_bed(run, seen, &exact),
+        Drive::Heap => heap::metrics(run, seen, &exact),
     };
     let not_steady = seen.unsteadiness(run.window());
     let own = own.into_iter().map(|metric| metric.unless(not_steady.as_ref()));
@@ -91,7 +89,7 @@ fn of_run((run, record): &NonlocalShearRecord) -> Vec<Metric> {
     [lost, overfilling, unevenness(run, seen, &variant)].into_iter().chain(energy).chain(own).collect()
 }
 
-fn unevenness(run: &ShearRun, seen: &ShearObservation, variant: &Variant) -> Metric {
+fn unevenness(run: &NonlocalShearFlow, seen: &ShearObservation, variant: &Variant) -> Metric {
     let (grains, flow) = run.found(seen);
     let deviation = |(y, pressure): (&f64, &f64)| (pressure - flow.pressure(&grains, *y)).abs();
     let largest = seen.height.iter().zip(&seen.pressure).map(deviation).fold(0.0, f64::max);
@@ -118,8 +116,8 @@ pub(super) fn plug_velocity(seen: &ShearObservation) -> f64 {
     folded(seen).first().map_or(f64::NAN, |point| point.1)
 }
 
-fn chute(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, half_width: f64) -> Vec<Metric> {
-    let (variant, diameter) = (run.variant(), run.grains.law.grain_diameter);
+fn chute(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
+    let (variant, diameter, half_width) = (run.variant(), run.diameter(), exact.shear.thickness);
     let folded = folded(seen);
     let plug = plug_velocity(seen);
     let lagging = plug * (1.0 - libm::exp(-1.0));
@@ -130,10 +128,6 @@ fn chute(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, half_width
     });
     let expected = exact.profile.wall_layer().unwrap_or(f64::NAN);
     let (grains, flow) = run.found(seen);
-    let found = match flow {
-        ShearFlow::Chute { wall_friction, .. } => wall_friction,
-        ShearFlow::DraggedBed { .. } | ShearFlow::Heap { .. } => f64::NAN,
-    };
     let coarseness = coarseness(run);
     let implied = flow.friction_of(&grains, plug).ok().flatten().unwrap_or(f64::NAN);
     vec![
@@ -144,7 +138,7 @@ fn chute(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, half_width
              its velocity goes with the friction to the power of 14, so that 5 % are less than 0.4 % of the friction",
         ),
         FRICTION_ERROR
-            .of(&variant, 100.0 * (implied / found - 1.0))
+            .of(&variant, 100.0 * (implied / flow.wall_friction - 1.0))
             .exactly(0.0, EXACT)
             .gated(
                 Limit::Within(-0.4 * coarseness, 0.4 * coarseness),
@@ -158,7 +152,7 @@ fn chute(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear, half_width
     ]
 }
 
-fn dragged_bed(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
+fn dragged_bed(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
     let variant = run.variant();
     let mut metrics = decay(run, seen, exact);
     let deep = tail(run, exact, DEEP_TAIL, &seen.velocities());
@@ -196,13 +190,13 @@ fn dragged_bed(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> V
 
 /// The line through the logarithm of velocities between two depths below that at which the local law is at rest, in diameters.
 fn tail(
-    run: &ShearRun,
+    run: &NonlocalShearFlow,
     exact: &ExactShear,
     (upper, lower): (f64, f64),
     velocities: &[(f64, f64)],
 ) -> Option<Regression> {
-    let diameter = run.grains.law.grain_diameter;
-    let depths = velocities.iter().map(|&(y, velocity)| (run.flow.distance(y), velocity));
+    let diameter = run.diameter();
+    let depths = velocities.iter().map(|&(y, velocity)| (run.distance(y), velocity));
     let inside = depths.filter(|(depth, _)| {
         let below = (depth - exact.yield_distance()) / diameter;
         below >= upper && below <= lower
@@ -211,12 +205,12 @@ fn tail(
 }
 
 /// Length `[diameters]` over which a velocity decays along a line through its logarithm.
-fn decay_length(run: &ShearRun, line: Option<Regression>) -> f64 {
-    line.map_or(f64::NAN, |line| -1.0 / (line.slope * run.grains.law.grain_diameter))
+fn decay_length(run: &NonlocalShearFlow, line: Option<Regression>) -> f64 {
+    line.map_or(f64::NAN, |line| -1.0 / (line.slope * run.diameter()))
 }
 
 /// How the velocity decays below the depth at which the local law is at rest.
-fn decay(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
+fn decay(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
     let (variant, rows) = (run.variant(), seen.velocities());
     let expected: Vec<(f64, f64)> = rows.iter().map(|&(y, _)| (y, exact.velocity(y))).collect();
     let lines = |depths| [&rows, &expected].map(|rows| tail(run, exact, depths, rows));
@@ -239,7 +233,7 @@ fn decay(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Vec<Met
 }
 
 /// A length of the decay or of the layer at a wall `[diameters]`.
-fn length_metric(metric: Metric, expected: f64, run: &ShearRun) -> Metric {
+fn length_metric(metric: Metric, expected: f64, run: &NonlocalShearFlow) -> Metric {
     let allowed = 0.05 * coarseness(run);
     metric
         .exactly(expected, EXACT)
@@ -251,7 +245,7 @@ fn length_metric(metric: Metric, expected: f64, run: &ShearRun) -> Metric {
         .with_snapshot_tolerance(5e-3, 0.0)
 }
 
-fn velocity_l2(run: &ShearRun, seen: &ShearObservation, exact: &ExactShear) -> Metric {
+fn velocity_l2(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -> Metric {
     let misfit = velocity_misfit(seen, exact);
     VELOCITY_L2.of(&run.variant(), 100.0 * misfit).exactly(0.0, EXACT).with_snapshot_tolerance(5e-2, 1e-2)
 }

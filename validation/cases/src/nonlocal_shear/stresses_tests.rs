@@ -1,15 +1,12 @@
 use super::*;
-use crate::case::{Parameters, Tier};
-use crate::nonlocal_shear::NonlocalShearParameters;
+use crate::reference::grains::GLASS_BEADS;
+use bagnold_solver::material::rheology::Rheology;
 
-/// The heap of the quick tier under the local law.
+/// A heap under the local law, and its grain diameter `[m]`.
 fn local_heap() -> (ExactShear, f64) {
-    let run = NonlocalShearParameters::of_tier(Tier::Quick)
-        .runs()
-        .into_iter()
-        .find(|run| matches!(run.flow, ShearFlow::Heap { cooperation: RheologyChoice::Local, .. }))
-        .expect("a heap under the local law");
-    (run.flow.steady(&run.nominal()).expect("it flows"), run.grains.law.grain_diameter)
+    let material = Rheology::MuI(GLASS_BEADS.law);
+    let flow = NonlocalShearFlow { drive: Drive::Heap, material, ..NonlocalShearFlow::default() };
+    (flow.steady(&flow.nominal()).expect("it flows"), flow.diameter())
 }
 
 #[test]
