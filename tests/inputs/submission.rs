@@ -2,7 +2,7 @@
 
 use bagnold_cases::collapse::{ColumnFlow, SlopeFlow};
 use bagnold_harness::case::{
-    Changes, ExternalColumn, ExternalData, ExternalSchema, NamedColumns, Parameters, ParticleFrame, RunList, Tier,
+    Changes, ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame, RunList, Tier,
 };
 use bagnold_tools::judge::{CaseSubmissions, JudgeError};
 use bagnold_validation::REGISTRY;

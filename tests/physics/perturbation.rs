@@ -4,7 +4,7 @@
 use super::run_out::column;
 use bagnold_cases::collapse::Collapse;
 use bagnold_cases::collapse::planar::PlanarColumn;
-use bagnold_harness::case::{Run, Silent};
+use bagnold_harness::case::{Flow, Silent};
 
 /// Relative change that the baseline allows `[-]`.
 const TOLERANCE: f64 = 1e-3;

@@ -2,7 +2,7 @@
 
 use bagnold_cases::collapse::planar::{ColumnPlanar, PlanarColumn};
 use bagnold_cases::collapse::{Collapse, Material};
-use bagnold_harness::case::{Case, Parameters, Run, RunList, Silent, Tier};
+use bagnold_harness::case::{Case, Flow, RunList, Silent, Tier};
 use bagnold_harness::metric::{COVERAGE, Origin};
 use bagnold_harness::observation::{Frame, Recorded};
 use bagnold_solver::material::rheology::Rheology;
@@ -14,7 +14,7 @@ pub(super) fn column(aspect_ratio: f64) -> PlanarColumn {
     PlanarColumn { aspect_ratio, ..lagree.clone() }
 }
 
-fn records<R: Run<Observation = Collapse>>(runs: Vec<R>) -> Vec<(R, Recorded<Collapse>)> {
+fn records<R: Flow<Observation = Collapse>>(runs: Vec<R>) -> Vec<(R, Recorded<Collapse>)> {
     let simulated = |run: R| {
         let record = run.simulate(&Silent).expect("a valid scene");
         (run, record)
@@ -52,7 +52,7 @@ fn the_interval_of_a_shallow_column_holds_what_finer_ones_approach() {
     let members = (2..=20).map(|ensemble_member| PlanarColumn { ensemble_member, ..column(0.5) });
     let records = records([column(0.5)].into_iter().chain(members).collect());
     assert_eq!(records.len(), 20);
-    let metrics = ColumnPlanar::metrics(&RunList::of_tier(Tier::Quick), &records);
+    let metrics = ColumnPlanar::metrics(&records);
     let shown = metrics.iter().find(|metric| metric.name == "run_out").expect("the column's own run-out");
     let own = records.iter().map(|(_, record)| record.data.run_out());
     let mean = own.clone().sum::<f64>() / records.len() as f64;

@@ -1,13 +1,13 @@
 //! A case of one's own: a shear wave in a viscous liquid, u = U sin ky, that decays with exp(−ν k² t).
 //! `cargo run --example own_case -- report` judges it.
 
-use bagnold_harness::case::{self, Case, ParameterError, Progress, Registry, Run, RunList};
+use bagnold_harness::case::{Case, Flow, ParameterError, Progress, Registry};
 use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
 use bagnold_harness::{case::recording::record, observation::Recorded};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::parameter::{between, positive};
-use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::scene::{self, Scene};
 use bagnold_solver::{domain::Domain, vector::Vector};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -37,19 +37,17 @@ impl Default for Wave {
     }
 }
 
-impl case::Flow for Wave {
+impl Flow for Wave {
     const RUNS: &'static str = "[paper]\nrows = 40";
-}
-
-impl Run for Wave {
     type Observation = f64;
+
     fn variant(&self) -> Variant {
         Variant::of("rows", self.rows)
     }
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<f64>, ParameterError> {
         let (n, spacing) = (self.rows, 1.0 / self.rows as f64);
         let place = |k: usize| Vector::<2>::new((k % n) as f64 + 0.5, (k / n) as f64 + 0.5) * spacing;
-        let mut flow = Flow::at_rest((0..n * n).map(place).collect(), 1000.0, spacing);
+        let mut flow = scene::Flow::at_rest((0..n * n).map(place).collect(), 1000.0, spacing);
         flow.velocity = flow.position.iter().map(|x| Vector::<2>::new((TAU * x[1]).sin(), 0.0)).collect();
         let liquid = EquationOfState { reference_density: 1000.0, bulk_modulus: 1e5, tension: Tension::Kept };
         let law = Rheology::Newtonian(Newtonian { viscosity: 1000.0 * self.viscosity });
@@ -65,8 +63,8 @@ impl Run for Wave {
 impl Case for ShearWave {
     const NAME: &'static str = "shear-wave";
     const SUMMARY: &'static str = "a shear wave that decays";
-    type Parameters = RunList<Wave>;
-    fn metrics(_: &RunList<Wave>, records: &[(Wave, Recorded<f64>)]) -> Vec<Metric> {
+    type Flow = Wave;
+    fn metrics(records: &[(Wave, Recorded<f64>)]) -> Vec<Metric> {
         let error = |(wave, record): &(Wave, Recorded<f64>)| {
             let left = record.data / (-wave.viscosity * TAU * TAU * record.simulated_time).exp();
             Metric::observed("amplitude_error", &wave.variant(), 100.0 * (left - 1.0), "%")

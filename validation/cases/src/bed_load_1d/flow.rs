@@ -1,6 +1,6 @@
 //! The flow: water over a bed of grains in one dimension.
 
-use crate::case::{Flow, ParameterError};
+use crate::case::ParameterError;
 use crate::metric::{Value, Variant};
 use crate::reference::bed_load::{MeasuredBedLoad, critical_shields_number};
 use crate::reference::one_dimension::LayerError;
@@ -167,10 +167,9 @@ impl Default for BedLoad1dFlow {
     }
 }
 
-impl Flow for BedLoad1dFlow {
-    const RUNS: &'static str = include_str!("../../runs/bed-load-1d.toml");
-
-    fn check(&self) -> Result<(), ParameterError> {
+impl BedLoad1dFlow {
+    /// The rules between fields.
+    pub(super) fn checked(&self) -> Result<(), ParameterError> {
         if self.grain_density <= self.fluid_density {
             let (rule, remedy) = ("greater than the density of the water", "grains that float are no bed load");
             return Err(ParameterError::field("grain_density", self.grain_density, rule, remedy));
@@ -383,7 +382,7 @@ fn smooth_bed(stream: &Stream, largest_fraction: f64) -> Result<SolidFractionPro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Parameters, RunList, Tier};
+    use crate::case::{RunList, Tier};
 
     #[test]
     fn a_layer_counted_in_grains_has_its_shields_number() {
@@ -397,7 +396,7 @@ mod tests {
 
     #[test]
     fn the_list_has_the_streams_of_the_published_layers() {
-        let flows = RunList::<BedLoad1dFlow>::of_tier(Tier::Paper).runs();
+        let flows = RunList::<BedLoad1dFlow>::of_tier(Tier::Paper).flows().to_vec();
         for name in ["grain-simulation", "sheet-flow", "duct"] {
             let of = flows.iter().filter(|flow| flow.published() == Some(name));
             assert!(of.clone().any(|flow| flow.start == LayerStart::Both), "{name}");

@@ -12,7 +12,7 @@ mod run;
 pub use flow::{BedLoad1dFlow, BedMotion, GrainUnits, LayerStart, LayerStream, SimilarStream, SlopedStream};
 pub use run::BedLoadLayerObservation;
 
-use crate::case::{Case, RecordOf, Run, RunList};
+use crate::case::{Case, Flow, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -24,7 +24,7 @@ use crate::store::CodeOrigin;
 pub struct BedLoad1d;
 
 /// A run with what it left behind.
-type BedLoad1dRecord = RecordOf<RunList<BedLoad1dFlow>>;
+type BedLoad1dRecord = RecordOf<BedLoad1dFlow>;
 
 impl Case for BedLoad1d {
     const NAME: &'static str = "bed-load-1d";
@@ -42,18 +42,18 @@ impl Case for BedLoad1d {
         Observed only. Depth of the moving layer, the decay of grain velocity with depth, and sensitivities to each \
         closure (paper tier). The layer is also the reference of `bed-load`. Both share their closures, so their \
         agreement verifies the particles and does not validate the physics.";
-    type Parameters = RunList<BedLoad1dFlow>;
+    type Flow = BedLoad1dFlow;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 
-    fn metrics(_: &Self::Parameters, records: &[BedLoad1dRecord]) -> Vec<Metric> {
+    fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
         metrics::all(records).into_iter().chain(laws::metrics()).collect()
     }
 
-    fn figures(_: &Self::Parameters, records: &[BedLoad1dRecord]) -> Vec<Figure> {
+    fn figures(records: &[BedLoad1dRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &Self::Parameters, records: &[BedLoad1dRecord]) -> Vec<Table> {
+    fn tables(records: &[BedLoad1dRecord]) -> Vec<Table> {
         records.iter().filter(|(run, _)| run.is_from_rest()).map(profile_table).collect()
     }
 }

@@ -3,7 +3,7 @@
 use super::BedLoad1dRecord;
 use super::flow::{BedLoad1dFlow, LayerStart};
 use super::run::BedLoadLayerObservation;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::Variant;
 use crate::observation::Outcome;
 use crate::reference::bed_load::MeasuredBedLoad;

@@ -2,7 +2,7 @@
 
 use super::flow::{BedLoad1dFlow, BedMotion, LayerStart, LayerStream};
 use super::onset_criterion::moves_by_some_criterion;
-use crate::case::{ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::checkpoint::is_interrupted;
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::{Outcome, Recorded, state_hash};
@@ -42,7 +42,8 @@ pub struct BedLoadLayerObservation {
     pub scan_at_half_rate: Vec<(f64, f64)>,
 }
 
-impl Run for BedLoad1dFlow {
+impl Flow for BedLoad1dFlow {
+    const RUNS: &'static str = include_str!("../../runs/bed-load-1d.toml");
     type Observation = BedLoadLayerObservation;
 
     fn regime(&self, _: &BedLoadLayerObservation) -> FlowRegime {
@@ -50,6 +51,10 @@ impl Run for BedLoad1dFlow {
         let regime = FlowRegime::of_stream(stream.slope, stream.flow_depth, stream.grain_diameter);
         // at the onset many streams stand for one
         if self.seeks_onset() { FlowRegime { slope_angle: None, ..regime } } else { regime }
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.checked()
     }
 
     fn variant(&self) -> Variant {

@@ -1,14 +1,14 @@
 //! Tables of one run: profile and time series.
 
 use super::ChannelObservation;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::output::Table;
 
 /// Tables of all runs of a case of water alone.
 #[must_use]
-pub fn tables_of_runs<R: Run>(records: &[(R, Recorded<ChannelObservation>)]) -> Vec<Table> {
+pub fn tables_of_runs<R: Flow>(records: &[(R, Recorded<ChannelObservation>)]) -> Vec<Table> {
     records.iter().flat_map(|(run, record)| tables(&run.variant(), &record.data)).collect()
 }
 

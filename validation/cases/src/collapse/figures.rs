@@ -2,7 +2,7 @@
 
 use super::interior::{self, energies, stations, velocity_profile, wedge};
 use super::metrics::{convergence, measured, scaling, stress_updates};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::column::PICTURES;
 use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::metrics::{Measure, bands, laws_among};

@@ -16,7 +16,7 @@ pub use column::{Alteration, ColumnFlow, ExperimentGrains, Geometry, Material};
 pub use heap::{BIN_WIDTH, Collapse, FRONT_THICKNESS, Fronts};
 pub use slope::{SlopeCollapse, SlopeFlow};
 
-use crate::case::Run;
+use crate::case::Flow;
 use crate::observation::Recorded;
 use crate::output::Table;
 

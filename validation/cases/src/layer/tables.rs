@@ -1,14 +1,14 @@
 //! A layer's profile and series as tables.
 
 use super::{DepthProfile, LayerObservation};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::output::Table;
 
 /// Tables of all runs of a case.
 #[must_use]
-pub fn tables_of_runs<R: Run>(records: &[(R, Recorded<LayerObservation>)]) -> Vec<Table> {
+pub fn tables_of_runs<R: Flow>(records: &[(R, Recorded<LayerObservation>)]) -> Vec<Table> {
     records.iter().flat_map(|(run, record)| tables(&run.variant(), &record.data)).collect()
 }
 

@@ -4,7 +4,7 @@ use super::channel::{Channel, ChannelGrains, Motion, UpperBoundary};
 use super::exact::ExactShear;
 use super::probe::{ShearObservation, ShearProbe};
 use crate::case::recording::{SimulationStage, watch};
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::grains::GLASS_BEADS;
@@ -115,6 +115,7 @@ impl Default for NonlocalShearFlow {
 
 impl Flow for NonlocalShearFlow {
     const RUNS: &'static str = include_str!("../../runs/nonlocal-shear.toml");
+    type Observation = ShearObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         let refused = |field, value: String, rule: &str, remedy| Err(ParameterError::field(field, value, rule, remedy));
@@ -152,10 +153,6 @@ impl Flow for NonlocalShearFlow {
             }
         }
     }
-}
-
-impl Run for NonlocalShearFlow {
-    type Observation = ShearObservation;
 
     fn variant(&self) -> Variant {
         let flow = match self.drive {

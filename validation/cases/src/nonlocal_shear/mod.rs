@@ -13,7 +13,7 @@ pub use exact::ExactShear;
 pub use flow::{Drive, NonlocalShearFlow, ShearedGrains};
 pub use probe::ShearObservation;
 
-use crate::case::{Case, RecordOf, Run, RunList};
+use crate::case::{Case, Flow, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -23,7 +23,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct NonlocalShearFlows;
 
-type Record = RecordOf<RunList<NonlocalShearFlow>>;
+type Record = RecordOf<NonlocalShearFlow>;
 
 impl Case for NonlocalShearFlows {
     const NAME: &'static str = "nonlocal-shear";
@@ -39,18 +39,18 @@ impl Case for NonlocalShearFlows {
         Judged. Velocities, the e-folding length of the creeping zone, the width of the shear layer at a wall of the \
         chute, and the traction on the plate. The heap also runs under the local law, whose profile is exact.\n\n\
         Observed only. Velocities at the surface and in the plug, and the decay length deep in the bed.";
-    type Parameters = RunList<NonlocalShearFlow>;
+    type Flow = NonlocalShearFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<NonlocalShearFlow>, records: &[Record]) -> Vec<Metric> {
+    fn metrics(records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<NonlocalShearFlow>, records: &[Record]) -> Vec<Figure> {
+    fn figures(records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &RunList<NonlocalShearFlow>, records: &[Record]) -> Vec<Table> {
+    fn tables(records: &[Record]) -> Vec<Table> {
         records.iter().map(rows).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The flow: grains that settle in a periodic box of fluid, whose particles are as large as they are.
 
 use super::probe::{Probe, SettlingObservation};
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::settling::{GrainForm, SettlingGrains};
@@ -87,6 +87,7 @@ impl Default for SettlingFlow {
 
 impl Flow for SettlingFlow {
     const RUNS: &'static str = include_str!("../../runs/settling.toml");
+    type Observation = SettlingObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         let SettlingGrains { grain_density, fluid_density, .. } = self.grains;
@@ -112,10 +113,6 @@ impl Flow for SettlingFlow {
         };
         Err(ParameterError::field("law", self.law.name(), rule, remedy))
     }
-}
-
-impl Run for SettlingFlow {
-    type Observation = SettlingObservation;
 
     fn variant(&self) -> Variant {
         let variant = Variant::of("formulation", self.formulation()).and("law", self.law.name());

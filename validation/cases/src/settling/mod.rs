@@ -10,7 +10,7 @@ mod scene;
 pub use flow::SettlingFlow;
 pub use probe::{SettlingObservation, SettlingSeries};
 
-use crate::case::{Case, RecordOf, Run, RunList};
+use crate::case::{Case, Flow, RecordOf};
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
@@ -20,7 +20,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct Settling;
 
-type SettlingRecord = RecordOf<RunList<SettlingFlow>>;
+type SettlingRecord = RecordOf<SettlingFlow>;
 
 impl Case for Settling {
     const NAME: &'static str = "settling";
@@ -41,18 +41,18 @@ impl Case for Settling {
         Observed only. Hindered settling beside Richardson & Zaki. Slip of the means and root-mean-square slip of \
         pair drag. The scatter of grain velocities: two phases with one pressure are ill-posed at short waves, and \
         the drag kernel (two or three spacings wide) suppresses this for the duration of the run only.";
-    type Parameters = RunList<SettlingFlow>;
+    type Flow = SettlingFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<SettlingFlow>, records: &[SettlingRecord]) -> Vec<Metric> {
+    fn metrics(records: &[SettlingRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<SettlingFlow>, records: &[SettlingRecord]) -> Vec<Figure> {
+    fn figures(records: &[SettlingRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &RunList<SettlingFlow>, records: &[SettlingRecord]) -> Vec<Table> {
+    fn tables(records: &[SettlingRecord]) -> Vec<Table> {
         records.iter().map(|(run, record)| record.data.series.table(&run.variant())).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The case's figures.
 
 use super::Record;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::water::{HEIGHT_READING, OTHER_WATER_FRONTS, WATER_FRONT, WATER_HEIGHTS, spread_of_water_fronts};
 use crate::shared::distinct;

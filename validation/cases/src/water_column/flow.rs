@@ -1,7 +1,7 @@
 //! The flow: a column of water that collapses on a bed.
 
 use crate::case::recording::{self, ObservedRun, SimulationStage};
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::{EnergyBook, Recorded};
 use crate::reference::water::{GATED_WATER_FRONT, MeasuredFront, WATER_FRONT};
@@ -112,28 +112,12 @@ impl Default for WaterColumnFlow {
 
 impl Flow for WaterColumnFlow {
     const RUNS: &'static str = include_str!("../../runs/water-column.toml");
+    type Observation = ColumnObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         rules::viscous_step("numerics", &self.numerics, &self.rheology())?;
         if self.surface == Surface::Smooth { rules::gate("numerics", &self.numerics) } else { Ok(()) }
     }
-}
-
-/// What a run leaves behind; every array has the shape `[samples]`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct ColumnObservation {
-    /// Times over √(a/(2g)) `[-]`.
-    pub time: Vec<f64>,
-    /// Places of the front over a `[-]`.
-    pub front: Vec<f64>,
-    /// Heights at the symmetry plane over that of the column at first `[-]`; none where another code gives only a front.
-    pub height: Vec<f64>,
-    /// The energy ledger.
-    pub energy: EnergyBook,
-}
-
-impl Run for WaterColumnFlow {
-    type Observation = ColumnObservation;
 
     fn regime(&self, _: &ColumnObservation) -> FlowRegime {
         FlowRegime { aspect_ratio: Some(self.aspect_ratio), slope_angle: Some(0.0), ..FlowRegime::default() }
@@ -177,6 +161,19 @@ impl Run for WaterColumnFlow {
         let ObservedRun { simulation, ending, kept } = watched;
         Ok(ending.record(&simulation, |_| kept))
     }
+}
+
+/// What a run leaves behind; every array has the shape `[samples]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ColumnObservation {
+    /// Times over √(a/(2g)) `[-]`.
+    pub time: Vec<f64>,
+    /// Places of the front over a `[-]`.
+    pub front: Vec<f64>,
+    /// Heights at the symmetry plane over that of the column at first `[-]`; none where another code gives only a front.
+    pub height: Vec<f64>,
+    /// The energy ledger.
+    pub energy: EnergyBook,
 }
 
 impl WaterColumnFlow {

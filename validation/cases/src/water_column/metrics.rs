@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::flow::{ColumnObservation, WaterColumnFlow};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Limit, Metric, Origin, quantities};
 use crate::reference::water::{HEIGHT_READING, MeasuredFront, MeasuredHeights, WATER_HEIGHTS, spread_of_water_fronts};
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};

@@ -7,7 +7,7 @@ mod metrics;
 
 pub use flow::{ColumnObservation, Release, WaterColumnFlow};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -18,7 +18,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct WaterColumn;
 
-type Record = RecordOf<RunList<WaterColumnFlow>>;
+type Record = RecordOf<WaterColumnFlow>;
 
 impl Case for WaterColumn {
     const NAME: &'static str = "water-column";
@@ -34,15 +34,15 @@ impl Case for WaterColumn {
         Lobovský et al. (2014). The height at the wall against Martin & Moyce (1952).\n\n\
         Observed only. The front beside that of Martin & Moyce, which starts later. With kernel-corrected forces the \
         same column gains 1.4 % of the work of gravity.";
-    type Parameters = RunList<WaterColumnFlow>;
+    type Flow = WaterColumnFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
 
-    fn metrics(_: &RunList<WaterColumnFlow>, records: &[Record]) -> Vec<Metric> {
+    fn metrics(records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<WaterColumnFlow>, records: &[Record]) -> Vec<Figure> {
+    fn figures(records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -53,9 +53,9 @@ impl Case for WaterColumn {
         foreign::observe(run, given)
     }
 
-    fn tables(_: &RunList<WaterColumnFlow>, records: &[Record]) -> Vec<Table> {
+    fn tables(records: &[Record]) -> Vec<Table> {
         let of_run = |(run, record): &Record| {
-            let name = format!("front-{}", crate::case::Run::variant(run).file_name());
+            let name = format!("front-{}", crate::case::Flow::variant(run).file_name());
             Table::of_columns(name, &[("t √(2g/a) [-]", &record.data.time[..]), ("x/a [-]", &record.data.front[..])])
         };
         records.iter().map(of_run).collect()

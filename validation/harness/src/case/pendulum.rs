@@ -1,6 +1,6 @@
 //! A case for the harness' and the program's own tests: a damped pendulum, cheap and with an exact solution.
 
-use crate::case::{Case, Flow, ParameterError, Progress, RecordOf, Registry, Run, RunCost, RunList};
+use crate::case::{Case, Flow, ParameterError, Progress, RecordOf, Registry, RunCost};
 use crate::metric::{Confidence, Limit, Metric, Variant};
 use crate::observation::{Frame, Outcome, Recorded};
 use crate::output::Table;
@@ -39,9 +39,6 @@ impl Default for Swing {
 
 impl Flow for Swing {
     const RUNS: &'static str = "[[vary]]\npath = \"steps\"\nvalues = [20, 40]\npaper = [20, 400]";
-}
-
-impl Run for Swing {
     type Observation = Vec<f64>;
 
     fn variant(&self) -> Variant {
@@ -87,9 +84,9 @@ impl Case for Pendulum {
     const NAME: &'static str = "pendulum";
     const SUMMARY: &'static str = "damped pendulum for tests";
     const DESCRIPTION: &'static str = "An overdamped pendulum against its exponential decay.";
-    type Parameters = RunList<Swing>;
+    type Flow = Swing;
 
-    fn metrics(_: &RunList<Swing>, records: &[RecordOf<RunList<Swing>>]) -> Vec<Metric> {
+    fn metrics(records: &[RecordOf<Swing>]) -> Vec<Metric> {
         records
             .iter()
             .map(|(run, record)| {
@@ -101,7 +98,7 @@ impl Case for Pendulum {
             })
             .collect()
     }
-    fn tables(__: &RunList<Swing>, records: &[RecordOf<RunList<Swing>>]) -> Vec<Table> {
+    fn tables(records: &[RecordOf<Swing>]) -> Vec<Table> {
         let rows = records.iter().flat_map(|(_, record)| &record.data).map(|&angle| vec![angle]).collect();
         vec![Table { name: "angle".to_owned(), columns: vec!["angle [rad]".to_owned()], rows }]
     }

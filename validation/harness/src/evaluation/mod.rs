@@ -124,8 +124,7 @@ pub fn evaluate(
             error @ (ParameterError::Field(_)
             | ParameterError::Scene(_)
             | ParameterError::Follows { .. }
-            | ParameterError::Changed { .. }
-            | ParameterError::NothingToRun { .. }),
+            | ParameterError::Changed { .. }),
         )) => Ok(EvaluationRecord::failed(&key, &case, &error.to_string())),
         Ok(Err(error)) => Err(error),
         Err(_) => Ok(EvaluationRecord::failed(

@@ -6,7 +6,6 @@ use super::measured::MeasuredSeries;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, vector};
 use super::sides::SceneSides;
 use super::{BodyPreparation, Measurand, shapes};
-use crate::case::{Flow, ParameterError};
 use crate::figure::{Figure, Panel};
 use crate::metric::Variant;
 use crate::observation::Frame;
@@ -18,7 +17,6 @@ use bagnold_solver::parameter::{at_least, between, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
-use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::walls::SideWalls;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -208,22 +206,6 @@ impl<S: Dimension<D>, const D: usize> Default for SceneFlow<S, D> {
             // a liquid comes to rest, grains keep the operator that they are verified with
             numerics: Numerics { momentum_operator: MomentumOperator::ByLaw, ..Numerics::default() },
         }
-    }
-}
-
-impl<S: Dimension<D>, const D: usize> Flow for SceneFlow<S, D>
-where
-    Simulation<D>: Compiled<D>,
-{
-    const RUNS: &'static str = S::RUNS;
-    const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
-
-    fn check(&self) -> Result<(), ParameterError> {
-        self.checked()
-    }
-
-    fn doubts(&self) -> Vec<String> {
-        self.doubtful_units()
     }
 }
 

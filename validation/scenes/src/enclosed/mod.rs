@@ -44,7 +44,7 @@ pub use settling::BodyPreparation;
 pub use sides::DomainSide;
 
 #[cfg(test)]
-use crate::case::{Parameters as _, RunList, Tier};
+use crate::case::{RunList, Tier};
 use crate::observation::Recorded;
 #[cfg(test)]
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};

@@ -9,7 +9,7 @@ use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
 use super::{BodyPreparation, SceneFlow, SceneObservation, shapes};
 use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, StartState};
-use crate::case::{ParameterError, Progress, Run, cost};
+use crate::case::{Flow, ParameterError, Progress, RunCost, cost};
 use crate::checkpoint::Checkpoints;
 use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
@@ -89,37 +89,41 @@ impl Pictures {
     }
 }
 
-impl<S: Dimension<D>, const D: usize> Run for SceneFlow<S, D>
+impl<S: Dimension<D>, const D: usize> Flow for SceneFlow<S, D>
 where
     Simulation<D>: Compiled<D>,
 {
+    const RUNS: &'static str = S::RUNS;
+    const STATED: &'static [&'static str] = &["bodies", "walls", "inlets", "gauges", "measured"];
     type Observation = SceneObservation<D>;
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.checked()
+    }
+
+    fn doubts(&self) -> Vec<String> {
+        self.doubtful_units()
+    }
 
     fn variant(&self) -> Variant {
         self.named()
     }
 
-    fn particles(&self) -> f64 {
-        self.flow_particles(Moment::End) + self.wall_particles()
-    }
-
-    fn particle_steps(&self) -> f64 {
-        let running = self.flow_particles(Moment::Mean) * self.duration;
-        (running + self.flow_particles(Moment::Start) * self.settling_time()) / self.step_bounds().step()
-    }
-
-    fn seconds_per_particle_step(&self) -> f64 {
-        let flow = self.flow_particles(Moment::Mean).max(1.0);
-        let all_per_flow = (flow + self.wall_particles()) / flow;
+    fn cost(&self) -> RunCost {
+        let mean = self.flow_particles(Moment::Mean);
+        let settling = self.flow_particles(Moment::Start) * self.settling_time();
+        let all_per_flow = (mean.max(1.0) + self.wall_particles()) / mean.max(1.0);
         let step = match self.numerics.viscous_step {
             ViscousStep::Explicit => 1.0,
             ViscousStep::Implicit => cost::IMPLICIT_STEP,
         };
-        S::COST * cost::WEAKLY_COMPRESSIBLE * step * all_per_flow
-    }
-
-    fn preparation_seconds(&self) -> f64 {
-        cost::TRIANGLE * self.walls.iter().map(SceneWall::triangle_count).sum::<usize>() as f64
+        RunCost {
+            particle_steps: (mean * self.duration + settling) / self.step_bounds().step(),
+            seconds_per_particle_step: S::COST * cost::WEAKLY_COMPRESSIBLE * step * all_per_flow,
+            preparation_seconds: cost::TRIANGLE
+                * self.walls.iter().map(SceneWall::triangle_count).sum::<usize>() as f64,
+            ..RunCost::weakly_compressible(self.flow_particles(Moment::End) + self.wall_particles(), 0.0)
+        }
     }
 
     fn brief(&self) -> Option<String> {

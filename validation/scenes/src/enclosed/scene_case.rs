@@ -28,15 +28,15 @@ where
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = S::SUMMARY;
     const DESCRIPTION: &'static str = S::DESCRIPTION;
-    type Parameters = RunList<SceneFlow<S, D>>;
+    type Flow = SceneFlow<S, D>;
     const QUANTITIES: &'static [Quantity] = &metrics::quantities_of::<S, D>();
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
 
-    fn metrics(_: &RunList<SceneFlow<S, D>>, records: &[SceneRecord<S, D>]) -> Vec<Metric> {
+    fn metrics(records: &[SceneRecord<S, D>]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<SceneFlow<S, D>>, records: &[SceneRecord<S, D>]) -> Vec<Figure> {
+    fn figures(records: &[SceneRecord<S, D>]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -51,7 +51,7 @@ where
         foreign::observe(flow, given)
     }
 
-    fn tables(_: &RunList<SceneFlow<S, D>>, records: &[SceneRecord<S, D>]) -> Vec<Table> {
+    fn tables(records: &[SceneRecord<S, D>]) -> Vec<Table> {
         series::tables(records)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::flow::BedLoad1dFlow;
 use super::super::quantities::{LAYER_SLOPE_RATIO, VELOCITY_DEFICIT};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Confidence, Limit, Metric};
 use crate::reference::one_dimension::bed_load::LayerState;
 

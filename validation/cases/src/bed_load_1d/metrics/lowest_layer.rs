@@ -6,7 +6,7 @@ use super::super::quantities::{
     LOWEST_LAYER_EXPONENT, POWER_LAW_MISFIT, POWER_LAW_MISFIT_RATIO, ROWS_IN_MOTION, TRANSPORT_OVER_MEASURED,
 };
 use super::super::records::lowest_layer;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Confidence, Limit, Metric, Origin};
 use crate::reference::bed_load::{MeasuredRates, SHEET_FLOW_LOWEST_VELOCITY, TransportFormula, measured_rates_about};
 use crate::reference::one_dimension::bed_load::LayerState;

@@ -8,7 +8,7 @@ use super::super::quantities::{
 };
 use super::super::records::{measured_layers, of, second_variant};
 use super::suspension;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity};
 use crate::reference::bed_load::{MEASURED_BAND, MeasuredBedLoad};
 use crate::reference::one_dimension::bed_load::LayerState;

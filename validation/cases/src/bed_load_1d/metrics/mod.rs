@@ -18,7 +18,7 @@ use super::quantities::{
     START_DIFFERENCE, STRESS_BALANCE_ERROR, TOP_OF_GRAINS, TRANSPORT_RATIO,
 };
 use super::records::{SolvedLayer, of, on_slope, second_variant};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::reference::one_dimension::bed_load::{LayerState, SAME_STATE};

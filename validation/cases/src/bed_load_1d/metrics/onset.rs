@@ -14,7 +14,7 @@ use super::super::quantities::ONSET_OVER_MEASURED;
 use super::super::records::scans;
 use super::super::run::BedLoadLayerObservation;
 use super::one_state;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Limit, Metric, Origin};
 use crate::reference::bed_load::MOTION_THRESHOLDS;
 

@@ -4,7 +4,7 @@ use super::super::BedLoad1dRecord;
 use super::super::flow::BedLoad1dFlow;
 use super::super::quantities::{START_DIFFERENCE, TRANSPORT_SENSITIVITY};
 use super::super::records::{InputSpread, of, on_slope, second_variant};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::Metric;
 use crate::observation::Outcome;
 use crate::reference::bed_load::TransportFormula;

@@ -4,7 +4,7 @@ use super::super::BedLoad1dRecord;
 use super::super::flow::{BedLoad1dFlow, BedMotion, LayerStart};
 use super::super::quantities::{DUCT_VELOCITY_DIFFERENCE, SETTLING_RATIO, SUSPENDED_TRANSPORT};
 use super::super::records::{InputSpread, of, on_slope};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Metric, Origin};
 use crate::reference::bed_load::SHEET_FLOW_LOWEST_VELOCITY;
 use crate::reference::one_dimension::bed_load::LayerState;

@@ -1,6 +1,6 @@
 //! The flow: water over a bed that moves.
 
-use crate::case::{Flow, ParameterError};
+use crate::case::ParameterError;
 use crate::channel::TurbulenceClosure;
 use crate::reference::bed_load::TransportFormula;
 use crate::reference::one_dimension::bed_load::{Closures, MixingLengthClosure, Stream};
@@ -238,10 +238,9 @@ impl Default for BedLoadFlow {
     }
 }
 
-impl Flow for BedLoadFlow {
-    const RUNS: &'static str = include_str!("../../../runs/bed-load.toml");
-
-    fn check(&self) -> Result<(), ParameterError> {
+impl BedLoadFlow {
+    /// The rules between fields.
+    pub(super) fn checked(&self) -> Result<(), ParameterError> {
         let remedy = "grains that float are no bed load";
         rules::between("grain_density", self.grain_density, 1.01 * self.fluid_density, 1e5, remedy)?;
         let remedy = "the window lies within the run";
@@ -392,11 +391,11 @@ fn whole(field: &str, length: f64, part: f64, of: &str) -> Result<(), ParameterE
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Parameters, RunList, Tier};
+    use crate::case::{RunList, Tier};
 
     #[test]
     fn the_set_up_has_the_numbers_that_the_paper_prints() {
-        let runs = RunList::<BedLoadFlow>::of_tier(Tier::Paper).runs();
+        let runs = RunList::<BedLoadFlow>::of_tier(Tier::Paper).flows().to_vec();
         let of = |formulation| runs.iter().find(|run| run.formulation == formulation).expect("a run");
         for run in [of(BedLoadFormulation::Paper), of(BedLoadFormulation::Stabilised)] {
             let grains = &run.particles;

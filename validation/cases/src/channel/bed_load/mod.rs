@@ -14,7 +14,7 @@ mod scenes;
 pub use flow::{BedLoadFlow, BedLoadFormulation, Continuum, GrainParticles};
 pub use observation::BedLoadObservation;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, Flow, RecordOf};
 use crate::channel;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -26,7 +26,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct BedLoad;
 
-type BedLoadRecord = RecordOf<RunList<BedLoadFlow>>;
+type BedLoadRecord = RecordOf<BedLoadFlow>;
 
 impl Case for BedLoad {
     const NAME: &'static str = "bed-load";
@@ -44,14 +44,14 @@ impl Case for BedLoad {
         Observed only. All metrics of `paper`, which fails in documented ways. Transport and profiles of runs that \
         still depend on their start.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
-    type Parameters = RunList<BedLoadFlow>;
+    type Flow = BedLoadFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &Self::Parameters, records: &[BedLoadRecord]) -> Vec<Metric> {
+    fn metrics(records: &[BedLoadRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &Self::Parameters, records: &[BedLoadRecord]) -> Vec<Figure> {
+    fn figures(records: &[BedLoadRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -62,7 +62,7 @@ impl Case for BedLoad {
         foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &Self::Parameters, records: &[BedLoadRecord]) -> Vec<Table> {
+    fn tables(records: &[BedLoadRecord]) -> Vec<Table> {
         let of_run = |(run, record): &BedLoadRecord| {
             let variant = run.variant();
             let mut tables = channel::tables(&variant, &record.data.channel);

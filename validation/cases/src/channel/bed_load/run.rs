@@ -2,7 +2,7 @@
 
 use super::flow::{BedLoadFlow, BedLoadFormulation};
 use super::observation::{BedLoadObservation, BedLoadObserver};
-use crate::case::{ParameterError, Progress, Run, RunCost, cost};
+use crate::case::{Flow, ParameterError, Progress, RunCost, cost};
 use crate::channel::Channel;
 use crate::metric::{FlowRegime, Variant};
 use crate::observation::Recorded;
@@ -23,8 +23,13 @@ pub(super) fn pair_law_name(law: PairLaw) -> &'static str {
     }
 }
 
-impl Run for BedLoadFlow {
+impl Flow for BedLoadFlow {
+    const RUNS: &'static str = include_str!("../../../runs/bed-load.toml");
     type Observation = BedLoadObservation;
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.checked()
+    }
 
     fn regime(&self, _: &BedLoadObservation) -> FlowRegime {
         FlowRegime::of_stream(self.slope, self.depth, self.grain_diameter)

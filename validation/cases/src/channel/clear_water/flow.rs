@@ -1,6 +1,6 @@
 //! The flow: clear water over a rough bed.
 
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, TurbulenceClosure, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -88,6 +88,7 @@ impl Default for ClearWaterFlow {
 
 impl Flow for ClearWaterFlow {
     const RUNS: &'static str = include_str!("../../../runs/clear-water.toml");
+    type Observation = ChannelObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         let Self { water, origin_offset, sand_roughness, period, .. } = *self;
@@ -107,10 +108,6 @@ impl Flow for ClearWaterFlow {
         }
         water.check()
     }
-}
-
-impl Run for ClearWaterFlow {
-    type Observation = ChannelObservation;
 
     fn variant(&self) -> Variant {
         Variant::of("slope", self.slope).and("resolution", self.water.resolution)

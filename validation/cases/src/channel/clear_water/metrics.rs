@@ -2,7 +2,7 @@
 
 use super::ClearWaterRecord;
 use super::flow::Period;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::channel::{self, ProfilePoint};
 use crate::metric::{Confidence, Limit, Metric, Origin, quantities};
 use crate::reference::water::RoughChannel;

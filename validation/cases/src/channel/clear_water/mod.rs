@@ -7,7 +7,7 @@ mod metrics;
 
 pub use flow::{ClearWaterFlow, Period};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::channel;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -19,7 +19,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct ClearWater;
 
-type ClearWaterRecord = RecordOf<RunList<ClearWaterFlow>>;
+type ClearWaterRecord = RecordOf<ClearWaterFlow>;
 
 impl Case for ClearWater {
     const NAME: &'static str = "clear-water";
@@ -36,14 +36,14 @@ impl Case for ClearWater {
         Observed only. Pressure, depth and the drift of the depth-averaged velocity. Velocities of a run that starts \
         apart from the law and does not become stationary.";
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
-    type Parameters = RunList<ClearWaterFlow>;
+    type Flow = ClearWaterFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<ClearWaterFlow>, records: &[ClearWaterRecord]) -> Vec<Metric> {
+    fn metrics(records: &[ClearWaterRecord]) -> Vec<Metric> {
         records.iter().flat_map(metrics::of_run).chain(laws::metrics()).collect()
     }
 
-    fn figures(_: &RunList<ClearWaterFlow>, records: &[ClearWaterRecord]) -> Vec<Figure> {
+    fn figures(records: &[ClearWaterRecord]) -> Vec<Figure> {
         vec![figures::profiles(records), figures::over_time(records)]
     }
 
@@ -54,7 +54,7 @@ impl Case for ClearWater {
         channel::foreign::observe(given).map(Some)
     }
 
-    fn tables(_: &RunList<ClearWaterFlow>, records: &[ClearWaterRecord]) -> Vec<Table> {
+    fn tables(records: &[ClearWaterRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

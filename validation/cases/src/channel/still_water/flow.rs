@@ -1,6 +1,6 @@
 //! The flow: a column of water at rest.
 
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -36,16 +36,13 @@ impl Default for StillWaterFlow {
 
 impl Flow for StillWaterFlow {
     const RUNS: &'static str = include_str!("../../../runs/still-water.toml");
+    type Observation = ChannelObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         let longest = 0.5 * self.duration;
         rules::between("averaging_time", self.averaging_time, 0.01, longest, "the window lies in the second half")?;
         self.water.check()
     }
-}
-
-impl Run for StillWaterFlow {
-    type Observation = ChannelObservation;
 
     fn variant(&self) -> Variant {
         Variant::of("jitter", self.jitter)

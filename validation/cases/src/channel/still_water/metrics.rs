@@ -1,7 +1,7 @@
 //! How the runs are judged.
 
 use super::StillWaterRecord;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::channel;
 use crate::metric::{Confidence, Limit, Metric, quantities};
 

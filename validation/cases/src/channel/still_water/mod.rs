@@ -6,7 +6,7 @@ mod metrics;
 
 pub use flow::StillWaterFlow;
 
-use crate::case::{Case, RecordOf, RunList};
+use crate::case::{Case, RecordOf};
 use crate::channel;
 use crate::figure::Figure;
 use crate::metric::{Metric, Quantity};
@@ -17,7 +17,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct StillWater;
 
-type StillWaterRecord = RecordOf<RunList<StillWaterFlow>>;
+type StillWaterRecord = RecordOf<StillWaterFlow>;
 
 impl Case for StillWater {
     const NAME: &'static str = "still-water";
@@ -32,18 +32,18 @@ impl Case for StillWater {
         enough to come to rest (paper tier). The run without stabilisation must diverge, which shows that the test \
         can fail.\n\n\
         Observed only. Vertical velocity of shorter runs, and iterations of the solvers.";
-    type Parameters = RunList<StillWaterFlow>;
+    type Flow = StillWaterFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<StillWaterFlow>, records: &[StillWaterRecord]) -> Vec<Metric> {
+    fn metrics(records: &[StillWaterRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<StillWaterFlow>, records: &[StillWaterRecord]) -> Vec<Figure> {
+    fn figures(records: &[StillWaterRecord]) -> Vec<Figure> {
         [figures::pressure(records), figures::rest(records)].into_iter().chain(figures::states(records)).collect()
     }
 
-    fn tables(_: &RunList<StillWaterFlow>, records: &[StillWaterRecord]) -> Vec<Table> {
+    fn tables(records: &[StillWaterRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

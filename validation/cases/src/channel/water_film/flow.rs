@@ -1,6 +1,6 @@
 //! The flow: a laminar film on a slope.
 
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::channel::{AveragingWindowEnd, Channel, ChannelObservation, Water};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -54,16 +54,13 @@ impl Default for WaterFilmFlow {
 
 impl Flow for WaterFilmFlow {
     const RUNS: &'static str = include_str!("../../../runs/water-film.toml");
+    type Observation = ChannelObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         let longest = 0.5 * self.relaxation_times;
         rules::between("averaging_times", self.averaging_times, 0.2, longest, "the window lies in the second half")?;
         self.water.check()
     }
-}
-
-impl Run for WaterFilmFlow {
-    type Observation = ChannelObservation;
 
     fn variant(&self) -> Variant {
         Variant::of("particles", self.arrangement.name()).and("resolution", self.water.resolution)

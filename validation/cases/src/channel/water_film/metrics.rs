@@ -2,7 +2,7 @@
 
 use super::WaterFilmRecord;
 use super::flow::WaterFilmFlow;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::channel::{self, ChannelObservation, ProfilePoint, Water};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::shared::Arrangement;

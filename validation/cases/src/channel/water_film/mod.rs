@@ -6,7 +6,7 @@ mod metrics;
 
 pub use flow::WaterFilmFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::channel;
 use crate::figure::Figure;
 use crate::input::FieldError;
@@ -18,7 +18,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct WaterFilm;
 
-type WaterFilmRecord = RecordOf<RunList<WaterFilmFlow>>;
+type WaterFilmRecord = RecordOf<WaterFilmFlow>;
 
 impl Case for WaterFilm {
     const NAME: &'static str = "water-film";
@@ -35,14 +35,14 @@ impl Case for WaterFilm {
         Observed only. Bed friction, change of depth, and the profile against the film of the depth that the \
         particles take.";
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
-    type Parameters = RunList<WaterFilmFlow>;
+    type Flow = WaterFilmFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<WaterFilmFlow>, records: &[WaterFilmRecord]) -> Vec<Metric> {
+    fn metrics(records: &[WaterFilmRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<WaterFilmFlow>, records: &[WaterFilmRecord]) -> Vec<Figure> {
+    fn figures(records: &[WaterFilmRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -53,7 +53,7 @@ impl Case for WaterFilm {
         channel::foreign::observe(given).map(Some)
     }
 
-    fn tables(_: &RunList<WaterFilmFlow>, records: &[WaterFilmRecord]) -> Vec<Table> {
+    fn tables(records: &[WaterFilmRecord]) -> Vec<Table> {
         channel::tables_of_runs(records)
     }
 }

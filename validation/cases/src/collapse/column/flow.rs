@@ -2,7 +2,7 @@
 
 use super::material::{Alteration, ExperimentGrains, Material};
 use crate::case::recording::{self, Ending, ObservedRun, SimulationStage};
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost, RunScales, cost};
+use crate::case::{Flow, ParameterError, Progress, RunCost, RunScales, cost};
 use crate::collapse::heap::{AT_REST, CollapseObserver, GrainBlock, STIFFNESS, Surveyor, radius};
 use crate::collapse::{Collapse, CollapseRecord};
 use crate::metric::{FlowRegime, Variant};
@@ -124,6 +124,7 @@ impl<const D: usize> Flow for ColumnFlow<D> {
     } else {
         include_str!("../../../runs/column-round.toml")
     };
+    type Observation = Collapse;
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.altered != Alteration::Nothing {
@@ -144,10 +145,6 @@ impl<const D: usize> Flow for ColumnFlow<D> {
         );
         Err(ParameterError::field("resolution", self.resolution, &rule, &remedy))
     }
-}
-
-impl<const D: usize> Run for ColumnFlow<D> {
-    type Observation = Collapse;
 
     fn variant(&self) -> Variant {
         let numerics = &self.numerics;
@@ -481,7 +478,7 @@ impl<const D: usize> ColumnFlow<D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Parameters, RunList, Tier};
+    use crate::case::{RunList, Tier};
 
     const TIERS: [Tier; 3] = [Tier::Quick, Tier::Paper, Tier::Fine];
 

@@ -236,7 +236,7 @@ const ORIGIN: &str = "check the unit and the origin: it lies on the bed in the s
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{NamedColumns, Run};
+    use crate::case::{Flow, NamedColumns};
 
     /// A column higher than half of it is wide.
     fn run() -> ColumnFlow<2> {

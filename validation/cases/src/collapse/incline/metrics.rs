@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::inside::Inside;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::heap::with_resolution;
 use crate::collapse::interior::{Station, linear_misfit_ratio};
 use crate::collapse::metrics::other_codes::Beside;

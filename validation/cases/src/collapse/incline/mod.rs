@@ -5,7 +5,7 @@ mod inside;
 mod metrics;
 mod passage;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, Run, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, Flow, RecordOf};
 use crate::collapse::{self, SlopeCollapse, SlopeFlow};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
@@ -17,7 +17,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct InclineCollapse;
 
-type Record = RecordOf<RunList<SlopeFlow>>;
+type Record = RecordOf<SlopeFlow>;
 
 impl Case for InclineCollapse {
     const NAME: &'static str = "incline-collapse";
@@ -37,18 +37,18 @@ impl Case for InclineCollapse {
         local μ(I) law has no deposit and the flow thins as long as the channel lasts. The fit under any other law \
         than μ(I); the wall contact friction then replaces μ_s.";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::slope::EXTERNAL_SCHEMA;
-    type Parameters = RunList<SlopeFlow>;
+    type Flow = SlopeFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Metric> {
+    fn metrics(records: &[Record]) -> Vec<Metric> {
         records.iter().flat_map(|record| [metrics::of_run(record), passage::metrics(record)].concat()).collect()
     }
 
-    fn figures(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Figure> {
+    fn figures(records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn animations(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Animation> {
+    fn animations(records: &[Record]) -> Vec<Animation> {
         figures::animations(records)
     }
 
@@ -59,7 +59,7 @@ impl Case for InclineCollapse {
         collapse::external::slope::observe(run, given).map(Some)
     }
 
-    fn tables(_: &RunList<SlopeFlow>, records: &[Record]) -> Vec<Table> {
+    fn tables(records: &[Record]) -> Vec<Table> {
         records.iter().map(table).collect()
     }
 }

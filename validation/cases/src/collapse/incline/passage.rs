@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::metrics::LARGEST_THICKNESS;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::{SlopeCollapse, SlopeFlow};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Confidence, Metric, Variant};

@@ -1,7 +1,7 @@
 //! Inside a collapse: energies, velocity over depth, and what stays in its place.
 
 use super::quantities::*;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::column::{failure_angle, pile_of, with_friction};
 use crate::collapse::interior::{decay_length, energies, linear_misfit_ratio, stations, wedge_of};
 use crate::collapse::{CollapseRecord, ColumnFlow, ExperimentGrains};

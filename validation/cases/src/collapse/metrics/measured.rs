@@ -3,7 +3,7 @@
 use super::bands::band;
 use super::quantities::*;
 use super::uncertainty::Known;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::column::{pile_of, with_friction};
 use crate::collapse::interior::wedge_of;
 use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, FRONT_THICKNESS, Geometry};

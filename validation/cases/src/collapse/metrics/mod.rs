@@ -12,7 +12,7 @@ mod statements;
 pub(crate) mod stress_updates;
 mod uncertainty;
 
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::column::pile_of;
 use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, Geometry, Material};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};

@@ -4,7 +4,7 @@
 use super::bands;
 use super::quantities::*;
 use super::{Measure, RESULTS};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::{Collapse, CollapseRecord};
 use crate::metric::{Confidence, Metric, Variant};
 use crate::observation::Frame;

@@ -2,7 +2,7 @@
 //! flow like a plug at the foot.
 
 use super::quantities::*;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::interior::Station;
 use crate::collapse::{BIN_WIDTH, Collapse, ColumnFlow, Geometry, Material};
 use crate::metric::{Confidence, Metric};

@@ -2,7 +2,7 @@
 
 use super::Measure;
 use super::quantities::*;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::collapse::{Collapse, CollapseRecord};
 use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::metric::{Metric, Variant};

@@ -1,6 +1,6 @@
 //! Planar granular columns that collapse and spread on a rough horizontal bed.
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::collapse::{self, Collapse, ColumnFlow};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
@@ -14,7 +14,7 @@ pub struct ColumnPlanar;
 
 /// A planar column.
 pub type PlanarColumn = ColumnFlow<2>;
-type Record = RecordOf<RunList<PlanarColumn>>;
+type Record = RecordOf<PlanarColumn>;
 
 impl Case for ColumnPlanar {
     const NAME: &'static str = "column-planar";
@@ -34,18 +34,18 @@ impl Case for ColumnPlanar {
         Observed only. The undisturbed core, the failure surface and the profile of the flowing layer. The published \
         laws under any other law than μ(I): their coefficients depend on the material, their exponents much less.";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::column::EXTERNAL_SCHEMA;
-    type Parameters = RunList<PlanarColumn>;
+    type Flow = PlanarColumn;
     const QUANTITIES: &'static [Quantity] = collapse::metrics::quantities::QUANTITIES;
 
-    fn metrics(_: &RunList<PlanarColumn>, records: &[Record]) -> Vec<Metric> {
+    fn metrics(records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)
     }
 
-    fn figures(_: &RunList<PlanarColumn>, records: &[Record]) -> Vec<Figure> {
+    fn figures(records: &[Record]) -> Vec<Figure> {
         collapse::figures::all(records)
     }
 
-    fn animations(_: &RunList<PlanarColumn>, records: &[Record]) -> Vec<Animation> {
+    fn animations(records: &[Record]) -> Vec<Animation> {
         collapse::figures::animations(records)
     }
 
@@ -56,7 +56,7 @@ impl Case for ColumnPlanar {
         collapse::external::column::observe(run, given).map(Some)
     }
 
-    fn tables(_: &RunList<PlanarColumn>, records: &[Record]) -> Vec<Table> {
+    fn tables(records: &[Record]) -> Vec<Table> {
         records.iter().flat_map(collapse::tables).collect()
     }
 }

@@ -1,6 +1,6 @@
 //! Round granular columns, the experiment of Lube et al. (2004), in three dimensions.
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::collapse::{self, Collapse, ColumnFlow};
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
@@ -14,7 +14,7 @@ pub struct ColumnRound;
 
 /// A round column.
 pub type RoundColumn = ColumnFlow<3>;
-type Record = RecordOf<RunList<RoundColumn>>;
+type Record = RecordOf<RoundColumn>;
 
 impl Case for ColumnRound {
     const NAME: &'static str = "column-round";
@@ -31,18 +31,18 @@ impl Case for ColumnRound {
         Observed only. The height law of the same source, which is unverified. The published laws under any other \
         law than μ(I).";
     const EXTERNAL_SCHEMA: ExternalSchema = collapse::external::column::EXTERNAL_SCHEMA;
-    type Parameters = RunList<RoundColumn>;
+    type Flow = RoundColumn;
     const QUANTITIES: &'static [Quantity] = collapse::metrics::quantities::QUANTITIES;
 
-    fn metrics(_: &RunList<RoundColumn>, records: &[Record]) -> Vec<Metric> {
+    fn metrics(records: &[Record]) -> Vec<Metric> {
         collapse::metrics::all(records)
     }
 
-    fn figures(_: &RunList<RoundColumn>, records: &[Record]) -> Vec<Figure> {
+    fn figures(records: &[Record]) -> Vec<Figure> {
         collapse::figures::all(records)
     }
 
-    fn animations(_: &RunList<RoundColumn>, records: &[Record]) -> Vec<Animation> {
+    fn animations(records: &[Record]) -> Vec<Animation> {
         collapse::figures::animations(records)
     }
 
@@ -53,7 +53,7 @@ impl Case for ColumnRound {
         collapse::external::column::observe(run, given).map(Some)
     }
 
-    fn tables(_: &RunList<RoundColumn>, records: &[Record]) -> Vec<Table> {
+    fn tables(records: &[Record]) -> Vec<Table> {
         records.iter().flat_map(collapse::tables).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The flow: a reservoir of grains behind a gate on an incline.
 
 use crate::case::recording::{self, Ending, ObservedRun, SimulationStage};
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost, RunScales};
+use crate::case::{Flow, ParameterError, Progress, RunCost, RunScales};
 use crate::collapse::Collapse;
 use crate::collapse::heap::{AT_REST, CollapseObserver, GrainBlock, STIFFNESS, Surveyor};
 use crate::metric::{FlowRegime, Value, Variant};
@@ -94,6 +94,7 @@ impl Default for SlopeFlow {
 
 impl Flow for SlopeFlow {
     const RUNS: &'static str = include_str!("../../../runs/incline-collapse.toml");
+    type Observation = SlopeCollapse;
 
     fn check(&self) -> Result<(), ParameterError> {
         let (least, most) = (3.0 * self.reservoir_length, 1000.0 * self.reservoir_length);
@@ -115,19 +116,6 @@ impl Flow for SlopeFlow {
         }
         rules::viscous_step("numerics", &self.numerics, &self.material)
     }
-}
-
-/// What a collapse on a slope leaves behind; lengths over the reservoir's length, times in `[s]`.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct SlopeCollapse {
-    /// Front, energies, deposit and balances.
-    pub collapse: Collapse,
-    /// Thickness over r_0 in every bin of the channel at each time of the series, shape `[times][bins]` `[-]`.
-    pub thickness: Vec<Vec<f64>>,
-}
-
-impl Run for SlopeFlow {
-    type Observation = SlopeCollapse;
 
     fn variant(&self) -> Variant {
         let gate = if self.gate_speed > 0.0 { Value::from(self.gate_speed) } else { Value::from("none") };
@@ -190,6 +178,15 @@ impl Run for SlopeFlow {
         let ending = Ending { criterion, frames, ..ending };
         Ok(ending.record(&simulation, |end| SlopeCollapse { collapse: watch.finish(end), thickness }))
     }
+}
+
+/// What a collapse on a slope leaves behind; lengths over the reservoir's length, times in `[s]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct SlopeCollapse {
+    /// Front, energies, deposit and balances.
+    pub collapse: Collapse,
+    /// Thickness over r_0 in every bin of the channel at each time of the series, shape `[times][bins]` `[-]`.
+    pub thickness: Vec<Vec<f64>>,
 }
 
 impl SlopeFlow {
@@ -292,7 +289,7 @@ impl SlopeCollapse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Parameters, RunList, Tier};
+    use crate::case::{RunList, Tier};
 
     #[test]
     fn reservoir_channel_and_gate_are_those_of_the_experiment() {

@@ -1,6 +1,6 @@
 //! The flow: a layer of dry grains on an incline.
 
-use crate::case::{ExternalData, ExternalObservation, Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{ExternalData, ExternalObservation, Flow, ParameterError, Progress, RunCost};
 use crate::input::{FieldError, check_name};
 use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
 use crate::metric::Variant;
@@ -104,6 +104,7 @@ const STEADY: f64 = 0.999;
 
 impl Flow for BagnoldFlow {
     const RUNS: &'static str = include_str!("../../../runs/bagnold.toml");
+    type Observation = LayerObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
@@ -132,10 +133,6 @@ impl Flow for BagnoldFlow {
         let remedy = "the window must fit into the run: choose a shorter one or a larger `duration_factor`";
         rules::between("averaging_time", self.averaging_time, 0.0, self.recipe(), remedy)
     }
-}
-
-impl Run for BagnoldFlow {
-    type Observation = LayerObservation;
 
     fn variant(&self) -> Variant {
         let start = match self.start {

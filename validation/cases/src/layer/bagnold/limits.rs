@@ -46,7 +46,7 @@ impl BagnoldFlow {
 #[cfg(test)]
 mod tests {
     use super::BagnoldFlow;
-    use crate::case::{Parameters, RunList, Tier};
+    use crate::case::{RunList, Tier};
 
     #[test]
     fn shipped_layers_are_within_the_limits_and_finer_grains_are_not() {

@@ -5,7 +5,7 @@ use super::errors::{
     ConvergenceStudy, SteadyErrors, convergence_studies, history_from_rest, mean_at, particle_history, transient_of,
 };
 use super::flow::{BagnoldFlow, Fate, LayerStart};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::layer::{self, LayerObservation, PeriodicLayer};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Frame;

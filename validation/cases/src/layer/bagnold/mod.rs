@@ -8,7 +8,7 @@ mod metrics;
 
 pub use flow::{BagnoldFlow, Fate, LayerStart};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::layer::{self, LayerObservation};
@@ -20,7 +20,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct Bagnold;
 
-type Record = RecordOf<RunList<BagnoldFlow>>;
+type Record = RecordOf<BagnoldFlow>;
 
 impl Case for Bagnold {
     const NAME: &'static str = "bagnold";
@@ -39,14 +39,14 @@ impl Case for Bagnold {
         Observed only. The velocity error over the measured instead of the nominal height, and the time to reach the \
         steady velocity.";
     const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
-    type Parameters = RunList<BagnoldFlow>;
+    type Flow = BagnoldFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<BagnoldFlow>, records: &[Record]) -> Vec<Metric> {
+    fn metrics(records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<BagnoldFlow>, records: &[Record]) -> Vec<Figure> {
+    fn figures(records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -57,7 +57,7 @@ impl Case for Bagnold {
         run.observe_external(given).map(Some)
     }
 
-    fn tables(_: &RunList<BagnoldFlow>, records: &[Record]) -> Vec<Table> {
+    fn tables(records: &[Record]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }

@@ -1,6 +1,6 @@
 //! The flow: a viscous film on an incline.
 
-use crate::case::{ExternalData, ExternalObservation, Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{ExternalData, ExternalObservation, Flow, ParameterError, Progress, RunCost};
 use crate::input::FieldError;
 use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, Top, bulk_modulus};
 use crate::metric::Variant;
@@ -60,6 +60,7 @@ impl Default for FilmFlow {
 
 impl Flow for FilmFlow {
     const RUNS: &'static str = include_str!("../../../runs/film.toml");
+    type Observation = LayerObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
@@ -80,10 +81,6 @@ impl Flow for FilmFlow {
         let remedy = "choose another `slope_angle`, or other parameters of the law";
         Err(ParameterError::field("material.law", format!("\"{}\"", self.material.name()), &rule, remedy))
     }
-}
-
-impl Run for FilmFlow {
-    type Observation = LayerObservation;
 
     fn variant(&self) -> Variant {
         let law = self.material.name().replace('-', "_");

@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::flow::FilmFlow;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::layer::{self, BINS, Top};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Outcome;

@@ -6,7 +6,7 @@ mod metrics;
 
 pub use flow::FilmFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::layer;
@@ -18,7 +18,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct Film;
 
-type Record = RecordOf<RunList<FilmFlow>>;
+type Record = RecordOf<FilmFlow>;
 
 impl Case for Film {
     const NAME: &'static str = "film";
@@ -34,14 +34,14 @@ impl Case for Film {
         Observed only. The Newtonian film with the operators and walls of the collapse paper. Any other law given \
         under `material`, compared with its steady film, integrated over the depth.";
     const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
-    type Parameters = RunList<FilmFlow>;
+    type Flow = FilmFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<FilmFlow>, records: &[Record]) -> Vec<Metric> {
+    fn metrics(records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<FilmFlow>, records: &[Record]) -> Vec<Figure> {
+    fn figures(records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -52,7 +52,7 @@ impl Case for Film {
         run.observe_external(given).map(Some)
     }
 
-    fn tables(_: &RunList<FilmFlow>, records: &[Record]) -> Vec<Table> {
+    fn tables(records: &[Record]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }

@@ -171,7 +171,7 @@ fn froude(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Parameters, RunList, Tier};
+    use crate::case::{RunList, Tier};
     use crate::layer::flow_thickness::SlopeTrial;
 
     #[test]

@@ -1,7 +1,7 @@
 //! The flow: a layer of dry grains that flows steadily on a slope, or whose slope of arrest is sought.
 
 use super::start_stop::{SlopeSearch, StartStop};
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::layer::{Layer, LayerObservation, PeriodicLayer, bulk_modulus};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -89,6 +89,7 @@ impl Default for FlowThicknessFlow {
 
 impl Flow for FlowThicknessFlow {
     const RUNS: &'static str = include_str!("../../../runs/flow-thickness.toml");
+    type Observation = FlowThicknessObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
@@ -118,10 +119,6 @@ impl Flow for FlowThicknessFlow {
             _ => Ok(()),
         }
     }
-}
-
-impl Run for FlowThicknessFlow {
-    type Observation = FlowThicknessObservation;
 
     fn variant(&self) -> Variant {
         let variant = Variant::of("thickness", self.layer.layer_height);

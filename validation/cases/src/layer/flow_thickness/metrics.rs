@@ -1,7 +1,7 @@
 //! How the case is judged.
 
 use super::{FlowThicknessFlow, Record, StartStop, flows, searches};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::layer::{LayerObservation, PARTICLES_LOST};
 use crate::metric::{Limit, Metric, Origin, Quantity, Variant, quantities};
 use crate::reference::grains::GLASS_BEADS_FLOW_RULE;

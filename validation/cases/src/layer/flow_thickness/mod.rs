@@ -8,7 +8,7 @@ mod start_stop;
 pub use flow::{FlowThicknessFlow, FlowThicknessObservation};
 pub use start_stop::{LayerFate, SlopeTrial, StartStop};
 
-use crate::case::{Case, RecordOf, Run, RunList};
+use crate::case::{Case, Flow, RecordOf};
 use crate::figure::Figure;
 use crate::layer::LayerObservation;
 use crate::metric::{Metric, Quantity};
@@ -19,7 +19,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct FlowThickness;
 
-type Record = RecordOf<RunList<FlowThicknessFlow>>;
+type Record = RecordOf<FlowThicknessFlow>;
 
 impl Case for FlowThickness {
     const NAME: &'static str = "flow-thickness";
@@ -33,18 +33,18 @@ impl Case for FlowThickness {
         slope. The stopping slope under the nonlocal law against the exact slope at which its first mode grows, and \
         its steady profile against a solution without particles. (ii) Mean velocity against (42), Ū/√(gh) = β \
         h/h_stop. With (41) this is an identity of the law: it verifies the solver only.";
-    type Parameters = RunList<FlowThicknessFlow>;
+    type Flow = FlowThicknessFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<FlowThicknessFlow>, records: &[Record]) -> Vec<Metric> {
+    fn metrics(records: &[Record]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<FlowThicknessFlow>, records: &[Record]) -> Vec<Figure> {
+    fn figures(records: &[Record]) -> Vec<Figure> {
         figures::all(records)
     }
 
-    fn tables(_: &RunList<FlowThicknessFlow>, records: &[Record]) -> Vec<Table> {
+    fn tables(records: &[Record]) -> Vec<Table> {
         records.iter().filter_map(trials).collect()
     }
 }

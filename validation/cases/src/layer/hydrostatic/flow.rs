@@ -1,6 +1,6 @@
 //! The flow: a layer at rest.
 
-use crate::case::{Flow, ParameterError, Progress, Run, RunCost};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
 use crate::layer::{Layer, LayerObservation, PeriodicLayer};
 use crate::metric::Variant;
 use crate::observation::Recorded;
@@ -40,6 +40,7 @@ impl Default for HydrostaticFlow {
 
 impl Flow for HydrostaticFlow {
     const RUNS: &'static str = include_str!("../../../runs/hydrostatic.toml");
+    type Observation = LayerObservation;
 
     fn check(&self) -> Result<(), ParameterError> {
         self.layer.check()?;
@@ -47,10 +48,6 @@ impl Flow for HydrostaticFlow {
         rules::viscous_step("numerics", &self.layer.numerics, &self.material)?;
         self.bulk.check(&self.material)
     }
-}
-
-impl Run for HydrostaticFlow {
-    type Observation = LayerObservation;
 
     fn variant(&self) -> Variant {
         Variant::of("material", self.material.name().replace('-', "_"))

@@ -7,7 +7,7 @@ mod metrics;
 
 pub use flow::HydrostaticFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf, RunList};
+use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::layer::{self, LayerObservation};
@@ -19,7 +19,7 @@ use crate::store::CodeOrigin;
 #[derive(Debug)]
 pub struct Hydrostatic;
 
-type HydrostaticRecord = RecordOf<RunList<HydrostaticFlow>>;
+type HydrostaticRecord = RecordOf<HydrostaticFlow>;
 
 impl Case for Hydrostatic {
     const NAME: &'static str = "hydrostatic";
@@ -33,14 +33,14 @@ impl Case for Hydrostatic {
         active and the passive state. The run without coupling must be noisy, which shows that the measure can fail.\n\n\
         Observed only. Extremes of the pressure p of grains that carry their stress; velocities at rest.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
-    type Parameters = RunList<HydrostaticFlow>;
+    type Flow = HydrostaticFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 
-    fn metrics(_: &RunList<HydrostaticFlow>, records: &[HydrostaticRecord]) -> Vec<Metric> {
+    fn metrics(records: &[HydrostaticRecord]) -> Vec<Metric> {
         metrics::all(records)
     }
 
-    fn figures(_: &RunList<HydrostaticFlow>, records: &[HydrostaticRecord]) -> Vec<Figure> {
+    fn figures(records: &[HydrostaticRecord]) -> Vec<Figure> {
         figures::all(records)
     }
 
@@ -51,7 +51,7 @@ impl Case for Hydrostatic {
         foreign::observe(run, given).map(Some)
     }
 
-    fn tables(_: &RunList<HydrostaticFlow>, records: &[HydrostaticRecord]) -> Vec<Table> {
+    fn tables(records: &[HydrostaticRecord]) -> Vec<Table> {
         layer::tables_of_runs(records)
     }
 }

@@ -6,7 +6,7 @@ use super::Record;
 use super::exact::ExactShear;
 use super::flow::{Drive, NonlocalShearFlow};
 use super::probe::ShearObservation;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Confidence, Limit, Metric, Variant, quantities};
 use crate::reference::one_dimension::ShearStress;
 use crate::setup::energy_ledger::{self, EnergyScale};

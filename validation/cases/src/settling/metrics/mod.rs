@@ -6,7 +6,7 @@ mod laws;
 use super::SettlingRecord;
 use super::flow::SettlingFlow;
 use super::probe::{SettlingObservation, SettlingSeries};
-use crate::case::Run;
+use crate::case::Flow;
 use crate::metric::{Limit, Metric, Quantity, Variant, quantities};
 use crate::reference::settling::{richardson_zaki_confidence, richardson_zaki_exponent};
 

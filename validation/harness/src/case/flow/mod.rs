@@ -3,12 +3,15 @@
 pub mod cost;
 pub mod list;
 
+use self::cost::RunCost;
 use self::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
 use crate::case::given::changes::{lay_at, lay_over, overlay, table_of, typed, unknown_law};
 use crate::case::given::fault;
-use crate::case::{ParameterError, Parameters, Run, Tier};
+use crate::case::{ParameterError, Progress, RunScales, Tier};
 use crate::input::FieldError;
-use crate::metric::{Value as VariantValue, Variant};
+use crate::metric::{FlowRegime, Value as VariantValue, Variant};
+use crate::observation::Recorded;
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, Error};
@@ -16,10 +19,13 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use toml::{Table, Value};
 
-/// One simulation with all of its parameters, each declared once: a field with its doc comment, unit and range.
+/// One simulation with all of its parameters, each declared once: a field with its doc comment, unit and range. Its serialised
+/// form is its identity in the store.
 /// `Default` is the flow that a case runs where nothing else is given. The top-level names `case`, `tier`, `vary` and
 /// `variants` are taken by the file format.
-pub trait Flow: Run + Default + PartialEq + DeserializeOwned + JsonSchema + 'static {
+pub trait Flow:
+    Default + Clone + PartialEq + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static
+{
     /// Text of `runs/CASE.toml`: the flows of each tier. Empty for the default flow alone.
     const RUNS: &'static str = "";
     /// Lists of the flow that a file states whole: one that it leaves out is empty there, and not the tier's.
@@ -36,6 +42,42 @@ pub trait Flow: Run + Default + PartialEq + DeserializeOwned + JsonSchema + 'sta
     fn doubts(&self) -> Vec<String> {
         Vec::new()
     }
+
+    /// Observation that the run produces: plain data, stored and shared by tests and report. Stored as postcard, which
+    /// needs serde's plain derive: no untagged or internally tagged enums, no `flatten`.
+    type Observation: Serialize + DeserializeOwned + Send + Sync;
+
+    /// Full name of the run, `key=value,…` in the case's fixed order; unique within the case.
+    fn variant(&self) -> Variant;
+    /// Expected resources; all alike, if nothing is known.
+    fn cost(&self) -> RunCost {
+        RunCost { particle_steps: 1e6, ..RunCost::weakly_compressible(0.0, 0.0) }
+    }
+    /// The regime of the flow that it leaves behind; nothing, unless a case tells.
+    fn regime(&self, _: &Self::Observation) -> FlowRegime {
+        FlowRegime::default()
+    }
+    /// Scales r_0 and t_0 of columns that another code gives; none, unless a case tells.
+    fn scales(&self) -> Option<RunScales> {
+        None
+    }
+    /// Constitutive laws of its scene that its own fields do not name, because they hold a law's numbers alone.
+    fn laws(&self) -> Vec<Rheology> {
+        Vec::new()
+    }
+    /// One line on the run before it starts, for the terminal; nothing, unless a case tells.
+    fn brief(&self) -> Option<String> {
+        None
+    }
+    /// The run without its end, equal for runs of which one continues the other; none if a longer run begins anew.
+    fn trajectory(&self) -> Option<Self> {
+        None
+    }
+    /// Simulates it. A divergence is part of the record, not an error.
+    ///
+    /// # Errors
+    /// Parameters whose combination gives no valid scene.
+    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, ParameterError>;
 }
 
 /// The file of the flows of each tier.
@@ -204,11 +246,16 @@ impl<'de, F: Flow> Deserialize<'de> for RunList<F> {
     }
 }
 
-impl<F: Flow> Parameters for RunList<F> {
-    type Run = F;
-    const STATED: [&'static [&'static str]; 2] = [F::STATED, &["variants", "vary"]];
+impl<F: Flow> RunList<F> {
+    /// Lists that a file states whole: of the flow, and of the runs.
+    pub(in crate::case) const STATED: [&'static [&'static str]; 2] = [F::STATED, &["variants", "vary"]];
 
-    fn of_tier(tier: Tier) -> Self {
+    /// The flows of a tier.
+    ///
+    /// # Panics
+    /// If the case's own list is malformed, which its tests would find.
+    #[must_use]
+    pub fn of_tier(tier: Tier) -> Self {
         let file = TiersFile::of::<F>();
         let mut changes = file.set;
         for (lowest, values) in [(Tier::Paper, &file.paper), (Tier::Fine, &file.fine)] {
@@ -223,15 +270,17 @@ impl<F: Flow> Parameters for RunList<F> {
         Self::new("CASE", base, list).unwrap_or_else(|error| panic!("{tier}: {error}"))
     }
 
-    fn check(&self) -> Result<(), ParameterError> {
-        Ok(self.list.check_single_tier()?)
+    /// Whether all of its flows hold.
+    ///
+    /// # Errors
+    /// The first field that breaks a rule, by its dotted TOML path.
+    pub fn check_all(&self) -> Result<(), ParameterError> {
+        self.list.check_single_tier()?;
+        self.flows.iter().try_for_each(Flow::check)
     }
 
-    fn check_runs(&self, runs: &[&F]) -> Result<(), ParameterError> {
-        runs.iter().try_for_each(|flow| flow.check())
-    }
-
-    fn doubts(&self) -> Vec<String> {
+    /// Doubts of all of its flows, each once.
+    pub(in crate::case) fn doubts(&self) -> Vec<String> {
         let mut doubts: Vec<String> = Vec::new();
         for doubt in self.flows.iter().flat_map(Flow::doubts) {
             if !doubts.contains(&doubt) {
@@ -241,26 +290,34 @@ impl<F: Flow> Parameters for RunList<F> {
         doubts
     }
 
-    fn of_table(case: &str, mut table: Table) -> Result<Self, ParameterError> {
+    /// The list of a table whose fields are sound.
+    ///
+    /// # Errors
+    /// What no schema can tell, such as a place in a list of runs that breaks a rule.
+    pub(in crate::case) fn of_table(case: &str, mut table: Table) -> Result<Self, ParameterError> {
         let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.remove(key)?)));
         let list = typed(case, parts.collect())?;
         Self::new(case, typed(case, table)?, list)
     }
 
-    fn runs(&self) -> Vec<F> {
-        self.flows.clone()
-    }
-
-    fn label(&self, run: &F) -> Variant {
+    /// Keys that tell a run apart from others with its own name.
+    pub(in crate::case) fn label(&self, run: &F) -> Variant {
         let place = if self.labels.is_empty() { None } else { self.flows.iter().position(|own| own == run) };
         place.map(|place| self.labels[place].clone()).unwrap_or_default()
     }
 
-    fn field_now(former: &str) -> Option<String> {
+    /// Full name of a run.
+    pub(in crate::case) fn variant_of(&self, run: &F) -> Variant {
+        run.variant().followed_by(&self.label(run))
+    }
+
+    /// The field that takes the place of one of earlier files.
+    pub(in crate::case) fn field_now(former: &str) -> Option<String> {
         TiersFile::of::<F>().former.remove(former)
     }
 
-    fn set_for_all(table: &mut Table, paths: &[String]) {
+    /// Makes the values at these paths those of all runs, whatever the list says of them.
+    pub(in crate::case) fn set_for_all(table: &mut Table, paths: &[String]) {
         let parts = ["variants", "vary"].into_iter().filter_map(|key| Some((key.to_owned(), table.get(key)?.clone())));
         let Ok(mut list) = Value::Table(parts.collect()).try_into::<ListOfRuns>() else { return };
         for path in paths {

@@ -2,8 +2,8 @@
 
 use super::error::{ParameterError, SettingError};
 use super::{fault, friction_angle, plausible};
-use crate::case::Parameters;
 use crate::case::plan::estimate::Limits;
+use crate::case::{Flow, RunList};
 use crate::metric::Variant;
 use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
@@ -82,14 +82,14 @@ pub(in crate::case) fn table_of<P: Serialize>(parameters: &P) -> Table {
 }
 
 /// Lays the changes over the defaults, checks each field along the schema, and types the result.
-pub(in crate::case) fn resolve<P: Parameters>(
+pub(in crate::case) fn resolve<F: Flow>(
     case: &str,
-    defaults: &P,
+    defaults: &RunList<F>,
     changes: &Changes<'_>,
-) -> Result<P, ParameterError> {
-    refuse_former(P::field_now, changes)?;
-    let table = checked(case, schema_of::<P>(), &table_of(defaults), changes, P::set_for_all)?;
-    P::of_table(case, table).map_err(|error| changes.blamed(error))
+) -> Result<RunList<F>, ParameterError> {
+    refuse_former(RunList::<F>::field_now, changes)?;
+    let table = checked(case, schema_of::<RunList<F>>(), &table_of(defaults), changes, RunList::<F>::set_for_all)?;
+    RunList::<F>::of_table(case, table).map_err(|error| changes.blamed(error))
 }
 
 /// The values of a table whose fields are sound.

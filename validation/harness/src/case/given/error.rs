@@ -35,17 +35,6 @@ pub enum ParameterError {
     /// The parameters are each in range, but together give no valid scene.
     #[error("the parameters give no valid scene: {0}")]
     Scene(#[from] bagnold_solver::run::SceneError),
-    /// The parameters ask for no simulation, so no gate could fail.
-    #[error(
-        "the parameters of `{case}` ask for no run{}; fill at least one of its lists, `bagnold show {case}` prints them",
-        nothing_in(.empty)
-    )]
-    NothingToRun {
-        /// The case.
-        case: String,
-        /// Paths of the lists that are empty.
-        empty: Vec<String>,
-    },
     /// A file names a field that the case does not have.
     #[error("{}unknown field `{field}`; {}`bagnold show {case}` prints all fields", origin(.file), did_you_mean(.nearest))]
     UnknownField {
@@ -220,15 +209,5 @@ impl ParameterError {
             file.get_or_insert_with(|| path.to_owned());
         }
         self
-    }
-}
-
-/// Text that names the empty lists of a case without a run.
-fn nothing_in(lists: &[String]) -> String {
-    let named: Vec<String> = lists.iter().map(|path| format!("`{path}`")).collect();
-    match named.len() {
-        0 => String::new(),
-        1 => format!(", for {} is empty", named[0]),
-        _ => format!(", for {} are empty", named.join(", ")),
     }
 }

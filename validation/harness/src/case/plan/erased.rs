@@ -9,8 +9,8 @@ use crate::case::outcome::foreign::ExternalResult;
 use crate::case::outcome::result::{CaseResult, RunSummary, microseconds_each};
 use crate::case::shown::{notes::notes, schema};
 use crate::case::{
-    Case, CaseFile, Conditions, Estimate, ExternalData, ExternalSchema, Parameters, Progress, RecordOf, Run, RunOf,
-    RunScales, StateOutput, Tier, tables_to_add,
+    Case, CaseFile, Conditions, Estimate, ExternalData, ExternalSchema, Flow, Progress, RecordOf, RunList, RunScales,
+    StateOutput, Tier, tables_to_add,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::control::{self, Control};
@@ -146,21 +146,22 @@ impl<C: Case> AnyCase for C {
     }
 
     fn show(&self, tier: Tier) -> String {
-        file_text::<C>(tier, &C::Parameters::of_tier(tier)) + &tables_to_add(&[("", schema_of::<C::Parameters>())])
+        file_text::<C>(tier, &RunList::<C::Flow>::of_tier(tier))
+            + &tables_to_add(&[("", schema_of::<RunList<C::Flow>>())])
     }
 
     fn schema(&self, tier: Tier) -> serde_json::Value {
-        let defaults = table_of(&C::Parameters::of_tier(tier));
-        schema::of_file(C::NAME, C::SUMMARY, tier, schema_of::<C::Parameters>(), &defaults)
+        let defaults = table_of(&RunList::<C::Flow>::of_tier(tier));
+        schema::of_file(C::NAME, C::SUMMARY, tier, schema_of::<RunList<C::Flow>>(), &defaults)
     }
 
     fn parameter_schema(&self) -> &'static serde_json::Value {
-        schema_of::<C::Parameters>()
+        schema_of::<RunList<C::Flow>>()
     }
 
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
-        let defaults = C::Parameters::of_tier(tier);
-        let changes = changes.with_lists(C::Parameters::STATED);
+        let defaults = RunList::<C::Flow>::of_tier(tier);
+        let changes = changes.with_lists(RunList::<C::Flow>::STATED);
         let parameters = resolve(C::NAME, &defaults, &changes)?;
         let guard = Guard::new((C::NAME, tier), &changes, (&defaults, &parameters));
         let runs = guard.runs()?;
@@ -212,7 +213,7 @@ impl Progress for CheckpointedProgress<'_> {
 }
 
 /// A run and, once it is done, its record and whether that came from the store.
-type Slot<R> = (R, OnceLock<(Recorded<<R as Run>::Observation>, bool)>);
+type Slot<R> = (R, OnceLock<(Recorded<<R as Flow>::Observation>, bool)>);
 
 /// Progress of a run that is described and not simulated.
 impl Progress for OnceLock<Conditions> {
@@ -227,14 +228,14 @@ impl Progress for OnceLock<Conditions> {
 
 struct CasePlan<C: Case> {
     tier: Tier,
-    parameters: C::Parameters,
+    parameters: RunList<C::Flow>,
     parameters_toml: String,
     command: String,
     /// Fields that differ from the tier's, with their values.
     differs: Vec<(String, String)>,
     /// Source of the user's parameters.
     source: ParameterSource,
-    slots: Vec<Slot<RunOf<C::Parameters>>>,
+    slots: Vec<Slot<C::Flow>>,
 }
 
 impl<C: Case> CasePlan<C> {
@@ -245,16 +246,16 @@ impl<C: Case> CasePlan<C> {
     }
 
     /// Judges and draws the records of runs with one label.
-    fn result(&self, slots: Vec<Slot<RunOf<C::Parameters>>>) -> CaseResult {
-        let (mut summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Parameters>>) = slots
+    fn result(&self, slots: Vec<Slot<C::Flow>>) -> CaseResult {
+        let (mut summaries, records): (Vec<RunSummary>, Vec<RecordOf<C::Flow>>) = slots
             .into_iter()
             .filter_map(|(run, slot)| slot.into_inner().map(|(record, from_store)| (run, record, from_store)))
             .map(|(run, record, from_store)| (summary(&run, &record, from_store), (run, record)))
             .unzip();
-        let mut metrics = completed(C::NAME, C::metrics(&self.parameters, &records));
-        let figures = C::figures(&self.parameters, &records);
-        let animations = C::animations(&self.parameters, &records);
-        let tables = C::tables(&self.parameters, &records);
+        let mut metrics = completed(C::NAME, C::metrics(&records));
+        let figures = C::figures(&records);
+        let animations = C::animations(&records);
+        let tables = C::tables(&records);
         let regimes = records.iter().map(|(run, record)| run.regime(&record.data)).collect();
         let run_parameters = records.iter().map(|(run, _)| as_json(run)).collect();
         let (frames, first_bad) = records.into_iter().map(|(_, record)| (record.frames, record.first_bad)).unzip();
@@ -282,15 +283,15 @@ impl<C: Case> CasePlan<C> {
     }
 
     /// What the case says of records, those of one label together.
-    fn said(&self, records: Vec<RecordOf<C::Parameters>>) -> ExternalResult {
+    fn said(&self, records: Vec<RecordOf<C::Flow>>) -> ExternalResult {
         let mut said = ExternalResult::default();
         for (label, records) in by_label(records, |(run, _)| self.parameters.label(run)) {
-            let metrics = C::metrics(&self.parameters, &records).into_iter();
+            let metrics = C::metrics(&records).into_iter();
             said.metrics
                 .extend(metrics.map(|metric| Metric { variant: metric.variant.clone().followed_by(&label), ..metric }));
-            let figures = C::figures(&self.parameters, &records).into_iter();
+            let figures = C::figures(&records).into_iter();
             said.figures.extend(figures.map(|figure| Figure { name: figure.name + &label.suffix(), ..figure }));
-            let tables = C::tables(&self.parameters, &records).into_iter();
+            let tables = C::tables(&records).into_iter();
             said.tables.extend(tables.map(|table| Table { name: table.name + &label.suffix(), ..table }));
         }
         said
@@ -402,7 +403,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
 
     fn choose(self: Box<Self>, runs: &[usize]) -> Box<dyn PreparedCase> {
         let mut plan = *self;
-        let mut slots: Vec<Option<Slot<RunOf<C::Parameters>>>> = plan.slots.into_iter().map(Some).collect();
+        let mut slots: Vec<Option<Slot<C::Flow>>> = plan.slots.into_iter().map(Some).collect();
         plan.slots = runs.iter().filter_map(|&run| slots.get_mut(run)?.take()).collect();
         Box::new(plan)
     }
@@ -410,7 +411,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     fn asked(&self) -> ExternalResult {
         let nothing = ExternalData::default();
         let seen = |run| C::from_external(run, &nothing).ok().flatten();
-        let records: Vec<RecordOf<C::Parameters>> = self
+        let records: Vec<RecordOf<C::Flow>> = self
             .slots
             .iter()
             .filter_map(|(run, _)| Some((run.clone(), nothing.record(seen(run)?.observation))))
@@ -428,7 +429,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     }
 
     fn judge_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
-        let mut records: Vec<RecordOf<C::Parameters>> = Vec::new();
+        let mut records: Vec<RecordOf<C::Flow>> = Vec::new();
         let mut measured = Vec::new();
         for (number, (given, (run, _))) in given.iter().zip(&self.slots).enumerate() {
             if given.is_empty() {
@@ -454,7 +455,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
 }
 
 /// A run by the names of its fields, with the laws that it makes of them.
-fn as_json(run: &impl Run) -> serde_json::Value {
+fn as_json(run: &impl Flow) -> serde_json::Value {
     let mut fields = serde_json::to_value(run).unwrap_or_default();
     let laws: Vec<serde_json::Value> = run.laws().iter().filter_map(|law| serde_json::to_value(law).ok()).collect();
     if let Some(fields) = fields.as_object_mut().filter(|_| !laws.is_empty()) {
@@ -463,12 +464,12 @@ fn as_json(run: &impl Run) -> serde_json::Value {
     fields
 }
 
-fn file_text<C: Case>(tier: Tier, parameters: &C::Parameters) -> String {
+fn file_text<C: Case>(tier: Tier, parameters: &RunList<C::Flow>) -> String {
     let text = toml::to_string(parameters).expect("a case's parameters are structs that TOML can hold");
-    CaseFile::text(C::NAME, tier, &text, &notes(schema_of::<C::Parameters>(), &table_of(parameters)))
+    CaseFile::text(C::NAME, tier, &text, &notes(schema_of::<RunList<C::Flow>>(), &table_of(parameters)))
 }
 
-fn summary<R: Run>(run: &R, record: &Recorded<R::Observation>, from_store: bool) -> RunSummary {
+fn summary<R: Flow>(run: &R, record: &Recorded<R::Observation>, from_store: bool) -> RunSummary {
     RunSummary {
         variant: run.variant(),
         outcome: record.outcome.clone(),

@@ -3,74 +3,60 @@
 
 use crate::case::given::changes::{Changes, find, leaves, table_of};
 use crate::case::given::error::ParameterError;
-use crate::case::{Estimate, Parameters, Run, Tier};
+use crate::case::{Estimate, Flow, RunList, Tier};
 use crate::output::caution;
 use bagnold_solver::parameter::shortened;
 use std::collections::BTreeMap;
-use toml::{Table, Value};
+use toml::Table;
 
 /// Most changed fields that a message lists.
 const LISTED: usize = 8;
 
 /// Parameters between those of a tier and those that a user asks for.
-pub(in crate::case) struct Guard<'a, P> {
+pub(in crate::case) struct Guard<'a, F> {
     pub(in crate::case) case: &'static str,
     pub(in crate::case) tier: Tier,
     pub(in crate::case) changes: &'a Changes<'a>,
     defaults: Table,
     asked: Table,
-    parameters: &'a P,
+    parameters: &'a RunList<F>,
 }
 
-impl<'a, P: Parameters> Guard<'a, P> {
+impl<'a, F: Flow> Guard<'a, F> {
     pub(in crate::case) fn new(
         (case, tier): (&'static str, Tier),
         changes: &'a Changes<'a>,
-        (defaults, parameters): (&P, &'a P),
+        (defaults, parameters): (&RunList<F>, &'a RunList<F>),
     ) -> Self {
         Self { case, tier, changes, defaults: table_of(defaults), asked: table_of(parameters), parameters }
     }
 
     /// The runs that the parameters ask for.
-    pub(in crate::case) fn runs(&self) -> Result<Vec<P::Run>, ParameterError> {
+    pub(in crate::case) fn runs(&self) -> Result<Vec<F>, ParameterError> {
         let source = self.changes.source();
-        self.parameters.check().map_err(|error| source.placed(self.named(error)))?;
-        let runs = self.parameters.runs();
-        if runs.is_empty() {
-            return Err(ParameterError::NothingToRun { case: self.case.to_owned(), empty: self.emptied() });
-        }
-        let chosen = self.chosen(self.parameters, &runs);
-        self.parameters.check_runs(&chosen).map_err(|error| source.placed(self.named(error)))?;
+        self.parameters.list.check_single_tier().map_err(|error| source.placed(self.named(error.into())))?;
+        let chosen = self.chosen(self.parameters);
+        chosen.iter().try_for_each(|flow| flow.check()).map_err(|error| source.placed(self.named(error)))?;
         self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
         self.check_unique(&chosen).map_err(|error| source.placed(error))?;
         self.check_cost(&chosen).map_err(|error| source.placed(error))?;
-        Ok(runs)
+        Ok(self.parameters.flows().to_vec())
     }
 
     /// Those of the runs that are to be simulated.
-    fn chosen<'r>(&self, parameters: &P, runs: &'r [P::Run]) -> Vec<&'r P::Run> {
+    fn chosen<'r>(&self, list: &'r RunList<F>) -> Vec<&'r F> {
         let only = self.changes.only;
-        let is_chosen = |run: &&P::Run| {
-            let variant = parameters.variant_of(run);
+        let is_chosen = |run: &&F| {
+            let variant = list.variant_of(run);
             only.is_empty() || only.iter().any(|asked| variant.includes(asked))
         };
-        runs.iter().filter(is_chosen).collect()
+        list.flows().iter().filter(is_chosen).collect()
     }
 
-    /// Whether parameters make the runs that are to be simulated and break no rule of theirs.
-    fn holds(&self, parameters: &P) -> bool {
-        if parameters.check().is_err() {
-            return false;
-        }
-        let runs = parameters.runs();
-        let chosen = self.chosen(parameters, &runs);
-        !chosen.is_empty() && parameters.check_runs(&chosen).is_ok()
-    }
-
-    /// Lists that the user has emptied.
-    fn emptied(&self) -> Vec<String> {
-        let is_empty = |path: &String| find(&self.asked, path).and_then(Value::as_array).is_some_and(Vec::is_empty);
-        self.changed().into_iter().map(|(path, _)| path).filter(is_empty).take(LISTED).collect()
+    /// Whether a list makes the runs that are to be simulated and breaks no rule of theirs.
+    fn holds(&self, list: &RunList<F>) -> bool {
+        let chosen = self.chosen(list);
+        list.list.check_single_tier().is_ok() && !chosen.is_empty() && chosen.iter().all(|flow| flow.check().is_ok())
     }
 
     /// Fields that differ from the tier's, with their values.
@@ -105,18 +91,18 @@ impl<'a, P: Parameters> Guard<'a, P> {
     }
 
     /// The parameters with one field as the tier has it, if that makes any.
-    fn restored(&self, path: &str) -> Option<P> {
+    fn restored(&self, path: &str) -> Option<RunList<F>> {
         let before = find(&self.defaults, path)?.clone();
         let mut table = self.asked.clone();
         let mut keys: Vec<&str> = path.split('.').collect();
         let last = keys.pop()?;
         let holder = keys.into_iter().try_fold(&mut table, |table, key| table.get_mut(key)?.as_table_mut())?;
         holder.insert(last.to_owned(), before);
-        P::of_table(self.case, table).ok()
+        RunList::<F>::of_table(self.case, table).ok()
     }
 
     /// Checks that the names of runs are unique: two of one name would be taken for each other.
-    fn check_unique(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
+    fn check_unique(&self, runs: &[&F]) -> Result<(), ParameterError> {
         let Some(twin) = twin(self.parameters, runs) else { return Ok(()) };
         let remedy = format!("two runs would both be called `{twin}`: name it once");
         let lists = leaves(&self.asked).into_iter().filter_map(|path| {
@@ -135,12 +121,12 @@ impl<'a, P: Parameters> Guard<'a, P> {
     }
 
     /// The name that two runs of other parameters share.
-    fn twin_of(&self, parameters: &P) -> Option<String> {
-        if self.holds(parameters) { twin(parameters, &self.chosen(parameters, &parameters.runs())) } else { None }
+    fn twin_of(&self, parameters: &RunList<F>) -> Option<String> {
+        if self.holds(parameters) { twin(parameters, &self.chosen(parameters)) } else { None }
     }
 
     /// Check of memory and time against the limits; the field is the one that, as the tier has it, saves most.
-    fn check_cost(&self, runs: &[&P::Run]) -> Result<(), ParameterError> {
+    fn check_cost(&self, runs: &[&F]) -> Result<(), ParameterError> {
         let limits = &self.changes.limits;
         let estimate = of_runs(runs);
         let Some((rule, remedy)) = estimate.problem(limits) else { return Ok(()) };
@@ -149,7 +135,7 @@ impl<'a, P: Parameters> Guard<'a, P> {
             let Some(parameters) = self.restored(&field.0).filter(|parameters| self.holds(parameters)) else {
                 continue;
             };
-            let without = of_runs(&self.chosen(&parameters, &parameters.runs()));
+            let without = of_runs(&self.chosen(&parameters));
             let best = least.as_ref().map_or(&estimate, |(best, _)| best);
             if without.is_less_than(best, limits) {
                 least = Some((without, field));
@@ -162,12 +148,12 @@ impl<'a, P: Parameters> Guard<'a, P> {
 }
 
 /// Estimated resources of the runs together.
-fn of_runs<R: Run>(runs: &[&R]) -> Estimate {
+fn of_runs<F: Flow>(runs: &[&F]) -> Estimate {
     runs.iter().map(|run| Estimate::of(*run)).fold(Estimate::default(), Estimate::and)
 }
 
 /// The name that two runs share.
-fn twin<P: Parameters>(parameters: &P, runs: &[&P::Run]) -> Option<String> {
+fn twin<F: Flow>(parameters: &RunList<F>, runs: &[&F]) -> Option<String> {
     let mut seen = BTreeMap::new();
     runs.iter().map(|run| parameters.variant_of(run).to_string()).find(|name| seen.insert(name.clone(), ()).is_some())
 }
@@ -253,7 +239,7 @@ mod tests {
 
     #[test]
     fn an_error_without_a_changed_field_gets_those_that_were_changed() {
-        let unnamed = || ParameterError::NothingToRun { case: "pendulum".to_owned(), empty: Vec::new() };
+        let unnamed = || ParameterError::Interrupted;
         let changed = [("grain.damping".to_owned(), "2.0".to_owned())];
         let message = with_changed(unnamed(), &changed).to_string();
         assert!(message.ends_with("; what differs from the tier: `grain.damping` is 2.0"), "{message}");

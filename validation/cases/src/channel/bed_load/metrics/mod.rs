@@ -8,7 +8,7 @@ use super::fit::{HeldOut, held_out};
 use super::flow::{BedLoadFlow, BedLoadFormulation};
 use super::observation::BedLoadObservation;
 use super::profiles;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::channel;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::Recorded;

@@ -5,7 +5,7 @@ mod kernel;
 
 use super::HydrostaticRecord;
 use super::flow::HydrostaticFlow;
-use crate::case::Run;
+use crate::case::Flow;
 use crate::layer::{self, TimeSeries};
 use crate::metric::{Confidence, Limit, Metric, quantities};
 use crate::setup::energy_ledger;
