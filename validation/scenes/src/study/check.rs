@@ -259,12 +259,6 @@ fn limit(text: &CheckText) -> Result<(Option<Limit>, String), FieldError> {
     ];
     let given: Vec<(&str, Limit)> =
         limits.iter().filter_map(|(name, limit)| limit.map(|limit| (*name, limit))).collect();
-    if let Some(uncertainty) = text.standard_uncertainty
-        && !(uncertainty > 0.0 && uncertainty.is_finite())
-    {
-        let remedy = "give a standard deviation in the unit of the value";
-        return Err(FieldError::new("standard_uncertainty", uncertainty, "positive and finite", remedy));
-    }
     if let Some(reference) = text.reference
         && !reference.is_finite()
     {
@@ -281,10 +275,6 @@ fn limit(text: &CheckText) -> Result<(Option<Limit>, String), FieldError> {
                 let rule = "beside `reference` and `standard_uncertainty`";
                 return Err(FieldError::new("within_uncertainties", factor, rule, "give both, or another limit"));
             };
-            if !(factor > 0.0 && factor.is_finite()) {
-                let remedy = "2 is a common choice";
-                return Err(FieldError::new("within_uncertainties", factor, "positive and finite", remedy));
-            }
             let width = factor * uncertainty;
             let reason = format!("within {factor} standard uncertainties of the reference");
             let reason = text.reason.as_ref().map_or(reason.clone(), |own| format!("{reason}: {own}"));

@@ -3,6 +3,7 @@
 use crate::figure::{Axis, Figure, Mark, Panel, is_file_name};
 use crate::input::{FieldError, check_text};
 use crate::metric::{Metric, Origin, Value, Variant};
+use bagnold_solver::parameter::filled;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -28,6 +29,7 @@ pub(super) struct FigureText {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) at: BTreeMap<String, f64>,
     /// Series that are drawn.
+    #[schemars(transform = filled("at least one table", "add a [[figures.series]] table with the name of a check"))]
     pub(super) series: Vec<SeriesText>,
 }
 
@@ -100,10 +102,6 @@ impl FigureText {
                 let remedy = "name a varied number, or say by `at` where each of [[variants]] stands";
                 return Err(FieldError::new("over", value, "exactly one of `over` and `at`", remedy));
             }
-        }
-        if self.series.is_empty() {
-            let remedy = "add a [[figures.series]] table with the name of a check";
-            return Err(FieldError::new("series", "empty", "at least one table", remedy));
         }
         for (place, series) in self.series.iter().enumerate() {
             let field = format!("series[{place}]");

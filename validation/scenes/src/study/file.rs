@@ -2,12 +2,12 @@
 
 use super::control::{self, ControlText};
 use super::drawn::{FigureText, NamesOfStudy};
-use crate::case::list::{Fields, in_variant};
+use crate::case::list::Fields;
 use crate::case::{ListOfRuns, NamedVariant, Tier, VariedParameter};
 use crate::figure::is_file_name;
 use crate::input::{FieldError, check_name, check_text};
 use crate::metric::{Confidence, Variant};
-use bagnold_solver::parameter::positive;
+use bagnold_solver::parameter::{filled, positive, range_problem};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -46,6 +46,7 @@ pub(super) struct StudyText {
     pub(super) vary: Vec<VariedParameter>,
     /// Checks.
     #[serde(default)]
+    #[schemars(transform = filled("at least one table", "add a [[checks]] table: without one nothing is judged"))]
     pub(super) checks: Vec<CheckText>,
     /// Wrong physics and wrong inputs that checks must reject.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -186,9 +187,8 @@ impl StudyText {
                 return Err(FieldError::new("case", format!("\"{case}\" beside `base`"), "given alone", remedy));
             }
         }
-        if self.checks.is_empty() {
-            let remedy = "add a [[checks]] table: without one nothing is judged";
-            return Err(FieldError::new("checks", "empty", "at least one table", remedy));
+        if let Some(problem) = range_problem(self) {
+            return Err(FieldError::new(&problem.field, problem.value, &problem.rule, &problem.remedy));
         }
         let is_number = |value: &Value| value.is_float() || value.is_integer();
         let names = NamesOfStudy {
@@ -212,22 +212,7 @@ impl StudyText {
         let judged: Vec<&str> =
             self.checks.iter().filter(|check| check.has_limit()).map(|check| check.name.as_str()).collect();
         control::check(&self.controls, &judged)?;
-        let list = self.list();
-        list.check()?;
-        let lists = self.vary.iter().enumerate().flat_map(|(place, varied)| {
-            varied
-                .values
-                .iter()
-                .enumerate()
-                .map(move |(number, value)| (format!("vary[{place}].values[{number}]"), value))
-        });
-        match lists.into_iter().find(|(_, value)| in_variant(value).is_none()) {
-            Some((field, value)) => {
-                let remedy = "give tables and lists in [[variants]], where they have names";
-                Err(FieldError::new(&field, value, "a finite number or a word", remedy))
-            }
-            None => Ok(()),
-        }
+        self.list().check()
     }
 
     /// The list of its runs.

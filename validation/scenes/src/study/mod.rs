@@ -245,13 +245,7 @@ impl Study {
 
     /// Refuses a setting of the command line for a parameter to which the study gives values itself.
     fn refuse_varied(&self, setting: &str) -> Result<(), FieldError> {
-        let named = self.text.variants.iter().enumerate().flat_map(|(place, named)| {
-            named.set.iter().map(move |(path, value)| (format!("variants[{place}].set"), path, value))
-        });
-        let varied = self.text.vary.iter().enumerate().filter_map(|(place, varied)| {
-            varied.values.first().map(|value| (format!("vary[{place}].path"), &varied.path, value))
-        });
-        for (place, path, value) in named.chain(varied) {
+        for (place, path, value) in self.changes.iter().flat_map(|changed| &changed.values) {
             if let Some(field) = twice_given(&format!("{path}={value}"), setting) {
                 let file = self.file.display();
                 let rule = format!("of another parameter: `{field}` is given twice, first by `{place}` in {file}");

@@ -318,8 +318,7 @@ fn identity(value: &Value) -> String {
 }
 
 /// A value as a variant has it: numbers and words.
-#[must_use]
-pub fn in_variant(value: &Value) -> Option<VariantValue> {
+fn in_variant(value: &Value) -> Option<VariantValue> {
     match value {
         Value::Float(number) if number.is_finite() => Some((*number).into()),
         Value::Integer(whole) => Some((*whole as f64).into()),
