@@ -5,7 +5,9 @@ pub mod list;
 
 use self::cost::RunCost;
 use self::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
-use crate::case::given::changes::{lay_at, lay_over, overlay, table_of, typed, unknown_law};
+use crate::case::given::changes::{
+    Changes, checked, lay_at, lay_over, overlay, refuse_former, table_of, typed, unknown_law,
+};
 use crate::case::given::fault;
 use crate::case::{ParameterError, Progress, RunScales, Tier};
 use crate::input::FieldError;
@@ -249,6 +251,13 @@ impl<'de, F: Flow> Deserialize<'de> for RunList<F> {
 impl<F: Flow> RunList<F> {
     /// Lists that a file states whole: of the flow, and of the runs.
     pub(in crate::case) const STATED: [&'static [&'static str]; 2] = [F::STATED, &["variants", "vary"]];
+
+    /// Lays the changes over the defaults, checks each field along the schema, and types the result.
+    pub(in crate::case) fn resolve(&self, case: &str, changes: &Changes<'_>) -> Result<Self, ParameterError> {
+        refuse_former(Self::field_now, changes)?;
+        let table = checked(case, schema_of::<Self>(), &table_of(self), changes, Self::set_for_all)?;
+        Self::of_table(case, table).map_err(|error| changes.blamed(error))
+    }
 
     /// The flows of a tier.
     ///

@@ -3,11 +3,10 @@
 use super::error::{ParameterError, SettingError};
 use super::{fault, friction_angle, plausible};
 use crate::case::plan::estimate::Limits;
-use crate::case::{Flow, RunList};
 use crate::metric::Variant;
 use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
-use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
+use bagnold_solver::parameter::{Fault, Shape, first_fault};
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value as Schema;
 use std::path::{Path, PathBuf};
@@ -57,7 +56,7 @@ impl Changes<'_> {
 
     /// An error of the parameters as a whole, with the file where it is to blame. Of a field that is named without its path only what else
     /// was given tells whether an argument or the file holds it.
-    fn blamed(&self, error: ParameterError) -> ParameterError {
+    pub(in crate::case) fn blamed(&self, error: ParameterError) -> ParameterError {
         let has_path = error.field_path().is_some_and(|field| field.contains('['));
         if has_path || self.settings.is_empty() { self.source().placed(error) } else { error }
     }
@@ -81,17 +80,6 @@ pub(in crate::case) fn table_of<P: Serialize>(parameters: &P) -> Table {
     Table::try_from(parameters).expect("a case's parameters are structs that TOML can hold")
 }
 
-/// Lays the changes over the defaults, checks each field along the schema, and types the result.
-pub(in crate::case) fn resolve<F: Flow>(
-    case: &str,
-    defaults: &RunList<F>,
-    changes: &Changes<'_>,
-) -> Result<RunList<F>, ParameterError> {
-    refuse_former(RunList::<F>::field_now, changes)?;
-    let table = checked(case, schema_of::<RunList<F>>(), &table_of(defaults), changes, RunList::<F>::set_for_all)?;
-    RunList::<F>::of_table(case, table).map_err(|error| changes.blamed(error))
-}
-
 /// The values of a table whose fields are sound.
 ///
 /// # Errors
@@ -106,7 +94,7 @@ pub(in crate::case) fn typed<T: DeserializeOwned>(case: &str, table: Table) -> R
 }
 
 /// The defaults with the changes, each field checked along the schema.
-fn checked(
+pub(in crate::case) fn checked(
     case: &str,
     schema: &'static Schema,
     defaults: &Table,
@@ -149,7 +137,10 @@ fn checked(
 }
 
 /// Refuses lists of values that are runs of one flow now.
-fn refuse_former(now: fn(&str) -> Option<String>, changes: &Changes<'_>) -> Result<(), ParameterError> {
+pub(in crate::case) fn refuse_former(
+    now: fn(&str) -> Option<String>,
+    changes: &Changes<'_>,
+) -> Result<(), ParameterError> {
     let refused = |old: &str, value: &str, file: Option<&Path>| {
         let now = now(old).or_else(|| now(old.split('.').next()?))?;
         let rule = format!("absent: a run has one value, `{now}`");

@@ -1,7 +1,7 @@
 //! Cases without their types: what the command line, the report and the tests work with.
 
 use super::guard::{Guard, with_changed};
-use crate::case::given::changes::{Changes, ParameterSource, resolve, table_of};
+use crate::case::given::changes::{Changes, ParameterSource, table_of};
 use crate::case::given::error::ParameterError;
 use crate::case::outcome::causes::explained;
 use crate::case::outcome::finite::{fail_broken_profiles, fail_diverged};
@@ -162,7 +162,7 @@ impl<C: Case> AnyCase for C {
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
         let defaults = RunList::<C::Flow>::of_tier(tier);
         let changes = changes.with_lists(RunList::<C::Flow>::STATED);
-        let parameters = resolve(C::NAME, &defaults, &changes)?;
+        let parameters = defaults.resolve(C::NAME, &changes)?;
         let guard = Guard::new((C::NAME, tier), &changes, (&defaults, &parameters));
         let runs = guard.runs()?;
         let differs = guard.changed();
@@ -352,11 +352,11 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     }
 
     fn nominal_seconds(&self, run: usize) -> f64 {
-        Estimate::of(&self.slots[run].0).core_seconds
+        Estimate::of(self.slots[run].0.cost()).core_seconds
     }
 
     fn estimate(&self) -> Estimate {
-        self.slots.iter().map(|(run, _)| Estimate::of(run)).fold(Estimate::default(), Estimate::and)
+        self.slots.iter().map(|(run, _)| Estimate::of(run.cost())).fold(Estimate::default(), Estimate::and)
     }
 
     fn briefs(&self) -> Vec<String> {

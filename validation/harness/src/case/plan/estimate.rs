@@ -1,6 +1,6 @@
 //! Estimated resources of runs before anything is allocated (particles, memory, steps and time), and their limits.
 
-use crate::case::Flow;
+use crate::case::RunCost;
 use std::fmt;
 
 /// Memory of a particle in the snapshots of a run that is done `[bytes]`.
@@ -35,8 +35,7 @@ pub struct Estimate {
 
 impl Estimate {
     /// Of one run.
-    pub(in crate::case) fn of(run: &impl Flow) -> Self {
-        let cost = run.cost();
+    pub(in crate::case) fn of(cost: RunCost) -> Self {
         let running = cost.particles * cost.bytes_per_particle;
         Self {
             runs: 1,

@@ -149,7 +149,7 @@ impl<'a, F: Flow> Guard<'a, F> {
 
 /// Estimated resources of the runs together.
 fn of_runs<F: Flow>(runs: &[&F]) -> Estimate {
-    runs.iter().map(|run| Estimate::of(*run)).fold(Estimate::default(), Estimate::and)
+    runs.iter().map(|run| Estimate::of(run.cost())).fold(Estimate::default(), Estimate::and)
 }
 
 /// The name that two runs share.
