@@ -163,7 +163,7 @@ mod tests {
                 .map(|setting| format!("{table}.{setting}"))
         };
         let honey = ["material.law=honey".to_owned(), "material.viscosity=1".to_owned()];
-        let layer = ["resolution=4", "preparation=none", "duration=2.2"];
+        let layer = ["resolution=4", "preparation=none", "duration=2.2", "bulk_density=1000"];
         let column = ["resolution=4", "duration=0.1", "bulk_density=1500", "aspect_ratio=1", "variants=[]"];
         for (case, own, law) in [
             ("hydrostatic", layer.to_vec(), honey.to_vec()),
