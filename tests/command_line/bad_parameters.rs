@@ -161,6 +161,19 @@ fn an_implicit_step_without_a_viscous_law_or_its_divergence() {
 }
 
 #[test]
+fn a_value_of_all_runs_that_one_of_the_list_does_not_bear() {
+    let place = Place::new();
+    let rule = "`material.limiting_friction` is 0.6, but must be finite and at least static_friction; give the friction of fast flow, or static_friction itself for a law without rate dependence";
+    let setting = "material.static_friction=0.8";
+    let message = format!("{rule}; what differs from the tier: `material.static_friction` is 0.8");
+    refused(&place, &["column-planar", "--set", setting], &message);
+    // the angle stands for the coefficient
+    let told = place.run(&["column-planar", "--set", "material.friction_angle=40"]).code(2);
+    let told = String::from_utf8_lossy(&told.get_output().stderr).into_owned();
+    assert!(told.contains(rule), "{told}");
+}
+
+#[test]
 fn a_moving_bed_that_cannot_be() {
     let place = Place::new();
     let cases = [

@@ -331,6 +331,10 @@ impl<F: Flow> RunList<F> {
         let Ok(mut list) = Value::Table(parts.collect()).try_into::<ListOfRuns>() else { return };
         for path in paths {
             list.forget(path);
+            // the angle stands for the coefficient
+            if let Some(above) = path.strip_suffix("friction_angle") {
+                list.forget(&format!("{above}static_friction"));
+            }
             // another choice of a law replaces what the list says of its parameters
             if let Some((above, tag)) = path.rsplit_once('.')
                 && let Some(schema) = schema_of::<F>()["properties"].get(above)

@@ -243,7 +243,7 @@ fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> Par
 }
 
 /// Whether one of the `--set` arguments gives `field`, so that the file is not to blame for its value.
-fn is_set(settings: &[String], field: &str) -> bool {
+pub(in crate::case) fn is_set(settings: &[String], field: &str) -> bool {
     settings
         .iter()
         .filter_map(|argument| parts(argument))

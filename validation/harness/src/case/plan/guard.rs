@@ -1,7 +1,7 @@
 //! Checks of the parameters of a case as a whole, before anything is allocated: the rules between fields, runs that can
 //! be distinguished, and a size that this machine can take. Every refusal names a field that the user has changed.
 
-use crate::case::given::changes::{Changes, find, leaves, table_of};
+use crate::case::given::changes::{Changes, find, is_set, leaves, table_of};
 use crate::case::given::error::ParameterError;
 use crate::case::{Estimate, Flow, RunList, Tier};
 use crate::output::caution;
@@ -63,12 +63,18 @@ impl<'a, F: Flow> Guard<'a, F> {
     pub(in crate::case) fn changed(&self) -> Vec<(String, String)> {
         leaves(&self.asked)
             .into_iter()
-            .filter(|path| find(&self.asked, path) != find(&self.defaults, path))
+            .filter(|path| self.is_given(path) && find(&self.asked, path) != find(&self.defaults, path))
             .map(|path| {
                 let value = find(&self.asked, &path).map(ToString::to_string).unwrap_or_default();
                 (path, shortened(value.replace('\n', " ")))
             })
             .collect()
+    }
+
+    /// Whether a field is the user's: the list of runs also changes where another field is set for all of them.
+    fn is_given(&self, path: &str) -> bool {
+        let of_file = self.changes.file.as_ref().is_some_and(|(_, fields)| fields.contains_key(path));
+        !P::STATED.concat().contains(&path) || of_file || is_set(self.changes.settings, path)
     }
 
     /// An error about a field that the user has not changed becomes one of the field that leads to it.
