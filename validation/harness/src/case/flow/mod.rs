@@ -18,7 +18,9 @@ use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
+use std::any::TypeId;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use toml::{Table, Value};
 
 /// One simulation with all of its parameters, each declared once: a field with its doc comment, unit and range. Its serialised
@@ -102,13 +104,19 @@ struct TiersFile {
 }
 
 impl TiersFile {
-    fn of<F: Flow>() -> Self {
-        toml::from_str(F::RUNS).unwrap_or_else(|error| panic!("a case's list of runs is TOML: {error}"))
+    /// That of a flow, read at the first call and then kept.
+    fn of<F: Flow>() -> &'static Self {
+        static READ: Mutex<BTreeMap<TypeId, &'static TiersFile>> = Mutex::new(BTreeMap::new());
+        let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+        read.entry(TypeId::of::<F>()).or_insert_with(|| {
+            let file = toml::from_str(F::RUNS);
+            Box::leak(Box::new(file.unwrap_or_else(|error| panic!("a case's list of runs is TOML: {error}"))))
+        })
     }
 }
 
 /// A flow, the list of its runs, and these runs.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct RunList<F> {
     /// The values of all runs that have no others.
     #[serde(flatten)]
@@ -116,22 +124,22 @@ pub struct RunList<F> {
     /// The list.
     #[serde(flatten)]
     pub list: ListOfRuns,
-    /// The runs.
+    /// The runs, once they are asked for: a tier's own are often replaced before.
     #[serde(skip)]
+    listed: OnceLock<ListedFlows<F>>,
+}
+
+/// The runs of a list.
+#[derive(Debug, Clone)]
+struct ListedFlows<F> {
     flows: Vec<F>,
     /// Keys that tell them apart where their own names do not; empty where these suffice.
-    #[serde(skip)]
     labels: Vec<Variant>,
 }
 
-impl<F: Flow> RunList<F> {
-    /// The runs of a list over base values of a case.
-    ///
-    /// # Errors
-    /// The first place in the list that breaks a rule.
-    pub fn new(case: &str, base: F, list: ListOfRuns) -> Result<Self, ParameterError> {
-        list.check()?;
-        let table = table_of(&base);
+impl<F: Flow> ListedFlows<F> {
+    fn of(case: &str, base: &F, list: &ListOfRuns) -> Result<Self, ParameterError> {
+        let table = table_of(base);
         let (mut flows, mut listed) = (Vec::<F>::new(), Vec::new());
         for change in list.changes() {
             let flow = if change.values.is_empty() { base.clone() } else { changed(case, &table, &change)? };
@@ -142,13 +150,30 @@ impl<F: Flow> RunList<F> {
             }
         }
         let labels = labels(&flows, &listed);
-        Ok(Self { base, list, flows, labels })
+        Ok(Self { flows, labels })
+    }
+}
+
+impl<F: Flow> RunList<F> {
+    /// The runs of a list over base values of a case.
+    ///
+    /// # Errors
+    /// The first place in the list that breaks a rule.
+    pub fn new(case: &str, base: F, list: ListOfRuns) -> Result<Self, ParameterError> {
+        list.check()?;
+        let listed = ListedFlows::of(case, &base, &list)?.into();
+        Ok(Self { base, list, listed })
+    }
+
+    fn listed(&self) -> &ListedFlows<F> {
+        let listed = || ListedFlows::of("CASE", &self.base, &self.list);
+        self.listed.get_or_init(|| listed().unwrap_or_else(|error| panic!("a case's list of runs: {error}")))
     }
 
     /// The runs.
     #[must_use]
     pub fn flows(&self) -> &[F] {
-        &self.flows
+        &self.listed().flows
     }
 }
 
@@ -266,7 +291,7 @@ impl<F: Flow> RunList<F> {
     #[must_use]
     pub fn of_tier(tier: Tier) -> Self {
         let file = TiersFile::of::<F>();
-        let mut changes = file.set;
+        let mut changes = file.set.clone();
         for (lowest, values) in [(Tier::Paper, &file.paper), (Tier::Fine, &file.fine)] {
             if lowest <= tier {
                 lay_over(&mut changes, values);
@@ -275,8 +300,8 @@ impl<F: Flow> RunList<F> {
         let values = changes.into_iter().map(|(path, value)| ("set".to_owned(), path, value)).collect();
         let change = ListedChange { variant: Variant::default(), values };
         let base = changed("CASE", &table_of(&F::default()), &change).unwrap_or_else(|error| panic!("{tier}: {error}"));
-        let list = ListOfRuns { variants: file.variants, vary: file.vary }.of_tier(tier);
-        Self::new("CASE", base, list).unwrap_or_else(|error| panic!("{tier}: {error}"))
+        let list = ListOfRuns { variants: file.variants.clone(), vary: file.vary.clone() }.of_tier(tier);
+        Self { base, list, listed: OnceLock::new() }
     }
 
     /// Whether all of its flows hold.
@@ -285,13 +310,13 @@ impl<F: Flow> RunList<F> {
     /// The first field that breaks a rule, by its dotted TOML path.
     pub fn check_all(&self) -> Result<(), ParameterError> {
         self.list.check_single_tier()?;
-        self.flows.iter().try_for_each(Flow::check)
+        self.flows().iter().try_for_each(Flow::check)
     }
 
     /// Doubts of all of its flows, each once.
     pub(in crate::case) fn doubts(&self) -> Vec<String> {
         let mut doubts: Vec<String> = Vec::new();
-        for doubt in self.flows.iter().flat_map(Flow::doubts) {
+        for doubt in self.flows().iter().flat_map(Flow::doubts) {
             if !doubts.contains(&doubt) {
                 doubts.push(doubt);
             }
@@ -311,8 +336,9 @@ impl<F: Flow> RunList<F> {
 
     /// Keys that tell a run apart from others with its own name.
     pub(in crate::case) fn label(&self, run: &F) -> Variant {
-        let place = if self.labels.is_empty() { None } else { self.flows.iter().position(|own| own == run) };
-        place.map(|place| self.labels[place].clone()).unwrap_or_default()
+        let ListedFlows { flows, labels } = self.listed();
+        let place = if labels.is_empty() { None } else { flows.iter().position(|own| own == run) };
+        place.map(|place| labels[place].clone()).unwrap_or_default()
     }
 
     /// Full name of a run.
@@ -322,7 +348,7 @@ impl<F: Flow> RunList<F> {
 
     /// The field that takes the place of one of earlier files.
     pub(in crate::case) fn field_now(former: &str) -> Option<String> {
-        TiersFile::of::<F>().former.remove(former)
+        TiersFile::of::<F>().former.get(former).cloned()
     }
 
     /// Makes the values at these paths those of all runs, whatever the list says of them.

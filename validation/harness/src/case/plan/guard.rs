@@ -74,7 +74,7 @@ impl<'a, F: Flow> Guard<'a, F> {
     /// Whether a field is the user's: the list of runs also changes where another field is set for all of them.
     fn is_given(&self, path: &str) -> bool {
         let of_file = self.changes.file.as_ref().is_some_and(|(_, fields)| fields.contains_key(path));
-        !P::STATED.concat().contains(&path) || of_file || is_set(self.changes.settings, path)
+        !["variants", "vary"].contains(&path) || of_file || is_set(self.changes.settings, path)
     }
 
     /// An error about a field that the user has not changed becomes one of the field that leads to it.

@@ -8,7 +8,7 @@ fn resolve<P>(case: &str, defaults: &P, changes: &Changes<'_>) -> Result<P, Para
 where
     P: Serialize + DeserializeOwned + JsonSchema + 'static,
 {
-    let table = checked(case, schema_of::<P>(), &table_of(defaults), changes, |_, _| {})?;
+    let table = checked(case, bagnold_solver::parameter::schema_of::<P>(), &table_of(defaults), changes, |_, _| {})?;
     typed(case, table).map_err(|error| changes.blamed(error))
 }
 
