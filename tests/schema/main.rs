@@ -209,7 +209,6 @@ fn the_schema_of_a_study_accepts_the_shipped_one_and_refuses_slips() {
         ("study = ", "stduy = "),
         ("base = \"flume.toml\"", ""),
         ("base = ", "case = \"scene\"\nbase = "),
-        ("values = [0.01, 0.005]", "values = [[0.01]]"),
         ("values = [0.01, 0.005]", "values = 0.01"),
         ("value = \"last\"", "value = \"latest\""),
         ("value = \"last\"", ""),
