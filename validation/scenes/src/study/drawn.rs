@@ -1,15 +1,12 @@
 //! A figure of checks over the variants: what was found at each place, beside what each check is compared with.
 
-use super::file::StudyText;
-use crate::case::VariedParameter;
 use crate::figure::{Axis, Figure, Mark, Panel, is_file_name};
 use crate::input::{FieldError, check_text};
-use crate::metric::{Metric, Origin, Value as VariantValue, Variant};
+use crate::metric::{Metric, Origin, Value, Variant};
 use bagnold_solver::parameter::filled;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use toml::Value;
 
 /// A figure: values of checks over a number that each variant has.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -54,14 +51,25 @@ pub(super) struct SeriesText {
     pub(super) only: Option<Variant>,
 }
 
+/// Names that a figure may refer to.
+#[derive(Debug)]
+pub(super) struct NamesOfStudy<'study> {
+    /// The named variants.
+    pub(super) variants: Vec<&'study str>,
+    /// The parameters that take several numbers, as variants call them.
+    pub(super) varied_numbers: Vec<&'study str>,
+    /// The checks.
+    pub(super) checks: Vec<&'study str>,
+}
+
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
 fn is_false(switch: &bool) -> bool {
     !switch
 }
 
 impl FigureText {
-    /// Refuses what could not be drawn of a study.
-    pub(super) fn check(&self, study: &StudyText) -> Result<(), FieldError> {
+    /// Refuses what could not be drawn of a study with these names.
+    pub(super) fn check(&self, study: &NamesOfStudy) -> Result<(), FieldError> {
         if !is_file_name(&self.name) {
             let rule = "a name that a file can have: letters, digits, `-` and `_`";
             let remedy = "such as \"thickness-over-slope\"";
@@ -72,16 +80,14 @@ impl FigureText {
         }
         match (&self.over, self.at.is_empty()) {
             (Some(over), true) => {
-                let is_number = |value: &Value| value.is_float() || value.is_integer();
-                let is_it = |own: &VariedParameter| own.label() == over && own.values.iter().all(is_number);
-                if !study.vary.iter().any(is_it) {
+                if !study.varied_numbers.contains(&over.as_str()) {
                     let rule = "the name of a parameter that [[vary]] gives numbers to";
                     return Err(FieldError::new("over", format!("\"{over}\""), rule, "vary it, or use `at`"));
                 }
             }
             (None, false) => {
                 for (name, place) in &self.at {
-                    if !study.variants.iter().any(|own| own.name == *name) {
+                    if !study.variants.contains(&name.as_str()) {
                         let rule = "the name of one of [[variants]]";
                         return Err(FieldError::new("at", format!("\"{name}\""), rule, "take its name from there"));
                     }
@@ -99,8 +105,7 @@ impl FigureText {
         }
         for (place, series) in self.series.iter().enumerate() {
             let field = format!("series[{place}]");
-            let is_check = |name: &&String| study.checks.iter().any(|own| own.name == **name);
-            if let Some(check) = series.check.as_ref().filter(|name| !is_check(name)) {
+            if let Some(check) = series.check.as_ref().filter(|check| !study.checks.contains(&check.as_str())) {
                 let field = format!("{field}.check");
                 let rule = "the name of one of [[checks]]";
                 return Err(FieldError::new(&field, format!("\"{check}\""), rule, "take its name from there"));
@@ -177,7 +182,7 @@ impl FigureText {
     /// Abscissa of a variant.
     fn place(&self, variant: &Variant) -> Option<f64> {
         match &self.over {
-            Some(over) => variant.get(over).and_then(VariantValue::number),
+            Some(over) => variant.get(over).and_then(Value::number),
             None => {
                 let of = |name: &String| variant.includes(&Variant::of("variant", name.as_str()));
                 self.at.iter().find(|(name, _)| of(name)).map(|(_, place)| *place)
@@ -236,13 +241,12 @@ mod tests {
             "name = \"a\"\ncaption = \"A.\"\nx = \"θ [°]\"\ny = \"h [m]\"\nat = { steep = 25.0 }\n\
              [[series]]\ncurve = [[22.0, 0.016], [25.0, 0.0085]]\nreference = \"uniform layer\"\n",
         );
-        let study = "study = \"s\"\nsummary = \"s\"\n[[variants]]\nname = \"steep\"";
-        let study = toml::from_str(study).expect("a study");
-        assert_eq!(drawn.check(&study), Ok(()));
+        let names = NamesOfStudy { variants: vec!["steep"], varied_numbers: Vec::new(), checks: Vec::new() };
+        assert_eq!(drawn.check(&names), Ok(()));
         assert_eq!(drawn.draw(&[]).panels[0].series[0].points, [(22.0, 0.016), (25.0, 0.0085)]);
         let mut without = drawn;
         without.series[0].curve.clear();
-        assert!(without.check(&study).expect_err("refused").to_string().contains("exactly one of `check` and `curve`"));
+        assert!(without.check(&names).expect_err("refused").to_string().contains("exactly one of `check` and `curve`"));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A study as a TOML file.
 
 use super::control::{self, ControlText};
-use super::drawn::FigureText;
+use super::drawn::{FigureText, NamesOfStudy};
 use crate::case::list::Fields;
 use crate::case::{ListOfRuns, NamedVariant, Tier, VariedParameter};
 use crate::figure::is_file_name;
@@ -11,7 +11,7 @@ use bagnold_solver::parameter::{filled, positive, range_problem};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-use toml::Table;
+use toml::{Table, Value};
 
 /// The file, field by field.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -190,9 +190,20 @@ impl StudyText {
         if let Some(problem) = range_problem(self) {
             return Err(FieldError::new(&problem.field, problem.value, &problem.rule, &problem.remedy));
         }
+        let is_number = |value: &Value| value.is_float() || value.is_integer();
+        let names = NamesOfStudy {
+            variants: self.variants.iter().map(|named| named.name.as_str()).collect(),
+            varied_numbers: self
+                .vary
+                .iter()
+                .filter(|own| own.values.iter().all(is_number))
+                .map(VariedParameter::label)
+                .collect(),
+            checks: self.checks.iter().map(|check| check.name.as_str()).collect(),
+        };
         for (place, figure) in self.figures.iter().enumerate() {
             let field = format!("figures[{place}]");
-            figure.check(self).map_err(|error| error.within(&field))?;
+            figure.check(&names).map_err(|error| error.within(&field))?;
             if self.figures[..place].iter().any(|other| other.name == figure.name) {
                 let field = format!("{field}.name");
                 return Err(FieldError::new(&field, &figure.name, "unique", "give each a name of its own"));
