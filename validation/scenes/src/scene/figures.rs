@@ -20,15 +20,17 @@ pub(super) fn pictures(parameters: &PlaneFlow, frames: &[Frame]) -> Figure {
         for wall in &parameters.walls {
             let facet_wall = wall.facet_wall();
             let moved = facet_wall.motion.displacement(frame.time);
-            let place = |point: &Vector<2>| (point[0] + moved[0], point[1] + moved[1]);
-            let ends = facet_wall.facets.first().map(|facet| place(&facet.corners[0]));
-            let points =
-                ends.into_iter().chain(facet_wall.facets.iter().map(|facet| place(&facet.corners[1]))).collect();
-            panel.series.push(Series::new("", Mark::Reference, 0, points));
+            panel.series.push(Series::new("", Mark::Reference, 0, outline(&facet_wall.facets, &moved)));
         }
         panel
     });
     Figure::new("pictures", "The material in the colours of its speed, and its walls, dashed.", panels.collect())
+}
+
+/// The corners of segments in a row, moved by a displacement.
+fn outline(facets: &[Facet<2>], moved: &Vector<2>) -> Vec<(f64, f64)> {
+    let ends = facets.iter().take(1).map(|facet| facet.corners[0]).chain(facets.iter().map(|facet| facet.corners[1]));
+    ends.map(|end| (end[0] + moved[0], end[1] + moved[1])).collect()
 }
 
 /// The sites in the colours of their values between walls, inlets and the lines of gauges, each by its name.
@@ -37,9 +39,7 @@ pub(super) fn setup(parameters: &PlaneFlow, sites: &[(Vector<2>, f64)]) -> Vec<P
     let point = |place: &Vector<2>| (place[0], place[1]);
     for (slot, wall) in parameters.walls.iter().enumerate() {
         let facets = wall.facet_wall().facets;
-        let first = facets.first().map(|facet| point(&facet.corners[0]));
-        let points: Vec<_> = first.into_iter().chain(facets.iter().map(|facet| point(&facet.corners[1]))).collect();
-        panel.series.push(Series::new(wall.name(), Mark::Line, slot, points));
+        panel.series.push(Series::new(wall.name(), Mark::Line, slot, outline(&facets, &Vector::zeros())));
         // a short stroke from its longest segment to where the flow is
         let longest = facets.iter().max_by(|a, b| {
             let length = |facet: &Facet<2>| (facet.corners[1] - facet.corners[0]).norm();
