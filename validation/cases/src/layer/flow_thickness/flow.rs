@@ -133,9 +133,12 @@ impl Flow for FlowThicknessFlow {
 
     fn cost(&self) -> RunCost {
         let still = |_: f64| 0.0;
+        let start = self.profile(if self.is_sought() { self.start_angle } else { self.slope_angle });
+        // grains far finer than the layer flow so fast that sound must be faster still
+        let layer = self.layer(start.depth_mean().unwrap_or(0.0), &still, &still);
+        let steps = layer.expected_steps();
         // most trials end early
-        let rounds = if self.is_sought() { self.search(self.layer(0.0, &still, &still)).rounds() / 3.0 } else { 1.0 };
-        let steps = self.layer(0.0, &still, &still).expected_steps();
+        let rounds = if self.is_sought() { self.search(layer).rounds() / 3.0 } else { 1.0 };
         RunCost::weakly_compressible(self.layer.particles(), rounds * steps)
     }
 
