@@ -208,7 +208,7 @@ mod tests {
     fn two_runs_of_one_name_are_refused_with_the_list_that_makes_them() {
         assert_eq!(
             refused(&["vary=[{path=\"grain.damping\", name=\"steps\", values=[1.0, 2.0]}]"], LIMITS),
-            "`vary` is [{ path = \"grain.damping\", name = \"steps\", values = [1.0, 2.0] }], but must be unique; two runs would \
+            "`vary` is [{ name = \"steps\", path = \"grain.damping\", values = [1.0, 2.0] }], but must be unique; two runs would \
              both be called `steps=20`: name it once"
         );
     }
