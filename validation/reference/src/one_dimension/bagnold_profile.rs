@@ -64,7 +64,7 @@ impl BagnoldProfile {
             let rule = "finite and greater than static_friction";
             return refuse("limiting_friction", self.limiting_friction, rule);
         }
-        if !(self.inclination.abs() < std::f64::consts::FRAC_PI_2) {
+        if self.inclination.is_nan() || self.inclination.abs() >= std::f64::consts::FRAC_PI_2 {
             return refuse("inclination", self.inclination, "within ±π/2 rad");
         }
         Ok(())
