@@ -6,4 +6,4 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export BAGNOLD_KILLS="${1:-10}"
 cargo build --bin bagnold
-cargo test --test command_line restart:: -- --include-ignored --nocapture --test-threads=1
+cargo test --test suite command_line::restart:: -- --include-ignored --nocapture --test-threads=1

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Ends of intervals on the exact Herschel-Bulkley film by SciPy's own profile likelihood, beside Bagnold's.
 
-    cargo test --test calibration intervals_for_comparison -- --ignored --nocapture | python3 tests/calibration/profile.py
+    cargo test --test suite intervals_for_comparison -- --ignored --nocapture | python3 tests/calibration/profile.py
 
 Nothing is shared with Bagnold but the data: the film is written anew, the other parameters are minimised by
 scipy.optimize.least_squares from several starts, the end is found by brentq.

@@ -1,7 +1,7 @@
 //! Inputs that are refused: each a file `tests/bad/NAME.args` with an argument a line, beside it the exact message,
 //! `NAME.message`. What the arguments name (`NAME.toml`, `NAME.csv`, `NAME.pvd`) lies there too.
 
-use crate::program::Place;
+use crate::command_line::program::Place;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Each bad input: its exact message, exit code 2, nothing printed and nothing written.
 
-use crate::program::Place;
+use crate::command_line::program::Place;
 
 /// Runs, and expects this message and no result.
 pub(crate) fn refused(place: &Place, arguments: &[&str], message: &str) {

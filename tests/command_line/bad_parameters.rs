@@ -1,8 +1,8 @@
 //! Rules between parameters of cases: exit code 2, a message that names the field, and nothing written. A rule of one field stands
 //! in its attribute; `tests/inputs/bounds.rs` tells when it is lost.
 
-use crate::bad_input::refused;
-use crate::program::Place;
+use crate::command_line::bad_input::refused;
+use crate::command_line::program::Place;
 
 #[test]
 fn a_layer_of_water_and_grains_that_cannot_be() {

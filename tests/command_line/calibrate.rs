@@ -1,7 +1,7 @@
 //! Calibrations: with one's own CSV, killed and resumed, refused.
 
-use crate::killed::{Finished, assert_same_files, kill_and_resume, written};
-use crate::program::Place;
+use crate::command_line::killed::{Finished, assert_same_files, kill_and_resume, written};
+use crate::command_line::program::Place;
 use std::path::{Path, PathBuf};
 
 /// The viscosity of a film from three velocities that someone has measured, with 3 % of uncertainty each. Displaced particles would make the

@@ -1,6 +1,6 @@
 //! 0 no new failure, 1 a new failure, 2 bad input (see `bad_input`), 3 diverged.
 
-use crate::program::{CHEAP, Place, document};
+use crate::command_line::program::{CHEAP, Place, document};
 use bagnold_harness::metric::Verdict;
 use bagnold_harness::observation::Outcome;
 

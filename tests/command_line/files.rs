@@ -1,6 +1,6 @@
 //! Files that a run and a report write, without loss.
 
-use crate::program::{CHEAP, Place, document, path};
+use crate::command_line::program::{CHEAP, Place, document, path};
 use bagnold_harness::store::{Store, StorePolicy};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! The program where no checkout is: an empty folder, a home of its own, and what it carries.
 
-use crate::program::{CHEAP, Place, path};
+use crate::command_line::program::{CHEAP, Place, path};
 use assert_cmd::Command;
 use bagnold_harness::case::Tier;
 use bagnold_report::Baseline;

@@ -1,7 +1,7 @@
 //! Commands that a signal asks to end, whose checkpoints are damaged, or whose disk is full.
 
-use crate::program;
-use crate::restart::{RUN_IN_PLANE, Work, checkpoints, has_gone_on, output_of_the_program, place};
+use crate::command_line::program;
+use crate::command_line::restart::{RUN_IN_PLANE, Work, checkpoints, has_gone_on, output_of_the_program, place};
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};

@@ -1,6 +1,6 @@
 //! `judge`, `export` and `compare`: other codes, and our own files as if another code had written them.
 
-use crate::program::{CHEAP, Place};
+use crate::command_line::program::{CHEAP, Place};
 use serde_json::Value;
 
 /// One planar column, in a second.

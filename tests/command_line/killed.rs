@@ -1,6 +1,6 @@
 //! A command that is killed with -9 again and again, and resumed.
 
-use crate::program::{self, Place};
+use crate::command_line::program::{self, Place};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};

@@ -1,8 +1,8 @@
 //! Runs that go on from finished ones, and scenes that start from a state: bits, tables and pictures of an uninterrupted run.
 
-use crate::program::{self, Place, document};
-use crate::restart::has_gone_on;
-use crate::scene::{metric, shipped, walk};
+use crate::command_line::program::{self, Place, document};
+use crate::command_line::restart::has_gone_on;
+use crate::command_line::scene::{metric, shipped, walk};
 use std::process::Command;
 
 /// Final states with all metrics, the tables and pictures, and what the command has told.

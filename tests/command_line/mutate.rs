@@ -1,6 +1,6 @@
 //! The program that users run holds no mutation; a checkout has them in a file.
 
-use crate::program::path;
+use crate::command_line::program::path;
 
 #[test]
 fn the_program_holds_no_mutation() {

@@ -1,6 +1,6 @@
 //! The nonlocal law from files: scenes of the plane and of space, and a sweep over its amplitude.
 
-use crate::program::Place;
+use crate::command_line::program::Place;
 
 /// Material of both scenes; grains nearly as large as the particles, so that the law's length is resolved.
 const LAW: &str = "law = \"nonlocal-mu-i\", static_friction = 0.382, limiting_friction = 0.643, reference_inertia = 0.279, \

@@ -1,6 +1,6 @@
 //! `run --overlay`: a user's measurements in a case's figure.
 
-use crate::program::{CHEAP, Place, document};
+use crate::command_line::program::{CHEAP, Place, document};
 use bagnold_harness::metric::Verdict;
 
 /// The exact velocities of the film of `CHEAP` are not known here: these are some 10 % off at most.

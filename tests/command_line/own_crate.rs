@@ -1,7 +1,7 @@
 //! Crates with a law or a case of one's own: written by the program, built outside of the tree, and never shown a number of an
 //! earlier build.
 
-use crate::program::{Place, document, path};
+use crate::command_line::program::{Place, document, path};
 use assert_cmd::Command;
 use bagnold_harness::store::{identity, source_hash};
 use bagnold_validation::REGISTRY;
@@ -165,10 +165,10 @@ fn a_crate_is_written_into_a_new_folder_under_a_name_that_it_can_have() {
 #[test]
 fn a_program_tells_the_same_of_itself_in_every_folder() {
     let place = Place::new();
-    let there = place.run(&[crate::program::CHEAP, &["--json"]].concat()).code(0);
+    let there = place.run(&[crate::command_line::program::CHEAP, &["--json"]].concat()).code(0);
     let there = document(&there).provenance;
     let out = place.path("here").display().to_string();
-    let arguments = [&["run", "--out", &out, "--json"], crate::program::CHEAP].concat();
+    let arguments = [&["run", "--out", &out, "--json"], crate::command_line::program::CHEAP].concat();
     let here = document(&place.bagnold(&arguments).current_dir(ROOT).assert().code(0)).provenance;
     assert_eq!(there.commit, here.commit, "the commit is that of the build");
     assert_eq!(there.commit, bagnold_harness::store::commit());

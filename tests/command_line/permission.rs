@@ -2,7 +2,7 @@
 
 #![cfg(unix)]
 
-use crate::program::{CHEAP, Place, path};
+use crate::command_line::program::{CHEAP, Place, path};
 use std::fs::{Permissions, set_permissions};
 use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::process::CommandExt;

@@ -1,6 +1,6 @@
 //! Kills aimed at the moment when a folder's new contents take the place of the old ones: what is there is of one run.
 
-use crate::program::{CHEAP, Place, path};
+use crate::command_line::program::{CHEAP, Place, path};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 

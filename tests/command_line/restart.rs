@@ -1,7 +1,7 @@
 //! Commands that are killed with -9 in the middle of a run, and go on: the final states are those of a command that was left
 //! alone. `BAGNOLD_KILLS` sets how often each is killed (`tests/restart.sh`).
 
-use crate::program::{self, Place};
+use crate::command_line::program::{self, Place};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};

@@ -1,6 +1,6 @@
 //! Scenes of a user's own: those that are shipped run, and write what their gauges measured.
 
-use crate::program::{Place, document};
+use crate::command_line::program::{Place, document};
 use std::path::{Path, PathBuf};
 
 pub(crate) fn shipped() -> Vec<PathBuf> {

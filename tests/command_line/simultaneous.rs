@@ -1,6 +1,6 @@
 //! Several commands that write one folder at the same time.
 
-use crate::program::{CHEAP, Place, path};
+use crate::command_line::program::{CHEAP, Place, path};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 

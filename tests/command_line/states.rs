@@ -1,6 +1,6 @@
 //! `run --output-every` and `[output]`: states of the runs on their way.
 
-use crate::program::{CHEAP, Place};
+use crate::command_line::program::{CHEAP, Place};
 
 /// Names of the point data of a VTU file.
 fn arrays(text: &str) -> Vec<String> {

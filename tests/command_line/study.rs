@@ -1,6 +1,6 @@
 //! Studies of a user's own: `run STUDY.toml` and `report --suite`.
 
-use crate::program::{Place, document};
+use crate::command_line::program::{Place, document};
 use assert_cmd::assert::Assert;
 use bagnold_harness::metric::Verdict;
 use bagnold_harness::result::MetricEntry;

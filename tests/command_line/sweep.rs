@@ -1,7 +1,7 @@
 //! Sweeps: killed and resumed, refused, and what they leave.
 
-use crate::killed::{Finished, assert_same_files, kill_and_resume, written};
-use crate::program::Place;
+use crate::command_line::killed::{Finished, assert_same_files, kill_and_resume, written};
+use crate::command_line::program::Place;
 use bagnold_harness::case::Limits;
 use bagnold_tools::sweep::SweepPlan;
 use bagnold_validation::REGISTRY;

@@ -2,7 +2,7 @@
 
 #![cfg(target_os = "linux")]
 
-use crate::program::{CHEAP, Place, path};
+use crate::command_line::program::{CHEAP, Place, path};
 use std::fs::{File, OpenOptions};
 use std::process::{Command, Output, Stdio};
 

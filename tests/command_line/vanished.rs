@@ -1,6 +1,6 @@
 //! Folders that somebody removes while a command works in them.
 
-use crate::restart::{RUN_IN_PLANE, SWEEP, Work, checkpoints, has_gone_on, output_of_the_program, place};
+use crate::command_line::restart::{RUN_IN_PLANE, SWEEP, Work, checkpoints, has_gone_on, output_of_the_program, place};
 use std::path::Path;
 use std::process::ExitStatus;
 
@@ -12,7 +12,7 @@ fn remove(folder: &Path) {
 }
 
 /// Exit status and message of a command whose folder of this name is removed after its first checkpoint.
-fn without(work: &Work, place: &crate::program::Place, removed: &str) -> (ExitStatus, String) {
+fn without(work: &Work, place: &crate::command_line::program::Place, removed: &str) -> (ExitStatus, String) {
     let mut child = work.start(place, "out", "1");
     assert!(has_gone_on(&mut child, place, "out-store"), "{}: over before anything could be removed", work.name);
     remove(&place.path(removed));

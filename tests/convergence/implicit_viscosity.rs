@@ -1,6 +1,6 @@
 //! A shear wave decays as exp(−ν k² t), also with steps far beyond the explicit viscous bound.
 
-use crate::orders;
+use crate::convergence::orders;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};

@@ -7,7 +7,7 @@
 //! lattice only, so that its error is jitter times stress over spacing, of order −1. That is the price of a balance of momentum that
 //! closes to rounding; a flow pays it once, because particles move until that force has gone.
 
-use crate::orders;
+use crate::convergence::orders;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::kernel::Kernel;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};

@@ -4,7 +4,7 @@
 //! The stabilised operator is (1 + s) times the Laplacian of a smooth pressure, so that a step takes 1/(1 + s) of what is left of ∇χ: a
 //! lag of a step or two, and nothing in a steady flow. Several short steps show what the operators do in space.
 
-use crate::orders;
+use crate::convergence::orders;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, Fluid, IncompressibleScene, IncompressibleSimulation, ParticleSet, ProjectionNumerics, SolidFraction,

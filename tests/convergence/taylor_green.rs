@@ -1,7 +1,7 @@
 //! The decay of a periodic vortex lattice, an exact solution of the Navier–Stokes equations: kinetic energy falls as
 //! exp(−4 ν k² t) for u = U (sin kx cos ky, −cos kx sin ky).
 
-use crate::orders;
+use crate::convergence::orders;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::kernel::{Kernel, KernelShape};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};

@@ -1,6 +1,6 @@
 //! The corrected velocity gradient (9): exact for linear fields, convergent for smooth ones, also when jittered.
 
-use crate::orders;
+use crate::convergence::orders;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};

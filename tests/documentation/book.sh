@@ -11,4 +11,4 @@ book=$(mktemp -d)
 trap 'rm -rf "$book"' EXIT
 "$mdbook" build docs --dest-dir "$book"
 # the whole workspace: with one package alone the libraries have other features and are built anew
-BAGNOLD_BOOK="$book" cargo test --test documentation -- --ignored --exact every_link_of_the_built_book_leads_somewhere
+BAGNOLD_BOOK="$book" cargo test --test suite -- --ignored --exact documentation::every_link_of_the_built_book_leads_somewhere

@@ -1,6 +1,6 @@
 //! The page of the book on other codes, from their stored results.
 
-use crate::reference::{assert_page, cell};
+use crate::documentation::reference::{assert_page, cell};
 use bagnold_harness::case::{Silent, execute};
 use bagnold_harness::metric::{Metric, Verdict};
 use bagnold_harness::store::{Store, StorePolicy};

@@ -1,6 +1,6 @@
 //! Reference pages of the book that follow from the program: commands, fields of files, metrics.
 
-use crate::book;
+use crate::documentation::book;
 use bagnold_harness::case::{AnyCase, Tier};
 use bagnold_harness::metric::MetricKind;
 use bagnold_scenes::study;
@@ -12,7 +12,7 @@ use serde_json::Value;
 use std::fmt::Write;
 
 /// First line of a generated page.
-const NOTICE: &str = "<!-- Generated; `cargo test --test documentation` tells when it is out of date. -->\n\n";
+const NOTICE: &str = "<!-- Generated; `cargo test --test suite documentation` tells when it is out of date. -->\n\n";
 
 /// Compares a page with its text; a page that differs is written to `target/reference`.
 pub(crate) fn assert_page(name: &str, text: &str) {

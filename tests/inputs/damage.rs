@@ -1,6 +1,6 @@
 //! Random damage to files, and the watch over those who read them: neither a panic nor an endless loop stays unseen.
 
-use crate::judge::{count, runner};
+use crate::inputs::judge::{count, runner};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use proptest::strategy::ValueTree;

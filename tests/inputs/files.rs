@@ -1,6 +1,6 @@
 //! Plans, tables and case files with random mistakes in them: an error or a plan, never a panic.
 
-use crate::damage::read_damaged;
+use crate::inputs::damage::read_damaged;
 use bagnold_harness::case::{AnyCase, CaseFile, Changes, Limits, ParameterError, Tier};
 use bagnold_harness::evidence::MeasuredData;
 use bagnold_harness::measured::Measurements;

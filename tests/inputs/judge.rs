@@ -1,6 +1,6 @@
 //! Judgement of a generated input.
 
-use crate::changes::{Input, inputs};
+use crate::inputs::changes::{Input, inputs};
 use bagnold_harness::case::{Changes, PreparedCase, Silent, Tier, execute};
 use bagnold_harness::metric::Verdict;
 use bagnold_harness::store::{Store, StorePolicy};

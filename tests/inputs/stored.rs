@@ -1,7 +1,7 @@
 //! Files that the program wrote itself, damaged: results, sweeps, baselines, records of runs and kept states.
 
-use crate::damage::read_damaged;
-use crate::files::in_repository;
+use crate::inputs::damage::read_damaged;
+use crate::inputs::files::in_repository;
 use bagnold_harness::case::{CaseFile, Changes, Limits, Silent, Tier, execute};
 use bagnold_harness::checkpoint::StoredState;
 use bagnold_harness::evaluation::{EvaluationRecord, MetricValue};

@@ -1,6 +1,6 @@
 //! The artificial viscosity (15): its value for two particles, that it acts on approaching pairs only, and what it is for.
 
-use crate::patches::{DENSITY, Disorder, SOUND_SPEED, SPACING, block, exact_pairs, open_scene, simulation};
+use crate::invariants::patches::{DENSITY, Disorder, SOUND_SPEED, SPACING, block, exact_pairs, open_scene, simulation};
 use bagnold_solver::kernel::{Kernel, KernelShape};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::Vector;

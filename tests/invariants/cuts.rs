@@ -15,7 +15,7 @@ use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 
-use crate::patches::{random, symmetric};
+use crate::invariants::patches::{random, symmetric};
 
 /// Height of the face `[m]`.
 const HEIGHT: f64 = 4.0;

@@ -1,6 +1,6 @@
 //! The density–pressure coupling (27): blind to linear pressures, exact on a checkerboard, makes no mass.
 
-use crate::patches::{
+use crate::invariants::patches::{
     Disorder, EQUATION_OF_STATE, SOUND_SPEED, SPACING, block, open_scene, periodic_scene, simulation,
 };
 use bagnold_solver::domain::{AxisBoundary, Domain};

@@ -1,6 +1,8 @@
 //! The same bits for every number of threads and every instruction set.
 
-use crate::patches::{Disorder, EQUATION_OF_STATE, GRAINS, SPACING, advance, bed, block, open_scene, simulation};
+use crate::invariants::patches::{
+    Disorder, EQUATION_OF_STATE, GRAINS, SPACING, advance, bed, block, open_scene, simulation,
+};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::lanes::InstructionSet;
 use bagnold_solver::material::rheology::Rheology;
@@ -90,21 +92,21 @@ fn a_column_in_space_is_the_same_to_the_last_bit() {
 
 #[test]
 fn a_law_with_a_field_is_the_same_to_the_last_bit() {
-    in_both_precisions(&crate::fields::flowing([60, 50]));
-    in_both_precisions(&crate::fields::flowing([13, 12, 14]));
+    in_both_precisions(&crate::invariants::fields::flowing([60, 50]));
+    in_both_precisions(&crate::invariants::fields::flowing([13, 12, 14]));
 }
 
 #[test]
 fn a_law_with_memories_is_the_same_to_the_last_bit() {
-    check(&crate::memories::labelled([60, 50]));
-    check(&crate::memories::labelled([13, 12, 14]));
+    check(&crate::invariants::memories::labelled([60, 50]));
+    check(&crate::invariants::memories::labelled([13, 12, 14]));
 }
 
 #[test]
 fn the_papers_numerics_are_the_same_to_the_last_bit() {
     let mut scene = column([60, 40]);
     scene.numerics = Numerics { momentum_operator: MomentumOperator::Pairwise, ..Numerics::paper() };
-    scene.rheology = crate::patches::SYRUP;
+    scene.rheology = crate::invariants::patches::SYRUP;
     check(&scene);
 }
 

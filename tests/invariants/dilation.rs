@@ -1,8 +1,8 @@
 //! Particles of soil that dilates as it yields: sheared at a given volume, falling, and with associated flow.
 
-use crate::determinism::{self, column};
-use crate::patches::{DENSITY, Disorder, EQUATION_OF_STATE, bed, block, open_scene, simulation};
-use crate::restart;
+use crate::invariants::determinism::{self, column};
+use crate::invariants::patches::{DENSITY, Disorder, EQUATION_OF_STATE, bed, block, open_scene, simulation};
+use crate::invariants::restart;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress};

@@ -1,11 +1,11 @@
 //! Every term books its work: what the ledger leaves open is the length of a step. (That no wall at rest feeds the flow is
 //! what the case `water-column` is about.)
 
-use crate::fields;
-use crate::patches::{
+use crate::invariants::fields;
+use crate::invariants::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, bed, block, periodic_scene, simulation,
 };
-use crate::pore_liquid;
+use crate::invariants::pore_liquid;
 use bagnold_harness::observation::EnergyBook;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};

@@ -1,7 +1,7 @@
 //! Field that a law keeps of each particle: its diffusion, and its transport with the particle.
 
-use crate::determinism::column;
-use crate::patches::{
+use crate::invariants::determinism::column;
+use crate::invariants::patches::{
     self, Disorder, EQUATION_OF_STATE, GRAINS, SPACING, advance, bed, block, open_scene, periodic_scene, simulation,
 };
 use bagnold_solver::domain::AxisBoundary;
@@ -229,7 +229,7 @@ fn fields_that_do_not_fit_are_refused() {
 
 #[test]
 fn inflow_has_the_initial_value() {
-    let mut scene = crate::inlets::fed();
+    let mut scene = crate::invariants::inlets::fed();
     scene.rheology = spreading(0.0, FieldBoundary::NoFlux);
     scene.flow.field = vec![1.0; scene.flow.position.len()];
     let begun = scene.flow.position.len() as u32;

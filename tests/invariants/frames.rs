@@ -1,7 +1,7 @@
 //! A flow does not know how its frame is turned: a column of grains that collapses onto a bed of segments, free or beside a wall, turned
 //! by 30° with its walls and gravity, and its mirror image.
 
-use crate::patches::{
+use crate::invariants::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, SPACING, advance, block, exact_pairs, open_scene, simulation,
 };
 use bagnold_solver::vector::{Tensor, Vector};

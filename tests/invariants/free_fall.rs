@@ -1,6 +1,6 @@
 //! Free fall of a block without contact: its masses are exact, its shape stays, it falls with g.
 
-use crate::patches::{Disorder, SPACING, advance, bed, block, open_scene, simulation};
+use crate::invariants::patches::{Disorder, SPACING, advance, bed, block, open_scene, simulation};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
 use bagnold_solver::weakly_compressible::scene::Scene;

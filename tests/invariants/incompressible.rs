@@ -1,6 +1,6 @@
 //! Incompressible runs: momentum of two phases, hydrostatics, determinism, the ends of a run and of a scene.
 
-use crate::two_phases::{GRAIN, GRAVITY, SPACING, advance, bed, periodic_box, simulation, water};
+use crate::invariants::two_phases::{GRAIN, GRAVITY, SPACING, advance, bed, periodic_box, simulation, water};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::incompressible::{
     IncompressibleScene, IncompressibleSimulation, ParticleSet, SolidFraction, Strata, Stratification,

@@ -1,8 +1,8 @@
 //! Inlets: what they feed is the integral of their rate, what it brings is booked, and a film that is fed at the rate of the uniform
 //! one becomes that.
 
-use crate::patches::{EQUATION_OF_STATE, GRAINS, SPACING, exact_pairs, simulation};
-use crate::shells::shell;
+use crate::invariants::patches::{EQUATION_OF_STATE, GRAINS, SPACING, exact_pairs, simulation};
+use crate::invariants::shells::shell;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};

@@ -1,7 +1,7 @@
 //! Memory of a law beside its field: numbers of its own, which go with the particle.
 
-use crate::determinism::column;
-use crate::patches::{GRAINS, SPACING, advance, simulation};
+use crate::invariants::determinism::column;
+use crate::invariants::patches::{GRAINS, SPACING, advance, simulation};
 use bagnold_solver::material::rheology::field::{FieldBoundary, MOST_MEMORIES};
 use bagnold_solver::material::rheology::field::{FieldDiffusion, FieldReturn, FieldStep, LawField, Memory};
 use bagnold_solver::material::rheology::open::{OpenFieldLaw, OpenLaw, Parameters, register};
@@ -140,7 +140,7 @@ fn a_memory_goes_with_its_particle() {
 
 #[test]
 fn inflow_has_the_initial_memory() {
-    let mut scene = crate::inlets::fed();
+    let mut scene = crate::invariants::inlets::fed();
     scene.rheology = bonded(0.0);
     let begun = scene.flow.position.len() as u32;
     let mut simulation = simulation(scene);
@@ -173,7 +173,7 @@ fn memories_that_do_not_fit_are_refused() {
     // a state of another law
     let saved = simulation(labelled([20, 12]));
     let mut other = column([20, 12]);
-    other.rheology = crate::fields::nonlocal();
+    other.rheology = crate::invariants::fields::nonlocal();
     assert!(Simulation::continued(other, saved.save()).is_err());
 }
 

@@ -1,7 +1,9 @@
 //! Walls of triangles in space: flat ones are plane walls, the space behind them is covered once, what rests in a box of
 //! them rests, and what they give is booked.
 
-use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, SYRUP, advance, bed, block, open_scene, simulation};
+use crate::invariants::patches::{
+    Disorder, EQUATION_OF_STATE, SPACING, SYRUP, advance, bed, block, open_scene, simulation,
+};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::{BackingParticle, FacetWall, Motion};

@@ -1,6 +1,8 @@
 //! No pair term makes momentum: Σ m Δv = 0 in every step of a fully periodic block, term by term.
 
-use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, block, exact_pairs, open_scene, periodic_scene, simulation};
+use crate::invariants::patches::{
+    Disorder, GRAINS, SPACING, SYRUP, block, exact_pairs, open_scene, periodic_scene, simulation,
+};
 use bagnold_solver::material::rheology::{Bingham, Newtonian, Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics, ViscositySwitch};

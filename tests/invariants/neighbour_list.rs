@@ -1,6 +1,6 @@
 //! The neighbour list against a search through all pairs and all images, made without the solver's own images.
 
-use crate::patches::{Disorder, SPACING, bed, block, open_scene, random, simulation};
+use crate::invariants::patches::{Disorder, SPACING, bed, block, open_scene, random, simulation};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::run::SceneError;
 use bagnold_solver::vector::{Tensor, Vector};

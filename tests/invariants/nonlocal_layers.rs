@@ -1,7 +1,7 @@
 //! Layers of beads under the nonlocal law: where they stop and how they flow, against the model's own exact slope and a
 //! solution without particles, in the plane and in space.
 
-use crate::patches::{Disorder, SPACING, bed, block, open_scene, simulation};
+use crate::invariants::patches::{Disorder, SPACING, bed, block, open_scene, simulation};
 use bagnold_reference::one_dimension::{BagnoldProfile, NonlocalLayer, NonlocalProfile};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};

@@ -1,6 +1,6 @@
 //! Onset of flow in a chute of the nonlocal law: the case `nonlocal-shear` judges the flow itself.
 
-use crate::nonlocal_layers::on_one_thread;
+use crate::invariants::nonlocal_layers::on_one_thread;
 use bagnold_cases::nonlocal_shear::{Channel, ExactShear, Motion, NonlocalShearFlow, ShearedGrains, UpperBoundary};
 use bagnold_harness::case::recording::StartState;
 use bagnold_solver::weakly_compressible::simulation::Simulation;

@@ -1,6 +1,6 @@
 //! A law of a crate of the user's own, which this one is: found by its name, it runs like a built-in one.
 
-use crate::patches::{Disorder, GRAINS, block, open_scene, simulation};
+use crate::invariants::patches::{Disorder, GRAINS, block, open_scene, simulation};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::rheology::field::{FieldReturn, FieldStep, LawField};
 use bagnold_solver::material::rheology::open::{OpenFieldLaw, OpenLaw, OpenPlasticLaw, Parameters, register};

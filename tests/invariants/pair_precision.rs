@@ -1,8 +1,10 @@
 //! Pairs in single precision beside those in double precision: by how much a step and a short run differ, wherever the flow
 //! is, and what is left of the balances.
 
-use crate::determinism::column;
-use crate::patches::{Disorder, GRAINS, SPACING, advance, exact_pairs, largest_difference, periodic_scene, simulation};
+use crate::invariants::determinism::column;
+use crate::invariants::patches::{
+    Disorder, GRAINS, SPACING, advance, exact_pairs, largest_difference, periodic_scene, simulation,
+};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::numerics::{Numerics, PairPrecision};

@@ -1,7 +1,7 @@
 //! Particles of grains and pore liquid: a column that consolidates, and balances in disorder.
 
-use crate::patches::{Disorder, SPACING, block, open_scene, simulation};
-use crate::{determinism, memories, restart};
+use crate::invariants::patches::{Disorder, SPACING, block, open_scene, simulation};
+use crate::invariants::{determinism, memories, restart};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::pore_liquid::{PoreLiquid, SKELETON_SHARE};
@@ -123,7 +123,7 @@ fn what_drains_from_one_particle_reaches_another() {
     scene.domain.axes = [16.0, 12.0].map(|cells| AxisBoundary::Periodic { lower: 0.0, upper: cells * SPACING });
     scene.flow.velocity.fill(Vector::zeros());
     scene.rheology = Rheology::ViscousNumber(ViscousNumber { grain_diameter: 1e-3, ..SAND });
-    scene.numerics = crate::patches::exact_pairs();
+    scene.numerics = crate::invariants::patches::exact_pairs();
     let before = scene.flow.clone();
     let mut simulation = simulation(scene);
     simulation.step().expect("stable");
@@ -159,7 +159,7 @@ fn mixtures_that_are_not_served_are_refused() {
     let coarse =
         message(|scene| scene.rheology = Rheology::ViscousNumber(ViscousNumber { grain_diameter: 0.05, ..SAND }));
     assert!(coarse.starts_with("`spacing` is 0.01, but must be at least"), "{coarse}");
-    let mut fed = crate::inlets::fed();
+    let mut fed = crate::invariants::inlets::fed();
     fed.rheology = submerged();
     let fed = Simulation::new(fed).expect_err("refused").to_string();
     assert!(fed.starts_with("`inlets` is given, but must be absent with a pore liquid"), "{fed}");

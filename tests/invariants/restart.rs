@@ -1,13 +1,13 @@
 //! A simulation that is saved, written, read and continued, also on another number of threads, ends in the bits of one
 //! that was never interrupted.
 
-use crate::determinism::column;
-use crate::fields;
-use crate::inlets;
-use crate::memories;
-use crate::patches::{self, GRAINS, SYRUP, bed, simulation};
-use crate::shells;
-use crate::two_phases;
+use crate::invariants::determinism::column;
+use crate::invariants::fields;
+use crate::invariants::inlets;
+use crate::invariants::memories;
+use crate::invariants::patches::{self, GRAINS, SYRUP, bed, simulation};
+use crate::invariants::shells;
+use crate::invariants::two_phases;
 use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, SavedIncompressible};
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::run::{Observer, RunProgress, StopReason};

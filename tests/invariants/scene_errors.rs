@@ -1,6 +1,6 @@
 //! Every scene that cannot be simulated, with its exact message.
 
-use crate::patches::{Disorder, block, open_scene};
+use crate::invariants::patches::{Disorder, block, open_scene};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
 use bagnold_solver::run::SceneError;

@@ -1,7 +1,7 @@
 //! Walls of segments: straight ones are plane walls, slanted ones hold what rests on them, none lets anything pass, and
 //! what they give is booked wall by wall.
 
-use crate::patches::{
+use crate::invariants::patches::{
     Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, advance, bed, block, open_scene, simulation,
 };
 use bagnold_solver::domain::AxisBoundary;

@@ -1,6 +1,6 @@
 //! Side walls of a plane flow: Coulomb's law of one block between two plates, exactly, and their place in every balance.
 
-use crate::patches::{
+use crate::invariants::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, SPACING, SYRUP, advance, bed, block, exact_pairs, open_scene, periodic_scene,
     simulation,
 };

@@ -1,8 +1,8 @@
 //! Particles of a material that softens: sheared at a prescribed rate, falling, and without its softening.
 
-use crate::dilation::falling;
-use crate::fields::collapsed;
-use crate::patches::{Disorder, EQUATION_OF_STATE, GRAINS, block, open_scene, simulation};
+use crate::invariants::dilation::falling;
+use crate::invariants::fields::collapsed;
+use crate::invariants::patches::{Disorder, EQUATION_OF_STATE, GRAINS, block, open_scene, simulation};
 use bagnold_solver::material::rheology::{MuI, Rheology, SofteningDruckerPrager};
 use bagnold_solver::vector::{Vector, equivalent_shear_stress};
 use bagnold_solver::weakly_compressible::numerics::Numerics;

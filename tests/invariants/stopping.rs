@@ -1,6 +1,6 @@
 //! End of a run: finished, stopped by its observer, or diverged with a message that names place and reason.
 
-use crate::patches::{Disorder, SOUND_SPEED, SPACING, block, open_scene, simulation};
+use crate::invariants::patches::{Disorder, SOUND_SPEED, SPACING, block, open_scene, simulation};
 use bagnold_solver::material::rheology::ViscousLaw;
 use bagnold_solver::material::rheology::open::{OpenLaw, register};
 use bagnold_solver::run::{Divergence, StopReason};
@@ -91,7 +91,7 @@ fn not_a_number_stops_the_run_in_its_first_step() {
     assert!(divergence.to_string().contains("m is NaN m/s, above the 6.0000e1 m/s"), "{divergence}");
     register("no-number", |_| Ok(OpenLaw::viscous(Overflowing(f64::NAN)))).expect("a new name");
     let scene = Scene { rheology: toml::from_str("law = \"no-number\"").expect("found by its name"), ..quiet() };
-    let reason = crate::patches::simulation(scene).run(1.0, 0.1, |_| ControlFlow::Continue(()));
+    let reason = crate::invariants::patches::simulation(scene).run(1.0, 0.1, |_| ControlFlow::Continue(()));
     assert!(format!("{reason:?}").contains("; the law `no-number` gives a viscosity or stress"), "{reason:?}");
 }
 

@@ -1,6 +1,6 @@
 //! Momentum from walls, mirrors, gates and contacts: with gravity it is all the momentum that the flow gains.
 
-use crate::patches::{Disorder, SPACING, SYRUP, bed, block, open_scene, simulation};
+use crate::invariants::patches::{Disorder, SPACING, SYRUP, bed, block, open_scene, simulation};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::numerics::{MomentumOperator, Numerics};
@@ -49,7 +49,7 @@ where
     };
     let (start, nothing, mass) = momentum(&simulation);
     assert!(nothing == Vector::<D>::zeros());
-    crate::patches::advance(&mut simulation, steps);
+    crate::invariants::patches::advance(&mut simulation, steps);
     let (end, support, _) = momentum(&simulation);
     assert!(simulation.neighbour_searches() > 3, "images and particles are exchanged and sorted anew on the way");
     let weight = mass * gravity.norm() * simulation.time();
@@ -80,7 +80,7 @@ fn nothing_rubs_along_a_smooth_wall() {
         scene.walls.iter_mut().for_each(|wall| wall.roughness = roughness);
         scene.flow.velocity.fill(Vector::<2>::new(0.0, 0.5));
         let mut simulation = simulation(scene);
-        crate::patches::advance(&mut simulation, 40);
+        crate::invariants::patches::advance(&mut simulation, 40);
         let state = simulation.snapshot();
         state.velocity.iter().map(|v| (v - Vector::<2>::new(0.0, 0.5)).norm()).fold(0.0, f64::max)
     };
@@ -95,11 +95,11 @@ const MOMENTS: usize = 30;
 fn a_closed_gate_holds_a_liquid_as_a_mirror_does() {
     let settled = |scene: Scene<2>| {
         let mut simulation = simulation(Scene { rheology: SYRUP, gravity: Vector::<2>::new(0.0, -9.0), ..scene });
-        crate::patches::advance(&mut simulation, 3000);
+        crate::invariants::patches::advance(&mut simulation, 3000);
         // the fastest particle changes from moment to moment
         let mut fastest = 0.0;
         for _ in 0..MOMENTS {
-            crate::patches::advance(&mut simulation, 100);
+            crate::invariants::patches::advance(&mut simulation, 100);
             let velocity = simulation.snapshot().velocity;
             fastest += velocity.iter().map(|v| v.norm()).fold(0.0, f64::max) / MOMENTS as f64;
         }

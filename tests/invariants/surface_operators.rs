@@ -1,7 +1,7 @@
 //! Pairwise operators near a free surface, as the paper describes them: (10) pushes where the pressure is uniform, and
 //! (11) is far off there. The default numerics do not use them.
 
-use crate::patches::{
+use crate::invariants::patches::{
     DENSITY, Disorder, EQUATION_OF_STATE, SPACING, SYRUP, block, exact_pairs, open_scene, simulation,
 };
 use bagnold_solver::material::rheology::{Newtonian, Rheology};

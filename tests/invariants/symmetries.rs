@@ -1,6 +1,6 @@
 //! Galilean invariance, quarter turns, mirror images, and independence of the length of the neighbour list.
 
-use crate::patches::{
+use crate::invariants::patches::{
     Disorder, EQUATION_OF_STATE, GRAINS, SPACING, SYRUP, advance, bed, block, exact_pairs, largest_difference,
     open_scene, periodic_scene, simulation,
 };
@@ -21,8 +21,8 @@ fn variants() -> [(Numerics, Rheology); 7] {
     let with = |momentum_operator| Numerics { momentum_operator, ..recipe };
     [
         (recipe, GRAINS),
-        (recipe, crate::fields::nonlocal()),
-        (recipe, crate::pore_liquid::submerged()),
+        (recipe, crate::invariants::fields::nonlocal()),
+        (recipe, crate::invariants::pore_liquid::submerged()),
         (with(MomentumOperator::UncorrectedDivergence), GRAINS),
         (with(MomentumOperator::Pairwise), SYRUP),
         (with(MomentumOperator::PairwiseCorrected), BINGHAM),

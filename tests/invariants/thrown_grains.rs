@@ -1,7 +1,7 @@
 //! A spray of grains that leave each other and fall back onto a heap: none ends a run, none weighs on the others with more volume than
 //! the kernel gives a grain alone, and the heap takes them in.
 
-use crate::patches::{DENSITY, Disorder, SPACING, bed, block, open_scene, simulation};
+use crate::invariants::patches::{DENSITY, Disorder, SPACING, bed, block, open_scene, simulation};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::kernel::Kernel;
 use bagnold_solver::vector::Vector;

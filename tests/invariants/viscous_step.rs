@@ -1,6 +1,8 @@
 //! The implicit viscous step against the explicit one, beyond its bound, and at walls.
 
-use crate::patches::{Disorder, GRAINS, SPACING, SYRUP, bed, block, open_scene, periodic_scene, simulation};
+use crate::invariants::patches::{
+    Disorder, GRAINS, SPACING, SYRUP, bed, block, open_scene, periodic_scene, simulation,
+};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
@@ -36,13 +38,13 @@ fn both_steps_agree_as_the_time_step_falls() {
     let velocity = |viscous_step, courant: f64, steps: usize| {
         let chosen = Numerics { acoustic_courant: courant, ..numerics(viscous_step, 1e-8) };
         let mut simulation = heap(chosen, SYRUP);
-        crate::patches::advance(&mut simulation, steps);
+        crate::invariants::patches::advance(&mut simulation, steps);
         simulation.snapshot().velocity
     };
     let difference = |courant, steps| {
         let (explicit, implicit) =
             (velocity(ViscousStep::Explicit, courant, steps), velocity(ViscousStep::Implicit, courant, steps));
-        crate::patches::largest_difference(&explicit, &implicit)
+        crate::invariants::patches::largest_difference(&explicit, &implicit)
     };
     let [coarse, fine] = [difference(0.1, 8), difference(0.05, 16)];
     println!("{coarse:.2e}, {fine:.2e}");
@@ -59,7 +61,7 @@ fn grains_come_to_rest_hundreds_of_times_beyond_the_explicit_bound() {
             Numerics { hourglass: 0.2, artificial_viscosity: 0.02, ..numerics(ViscousStep::Implicit, tolerance) };
         let mut simulation = heap(chosen, rheology);
         let start = largest_speed(&simulation);
-        crate::patches::advance(&mut simulation, 3000);
+        crate::invariants::patches::advance(&mut simulation, 3000);
         let end = largest_speed(&simulation);
         let viscosity = rheology.largest_viscosity(1500.0 * 9.81 * 0.05);
         let explicit = 0.2 * (1.5 * SPACING).powi(2) * 1500.0 / viscosity;

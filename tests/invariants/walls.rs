@@ -1,6 +1,6 @@
 //! Fields carried by walls: hydrostatic pressures and linear profiles continued behind the surface.
 
-use crate::patches::{Disorder, EQUATION_OF_STATE, SPACING, bed, block, open_scene, simulation};
+use crate::invariants::patches::{Disorder, EQUATION_OF_STATE, SPACING, bed, block, open_scene, simulation};
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::scene::Scene;

@@ -1,6 +1,6 @@
 //! The list of gates that are expected to fail: every entry must speak of something that is still measured.
 
-use crate::verdict::complaints;
+use crate::physics::verdict::complaints;
 use bagnold_harness::case::{CaseResult, Changes, RunSummary, Tier};
 use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
 use bagnold_harness::observation::Outcome;

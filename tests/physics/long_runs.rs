@@ -1,6 +1,6 @@
 //! Scenes that last for tens of falls: at rest, pushed, swinging, sliding. All hold the balances that a scene is judged by.
 
-use crate::scene_texts::{CLOSED, PISTON, SLOPING, WATER, boxed, result};
+use crate::physics::scene_texts::{CLOSED, PISTON, SLOPING, WATER, boxed, result};
 use bagnold_harness::metric::{Metric, Verdict};
 
 #[test]

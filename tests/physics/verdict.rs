@@ -1,6 +1,6 @@
 //! One case at one tier: simulated or taken from the store, then judged.
 
-use crate::expected_failures::{self, owing_tier};
+use crate::physics::expected_failures::{self, owing_tier};
 use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_harness::metric::{Limit, Metric, Verdict};
 use bagnold_harness::observation::Outcome;
@@ -12,18 +12,21 @@ use std::sync::{Mutex, PoisonError};
 /// A case already uses every core; two at a time would only disturb each other.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
-/// Fails with one line for each thing that is wrong with a case.
-pub(crate) fn assert_gates(case: &str, tier: Tier) {
-    let list = expected_failures::read();
+/// Results of a case, simulated or from the store: no two tests simulate the same runs.
+pub(crate) fn results(case: &str, tier: Tier) -> Vec<CaseResult> {
     let prepared = REGISTRY
         .find(case)
         .and_then(|case| case.prepare(tier, &Changes::default()))
         .unwrap_or_else(|error| panic!("{case}: {error}"));
-    let results = {
-        let _turn = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
-        execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent)
-    };
-    for result in results.unwrap_or_else(|error| panic!("{case}: {error}")) {
+    let _turn = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
+    let results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent);
+    results.unwrap_or_else(|error| panic!("{case}: {error}"))
+}
+
+/// Fails with one line for each thing that is wrong with a case.
+pub(crate) fn assert_gates(case: &str, tier: Tier) {
+    let list = expected_failures::read();
+    for result in results(case, tier) {
         assert!(result.metrics.iter().any(|metric| metric.verdict() != Verdict::Observed), "{case} has no gate");
         let complaints = complaints(&result, &list, tier);
         assert!(

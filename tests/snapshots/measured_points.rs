@@ -1,10 +1,9 @@
 //! Quantities judged by measured points: neither by formulas nor by solvers of this project.
 
-use bagnold_harness::case::{Changes, Silent, Tier, execute};
+use crate::physics::verdict::results;
+use bagnold_harness::case::Tier;
 use bagnold_harness::evidence::{ReferenceKind, shipped_table, shipped_tables};
 use bagnold_harness::metric::{MetricKind, Verdict};
-use bagnold_harness::store::{Store, StorePolicy};
-use bagnold_validation::REGISTRY;
 use std::collections::BTreeSet;
 
 /// Cases that measured points judge.
@@ -26,10 +25,8 @@ pub(crate) fn judged() -> (BTreeSet<(String, String)>, BTreeSet<String>) {
         .map(|table| table.metadata.source)
         .collect();
     let (mut quantities, mut sets) = (BTreeSet::new(), BTreeSet::new());
-    for case in CASES.map(|name| REGISTRY.find(name).expect("a case")) {
-        let prepared = case.prepare(Tier::Quick, &Changes::default()).expect("the tier is valid");
-        let results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent).expect("stored runs");
-        for metric in results.into_iter().flat_map(|result| result.metrics) {
+    for case in CASES {
+        for metric in results(case, Tier::Quick).into_iter().flat_map(|result| result.metrics) {
             let is_judged = metric.kind == MetricKind::Validation && metric.verdict() != Verdict::Observed;
             let known = metric.uncertainty.standard().is_some();
             let Some(reference) = metric.reference.filter(|_| is_judged && known) else { continue };

@@ -2,7 +2,7 @@
 
 #![cfg(unix)]
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::Command;

@@ -1,7 +1,7 @@
 //! Files that lead back to themselves: what one takes of another, through whatever its folder passes on.
 
-use crate::imports::{Import, imports, passed_on};
-use crate::source::{Source, sources};
+use crate::structure::imports::{Import, imports, passed_on};
+use crate::structure::source::{Source, sources};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Modules by their paths, each with the items that it passes on of its children: name → where it stands.

@@ -1,7 +1,7 @@
 //! Every option that parameters leave is used by a run of some tier, or `validation/report/coverage.toml` names the tests that hold it or
 //! the reason why none does.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use bagnold_harness::case::{CaseResult, Changes, FeatureOption, Features, RunSummary, Tier};
 use bagnold_harness::metric::{Limit, Metric, MetricKind, Value, Variant};
 use bagnold_harness::observation::Outcome;

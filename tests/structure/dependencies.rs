@@ -1,7 +1,7 @@
 //! Dependencies of the workspace, by the rules of `deny.toml`: licences, crates and their sources. Licences are those
 //! of this platform's crates; `.ci/run` asks cargo-deny for all.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use std::process::Command;
 
 /// Name and licence of everything that the two commands of README build on this platform: a machine that has run them has

@@ -1,6 +1,6 @@
 //! Lists that follow from the registry: the folders of reference data, the contents of packages.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use bagnold_harness::evidence::shipped_tables;
 use bagnold_validation::REGISTRY;
 

@@ -1,6 +1,6 @@
 //! The paths by which a file reaches into other modules of its crate.
 
-use crate::source::{Source, is_word};
+use crate::structure::source::{Source, is_word};
 
 /// A path from the crate's root, such as `["material", "drag", "DragLaw"]`, and the line that names it.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! One place for a limit: the metrics of a case, of a family of cases, or of all (`shared`).
 
-use crate::source::sources;
+use crate::structure::source::sources;
 
 #[test]
 fn limits_stand_beside_their_metrics() {

@@ -1,7 +1,7 @@
 //! Lines of code and of TOML by package, by the rule of `tests/counts.sh`: no package has more than `lines.toml` says.
 
-use crate::commit::git;
-use crate::source::workspace;
+use crate::structure::commit::git;
+use crate::structure::source::workspace;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -17,7 +17,7 @@ struct Lines {
 const TABLE: &str = "tests/structure/lines.toml";
 
 const HEAD: &str = "# Lines by package at most, as `bash tests/counts.sh` counts them. A number rises only by hand, in a commit whose body says
-# what the lines buy. To lower all to what is there: BAGNOLD_LOWER=1 cargo test -p bagnold-tests --test structure lines
+# what the lines buy. To lower all to what is there: BAGNOLD_LOWER=1 cargo test -p bagnold-tests --test suite structure::lines
 ";
 
 /// Files below a folder that are counted, and the folders of its packages, with `/`.

@@ -1,7 +1,7 @@
 //! Numbers in the two models: constants of physics are parameters of laws, numerical choices stand in `Numerics`; what is
 //! left is listed in `literals.toml`, each with its reason.
 
-use crate::source::{Source, is_word, sources, workspace};
+use crate::structure::source::{Source, is_word, sources, workspace};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 

@@ -1,7 +1,7 @@
 //! Errors for the mutation check stand outside of the sources (`validation/dev/mutations.toml`): a reader of an equation sees the
 //! equation.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use bagnold_dev::mutation::Mutations;
 use bagnold_harness::case::{Changes, Tier};
 use bagnold_harness::control::ControlKind;

@@ -1,7 +1,7 @@
 //! Dependencies run one way: what a folder may import, by its floor.
 
-use crate::imports::imports;
-use crate::source::{Source, sources};
+use crate::structure::imports::imports;
+use crate::structure::source::{Source, sources};
 use bagnold_validation::REGISTRY;
 use std::collections::BTreeSet;
 
@@ -104,7 +104,7 @@ fn the_inference_depends_downwards_only() {
 #[test]
 fn packages_know_only_what_they_need() {
     for (package, known) in PACKAGES {
-        let path = crate::source::workspace().join("validation").join(package).join("Cargo.toml");
+        let path = crate::structure::source::workspace().join("validation").join(package).join("Cargo.toml");
         let manifest: toml::Table = toml::from_str(&std::fs::read_to_string(&path).expect("a manifest")).expect("TOML");
         let needs =
             manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(toml::Table::keys);

@@ -1,6 +1,6 @@
 //! The rows of the papers speak of what is there: files, tests, cases, metrics, runs.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use bagnold_dev::mutation::Mutations;
 use bagnold_harness::case::{Changes, Tier};
 use bagnold_harness::evidence::{Element, PAPERS};

@@ -1,6 +1,6 @@
 //! The program prints in one place, which knows what to do where nobody takes it: the macros panic there.
 
-use crate::source::{is_word, sources};
+use crate::structure::source::{is_word, sources};
 
 const MACROS: [&str; 5] = ["println!", "print!", "eprintln!", "eprint!", "dbg!"];
 

@@ -1,6 +1,6 @@
 //! The Python package is a workspace of its own, but its numbers are those of the program: it locks the same versions.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Versions of every package in a lock file.

@@ -1,6 +1,6 @@
 //! Results in README.md: the table that follows from the baseline values of the quick tier.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use bagnold_validation::REGISTRY;
 
 /// Row of the table: a case, its result in words, and the metric whose range over the chosen variants stands in their `{}`.

@@ -1,6 +1,6 @@
 //! Every work that `reference-data` names with its authors and year stands in `references.bib`.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! Wording of documents, doc comments and messages: lengths of sentences and lines, banned words, first words.
 
-use crate::source::workspace;
+use crate::structure::source::workspace;
 use std::path::{Path, PathBuf};
 
 /// Words that open a question `[-]`.

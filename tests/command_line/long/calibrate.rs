@@ -1,6 +1,6 @@
 //! Recovery of parameters by the command line; `cargo test` recovers them from exact profiles in `tests/calibration`.
 
-use crate::calibrate::recovers_the_truth_from_profiles;
+use crate::command_line::calibrate::recovers_the_truth_from_profiles;
 
 /// The shipped example with eight rows of particles in place of twelve.
 #[test]

@@ -1,7 +1,7 @@
 //! Signals to all commands that simulate; `cargo test` sends one to a run.
 
-use crate::interrupted::{hangup, interrupted};
-use crate::restart::{CALIBRATE, REPORT, SWEEP};
+use crate::command_line::interrupted::{hangup, interrupted};
+use crate::command_line::restart::{CALIBRATE, REPORT, SWEEP};
 
 #[test]
 #[ignore = "long: bash tests/long.sh"]

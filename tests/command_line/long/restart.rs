@@ -1,6 +1,6 @@
 //! Kills of all commands that simulate; `cargo test` kills a run of model A in 2-D alone.
 
-use crate::restart::{CALIBRATE, REPORT, RUN_IN_SPACE, RUN_TWO_PHASES, SWEEP, killed};
+use crate::command_line::restart::{CALIBRATE, REPORT, RUN_IN_SPACE, RUN_TWO_PHASES, SWEEP, killed};
 
 #[test]
 #[ignore = "long: bash tests/long.sh"]

@@ -109,7 +109,7 @@ impl Program {
         MutantRun::read(&file).ok_or(said)
     }
 
-    /// Runs the tests of a program, or those of one name, with the mutation of a number on the current pool's number of threads, until one
+    /// Runs the tests of physics of a program, or those of one name, with the mutation of a number on the current pool's number of threads, until one
     /// fails.
     ///
     /// # Errors
@@ -125,7 +125,8 @@ impl Program {
         let (printed, threads) = (self.file(&name), rayon::current_num_threads().to_string());
         let file = File::create(&printed).map_err(|error| error.to_string())?;
         let mut command = Command::new(&test.path);
-        command.current_dir(&test.folder).env(CHOICE, number.to_string()).args(only).stdout(file);
+        command.current_dir(&test.folder).env(CHOICE, number.to_string()).stdout(file);
+        command.args(only.as_slice()).args(if only.is_none() { test.target.physics() } else { &[] });
         command.env("RUST_TEST_THREADS", &threads).env("RAYON_NUM_THREADS", &threads);
         // results of this mutation are no other's
         command.env("BAGNOLD_STORE", self.file(&format!("{name}-store")));

@@ -103,6 +103,9 @@ pub fn build(workspace: &Path, mutations: &Mutations) -> Result<PathBuf, CopyErr
     Ok(copy.program())
 }
 
+/// The program of the tests that lie in `tests/`.
+const SUITE: &str = "suite";
+
 /// The target of cargo that has some tests.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TestTarget {
@@ -115,8 +118,7 @@ impl TestTarget {
     /// The targets that ask for physics: the solver's unit tests, and those of balances, orders and bits.
     #[must_use]
     pub fn of_physics() -> Vec<Self> {
-        let sources = ["solver/src", "tests/invariants", "tests/convergence", "tests/determinism"];
-        sources.iter().filter_map(|source| Self::of(source)).collect()
+        ["solver/src", "tests/"].iter().filter_map(|source| Self::of(source)).collect()
     }
 
     /// The target of a source, by its path in the checkout.
@@ -125,11 +127,17 @@ impl TestTarget {
         let mut folders = source.split('/');
         let (package, name, is_library) = match (folders.next()?, folders.next()?) {
             ("solver", "src") => ("bagnold-solver-tests".to_owned(), "solver".to_owned(), false),
-            ("tests", target) => ("bagnold-tests".to_owned(), target.to_owned(), false),
+            ("tests", _) => ("bagnold-tests".to_owned(), SUITE.to_owned(), false),
             ("validation", part) => (format!("bagnold-{part}"), format!("bagnold_{part}"), true),
             _ => return None,
         };
         Some(Self { package, name, is_library })
+    }
+
+    /// Filters of its tests that ask for physics; none where all of them do.
+    #[must_use]
+    pub fn physics(&self) -> &'static [&'static str] {
+        if self.name == SUITE { &["invariants::", "convergence::", "determinism::"] } else { &[] }
     }
 }
 

@@ -25,7 +25,7 @@ macro_rules! cases {
         const TESTED: &[&str] = &[$(stringify!($case)),+];
 
         $(mod $case {
-            use crate::verdict::assert_gates;
+            use crate::physics::verdict::assert_gates;
             use bagnold_harness::case::Tier;
 
             #[test]

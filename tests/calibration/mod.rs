@@ -1,6 +1,6 @@
 //! Do calibrations keep their promise? Synthetic experiments of known truth, repeated.
 //!
-//! The cheap part runs always; the full study is ignored: `cargo test --test calibration -- --ignored --nocapture`.
+//! The cheap part runs always; the full study is ignored: `cargo test --test suite calibration:: -- --ignored --nocapture`.
 //! `profile.py` compares the ends of intervals with SciPy's own profile likelihood.
 
 mod coverage;

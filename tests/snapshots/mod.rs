@@ -6,10 +6,10 @@
 
 mod measured_points;
 
-use bagnold_harness::case::{Changes, Silent, Tier, execute};
+use crate::physics::verdict::results;
+use bagnold_harness::case::Tier;
 use bagnold_harness::evidence::ValidationSet;
 use bagnold_harness::metric::{Metric, undeclared};
-use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_report::{Baseline, GateList, MetricKey, RemovedGates, description};
 use bagnold_validation::REGISTRY;
 use insta::comparator::Comparator;
@@ -45,9 +45,7 @@ impl Comparator for WithinTolerance {
 
 fn assert_as_in_baseline(name: &'static str) {
     let case = REGISTRY.find(name).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let prepared = case.prepare(Tier::Quick, &Changes::default()).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent);
-    for result in results.unwrap_or_else(|error| panic!("{name}: {error}")) {
+    for result in results(name, Tier::Quick) {
         let strangers: Vec<String> = undeclared(case.quantities(), &result.metrics)
             .map(|metric| format!("{} [{}]", metric.name, metric.unit))
             .collect();
@@ -76,7 +74,7 @@ fn the_metrics_of_every_case_are_as_in_the_baseline() {
     measured_points::assert_enough();
 }
 
-/// `cargo test --test snapshots -- --ignored --nocapture` prints the list.
+/// `cargo test --test suite snapshots:: -- --ignored --nocapture` prints the list.
 #[test]
 #[ignore = "the test above asks the same; this one shows what judges, of stored runs"]
 fn measured_points_are_judged() {
