@@ -13,7 +13,7 @@ mod run_out;
 mod scene_preparation;
 mod scene_texts;
 mod scenes;
-mod verdict;
+pub(crate) mod verdict;
 
 use bagnold_harness::case::Tier;
 use bagnold_validation::REGISTRY;

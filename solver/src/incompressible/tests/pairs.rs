@@ -258,18 +258,18 @@ fn displace(simulation: &mut IncompressibleSimulation<2>, field: impl Fn(&Vector
 #[test]
 fn no_pair_is_missed_in_a_shear_across_a_period() {
     // u jumps across the upper period and drifts through it, so that the layers there meet others all the time
-    let cells = [12, 24];
+    let cells = [10, 16];
     let mut scene = water(cells, 0.2, true, 3);
-    scene.sediment = Some(grains([6, 12], 0.2, 4));
+    scene.sediment = Some(grains([5, 8], 0.2, 4));
     let height = cells[1] as f64 * SPACING;
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    for step in 0..120 {
+    for step in 0..60 {
         displace(&mut simulation, |x| Vector::<2>::new(0.15 * x[1] / height, 0.03) * SPACING);
         measure(&mut simulation);
         check_all(&simulation, &format!("step {step}"));
     }
     let searches = simulation.cost().searches;
-    assert!((10..100).contains(&searches), "{searches} searches: neither never nor always");
+    assert!((5..50).contains(&searches), "{searches} searches: neither never nor always");
 }
 
 #[test]
@@ -280,11 +280,11 @@ fn no_pair_is_missed_when_a_drop_falls_onto_the_surface() {
     scene.fluid.particles.velocity.push(Vector::zeros());
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
     let drop = simulation.state.phases.fluid.len() - 1;
-    for step in 0..200 {
+    for step in 0..100 {
         displace(
             &mut simulation,
             |x| {
-                if x[1] > 0.09 { Vector::<2>::new(0.0, -0.2 * SPACING) } else { Vector::zeros() }
+                if x[1] > 0.09 { Vector::<2>::new(0.0, -0.4 * SPACING) } else { Vector::zeros() }
             },
         );
         measure(&mut simulation);
@@ -309,12 +309,12 @@ fn no_pair_is_missed_within_a_step_of_a_run_with_strong_shear() {
     // searched for, but not moved: the candidates of the end of a step are those of its positions
     scene.numerics.shifting = 1e-15;
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    for step in 0..60 {
+    for step in 0..25 {
         simulation.step().expect("a step");
         let searches = simulation.cost().searches;
         step::measure(&mut simulation.state);
         assert_eq!(simulation.cost().searches, searches, "measured from the candidates of the step");
         check_phase(&simulation.state.phases.fluid, &simulation.scene().domain, &format!("end of step {step}"));
     }
-    assert!(simulation.cost().searches > 10);
+    assert!(simulation.cost().searches > 5);
 }

@@ -6,7 +6,7 @@ use crate::incompressible::projection::mixture::tests::suspension;
 use crate::incompressible::{IncompressibleScene, IncompressibleSimulation, MeanFlux, SavedIncompressible};
 use crate::vector::Vector;
 
-const STEPS: usize = 80;
+const STEPS: usize = 30;
 
 fn advance(simulation: &mut IncompressibleSimulation<2>, steps: usize) {
     for _ in 0..steps {
@@ -21,7 +21,7 @@ fn check(scene: &IncompressibleScene<2>) {
     };
     let mut whole = IncompressibleSimulation::new(scene.clone()).unwrap();
     advance(&mut whole, STEPS);
-    for saved in [0, 1, 41] {
+    for saved in [0, 1, 16] {
         let mut first = IncompressibleSimulation::new(scene.clone()).unwrap();
         advance(&mut first, saved);
         let written = postcard::to_stdvec(&first.save()).unwrap();

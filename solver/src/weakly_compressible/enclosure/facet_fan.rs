@@ -87,7 +87,7 @@ mod tests {
 
     /// A cone of slivers around the origin up to a slope, part of it left out, in any order and from any corner on.
     fn cone(slope: f64, part: f64, flipped: bool) -> Vec<Facet<3>> {
-        let count = 700_u32;
+        let count = 300_u32;
         let rim = |k: u32| {
             let angle = part * f64::from(k) * std::f64::consts::TAU / f64::from(count);
             Vector::<3>::new(libm::cos(angle), libm::sin(angle), slope)
@@ -111,8 +111,8 @@ mod tests {
                 let fans = Fan::all(&facets);
                 assert_eq!(fans.len(), 1);
                 let mut nearest = 0;
-                for k in 0..2000_u32 {
-                    let place = Vector::<3>::from([k % 13, k / 13 % 13, k / 169].map(|k| 0.05 * f64::from(k) - 0.3));
+                for k in 0..343_u32 {
+                    let place = Vector::<3>::from([k % 7, k / 7 % 7, k / 49].map(|k| 0.09 * f64::from(k) - 0.27));
                     if let Some(distance) = fans[0].distance(&place) {
                         nearest += 1;
                         let expected = facet_side(facets.iter().map(|facet| (facet, place)));
@@ -121,7 +121,7 @@ mod tests {
                         assert!(facets.iter().all(|facet| facet.nearest(&place) == fans[0].corner));
                     }
                 }
-                assert!(nearest > 50, "{nearest} of slope {slope}");
+                assert!(nearest > 8, "{nearest} of slope {slope}");
             }
         }
         assert!(Fan::all(&cone(2.0, 1.0, false)[..200]).is_empty());

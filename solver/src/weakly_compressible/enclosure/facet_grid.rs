@@ -155,7 +155,7 @@ mod tests {
         let grid = FacetGrid::new(facets, range);
         let mut random = rand_pcg::Pcg64Mcg::seed_from_u64(seed);
         let (mut found, mut can_be, mut in_lists) = (0, 0, 0);
-        for _ in 0..2000 {
+        for _ in 0..500 {
             let place = Vector::<D>::from_fn(|_, _| 2.0 * random.random::<f64>() - 0.5);
             let near = (0..facets.len()).filter(|&facet| (facets[facet].nearest(&place) - place).norm() < range);
             let listed = grid.near(&place);
@@ -165,7 +165,7 @@ mod tests {
             assert!(listed.is_sorted() && near.clone().all(|facet| listed.contains(&(facet as u32))), "{place}");
             found += near.count();
         }
-        assert!(found > 50 && in_lists < can_be, "{found}, {in_lists} in lists, {can_be} can be near");
+        assert!(found > 12 && in_lists < can_be, "{found}, {in_lists} in lists, {can_be} can be near");
     }
 
     #[test]
