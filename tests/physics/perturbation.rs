@@ -1,9 +1,8 @@
 //! The deterministic path of a collapse is not a matter of chance: a displacement of 1e-10 spacings changes nothing
 //! that is measured of it.
 
-use super::run_out::column;
+use super::run_out::{PlanarColumn, column};
 use bagnold_cases::collapse::Collapse;
-use bagnold_cases::collapse::planar::PlanarColumn;
 use bagnold_harness::case::{Flow, Silent};
 
 /// Relative change that the baseline allows `[-]`.

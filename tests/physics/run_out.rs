@@ -1,11 +1,12 @@
 //! Run-out of columns: the measurement at rest, and the uncertainty at the default resolution.
 
-use bagnold_cases::collapse::planar::{ColumnPlanar, PlanarColumn};
-use bagnold_cases::collapse::{Collapse, Material};
+use bagnold_cases::collapse::{Collapse, ColumnCase, ColumnFlow, Material};
 use bagnold_harness::case::{Case, Flow, RunList, Silent, Tier};
 use bagnold_harness::metric::{COVERAGE, Origin};
 use bagnold_harness::observation::{Frame, Recorded};
 use bagnold_solver::material::rheology::Rheology;
+
+pub(super) type PlanarColumn = ColumnFlow<2>;
 
 /// A column of Lagrée's grains, 20 particles over the half width.
 pub(super) fn column(aspect_ratio: f64) -> PlanarColumn {
@@ -52,7 +53,7 @@ fn the_interval_of_a_shallow_column_holds_what_finer_ones_approach() {
     let members = (2..=20).map(|ensemble_member| PlanarColumn { ensemble_member, ..column(0.5) });
     let records = records([column(0.5)].into_iter().chain(members).collect());
     assert_eq!(records.len(), 20);
-    let metrics = ColumnPlanar::metrics(&records);
+    let metrics = ColumnCase::<2>::metrics(&records);
     let shown = metrics.iter().find(|metric| metric.name == "run_out").expect("the column's own run-out");
     let own = records.iter().map(|(_, record)| record.data.run_out());
     let mean = own.clone().sum::<f64>() / records.len() as f64;

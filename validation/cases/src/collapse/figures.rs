@@ -6,7 +6,7 @@ use crate::case::Flow;
 use crate::collapse::column::PICTURES;
 use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::metrics::{Measure, bands, laws_among};
-use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, ExperimentGrains, Geometry, Material};
+use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, ExperimentGrains, Material};
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
 use crate::metric::Confidence;
 use crate::observation::energy;
@@ -55,7 +55,7 @@ fn is_shown<const D: usize>(run: &ColumnFlow<D>) -> bool {
 
 /// Run-out and height over the aspect ratio, with every published law of the geometry.
 fn scaling_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
-    let round = records.iter().any(|(run, _)| run.geometry() == Geometry::Round);
+    let round = D == 3;
     let (own, other) =
         if round { (&*ROUND_COLLAPSE, &*PLANAR_COLLAPSE) } else { (&*PLANAR_COLLAPSE, &*ROUND_COLLAPSE) };
     // the laws of the geometry, and Lube's of the other one: the paper compared planar runs with the round law
@@ -233,7 +233,7 @@ fn view<const D: usize>(run: &ColumnFlow<D>) -> View {
 pub(crate) fn animations<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Animation> {
     let moving = |(run, record): &CollapseRecord<D>| {
         let section =
-            if run.geometry() == Geometry::Round { " The section beside a symmetry plane is shown." } else { "" };
+            if D == 3 { " The section beside a symmetry plane is shown." } else { "" };
         let caption = format!(
             "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
              front, where it falls below 0.02 r0. The left half is the mirror image of the simulated right one.{section}",

@@ -8,17 +8,27 @@ mod heap;
 pub mod incline;
 mod interior;
 pub(super) mod metrics;
-pub mod planar;
-pub mod round;
 mod slope;
 
-pub use column::{Alteration, ColumnFlow, ExperimentGrains, Geometry, Material};
+pub use column::{Alteration, ColumnCase, ColumnFlow, ExperimentGrains, Material};
 pub use heap::{BIN_WIDTH, Collapse, FRONT_THICKNESS, Fronts};
 pub use slope::{SlopeCollapse, SlopeFlow};
 
 use crate::case::Flow;
 use crate::observation::Recorded;
 use crate::output::Table;
+
+/// Planar columns.
+pub mod planar {
+    /// The case.
+    pub const CASE: super::ColumnCase<2> = super::ColumnCase;
+}
+
+/// Round columns.
+pub mod round {
+    /// The case.
+    pub const CASE: super::ColumnCase<3> = super::ColumnCase;
+}
 
 /// A run with what it left behind.
 pub(super) type CollapseRecord<const D: usize> = (ColumnFlow<D>, Recorded<Collapse>);
@@ -27,7 +37,8 @@ pub(super) type CollapseRecord<const D: usize> = (ColumnFlow<D>, Recorded<Collap
 pub(super) fn tables<const D: usize>((run, record): &CollapseRecord<D>) -> Vec<Table> {
     let collapse = &record.data;
     let stem = run.variant().file_name();
-    let energy = |kind: &str| format!("{kind} energy [{}]", run.geometry().energy_unit());
+    let unit = if D == 2 { "J/m" } else { "J" };
+    let energy = |kind: &str| format!("{kind} energy [{unit}]");
     let (kinetic, potential) = (energy("kinetic"), energy("potential"));
     let columns: [(&str, &[f64]); 6] = [
         ("t [s]", &collapse.time),

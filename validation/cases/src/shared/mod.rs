@@ -9,6 +9,12 @@ pub(crate) use arrangement::Arrangement;
 pub(crate) use gate::close_by_gate;
 pub(crate) use metrics::printed_laws;
 
+use crate::case::{ExternalObservation, Flow};
+use crate::input::FieldError;
+
+/// Observation of a run from what another code gives of it; none without columns that tell one.
+pub(crate) type FromExternal<F> = Result<Option<ExternalObservation<<F as Flow>::Observation>>, FieldError>;
+
 /// Values in the order in which they come, each once.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {
     let mut found = Vec::new();

@@ -7,11 +7,11 @@ mod metrics;
 
 pub use flow::{ColumnObservation, Release, WaterColumnFlow};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
 use crate::figure::Figure;
-use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -46,10 +46,7 @@ impl Case for WaterColumn {
         figures::all(records)
     }
 
-    fn from_external(
-        run: &WaterColumnFlow,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<ColumnObservation>>, FieldError> {
+    fn from_external(run: &WaterColumnFlow, given: &ExternalData) -> FromExternal<WaterColumnFlow> {
         foreign::observe(run, given)
     }
 

@@ -14,12 +14,12 @@ mod scenes;
 pub use flow::{BedLoadFlow, BedLoadFormulation, Continuum, GrainParticles};
 pub use observation::BedLoadObservation;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, Flow, RecordOf};
+use crate::case::{Case, ExternalData, ExternalSchema, Flow, RecordOf};
 use crate::channel;
 use crate::figure::Figure;
-use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -55,10 +55,7 @@ impl Case for BedLoad {
         figures::all(records)
     }
 
-    fn from_external(
-        run: &BedLoadFlow,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<BedLoadObservation>>, FieldError> {
+    fn from_external(run: &BedLoadFlow, given: &ExternalData) -> FromExternal<BedLoadFlow> {
         foreign::observe(run, given).map(Some)
     }
 

@@ -7,12 +7,12 @@ mod metrics;
 
 pub use flow::{ClearWaterFlow, Period};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
 use crate::channel;
 use crate::figure::Figure;
-use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -47,10 +47,7 @@ impl Case for ClearWater {
         vec![figures::profiles(records), figures::over_time(records)]
     }
 
-    fn from_external(
-        _: &ClearWaterFlow,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {
+    fn from_external(_: &ClearWaterFlow, given: &ExternalData) -> FromExternal<ClearWaterFlow> {
         channel::foreign::observe(given).map(Some)
     }
 

@@ -6,12 +6,12 @@ mod metrics;
 
 pub use flow::WaterFilmFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
 use crate::channel;
 use crate::figure::Figure;
-use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -46,10 +46,7 @@ impl Case for WaterFilm {
         figures::all(records)
     }
 
-    fn from_external(
-        _: &WaterFilmFlow,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<channel::ChannelObservation>>, FieldError> {
+    fn from_external(_: &WaterFilmFlow, given: &ExternalData) -> FromExternal<WaterFilmFlow> {
         channel::foreign::observe(given).map(Some)
     }
 

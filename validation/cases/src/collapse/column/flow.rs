@@ -38,26 +38,6 @@ const TALLEST_FINE: f64 = 5.0;
 /// Particles beyond which a column would take weeks or all memory.
 const MOST_PARTICLES: f64 = 5e6;
 
-/// The column's cross-section.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Geometry {
-    /// Infinitely long; half of it is simulated, in two dimensions.
-    Planar,
-    /// A cylinder; a quarter of it is simulated, in three dimensions.
-    Round,
-}
-
-impl Geometry {
-    /// Unit of an energy: of a metre of a planar column, of a quarter of a round one.
-    #[must_use]
-    pub fn energy_unit(self) -> &'static str {
-        match self {
-            Self::Planar => "J/m",
-            Self::Round => "J",
-        }
-    }
-}
-
 /// A column of grains: planar in two dimensions, round in three.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ColumnFlow<const D: usize> {
@@ -167,10 +147,8 @@ impl<const D: usize> Flow for ColumnFlow<D> {
 
     fn regime(&self, collapse: &Collapse) -> FlowRegime {
         let height = self.initial_height() * self.half_width;
-        let section = match self.geometry() {
-            Geometry::Planar => self.half_width,
-            Geometry::Round => std::f64::consts::FRAC_PI_4 * self.half_width * self.half_width,
-        };
+        let r = self.half_width;
+        let section = if D == 2 { r } else { std::f64::consts::FRAC_PI_4 * r * r };
         let speed = collapse.fastest(self.density() * section * height);
         let aspect_ratio = Some(self.initial_height());
         FlowRegime { aspect_ratio, slope_angle: Some(0.0), ..FlowRegime::default() }.of_grains(
@@ -190,7 +168,7 @@ impl<const D: usize> Flow for ColumnFlow<D> {
         let step = acoustic_step(&self.numerics, self.spacing(), sound_speed);
         // most columns rest well before their time is up
         let expected = 5.0_f64.min(self.duration) * self.time_scale() / step;
-        let dearer = if self.geometry() == Geometry::Planar { 1.0 } else { 4.0 };
+        let dearer = if D == 2 { 1.0 } else { 4.0 };
         RunCost {
             seconds_per_particle_step: dearer * cost::WEAKLY_COMPRESSIBLE,
             ..RunCost::weakly_compressible(self.particle_count(), expected)
@@ -202,20 +180,11 @@ impl<const D: usize> Flow for ColumnFlow<D> {
     }
 
     fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError> {
-        match self.geometry() {
-            Geometry::Planar => self.run::<2>(progress),
-            Geometry::Round => self.run::<3>(progress),
-        }
+        if D == 2 { self.run::<2>(progress) } else { self.run::<3>(progress) }
     }
 }
 
 impl<const D: usize> ColumnFlow<D> {
-    /// Cross-section.
-    #[must_use]
-    pub fn geometry(&self) -> Geometry {
-        if D == 2 { Geometry::Planar } else { Geometry::Round }
-    }
-
     /// What it is made of.
     #[must_use]
     pub fn made_of(&self) -> Material {
@@ -231,7 +200,7 @@ impl<const D: usize> ColumnFlow<D> {
 
     fn particle_count(&self) -> f64 {
         let n = self.resolution as f64;
-        let section = if self.geometry() == Geometry::Planar { n } else { std::f64::consts::FRAC_PI_4 * n * n };
+        let section = if D == 2 { n } else { std::f64::consts::FRAC_PI_4 * n * n };
         section * self.rows() as f64
     }
 
@@ -260,7 +229,7 @@ impl<const D: usize> ColumnFlow<D> {
     /// Whether only exponents are fitted to it: a tall column of the paper's sand that is too coarse for a law.
     pub(crate) fn is_for_exponents(&self) -> bool {
         self.made_of() == Material::SAND
-            && self.geometry() == Geometry::Planar
+            && D == 2
             && self.aspect_ratio > TALLEST_FINE
             && self.resolution < 20
     }
@@ -387,11 +356,13 @@ impl<const D: usize> ColumnFlow<D> {
     /// End of the bed `[m]`: well beyond the longest published run-out.
     fn bed_end(&self) -> f64 {
         let a = self.aspect_ratio;
-        match self.geometry() {
-            Geometry::Planar => self.half_width * (2.0 + 1.5 * (2.7 * a).min(3.7 * libm::pow(a, 0.7))),
-            // in space the bed costs more than the grains
-            Geometry::Round => self.half_width * (1.5 + 1.3 * (1.35 * a).min(1.6 * a.sqrt())),
-        }
+        // in space the bed costs more than the grains
+        let end = if D == 2 {
+            2.0 + 1.5 * (2.7 * a).min(3.7 * libm::pow(a, 0.7))
+        } else {
+            1.5 + 1.3 * (1.35 * a).min(1.6 * a.sqrt())
+        };
+        self.half_width * end
     }
 
     /// Has measured nothing of it yet.
@@ -436,7 +407,7 @@ impl<const D: usize> ColumnFlow<D> {
         };
         let sites = (0..self.rows() * n.pow(N as u32 - 1)).map(site).filter(inside);
         let mut scene = block.scene(sites, domain, self.bed_end());
-        if self.geometry() == Geometry::Round {
+        if D == 3 {
             scene.wall_particles.retain(|particle| radius(&particle.position) < self.bed_end());
         }
         scene

@@ -1,6 +1,6 @@
 //! The pile of aluminium bars that was measured, among the columns.
 
-use super::flow::{ColumnFlow, Geometry};
+use super::flow::ColumnFlow;
 use super::material::{Alteration, ExperimentGrains};
 use crate::collapse::CollapseRecord;
 use crate::metric::{Metric, Origin};
@@ -14,7 +14,7 @@ const FRICTION: &str = "meaning of the friction angle (distance to the pile whos
 pub(crate) fn pile_of<const D: usize>(run: &ColumnFlow<D>) -> Option<&'static MeasuredPile> {
     let pile = &*ALUMINIUM_BAR_PILE;
     let same = |own: f64, measured: f64| (own / measured - 1.0).abs() < 1e-9;
-    let is_it = (run.geometry(), run.grains) == (Geometry::Planar, ExperimentGrains::Bars)
+    let is_it = (D, run.grains) == (2, ExperimentGrains::Bars)
         && run.ensemble_member == 0
         && same(run.half_width, pile.length)
         && same(run.initial_height() * run.half_width, pile.height);

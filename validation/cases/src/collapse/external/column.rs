@@ -6,7 +6,7 @@ use crate::collapse::column::EARLIEST_REST;
 use crate::collapse::interior::PROFILE_TIME;
 use crate::collapse::metrics::other_codes::MID_COLLAPSE;
 use crate::collapse::metrics::quantities::*;
-use crate::collapse::{Collapse, ColumnFlow, Geometry};
+use crate::collapse::{Collapse, ColumnFlow};
 use crate::input::FieldError;
 use crate::metric::Quantity;
 use crate::setup::energy_ledger::{CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK};
@@ -94,10 +94,7 @@ pub(crate) fn observe<const D: usize>(
     let mut measured = Vec::new();
     let (r, scale) = (run.half_width, run.time_scale());
     let has_fallen = |time: f64| time >= EARLIEST_REST * scale;
-    let (size, middle) = match run.geometry() {
-        Geometry::Planar => (1.0, 0.5),
-        Geometry::Round => (std::f64::consts::FRAC_PI_4 * r, 2.0 / 3.0),
-    };
+    let (size, middle) = if D == 2 { (1.0, 0.5) } else { (std::f64::consts::FRAC_PI_4 * r, 2.0 / 3.0) };
     let room = Room {
         spacing: run.spacing(),
         reach: REACH * r * (1.0 + run.aspect_ratio),

@@ -5,12 +5,12 @@ mod inside;
 mod metrics;
 mod passage;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, Flow, RecordOf};
-use crate::collapse::{self, SlopeCollapse, SlopeFlow};
+use crate::case::{Case, ExternalData, ExternalSchema, Flow, RecordOf};
+use crate::collapse::{self, SlopeFlow};
 use crate::figure::{Animation, Figure};
-use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -52,10 +52,7 @@ impl Case for InclineCollapse {
         figures::animations(records)
     }
 
-    fn from_external(
-        run: &SlopeFlow,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<SlopeCollapse>>, FieldError> {
+    fn from_external(run: &SlopeFlow, given: &ExternalData) -> FromExternal<SlopeFlow> {
         collapse::external::slope::observe(run, given).map(Some)
     }
 

@@ -6,7 +6,7 @@ pub(crate) mod wedge;
 pub(crate) use velocity_profile::{Station, decay_length, linear_misfit_ratio};
 pub(crate) use wedge::Wedge;
 
-use super::{BIN_WIDTH, Collapse, ColumnFlow, Geometry};
+use super::{BIN_WIDTH, Collapse, ColumnFlow};
 use crate::observation::energy::Energies;
 use crate::observation::{Frame, Recorded};
 
@@ -22,7 +22,7 @@ pub(crate) fn energies(collapse: &Collapse) -> Energies<'_> {
 pub(crate) fn stations<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Collapse>) -> Vec<Station> {
     // a ring is no bin along x
     let time = PROFILE_TIME * run.time_scale();
-    let Some(frame) = Frame::nearest(&record.frames, time).filter(|_| run.geometry() == Geometry::Planar) else {
+    let Some(frame) = Frame::nearest(&record.frames, time).filter(|_| D == 2) else {
         return Vec::new();
     };
     let front = record.data.nearest(time).map_or(1.0, |index| record.data.front[index]);

@@ -2,7 +2,7 @@
 //! over seeds and of the spacing belongs to the metric as its uncertainty and moves no limit, so that a limit is the same
 //! whichever runs were made, and a law's own value lies within its band.
 
-use crate::collapse::{ColumnFlow, ExperimentGrains, Geometry, Material};
+use crate::collapse::{ColumnFlow, ExperimentGrains, Material};
 use crate::metric::Limit;
 use crate::reference::collapse::{CollapseLaw, CollapseLawSource, PLANAR_COLLAPSE, ROUND_COLLAPSE};
 
@@ -35,10 +35,10 @@ fn apart(laws: &[CollapseLaw], a: f64, least: f64) -> Option<f64> {
 
 /// The laws of run-out and height whose geometry a run has, and whose material it has or comes closest to.
 pub(crate) fn laws_of<const D: usize>(run: &ColumnFlow<D>) -> (&'static CollapseLaw, &'static CollapseLaw) {
-    let (laws, author) = match run.geometry() {
-        Geometry::Planar if run.grains == ExperimentGrains::Lagree => (&*PLANAR_COLLAPSE, CollapseLawSource::Lagree),
-        Geometry::Planar => (&*PLANAR_COLLAPSE, CollapseLawSource::Lube),
-        Geometry::Round => (&*ROUND_COLLAPSE, CollapseLawSource::Lube),
+    let (laws, author) = match D {
+        2 if run.grains == ExperimentGrains::Lagree => (&*PLANAR_COLLAPSE, CollapseLawSource::Lagree),
+        2 => (&*PLANAR_COLLAPSE, CollapseLawSource::Lube),
+        _ => (&*ROUND_COLLAPSE, CollapseLawSource::Lube),
     };
     (author.law(&laws.run_out), author.law(&laws.height))
 }
@@ -52,18 +52,18 @@ pub(crate) fn run_out<const D: usize>(run: &ColumnFlow<D>, has_seeds: bool) -> A
     if !run.has_published_law() {
         return None;
     }
-    match (run.geometry(), run.made_of()) {
-        (Geometry::Round, Material::SAND) if run.is_resolved() => Some((
+    match (D, run.made_of()) {
+        (3, Material::SAND) if run.is_resolved() => Some((
             around(law.value(a)?, WIDEST),
             "within 15 % of Lube's law for round columns: it tells no scatter of its points, no second experiment is at hand, and 15 % is the \
              widest band of planar columns",
         )),
-        (Geometry::Planar, Material::SAND) if run.resolution >= 20 => Some((
+        (2, Material::SAND) if run.resolution >= 20 => Some((
             around(law.value(a)?, apart(&PLANAR_COLLAPSE.run_out, a, run.spacing() / run.half_width)?),
             "as far from Lube's law as Lajeunesse's lies, 15 % at most: neither tells how far its points lie from its law",
         )),
         // coarse columns scatter by 3 % from seed to seed
-        (Geometry::Planar, Material::LAGREE) if run.resolution >= 40 || (run.resolution >= 20 && !has_seeds) => {
+        (2, Material::LAGREE) if run.resolution >= 40 || (run.resolution >= 20 && !has_seeds) => {
             Some((around(law.value(a)?, SAME_LAW), SAME_LAW_REASON))
         }
         _ => None,
@@ -74,7 +74,7 @@ pub(crate) fn run_out<const D: usize>(run: &ColumnFlow<D>, has_seeds: bool) -> A
 pub(crate) fn height<const D: usize>(run: &ColumnFlow<D>) -> AcceptanceBand {
     let (law, a) = (laws_of(run).1, run.initial_height());
     let expected = law.value(a).filter(|_| run.has_published_law())?;
-    let is_round = run.geometry() == Geometry::Round;
+    let is_round = D == 3;
     let (tolerance, reason) = match (run.made_of(), a) {
         (Material::SAND, ..=0.7) if !is_round => (0.03, "undisturbed within 3 % up to a = 0.7"),
         (Material::SAND, _) if !is_round => (

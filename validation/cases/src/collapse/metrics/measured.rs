@@ -6,7 +6,7 @@ use super::uncertainty::Known;
 use crate::case::Flow;
 use crate::collapse::column::{pile_of, with_friction};
 use crate::collapse::interior::wedge_of;
-use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, FRONT_THICKNESS, Geometry};
+use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, FRONT_THICKNESS};
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{Limit, Metric, Origin, Value, Variant};
 use crate::observation::{Frame, Recorded};
@@ -118,7 +118,7 @@ pub(super) fn of_round_column<const D: usize>(
     known: Known,
 ) -> Option<Metric> {
     let measured = &*ROUND_COLUMN_RUN_OUTS;
-    let expected = measured.at(run.initial_height()).filter(|_| run.geometry() == Geometry::Round)?;
+    let expected = measured.at(run.initial_height()).filter(|_| D == 3)?;
     let ratio = RUN_OUT_RATIO
         .of(&run.variant(), collapse.run_out() / expected)
         .against(Some(1.0), &measured.source, measured.confidence)

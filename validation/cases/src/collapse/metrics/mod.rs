@@ -14,7 +14,7 @@ mod uncertainty;
 
 use crate::case::Flow;
 use crate::collapse::column::pile_of;
-use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, Geometry, Material};
+use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, Material};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Quantity, Variant};
 use crate::reference::collapse::{
@@ -52,7 +52,7 @@ pub(crate) fn all<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Metric> 
             conservation(&run.variant(), &record.data, &run.numerics, energy_scale(run.initial_height()));
         metrics.extend(conservation);
         // no experiment has round columns of these grains
-        if !is_law || (run.geometry(), run.made_of()) == (Geometry::Round, Material::LAGREE) {
+        if !is_law || (D, run.made_of()) == (3, Material::LAGREE) {
             continue;
         }
         let known = [0, 1].map(|result| Known {
@@ -136,7 +136,7 @@ pub(crate) fn conservation(
 /// Slope `[°]` of a heap from the final height to the front of the experiment with the longest run-out, less as much as heights may be
 /// off by; of planar columns of the sand, whose grains that experiment's are like.
 fn flattest<const D: usize>(run: &ColumnFlow<D>) -> Option<f64> {
-    let of_sand = run.geometry() == Geometry::Planar && run.made_of() == Material::SAND && run.has_published_law();
+    let of_sand = D == 2 && run.made_of() == Material::SAND && run.has_published_law();
     let value =
         |laws: &[CollapseLaw]| CollapseLawSource::Lajeunesse.law(laws).value(run.initial_height()).filter(|_| of_sand);
     let (height, run_out) = (value(&PLANAR_COLLAPSE.height)?, value(&PLANAR_COLLAPSE.run_out)?);
@@ -202,7 +202,7 @@ fn against_laws<const D: usize>(
         metric.against(law.value(a), &source, law.confidence).gated_by(limit, reason)
     };
     let (run_out_law, height_law) = bands::laws_of(run);
-    let laws = if run.geometry() == Geometry::Planar { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
+    let laws = if D == 2 { &*PLANAR_COLLAPSE } else { &*ROUND_COLLAPSE };
     let run_out = by_law(RUN_OUT, collapse.run_out(), run_out_law, &laws.run_out, bands::run_out(run, has_seeds));
     let height = by_law(FINAL_HEIGHT, collapse.final_height(), height_law, &laws.height, bands::height(run));
     [known[0].of(run_out, collapse.front_uncertainty()), known[1].of(height, None)]

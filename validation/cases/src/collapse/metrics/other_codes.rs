@@ -3,7 +3,7 @@
 
 use super::bands::{SAME_LAW, band};
 use super::quantities::*;
-use crate::collapse::{Collapse, ColumnFlow, Geometry, Material, SlopeFlow};
+use crate::collapse::{Collapse, ColumnFlow, Material, SlopeFlow};
 use crate::figure::Panel;
 use crate::metric::{Limit, Metric, MetricKind, Origin, Quantity, Variant};
 use crate::reference::collapse::{AT_REST, CodeQuantity, OtherCodes, PLANAR_CODES, ROUND_CODES, SLOPE_CODES};
@@ -41,10 +41,7 @@ pub(crate) struct Beside<'a> {
 impl<'a> Beside<'a> {
     /// A column of Lagrée's grains and of the tables' width; none of others.
     pub(crate) fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &'a Collapse) -> Option<Self> {
-        let codes = match run.geometry() {
-            Geometry::Planar => &*PLANAR_CODES,
-            Geometry::Round => &*ROUND_CODES,
-        };
+        let codes = if D == 2 { &*PLANAR_CODES } else { &*ROUND_CODES };
         let energy_scale = *collapse.potential_energy.first()?;
         let is_of_them = run.made_of() == Material::LAGREE && run.has_published_law() && run.half_width == HALF_WIDTH;
         is_of_them.then_some(Self {

@@ -2,7 +2,7 @@
 
 use super::quantities::*;
 use super::{Measure, RESULTS};
-use crate::collapse::{Alteration, CollapseRecord, Geometry, Material};
+use crate::collapse::{Alteration, CollapseRecord, Material};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
 use crate::shared::range;
@@ -54,7 +54,7 @@ fn columns<'a, const D: usize>(
     to: f64,
 ) -> Vec<&'a CollapseRecord<D>> {
     let own = |(run, _): &&CollapseRecord<D>| {
-        run.geometry() == Geometry::Planar && run.made_of() == material && (from..=to).contains(&run.aspect_ratio)
+        D == 2 && run.made_of() == material && (from..=to).contains(&run.aspect_ratio)
     };
     records.iter().copied().filter(|record| own(record)).collect()
 }

@@ -4,7 +4,7 @@
 use super::quantities::*;
 use crate::case::Flow;
 use crate::collapse::interior::Station;
-use crate::collapse::{BIN_WIDTH, Collapse, ColumnFlow, Geometry, Material};
+use crate::collapse::{BIN_WIDTH, Collapse, ColumnFlow, Material};
 use crate::metric::{Confidence, Metric};
 use crate::observation::{Frame, Recorded};
 
@@ -25,7 +25,7 @@ const SAME_TIME: f64 = 5e-3;
 
 /// The statements of a column that has pictures for them.
 pub(super) fn of_run<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Collapse>) -> Vec<Metric> {
-    if run.geometry() != Geometry::Planar || !matches!(run.made_of(), Material::SAND | Material::GLASS) {
+    if D != 2 || !matches!(run.made_of(), Material::SAND | Material::GLASS) {
         return Vec::new();
     }
     let at = |time: f64| Frame::nearest(&record.frames, time).filter(|frame| (frame.time - time).abs() < SAME_TIME);

@@ -1,8 +1,8 @@
 //! The flow: a layer of dry grains on an incline.
 
-use crate::case::{ExternalData, ExternalObservation, Flow, ParameterError, Progress, RunCost};
-use crate::input::{FieldError, check_name};
-use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
+use crate::input::check_name;
+use crate::layer::{Layer, LayerObservation, PeriodicLayer, Preparation, bulk_modulus};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::grains::GLASS_BEADS;
@@ -245,15 +245,6 @@ impl BagnoldFlow {
         }
     }
 
-    /// Its observation as another code gives it.
-    pub(super) fn observe_external(
-        &self,
-        given: &ExternalData,
-    ) -> Result<ExternalObservation<LayerObservation>, FieldError> {
-        let nothing = |_: f64| 0.0;
-        layer::foreign::observe(&self.layer(&nothing, &nothing), given)
-    }
-
     /// Why what it leaves behind is not of a steady flow; none where it is.
     pub(super) fn unsteadiness(&self, data: &LayerObservation) -> Option<String> {
         let reason = data.unsteadiness(self.averaging_time)?;
@@ -311,7 +302,7 @@ impl BagnoldFlow {
         self.recipe().max(self.duration_factor * steady.unwrap_or(0.0))
     }
 
-    fn layer<'a>(
+    pub(super) fn layer<'a>(
         &self,
         velocity: &'a (dyn Fn(f64) -> f64 + Sync),
         shear_stress: &'a (dyn Fn(f64) -> f64 + Sync),

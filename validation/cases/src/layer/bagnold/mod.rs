@@ -8,12 +8,12 @@ mod metrics;
 
 pub use flow::{BagnoldFlow, Fate, LayerStart};
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
 use crate::figure::Figure;
-use crate::input::FieldError;
-use crate::layer::{self, LayerObservation};
+use crate::layer;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -50,11 +50,8 @@ impl Case for Bagnold {
         figures::all(records)
     }
 
-    fn from_external(
-        run: &BagnoldFlow,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
-        run.observe_external(given).map(Some)
+    fn from_external(run: &BagnoldFlow, given: &ExternalData) -> FromExternal<BagnoldFlow> {
+        layer::foreign::observe(&run.layer(&|_| 0.0, &|_| 0.0), given).map(Some)
     }
 
     fn tables(records: &[Record]) -> Vec<Table> {

@@ -1,8 +1,7 @@
 //! The flow: a viscous film on an incline.
 
-use crate::case::{ExternalData, ExternalObservation, Flow, ParameterError, Progress, RunCost};
-use crate::input::FieldError;
-use crate::layer::{self, Layer, LayerObservation, PeriodicLayer, Preparation, Top, bulk_modulus};
+use crate::case::{Flow, ParameterError, Progress, RunCost};
+use crate::layer::{Layer, LayerObservation, PeriodicLayer, Preparation, Top, bulk_modulus};
 use crate::metric::Variant;
 use crate::observation::Recorded;
 use crate::reference::film::{Incline, SteadyFilm};
@@ -185,14 +184,6 @@ impl FilmFlow {
         Some(libm::tan(layer.inclination) * bulk_modulus / law.viscosity * integral)
     }
 
-    /// Its observation as another code gives it.
-    pub(super) fn observe_external(
-        &self,
-        given: &ExternalData,
-    ) -> Result<ExternalObservation<LayerObservation>, FieldError> {
-        layer::foreign::observe(&self.layer(&|_| 0.0), given)
-    }
-
     /// Simulated time `[s]`.
     fn duration(&self) -> f64 {
         let depth = self.layer.layer_height;
@@ -204,7 +195,7 @@ impl FilmFlow {
         0.15 * self.duration()
     }
 
-    fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {
+    pub(super) fn layer<'a>(&self, velocity: &'a (dyn Fn(f64) -> f64 + Sync)) -> Layer<'a> {
         let film = self.film();
         let PeriodicLayer { layer_height, gravity, .. } = self.layer;
         let duration = self.duration();

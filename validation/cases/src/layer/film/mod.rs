@@ -6,12 +6,12 @@ mod metrics;
 
 pub use flow::FilmFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
 use crate::figure::Figure;
-use crate::input::FieldError;
 use crate::layer;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -45,11 +45,8 @@ impl Case for Film {
         figures::all(records)
     }
 
-    fn from_external(
-        run: &FilmFlow,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<layer::LayerObservation>>, FieldError> {
-        run.observe_external(given).map(Some)
+    fn from_external(run: &FilmFlow, given: &ExternalData) -> FromExternal<FilmFlow> {
+        layer::foreign::observe(&run.layer(&|_| 0.0), given).map(Some)
     }
 
     fn tables(records: &[Record]) -> Vec<Table> {

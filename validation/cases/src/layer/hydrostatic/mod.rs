@@ -7,12 +7,12 @@ mod metrics;
 
 pub use flow::HydrostaticFlow;
 
-use crate::case::{Case, ExternalData, ExternalObservation, ExternalSchema, RecordOf};
+use crate::case::{Case, ExternalData, ExternalSchema, RecordOf};
 use crate::figure::Figure;
-use crate::input::FieldError;
-use crate::layer::{self, LayerObservation};
+use crate::layer;
 use crate::metric::{Metric, Quantity};
 use crate::output::Table;
+use crate::shared::FromExternal;
 use crate::store::CodeOrigin;
 
 /// The case.
@@ -44,10 +44,7 @@ impl Case for Hydrostatic {
         figures::all(records)
     }
 
-    fn from_external(
-        run: &HydrostaticFlow,
-        given: &ExternalData,
-    ) -> Result<Option<ExternalObservation<LayerObservation>>, FieldError> {
+    fn from_external(run: &HydrostaticFlow, given: &ExternalData) -> FromExternal<HydrostaticFlow> {
         foreign::observe(run, given).map(Some)
     }
 
