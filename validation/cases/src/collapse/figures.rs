@@ -232,8 +232,7 @@ fn view<const D: usize>(run: &ColumnFlow<D>) -> View {
 /// The animation of every run.
 pub(crate) fn animations<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Animation> {
     let moving = |(run, record): &CollapseRecord<D>| {
-        let section =
-            if D == 3 { " The section beside a symmetry plane is shown." } else { "" };
+        let section = if D == 3 { " The section beside a symmetry plane is shown." } else { "" };
         let caption = format!(
             "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
              front, where it falls below 0.02 r0. The left half is the mirror image of the simulated right one.{section}",

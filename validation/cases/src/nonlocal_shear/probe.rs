@@ -22,8 +22,6 @@ pub struct ShearObservation {
     pub pressure: Vec<f64>,
     /// Their shear stresses s_xy `[Pa]`, likewise.
     pub shear_stress: Vec<f64>,
-    /// Volume m/ρ of all particles over that of the channel, by which both differ from the particles' own `[-]`.
-    pub filling: f64,
     /// Mass over volume `[kg/m³]`.
     pub density: f64,
     /// The energy ledger.
@@ -122,7 +120,6 @@ impl ShearProbe {
             velocity: column(1, 1.0),
             pressure: column(2, filling),
             shear_stress: column(3, filling),
-            filling,
             ..self.seen
         }
     }

@@ -228,10 +228,7 @@ impl<const D: usize> ColumnFlow<D> {
 
     /// Whether only exponents are fitted to it: a tall column of the paper's sand that is too coarse for a law.
     pub(crate) fn is_for_exponents(&self) -> bool {
-        self.made_of() == Material::SAND
-            && D == 2
-            && self.aspect_ratio > TALLEST_FINE
-            && self.resolution < 20
+        self.made_of() == Material::SAND && D == 2 && self.aspect_ratio > TALLEST_FINE && self.resolution < 20
     }
 
     /// Whether there are enough rows over the height for a gate.

@@ -53,9 +53,8 @@ fn columns<'a, const D: usize>(
     from: f64,
     to: f64,
 ) -> Vec<&'a CollapseRecord<D>> {
-    let own = |(run, _): &&CollapseRecord<D>| {
-        D == 2 && run.made_of() == material && (from..=to).contains(&run.aspect_ratio)
-    };
+    let own =
+        |(run, _): &&CollapseRecord<D>| D == 2 && run.made_of() == material && (from..=to).contains(&run.aspect_ratio);
     records.iter().copied().filter(|record| own(record)).collect()
 }
 

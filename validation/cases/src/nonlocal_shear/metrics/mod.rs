@@ -7,7 +7,7 @@ use super::exact::ExactShear;
 use super::flow::{Drive, NonlocalShearFlow};
 use super::probe::ShearObservation;
 use crate::case::Flow;
-use crate::metric::{Confidence, Limit, Metric, Variant, quantities};
+use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::reference::one_dimension::ShearStress;
 use crate::setup::energy_ledger::{self, EnergyScale};
 use crate::statistics::{Regression, linear_regression, relative_l2};
@@ -15,9 +15,6 @@ use crate::statistics::{Regression, linear_regression, relative_l2};
 quantities! {
     [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
     PARTICLES_LOST: accounted("particles_lost", "-", "particles that ended behind a wall"),
-    OVERFILLING: verified(
-        "overfilling", "%", "total volume m/ρ of all particles over the volume of the channel, minus 1"
-    ),
     PRESSURE_UNEVENNESS: verified(
         "pressure_unevenness", "%", "largest deviation of the pressure of a row from the momentum balance, over the mean"
     ),
@@ -25,12 +22,10 @@ quantities! {
     WALL_LAYER: verified(
         "wall_layer", "diameters", "e-folding distance from the wall of the velocity relative to the middle"
     ),
-    PLUG_VELOCITY_ERROR: verified("plug_velocity_error", "%", "u_middle/u_exact − 1 of a chute"),
     FRICTION_ERROR: verified(
         "friction_error", "%", "wall friction that gives the model the same velocity in the middle, over the imposed friction, minus 1"
     ),
     TRACTION_ERROR: verified("traction_error", "%", "mean shear stress over the exact stress at the velocity of the plate, minus 1"),
-    SURFACE_VELOCITY_ERROR: verified("surface_velocity_error", "%", "u/u_exact − 1 of the uppermost row of a heap"),
     FLOWING_DEPTH: verified(
         "flowing_depth", "diameters", "depth at which the velocity of a heap is a hundredth of that of its surface"
     ),
@@ -42,9 +37,6 @@ quantities! {
     ),
     TAIL_STRAIGHTNESS: verified(
         "tail_straightness", "-", "R² of a straight line through the logarithm of the velocity over that depth"
-    ),
-    DEEP_DECAY_LENGTH: validated(
-        "deep_decay_length", "diameters", "e-folding length of the velocity in the deeper half of the tail"
     ),
 }
 
@@ -82,11 +74,7 @@ fn of_run((run, record): &Record) -> Vec<Metric> {
     };
     let not_steady = seen.unsteadiness(run.window());
     let own = own.into_iter().map(|metric| metric.unless(not_steady.as_ref()));
-    let overfilling = OVERFILLING
-        .of(&variant, 100.0 * (seen.filling - 1.0))
-        .exactly(0.0, "particles that fill the channel as a lattice does")
-        .with_snapshot_tolerance(0.1, 1e-2);
-    [lost, overfilling, unevenness(run, seen, &variant)].into_iter().chain(energy).chain(own).collect()
+    [lost, unevenness(run, seen, &variant)].into_iter().chain(energy).chain(own).collect()
 }
 
 fn unevenness(run: &NonlocalShearFlow, seen: &ShearObservation, variant: &Variant) -> Metric {
@@ -145,27 +133,12 @@ fn chute(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
                 "0.4 % where two particles are as long as a grain and half of it with twice as many: what 5 % of the velocity are so near that least friction",
             )
             .with_snapshot_tolerance(0.1, 1e-2),
-        PLUG_VELOCITY_ERROR
-            .of(&variant, 100.0 * (plug / exact.profile.fastest - 1.0))
-            .exactly(0.0, EXACT)
-            .with_snapshot_tolerance(0.1, 1e-1),
     ]
 }
 
 fn dragged_bed(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -> Vec<Metric> {
     let variant = run.variant();
     let mut metrics = decay(run, seen, exact);
-    let deep = tail(run, exact, DEEP_TAIL, &seen.velocities());
-    metrics.push(
-        DEEP_DECAY_LENGTH
-            .of(&variant, decay_length(run, deep))
-            .against(
-                None,
-                "about one diameter below flows on heaps, whatever the flow, is what experiments are known for; their numbers are not at hand",
-                Confidence::Unverified,
-            )
-            .with_snapshot_tolerance(1e-2, 0.0),
-    );
     let traction = match exact.shear.stress {
         ShearStress::UnderGravity { traction, .. } => traction,
         _ => f64::NAN,
