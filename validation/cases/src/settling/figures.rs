@@ -6,7 +6,7 @@ use super::probe::{SettlingObservation, SettlingSeries};
 use super::{SettlingRecord, drag_curves};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::settling::{GrainForm, SETTLING_BEADS, richardson_zaki_exponent};
-use crate::shared::{ascending, distinct, range};
+use crate::shared::{distinct, range};
 use bagnold_solver::material::drag::DragLaw;
 
 /// Half of a pixel of the images `[m]`.
@@ -17,7 +17,7 @@ const DENSEST: f64 = 0.6;
 
 pub(super) fn all(records: &[SettlingRecord]) -> Vec<Figure> {
     let suspensions: Vec<_> = suspensions(records).collect();
-    let mut figures = vec![approach(records)];
+    let mut figures = Vec::new();
     let alone = alone(records);
     if !alone.is_empty() {
         figures.push(terminal(&alone));
@@ -25,53 +25,13 @@ pub(super) fn all(records: &[SettlingRecord]) -> Vec<Figure> {
     if !suspensions.is_empty() {
         figures.push(hindered(&suspensions));
     }
-    figures.extend([beads(), drag_curves::drag_coefficients(), drag_curves::hindrance()]);
+    figures.extend([beads(), drag_curves::drag_coefficients()]);
     figures
 }
 
 /// The suspensions among the records.
 fn suspensions(records: &[SettlingRecord]) -> impl Iterator<Item = (&SettlingFlow, &SettlingObservation)> {
     records.iter().filter(|(flow, _)| flow.is_suspension()).map(|(flow, record)| (flow, &record.data))
-}
-
-fn approach(records: &[SettlingRecord]) -> Figure {
-    let grain = |formulation: &str| format!("one grain, {formulation}");
-    let suspension = |fraction: f64| format!("suspension, φ = {fraction}");
-    let title = |flow: &SettlingFlow| {
-        if flow.is_suspension() { suspension(flow.solid_fraction) } else { grain(flow.formulation()) }
-    };
-    let fractions = ascending(suspensions(records).map(|(flow, _)| flow.solid_fraction));
-    let titles = FORMULATIONS.map(grain).into_iter().chain(fractions.into_iter().map(suspension));
-    let mut named: Vec<DragLaw> = Vec::new();
-    let mut panels = Vec::new();
-    for name in titles {
-        let y = Axis::linear("slip over the root [-]").between(0.0, 1.2);
-        let mut panel = Panel::new(&name, Axis::linear("t [s]"), y);
-        for (flow, record) in records.iter().filter(|(flow, _)| title(flow) == name) {
-            let (series, root, law) = (&record.data.series, flow.root(), flow.law);
-            let points = series.time.iter().zip(&series.slip).map(|(t, slip)| (*t, slip / root));
-            // a law has its name where it is drawn first
-            let label = if named.contains(&law) { "" } else { drag_curves::label(law) };
-            named.push(law);
-            panel.line(label, drag_curves::slot(law), points);
-        }
-        let end = panel.series.iter().flat_map(|series| series.points.last()).fold(0.0, |end: f64, p| end.max(p.0));
-        if end > 0.0 {
-            let label = if panels.is_empty() { "root" } else { "" };
-            panel.reference(label, [(0.0, 1.0), (end, 1.0)]);
-            panels.push(panel);
-        }
-    }
-    let columns = if panels.len() > 4 { 3 } else { panels.len().clamp(1, 2) };
-    Figure::new(
-        "approach",
-        "Grains released at rest get to the slip at which their drag carries their weight: one grain in a periodic \
-         box of fluid, and a uniform suspension in a column without a flux of the mixture. The fluid that a grain \
-         alone has set in motion meets it again across the periods, so that its slip keeps fluctuating about the \
-         root; means are taken over the last 0.6 of a run.",
-        panels,
-    )
-    .in_columns(columns)
 }
 
 /// Grains alone, and suspensions so dilute that they stand for one: formulation, root `[m/s]`, what was seen.

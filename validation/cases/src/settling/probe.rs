@@ -29,10 +29,6 @@ pub struct SettlingSeries {
     pub time: Vec<f64>,
     /// Slip that the drag is taken from `[m/s]`.
     pub slip: Vec<f64>,
-    /// |⟨u_f⟩ − u_s| with the mean ⟨⟩ over the fluid around the grains `[m/s]`.
-    pub slip_of_means: Vec<f64>,
-    /// √⟨|u_f − u_s|²⟩ `[m/s]`.
-    pub root_mean_square_slip: Vec<f64>,
     /// Velocity at which the grains sink `[m/s]`.
     pub sinking: Vec<f64>,
     /// Root mean square of the grains' velocities less their mean `[m/s]`; 0 of a grain alone.
@@ -41,11 +37,9 @@ pub struct SettlingSeries {
 
 impl SettlingSeries {
     pub(super) fn table(&self, variant: &Variant) -> Table {
-        let columns: [(&str, &[f64]); 6] = [
+        let columns: [(&str, &[f64]); 4] = [
             ("t [s]", &self.time),
             ("slip [m/s]", &self.slip),
-            ("slip of means [m/s]", &self.slip_of_means),
-            ("rms slip [m/s]", &self.root_mean_square_slip),
             ("sinking velocity [m/s]", &self.sinking),
             ("unevenness [m/s]", &self.unevenness),
         ];
@@ -151,28 +145,24 @@ impl Probe {
         if seen.time < self.interval * (series.time.len() + 1) as f64 * (1.0 - 1e-9) {
             return false;
         }
-        let (around, sinking) = self.around_grains(simulation);
+        let [mean, drag, sinking] = self.around_grains(simulation);
         series.time.push(seen.time);
         series.slip.push(match simulation.scene().numerics.drag_slip {
-            DragSlip::Mean => around.mean,
+            DragSlip::Mean => mean,
             // U of C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|
-            DragSlip::Pair => {
-                self.grains.slip_of_drag(sediment(simulation.scene()).drag, around.drag).unwrap_or(f64::NAN)
-            }
+            DragSlip::Pair => self.grains.slip_of_drag(sediment(simulation.scene()).drag, drag).unwrap_or(f64::NAN),
         });
-        series.slip_of_means.push(around.mean);
-        series.root_mean_square_slip.push(around.square.sqrt());
         series.sinking.push(sinking);
         series.unevenness.push(unevenness(simulation.sediment().1));
         true
     }
 
-    /// Means over the fluid around each grain, of all grains, and the velocity at which they sink.
-    fn around_grains(&self, simulation: &IncompressibleSimulation<2>) -> (Around, f64) {
+    /// |⟨u_f⟩ − u_s| `[m/s]` and |⟨C_d R (u_f − u_s)⟩| `[m/s]` with means over the fluid around each grain, of all grains,
+    /// and the velocity at which they sink `[m/s]`.
+    fn around_grains(&self, simulation: &IncompressibleSimulation<2>) -> [f64; 3] {
         let law = sediment(simulation.scene()).drag;
         let ((place, fluid), (grain_place, grain)) = (simulation.fluid(), simulation.sediment());
-        let mut of_all = Around::default();
-        let mut sinking = 0.0;
+        let [mut mean, mut mean_drag, mut sinking] = [0.0; 3];
         let place: Vec<[f64; 2]> = place.iter().map(|x| [x[0], x[1]]).collect();
         let (width, height) = (self.size[0], self.size[1]);
         // with room for rounding: the kernel alone says where it ends
@@ -181,7 +171,7 @@ impl Probe {
         let nearest = |way: f64, size: f64| way - size * (way / size).round();
         for (centre, own) in grain_place.iter().zip(grain) {
             let centre = [centre[0], centre[1]];
-            let (mut weight, mut slip, mut square, mut drag) = (0.0, [0.0; 2], 0.0, [0.0; 2]);
+            let (mut weight, mut slip, mut drag) = (0.0, [0.0; 2], [0.0; 2]);
             for (x, u) in place.iter().zip(fluid) {
                 let dx = nearest(x[0] - centre[0], width);
                 let dy = nearest(x[1] - centre[1], height);
@@ -198,31 +188,18 @@ impl Probe {
                 let pair_square = pair[0] * pair[0] + pair[1] * pair[1];
                 let product = law.drag_times_reynolds(self.grains.reynolds(pair_square.sqrt())).unwrap_or(f64::NAN);
                 weight += value;
-                square += pair_square * value;
                 for axis in 0..2 {
                     slip[axis] += pair[axis] * value;
                     drag[axis] += pair[axis] * (value * product);
                 }
             }
             let share = 1.0 / grain.len() as f64;
-            of_all.mean += share * (Vector::from(slip) / weight).norm();
-            of_all.square += share * square / weight;
-            of_all.drag += share * (Vector::from(drag) / weight).norm();
+            mean += share * (Vector::from(slip) / weight).norm();
+            mean_drag += share * (Vector::from(drag) / weight).norm();
             sinking -= share * own[1];
         }
-        (of_all, sinking)
+        [mean, mean_drag, sinking]
     }
-}
-
-/// Means over the fluid around a grain.
-#[derive(Debug, Clone, Copy, Default)]
-struct Around {
-    /// |⟨u_f⟩ − u_s| `[m/s]`.
-    mean: f64,
-    /// ⟨|u_f − u_s|²⟩ `[m²/s²]`.
-    square: f64,
-    /// |⟨C_d R (u_f − u_s)⟩| `[m/s]`.
-    drag: f64,
 }
 
 /// Momentum of both phases, the forces on them from outside, and the weight of the grains, per metre of width.

@@ -14,9 +14,6 @@ quantities! {
     []
     TERMINAL_VELOCITY_ERROR:
         verified("terminal_velocity_error", "%", "slip velocity that enters the drag, over the exact slip of a single grain, minus 1"),
-    SLIP_OF_MEANS_ERROR: verified("slip_of_means_error", "%", "|⟨u_f⟩ − u_s| over the exact slip, minus 1"),
-    ROOT_MEAN_SQUARE_SLIP_ERROR:
-        verified("root_mean_square_slip_error", "%", "√⟨|u_f − u_s|²⟩ over the exact slip, minus 1"),
     SLIP_ERROR: verified("slip_error", "%", "slip of a suspension over the exact slip, minus 1"),
     SINKING_ERROR: verified("sinking_error", "%", "settling velocity of a suspension over the exact one, minus 1"),
     SINKING_OVER_RICHARDSON_ZAKI:
@@ -68,8 +65,6 @@ fn alone(flow: &SettlingFlow, variant: &Variant, data: &SettlingObservation) -> 
     let reason = "the project's aim: 1 % of a root of one equation, mean over the last 0.6 of the run";
     vec![
         error(TERMINAL_VELOCITY_ERROR, &series.slip).gated(Limit::Within(-1.0, 1.0), reason),
-        error(SLIP_OF_MEANS_ERROR, &series.slip_of_means),
-        error(ROOT_MEAN_SQUARE_SLIP_ERROR, &series.root_mean_square_slip),
         momentum(variant, data.momentum_error),
     ]
 }
