@@ -171,7 +171,6 @@ pub(crate) fn unmeasured() -> LayerObservation {
             pressure_noise: Vec::new(),
         },
         profile: DepthProfile::default(),
-        pressure_ratio: (f64::NAN, f64::NAN),
         energy: crate::observation::EnergyBook::default(),
         particles_lost: 0,
     }

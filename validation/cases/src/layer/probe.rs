@@ -3,7 +3,6 @@
 use super::{BINS, Layer, PeriodicLayer};
 use crate::metric::unsteadiness;
 use crate::observation::EnergyBook;
-use crate::setup::hydrostatic_pressure;
 use crate::statistics::relative_l2;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -80,8 +79,6 @@ pub struct LayerObservation {
     pub series: TimeSeries,
     /// Profile over the last window.
     pub profile: DepthProfile,
-    /// Extremes of p/(ρ0 g cosθ (H − y)) below 0.8 H in the last window `[-]`.
-    pub pressure_ratio: (f64, f64),
     /// The energy ledger.
     pub energy: EnergyBook,
     /// Particles that ended outside the layer's neighbourhood: below the bed, or above twice the height.
@@ -104,12 +101,10 @@ pub struct LayerProbe {
     length: f64,
     reach: f64,
     weight: f64,
-    hydrostatic: (f64, f64, f64),
     window_start: f64,
     noise: bool,
     series: TimeSeries,
     sums: Vec<[f64; 6]>,
-    ratio: (f64, f64),
     lost: usize,
     energy: EnergyBook,
 }
@@ -123,12 +118,10 @@ impl LayerProbe {
             length: columns as f64 * layer.spacing(),
             reach: 2.0 * numerics.smoothing_ratio * layer.spacing(),
             weight: layer.reference_density * across * layer_height,
-            hydrostatic: (layer.bulk_modulus, layer.reference_density, across),
             window_start: layer.duration - layer.window,
             noise: layer.inclination == 0.0,
             series: TimeSeries::default(),
             sums: vec![[0.0; 6]; BINS],
-            ratio: (f64::INFINITY, f64::NEG_INFINITY),
             lost: 0,
             energy: EnergyBook::default(),
         }
@@ -178,12 +171,6 @@ impl LayerProbe {
             for (sum, value) in self.sums[bin].iter_mut().zip(values) {
                 *sum += value;
             }
-            let (bulk_modulus, density, gravity) = self.hydrostatic;
-            let exact = hydrostatic_pressure(bulk_modulus, density, gravity, self.height - y);
-            if y < 0.8 * self.height {
-                self.ratio.0 = self.ratio.0.min(pressure / exact);
-                self.ratio.1 = self.ratio.1.max(pressure / exact);
-            }
         }
     }
 
@@ -232,7 +219,6 @@ impl LayerProbe {
                 shear_stress: column(4),
                 samples: self.sums.iter().map(|sums| sums[5]).collect(),
             },
-            pressure_ratio: self.ratio,
             energy: self.energy,
             particles_lost: self.lost,
             series: self.series,

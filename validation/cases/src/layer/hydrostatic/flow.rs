@@ -82,14 +82,6 @@ impl HydrostaticFlow {
         self.layer.numerics.density_coupling > 0.0
     }
 
-    /// Least and most of the pressure over the weight above that grains can rest with, 1/(1 ± μ_s): passive and active
-    /// state `[-]`; none for a material whose pressure alone carries the weight.
-    #[must_use]
-    pub fn states_of_rest(&self) -> Option<(f64, f64)> {
-        let friction = self.material.contact_friction();
-        self.material.is_plastic().then_some((1.0 / (1.0 + friction), 1.0 / (1.0 - friction)))
-    }
-
     /// ρ0 g H² times the length of the layer `[J/m]`.
     #[must_use]
     pub fn energy_scale(&self) -> f64 {

@@ -1,7 +1,7 @@
 //! A layer at rest as another code gives it: its profile and its history.
 
 use super::flow::HydrostaticFlow;
-use super::metrics::{ACOUSTIC_BREATHING, HEIGHT_DRIFT, NORMAL_STRESS_L2, PRESSURE_L2, RMS_SPEED};
+use super::metrics::{HEIGHT_DRIFT, NORMAL_STRESS_L2, PRESSURE_L2, RMS_SPEED};
 use crate::case::{ExternalColumn, ExternalData, ExternalObservation, ExternalSchema};
 use crate::input::FieldError;
 use crate::layer::{LayerObservation, TimeSeries, foreign};
@@ -22,8 +22,7 @@ pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
     description: "The layer is prepared, or settles, before the start. pressure_l2 is the root of the summed squares of the errors of the \
         pressure over that of the exact hydrostatic one, K (exp(ρ0 g (H − y)/K) − 1), for laws without a yield that carries \
         stress; normal_stress_l2 is the same of p − s_yy for grains, whose pressure at rest is not unique. height_drift is the \
-        mean height from 1.8 to 2.2 s over that from 0.8 to 1.2 s, less 1; acoustic_breathing the range of the mean height over \
-        the last half second; rms_speed the last of the series.",
+        mean height from 1.8 to 2.2 s over that from 0.8 to 1.2 s, less 1; rms_speed the last of the series.",
 };
 
 /// The observation from what another code gives.
@@ -52,7 +51,7 @@ pub(super) fn observe(
             measured.push(RMS_SPEED.name);
         }
         if !given.series("mean_height").is_empty() {
-            measured.extend([HEIGHT_DRIFT.name, ACOUSTIC_BREATHING.name]);
+            measured.push(HEIGHT_DRIFT.name);
         }
     }
     Ok(ExternalObservation { observation, measured })
@@ -77,12 +76,12 @@ mod tests {
     }
 
     #[test]
-    fn a_history_of_heights_gives_drift_and_breathing() {
+    fn a_history_of_heights_gives_the_drift() {
         let run = HydrostaticFlow::default();
         let series: NamedColumns = [("time", vec![0.0, 1.0, 2.0]), ("mean_height", vec![0.5, 0.5, 0.5])]
             .map(|(name, values)| (name.to_owned(), values))
             .into();
         let seen = observe(&run, &ExternalData { series, ..ExternalData::default() }).expect("complete");
-        assert_eq!(seen.measured, ["height_drift", "acoustic_breathing"]);
+        assert_eq!(seen.measured, ["height_drift"]);
     }
 }

@@ -31,7 +31,7 @@ impl Case for Hydrostatic {
         Judged. Hydrostatic pressure of the equation of state, particle-scale pressure noise and drift. Grains that \
         carry their stress are judged by p − s_yy, because friction leaves the pressure undetermined between the \
         active and the passive state. The run without coupling must be noisy, which shows that the measure can fail.\n\n\
-        Observed only. Extremes of the pressure p of grains that carry their stress; velocities at rest.";
+        Observed only. Velocities at rest.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;
     type Flow = HydrostaticFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
