@@ -49,14 +49,13 @@ const OF_PROFILE: [&str; 9] = [
     "least_error_reduction",
 ];
 /// Metrics that the history of the mean velocity suffices for.
-const OF_HISTORY: [&str; 7] = [
+const OF_HISTORY: [&str; 6] = [
     "transient_mean_error_quarter",
     "transient_mean_error_half",
     "transient_mean_error_three_quarters",
     "rise_time",
     "arrest_time",
     "least_acceleration",
-    "final_mean_error",
 ];
 /// How high a particle may be, over the layer's height.
 const REACH: f64 = 50.0;

@@ -4,7 +4,7 @@ use super::Record;
 use super::flow::{BagnoldFlow, LayerStart};
 use crate::layer::{DepthProfile, LayerObservation, Preparation};
 use crate::reference::one_dimension::{BagnoldProfile, LayerTransient, TransientHistory};
-use crate::shared::Arrangement;
+use crate::shared::{Arrangement, distinct};
 use crate::statistics::{Extrapolation, interpolated, linear_fit, relative_l2};
 
 /// A steady run's errors.
@@ -32,7 +32,7 @@ impl SteadyErrors {
             linear_fit(&line).map(|fit| fit.intercept)
         };
         let slip = intercept(&|bin| profile.velocity[bin])? - intercept(&|bin| velocity(profile.height[bin]))?;
-        let stress: Vec<f64> = implied_stress(profile, exact).into_iter().map(|(_, error)| error.abs()).collect();
+        let stress = stress_errors(profile, exact);
         Some(Self {
             velocity_l2: 100.0 * profile.velocity_l2(velocity),
             surface_velocity_error: 100.0 * (profile.velocity[top] / velocity(profile.height[top]) - 1.0),
@@ -42,25 +42,19 @@ impl SteadyErrors {
     }
 }
 
-/// (y, I) between 0.1 h and 0.9 h, from central differences of the bins' velocities and their pressures.
-pub(super) fn inertial_numbers(profile: &DepthProfile, exact: &BagnoldProfile) -> Vec<(f64, f64)> {
-    let number = |(bin, rate): (usize, f64)| {
-        let speed = (profile.pressure[bin] / exact.grain_density).sqrt();
-        (profile.height[bin], rate * exact.grain_diameter / speed)
-    };
-    let inside = |(y, _): &(f64, f64)| (0.1..=0.9).contains(&(y / exact.layer_height));
-    profile.shear_rates().into_iter().map(number).filter(inside).collect()
-}
-
-/// (y, μ(I)/tanθ − 1) there, with μ(I) of (31).
-pub(super) fn implied_stress(profile: &DepthProfile, exact: &BagnoldProfile) -> Vec<(f64, f64)> {
-    let friction = |inertial_number: f64| {
-        exact.static_friction
-            + (exact.limiting_friction - exact.static_friction) / (1.0 + exact.reference_inertia / inertial_number)
-    };
+/// |μ(I)/tanθ − 1| of bins between 0.1 h and 0.9 h, with μ(I) of (31) and I from central differences of the bins' velocities
+/// and their pressures.
+fn stress_errors(profile: &DepthProfile, exact: &BagnoldProfile) -> Vec<f64> {
     let tangent = libm::tan(exact.inclination);
-    let numbers = inertial_numbers(profile, exact).into_iter();
-    numbers.map(|(y, inertial_number)| (y, friction(inertial_number) / tangent - 1.0)).collect()
+    let error = |(bin, rate): (usize, f64)| {
+        let speed = (profile.pressure[bin] / exact.grain_density).sqrt();
+        let inertial_number = rate * exact.grain_diameter / speed;
+        let friction = exact.static_friction
+            + (exact.limiting_friction - exact.static_friction) / (1.0 + exact.reference_inertia / inertial_number);
+        (friction / tangent - 1.0).abs()
+    };
+    let inside = |(bin, _): &(usize, f64)| (0.1..=0.9).contains(&(profile.height[*bin] / exact.layer_height));
+    profile.shear_rates().into_iter().filter(inside).map(error).collect()
 }
 
 /// Runs of one kind, of which several may differ in their rows.
@@ -75,12 +69,7 @@ pub(super) struct ConvergenceStudy {
 /// errors coarse to fine.
 pub(super) fn convergence_studies(records: &[Record]) -> Vec<(ConvergenceStudy, Vec<(f64, f64)>)> {
     let kinds = [(Arrangement::Lattice, LayerStart::Profile), (Arrangement::Jittered, LayerStart::Rest)];
-    let mut angles: Vec<f64> = Vec::new();
-    for (run, _) in records.iter().filter(|(run, _)| run.is_steady()) {
-        if !angles.contains(&run.slope_angle) {
-            angles.push(run.slope_angle);
-        }
-    }
+    let angles = distinct(records.iter().filter(|(run, _)| run.is_steady()).map(|(run, _)| run.slope_angle));
     let of_angle = |slope_angle| kinds.map(|(arrangement, start)| ConvergenceStudy { slope_angle, arrangement, start });
     let studies = angles.into_iter().flat_map(of_angle).map(|study| (study, convergence_errors(records, study)));
     studies.filter(|(_, errors)| errors.len() >= 2).collect()

@@ -1,9 +1,7 @@
 //! The case's figures.
 
 use super::Record;
-use super::errors::{
-    convergence_studies, history_from_rest, implied_stress, inertial_numbers, particle_history, transient_of,
-};
+use super::errors::{convergence_studies, history_from_rest, particle_history, transient_of};
 use super::flow::{BagnoldFlow, Fate, LayerStart};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::one_dimension::TransientHistory;
@@ -28,7 +26,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let mut figures = Vec::new();
     if !steady.is_empty() {
         let profiles = profiles("velocity-profile", &(PROFILES.to_owned() + &set_up(&steady[0].0)), &steady);
-        figures.extend([profiles, stresses(&steady), transients(&steady)]);
+        figures.extend([profiles, transients(&steady)]);
     }
     if !other_grains.is_empty() {
         figures.push(profiles("other-grains", OTHER_GRAINS, &other_grains));
@@ -77,33 +75,6 @@ fn profiles(name: &str, caption: &str, records: &[&Record]) -> Figure {
         error.line_points(&label(run), slot, differences);
     }
     Figure::new(name, caption, vec![absolute, error])
-}
-
-fn stresses(records: &[&Record]) -> Figure {
-    let mut pressure = Panel::new("", Axis::linear("p [Pa]"), Axis::linear("y/h [-]"));
-    let mut inertia = Panel::new("", Axis::linear("I/I(θ), exact [-]"), Axis::linear("y/h [-]"));
-    let mut implied = Panel::new("", Axis::linear("μ(I)/tanθ − 1 [%]"), Axis::linear("y/h [-]"));
-    inertia.reference("exact", [(1.0, 0.0), (1.0, 1.0)]);
-    implied.reference("exact", [(0.0, 0.0), (0.0, 1.0)]);
-    for (slot, (run, record)) in records.iter().enumerate() {
-        let exact = run.profile();
-        let Some(steady) = exact.inertial_number() else { continue };
-        let (h, data) = (exact.layer_height, &record.data.profile);
-        pressure.reference(if slot == 0 { "hydrostatic" } else { "" }, [(exact.pressure(0.0), 0.0), (0.0, 1.0)]);
-        pressure.points(&label(run), slot, data.drawn(&data.pressure, h));
-        let numbers = inertial_numbers(data, &exact).into_iter();
-        inertia.line_points(&label(run), slot, numbers.map(|(y, number)| (number / steady, y / h)));
-        let errors = implied_stress(data, &exact).into_iter();
-        implied.line_points(&label(run), slot, errors.map(|(y, error)| (100.0 * error, y / h)));
-    }
-    Figure::new(
-        "pressure-and-stress",
-        "Pressure against the hydrostatic line, inertial number against its constant exact value, and the stress \
-         ratio that the measured inertial number implies, relative to tanθ. The flow turns an error of 0.1 % of the \
-         friction coefficient into one of 0.8 % (25°) to 2 % (22°) of the velocity.",
-        vec![pressure, inertia, implied],
-    )
-    .in_columns(3)
 }
 
 fn transients(records: &[&Record]) -> Figure {

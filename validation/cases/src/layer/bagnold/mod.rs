@@ -36,8 +36,7 @@ impl Case for Bagnold {
         Below that range the layer must stop; above it, it must accelerate. Density against the compression of a \
         level layer (continuity). The stress error |μ(I)/tan θ − 1|: an error of the friction coefficient appears in \
         the velocity 8 (25°) to 20 (22°) times as large (dln I/dln μ).\n\n\
-        Observed only. The velocity error over the measured instead of the nominal height, and the time to reach the \
-        steady velocity.";
+        Observed only. The time to reach the steady velocity.";
     const EXTERNAL_SCHEMA: ExternalSchema = layer::foreign::EXTERNAL_SCHEMA;
     type Flow = BagnoldFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;

@@ -18,11 +18,6 @@ quantities! {
     VELOCITY_L2_COMPRESSIBLE:
         verified("velocity_l2_compressible", "%", "relative L2 error of the velocity profile against the weakly compressible Newtonian film"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of the Newtonian film"),
-    DISPLACEMENT_FLOOR: verified(
-        "displacement_floor", "%",
-        "√⟨(u_perturbed − u_lattice)²⟩ over the surface velocity",
-    ),
-    HEIGHT_ERROR: verified("height_error", "%", "mean height of perturbed particles over the mean height on the lattice, minus 1"),
     SKIN_DIFFERENCE:
         verified("skin_difference", "%", "relative L2 difference between velocities with a wider and a narrower skin of the neighbour lists"),
     PLUG_EDGE_ERROR: verified("plug_edge_error", "spacings", "height of the edge of the plug minus the exact height"),
@@ -53,43 +48,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Metric> {
             Arrangement::Jittered => order.with_snapshot_tolerance(0.05, 0.05),
         });
     }
-    metrics.extend(displacement_floor(records));
     metrics
-}
-
-/// What displaced particles add to the error, and how far their film has sunk or swollen: what does not go away with the
-/// spacing.
-fn displacement_floor(records: &[Record]) -> Vec<Metric> {
-    let studied = |particles: Arrangement| records.iter().filter(move |(run, _)| is_studied(run, particles));
-    let both = studied(Arrangement::Jittered).filter_map(|displaced| {
-        let rows = displaced.0.layer.resolution;
-        Some((displaced, studied(Arrangement::Lattice).find(|(run, _)| run.layer.resolution == rows)?))
-    });
-    let Some((displaced, lattice)) = both.max_by_key(|(displaced, _)| displaced.0.layer.resolution) else {
-        return Vec::new();
-    };
-    // particles of both lie at other heights: the errors against the exact film are compared, bin by bin
-    let errors = |(run, record): &Record| {
-        let (profile, exact) = (&record.data.profile, |y| run.weakly_compressible_velocity(y).unwrap_or(f64::NAN));
-        let surface = exact(run.layer.layer_height);
-        let error = |bin: usize| (profile.velocity[bin] - exact(profile.height[bin])) / surface;
-        (0..profile.height.len()).map(error).collect::<Vec<f64>>()
-    };
-    let pairs = errors(displaced).into_iter().zip(errors(lattice));
-    let filled: Vec<f64> = pairs.map(|(one, other)| one - other).filter(|difference| difference.is_finite()).collect();
-    let floor = (filled.iter().map(|difference| difference * difference).sum::<f64>() / filled.len() as f64).sqrt();
-    let height = |(_, record): &Record| record.data.series.relative_height.last().copied().unwrap_or(f64::NAN);
-    let variant = displaced.0.variant();
-    vec![
-        DISPLACEMENT_FLOOR
-            .of(&variant, 100.0 * floor)
-            .exactly(0.0, "the film on the lattice at the same resolution, over the surface velocity")
-            .with_snapshot_tolerance(0.05, 0.01),
-        HEIGHT_ERROR
-            .of(&variant, 100.0 * (height(displaced) / height(lattice) - 1.0))
-            .exactly(0.0, "the same volume: a film that has sunk flows as a lower one would, at every resolution")
-            .with_snapshot_tolerance(0.05, 0.01),
-    ]
 }
 
 fn of_run(record: &Record) -> Vec<Metric> {
