@@ -37,13 +37,7 @@ const LAST: f64 = 0.25;
 pub(crate) fn observe(given: &ExternalData) -> Result<ExternalObservation<ChannelObservation>, FieldError> {
     let mut measured = Vec::new();
     let time = given.series("time").to_vec();
-    for (name, metric) in
-        [("mean_velocity", "mean_velocity"), ("bed_shear", "bed_shear"), ("mean_velocity", "velocity_drift")]
-    {
-        if !given.series(name).is_empty() {
-            measured.push(metric);
-        }
-    }
+    measured.extend(["mean_velocity", "bed_shear"].iter().filter(|name| !given.series(name).is_empty()));
     let (height, velocity) = (given.profile("height"), given.profile("velocity"));
     let pressure = given.profile("pressure");
     let point = |row: usize| ProfilePoint {

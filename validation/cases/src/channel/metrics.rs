@@ -18,7 +18,6 @@ quantities! {
     BED_SHEAR: verified("bed_shear", "-", "bed friction over the weight component along the bed"),
     VELOCITY_ITERATIONS: accounted("velocity_iterations", "-", "iterations of the implicit velocities, mean over all steps"),
     PRESSURE_ITERATIONS: accounted("pressure_iterations", "-", "iterations of the pressure, mean over all steps"),
-    VELOCITY_DRIFT: verified("velocity_drift", "%", "relative change of the mean velocity over U/(2 g i) in the window"),
 }
 
 /// Standard errors that a value may move before a change is reported `[-]`.
@@ -107,10 +106,4 @@ pub fn pressure_l2(variant: &Variant, data: &ChannelObservation) -> Metric {
 pub fn bed_shear(variant: &Variant, data: &ChannelObservation, weight: f64) -> Metric {
     let shear = data.average(&data.series.bed_shear);
     observed(BED_SHEAR, variant, shear, 1.0 / weight).exactly(1.0, "ρ g h i")
-}
-
-/// Relative change `[-]` of the velocity of `what` over U/(2 g i).
-pub fn velocity_drift(variant: &Variant, change: f64, what: &str) -> Metric {
-    let source = format!("change of the {what} over U/(2 g i), by a line through the window");
-    VELOCITY_DRIFT.of(variant, 100.0 * change).exactly(0.0, &source).with_snapshot_tolerance(0.2, 0.1)
 }

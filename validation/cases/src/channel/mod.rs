@@ -32,14 +32,10 @@ pub mod water_film;
 pub use crate::statistics::{BlockProfile, ProfilePoint};
 pub use closure::TurbulenceClosure;
 pub(super) use metrics::{
-    BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_ITERATIONS, PRESSURE_L2, VELOCITY_DRIFT,
-    VELOCITY_ITERATIONS,
+    BED_SHEAR, HEIGHT_CHANGE, MOMENTUM_RESIDUAL, PARTICLES_LOST, PRESSURE_ITERATIONS, PRESSURE_L2, VELOCITY_ITERATIONS,
 };
-pub use metrics::{
-    bed_shear, height_change, iterations, momentum_residual, observed, particles_lost, pressure_l2, velocity_drift,
-};
+pub use metrics::{bed_shear, height_change, iterations, momentum_residual, observed, particles_lost, pressure_l2};
 pub use probe::{ChannelObservation, ChannelSeries, MomentumBalance};
-pub use stationarity::StationaritySample;
 pub use tables::{tables, tables_of_runs};
 pub use water::Water;
 

@@ -1,6 +1,6 @@
 //! What a channel leaves behind: time series, and over the averaging window a profile and the balance of momentum.
 
-use super::stationarity::{Stationarity, StationaritySample};
+use super::stationarity::Stationarity;
 use super::{AveragingWindowEnd, Channel};
 use crate::statistics::BlockProfile;
 use bagnold_solver::incompressible::IncompressibleSimulation;
@@ -76,8 +76,6 @@ pub struct ChannelObservation {
     pub profile: BlockProfile,
     /// Momentum over the window.
     pub momentum: MomentumBalance,
-    /// Ends of the stationarity criterion's intervals, where there is a criterion.
-    pub marks: Vec<StationaritySample>,
     /// When the criterion was met `[s]`.
     pub stationary_since: Option<f64>,
     /// Particles that ended outside: of the fluid, those below the floor or above twice the depth.
@@ -239,7 +237,6 @@ impl ChannelProbe {
     }
 
     pub(super) fn finish(mut self) -> ChannelObservation {
-        self.observation.marks = self.stationarity.marks;
         self.observation.stationary_since = self.stationarity.reached;
         self.observation
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 /// The flow at the end of an interval of the criterion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct StationaritySample {
+pub(super) struct StationaritySample {
     /// Time `[s]`.
     pub time: f64,
     /// Depth mean of the velocity `[m/s]`.

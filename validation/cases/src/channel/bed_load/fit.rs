@@ -18,8 +18,6 @@ pub(super) struct HeldOut {
     pub(super) yield_stress: f64,
     /// μ `[Pa·s]`.
     pub(super) viscosity: f64,
-    /// Root mean square of ln(q*/q*_WP) over the two fitted slopes `[-]`.
-    pub(super) misfit: f64,
     /// q* over Wong & Parker's on the slope held out `[-]`.
     pub(super) ratio: f64,
     /// Whether the parameters lie on the border of the grid.
@@ -77,14 +75,13 @@ pub(super) fn held_out(records: &[BedLoadRecord]) -> Vec<HeldOut> {
             let squares = |(tau, mu): (f64, f64)| fitted.iter().map(|surface| surface.misfit(tau, mu).powi(2)).sum();
             let nodes = (0..=FINE).flat_map(|i| (0..=FINE).map(move |j| (i, j)));
             let tried = nodes.map(|(i, j)| (squares(law(i, j)), i, j));
-            let (sum, i, j): (f64, _, _) = tried.fold((f64::INFINITY, 0, 0), |a, b| if b.0 < a.0 { b } else { a });
+            let (_, i, j): (f64, _, _) = tried.fold((f64::INFINITY, 0, 0), |a, b| if b.0 < a.0 { b } else { a });
             let (yield_stress, viscosity) = law(i, j);
             HeldOut {
                 slope: held.slope,
                 shields_number: held.shields_number,
                 yield_stress,
                 viscosity,
-                misfit: (sum / fitted.len() as f64).sqrt(),
                 ratio: libm::exp(held.misfit(yield_stress, viscosity)),
                 at_border: [i, j].iter().any(|&k| k == 0 || k == FINE),
             }

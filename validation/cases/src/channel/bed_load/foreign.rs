@@ -43,10 +43,9 @@ pub(super) const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema {
 };
 
 /// Metrics that the water's profile suffices for.
-const OF_WATER: [&[Quantity]; 3] = [
+const OF_WATER: [&[Quantity]; 2] = [
     &[FLUID_VELOCITY_RMS, FLUID_VELOCITY_MEAN, NEAR_BED_DEFICIT, OUTER_DEFICIT, RELATIVE_DEFICIT],
-    &[SEMI_LOG_SLOPE, LAYER_SLOPE_RATIO, NUMBER_OF_LAYERS, LAYER_SLOPE, LAYER_BORDER],
-    &[SHEARED_UP_TO, SHEARED_FROM, SHEARED_THICKNESS_GROWTH],
+    &[SEMI_LOG_SLOPE, LAYER_SLOPE_RATIO, NUMBER_OF_LAYERS],
 ];
 /// Metrics that the grains' profile suffices for.
 const OF_GRAINS: [&[Quantity]; 2] =
@@ -84,7 +83,7 @@ pub(super) fn observe(
         measured.extend(names(&OF_TRANSPORT));
     }
     if !given.series("mean_velocity").is_empty() {
-        measured.extend([STREAM_VELOCITY.name, channel::VELOCITY_DRIFT.name]);
+        measured.push(STREAM_VELOCITY.name);
     }
     let layer = run.formulation.is_continuum().then(|| run.layer()).transpose().map_err(|error| {
         FieldError::new("runs", error.to_string(), "a run whose 1-D layer can be computed", "leave the run out")

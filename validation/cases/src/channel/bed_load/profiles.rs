@@ -15,11 +15,6 @@ fn log_height(run: &BedLoadFlow, height: f64) -> f64 {
     libm::log((height + run.clear_water().origin_offset) / run.grain_diameter)
 }
 
-/// Height of a logarithm `[m]`.
-pub(super) fn height_of(run: &BedLoadFlow, logarithm: f64) -> f64 {
-    run.grain_diameter * libm::exp(logarithm) - run.clear_water().origin_offset
-}
-
 /// Heights between which the slope of u over ln(z + z_0) is fitted `[m]`.
 pub(super) const LAYERS: [(f64, f64); 4] = [(5e-4, 3.5e-3), (3e-3, 8e-3), (8e-3, 18e-3), (15e-3, 43e-3)];
 
@@ -65,39 +60,6 @@ pub(super) fn grain_curvature(run: &BedLoadFlow, points: &[ProfilePoint], above:
     let moving = points.iter().filter(|point| (point.height > 0.0) == above && point.velocity > 1e-4);
     let values: Vec<(f64, f64)> = moving.map(|point| (point.height / diameter, point.velocity / scale)).collect();
     curvature(&values).unwrap_or(f64::NAN)
-}
-
-/// Share of u_* by which the water departs from a flow without sheared bed.
-const DEPARTURE: f64 = 0.1;
-
-/// Borders of the layer that the moving grains shear `[m]`: below it the water seeps, above it the logarithmic law holds
-/// that is fitted to the outer flow; at both it departs by a tenth of u_*.
-pub(super) fn sheared_borders(run: &BedLoadFlow, points: &[ProfilePoint]) -> (f64, f64) {
-    let law = run.clear_water();
-    let threshold = DEPARTURE * law.friction_velocity();
-    let outer: Vec<(f64, f64)> = points
-        .iter()
-        .filter(|point| point.height >= 15e-3 && point.height <= 0.9 * law.depth)
-        .map(|point| (log_height(run, point.height), point.velocity))
-        .collect();
-    let (Some(fit), Some(seepage)) = (linear_fit(&outer), points.first().map(|point| point.velocity)) else {
-        return (f64::NAN, f64::NAN);
-    };
-    let excess = |point: &ProfilePoint| point.velocity - seepage - threshold;
-    let missing = |point: &ProfilePoint| {
-        (fit.intercept + fit.slope * log_height(run, point.height) - point.velocity).abs() - threshold
-    };
-    let inner: Vec<&ProfilePoint> = points.iter().filter(|point| point.height > 0.0 && point.height < 18e-3).collect();
-    let lower = points.windows(2).find_map(|pair| root([&pair[0], &pair[1]], excess));
-    let upper = inner.windows(2).rev().find_map(|pair| root([pair[0], pair[1]], missing));
-    (lower.unwrap_or(f64::NAN), upper.unwrap_or(f64::NAN))
-}
-
-/// Height between two points at which a function of them changes its sign.
-fn root(pair: [&ProfilePoint; 2], function: impl Fn(&ProfilePoint) -> f64) -> Option<f64> {
-    let [low, high] = pair.map(&function);
-    let span = pair[1].height - pair[0].height;
-    (low * high <= 0.0 && low != high).then(|| pair[0].height + span * low / (low - high))
 }
 
 /// Velocity of the water at a height, over u_* `[-]`.
@@ -222,7 +184,5 @@ mod tests {
         let law_at = law.velocity(0.023) / law.friction_velocity();
         assert!((velocity_at(&run, &points, 0.023) - law_at).abs() < 1e-9);
         assert!((slope_ratio(&run, &points).expect("enough points") - 1.0).abs() < 1e-6);
-        let border = 7e-3;
-        assert!((height_of(&run, log_height(&run, border)) - border).abs() < 1e-15);
     }
 }

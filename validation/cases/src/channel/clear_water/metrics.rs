@@ -11,7 +11,7 @@ use crate::statistics::linear_fit;
 
 quantities! {
     [
-        channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR, channel::VELOCITY_DRIFT,
+        channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR,
         channel::HEIGHT_CHANGE, channel::PRESSURE_L2, printed_laws::LAW_ERROR,
     ]
     STATIONARY_AFTER: verified("stationary_after", "s", "time at which the depth average becomes stationary by the criterion"),
@@ -64,7 +64,6 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
         )
     };
     let mean = data.average(&data.series.mean_velocity);
-    let change = data.trend(&data.series.mean_velocity) * law.adjustment_time() / law.mean_velocity();
     metrics.extend([
         known(observed(VELOCITY_RMS, data.profile.estimate(|points| rms(&law, points)), 1.0), MOVED.rms)
             .exactly(0.0, "logarithmic law, over 0.1 h … 0.9 h")
@@ -77,7 +76,6 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
         known(observed(MEAN_VELOCITY, mean, 1.0 / law.mean_velocity()), MOVED.mean)
             .exactly(1.0, "depth mean of the logarithmic law")
             .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the depth mean of the logarithmic law"),
-        channel::velocity_drift(&variant, change, "depth mean"),
         channel::height_change(&variant, data, "mean height h/2: water keeps its volume"),
         channel::pressure_l2(&variant, data),
     ]);

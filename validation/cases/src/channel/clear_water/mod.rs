@@ -33,7 +33,7 @@ impl Case for ClearWater {
         logarithmic law and must keep it.\n\n\
         Judged. Velocity profile, its slope over the logarithm of height, depth average and bed friction against the \
         law; the momentum balance.\n\n\
-        Observed only. Pressure, depth and the drift of the depth-averaged velocity. Velocities of a run that starts \
+        Observed only. Pressure and depth. Velocities of a run that starts \
         apart from the law and does not become stationary.";
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
     type Flow = ClearWaterFlow;
@@ -44,7 +44,7 @@ impl Case for ClearWater {
     }
 
     fn figures(records: &[ClearWaterRecord]) -> Vec<Figure> {
-        vec![figures::profiles(records), figures::over_time(records)]
+        vec![figures::profiles(records)]
     }
 
     fn from_external(_: &ClearWaterFlow, given: &ExternalData) -> FromExternal<ClearWaterFlow> {

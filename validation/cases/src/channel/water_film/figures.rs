@@ -2,11 +2,11 @@
 
 use super::WaterFilmRecord;
 use super::flow::WaterFilmFlow;
-use super::metrics::{FilmDepth, convergence_errors, depth_of};
+use super::metrics::{FilmDepth, convergence_errors};
 use crate::figure::{Axis, Figure, Panel};
 
 pub(super) fn all(records: &[WaterFilmRecord]) -> Vec<Figure> {
-    let mut figures = vec![profiles(records), over_time(records)];
+    let mut figures = vec![profiles(records)];
     let errors = convergence_errors(records, FilmDepth::Nominal);
     if errors.len() >= 2 {
         let mut panel =
@@ -54,32 +54,5 @@ fn profiles(records: &[WaterFilmRecord]) -> Figure {
         "Velocity over the depth, averaged over the last relaxation times, against the exact film, and the \
          difference in per cent of the surface velocity with its statistical error from blocks.",
         vec![velocity, error],
-    )
-}
-
-fn over_time(records: &[WaterFilmRecord]) -> Figure {
-    let mut mean = Panel::new("", Axis::linear("t ν π²/(4h²) [-]"), Axis::linear("U/(⅔ u(h)) [-]"));
-    let mut height = Panel::new("", Axis::linear("t ν π²/(4h²) [-]"), Axis::linear("mean height/(h/2) [-]"));
-    let mut longest: f64 = 0.0;
-    for (slot, (run, record)) in records.iter().enumerate() {
-        let series = &record.data.series;
-        let at = |time: f64| time / run.relaxation_time();
-        let line = |values: &[f64], scale: f64| {
-            series.curve(values, scale).into_iter().map(|(time, value)| (at(time), value)).collect::<Vec<_>>()
-        };
-        longest = longest.max(at(record.simulated_time));
-        let exact = run.exact(run.water.depth).flux() / run.water.depth;
-        mean.line(&label(run), slot, line(&series.mean_velocity, exact));
-        height.line("", slot, line(&series.relative_height, 1.0));
-        let own = depth_of(run, &record.data, FilmDepth::Own) / run.water.depth;
-        let (from, to) = record.data.window;
-        let window = vec![(at(from), own), (at(to), own)];
-        height.reference("mean over the window", window);
-    }
-    mean.reference("exact", [(0.0, 1.0), (longest, 1.0)]);
-    Figure::new(
-        "steadiness",
-        "Depth mean of the velocity and mean height over time, from the exact profile at the nominal depth.",
-        vec![mean, height],
     )
 }

@@ -82,7 +82,7 @@ fn of_run((run, record): &WaterFilmRecord) -> Vec<Metric> {
 }
 
 /// Depth h `[m]` that a run is compared at.
-pub(super) fn depth_of(run: &WaterFilmFlow, data: &ChannelObservation, depth: FilmDepth) -> f64 {
+fn depth_of(run: &WaterFilmFlow, data: &ChannelObservation, depth: FilmDepth) -> f64 {
     let heights = data.series.within(&data.series.relative_height, data.window);
     match depth {
         FilmDepth::Nominal => run.water.depth,
