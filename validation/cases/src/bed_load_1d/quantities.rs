@@ -39,10 +39,6 @@ quantities! {
         "duct_velocity_difference", "%",
         "√⟨(u_f − u_published)²⟩ over the largest published velocity, heights from the level below which grains rest",
     ),
-    SUSPENDED_TRANSPORT: verified("suspended_transport", "-", "q* with eddies that carry grains over q* without them"),
-    SETTLING_RATIO: verified(
-        "settling_ratio", "-", "settling velocity of a grain over u_*: eddies carry grains up to about 1.25 (Bagnold 1966)",
-    ),
     TRANSPORT_RATIO: validated("transport_ratio", "-", "q* over q* of the formula or of a published layer"),
     MEAN_FLUID_VELOCITY: verified("mean_fluid_velocity", "m/s", "depth mean of the water's velocity"),
     STRESS_BALANCE_ERROR: verified("stress_balance_error", "-", "largest imbalance of the stresses of both phases with the weight component above, over the bed stress"),
@@ -66,6 +62,4 @@ quantities! {
     DRAG_DEPTH_GROWTH: stated("drag_depth_growth", "-", "least ratio, from a slope to the next, of the depth down to which the drag exceeds a tenth of its peak"),
     ONSET_OVER_MEASURED:
         validated("onset_over_measured", "-", "Shields number at the onset of motion over the median of thresholds measured with grains of this size"),
-    TRANSPORT_SENSITIVITY:
-        verified("transport_sensitivity", "-", "q* with one closure replaced, over q* with the closures of the literature"),
 }

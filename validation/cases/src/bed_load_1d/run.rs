@@ -28,10 +28,6 @@ const LOWEST_SCANNED: f64 = 0.1;
 pub struct BedLoadLayerObservation {
     /// The profiles.
     pub state: LayerState,
-    /// Largest change of a velocity in the last step, over u_* `[-]`.
-    pub velocity_change: f64,
-    /// Largest change of φ in the last step `[-]`.
-    pub fraction_change: f64,
     /// Difference between the states from rest and from a fast start, where the run has both `[-]`; else 0.
     pub start_difference: f64,
     /// The state from the fast start, if the run has both and they are two.
@@ -147,8 +143,6 @@ fn solve(flow: &BedLoad1dFlow, progress: &dyn Progress) -> Result<Recorded<BedLo
         frames: Vec::new(),
         first_bad: None,
         data: BedLoadLayerObservation {
-            velocity_change: approach.velocity_change,
-            fraction_change: approach.fraction_change,
             start_difference: done.difference,
             second,
             scan,

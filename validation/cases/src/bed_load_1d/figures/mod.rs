@@ -4,11 +4,10 @@ mod bed_at_rest;
 mod lowest_layer;
 mod measured;
 mod onset;
-mod sensitivities;
 
 use super::BedLoad1dRecord;
-use super::flow::{BedLoad1dFlow, BedMotion};
-use super::metrics::{MOVING, difference, order_study};
+use super::flow::BedLoad1dFlow;
+use super::metrics::MOVING;
 use super::records::{SolvedLayer, of};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::one_dimension::bed_load::LayerState;
@@ -20,11 +19,9 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Figure> {
         return Vec::new();
     }
     let mut figures = vec![bed_at_rest::figure(records, &layers), profiles(&layers), transport(&layers)];
-    figures.extend(convergence(records, &layers));
     figures.extend(onset::figure(records));
     figures.extend(measured::figure(records));
     figures.extend(lowest_layer::figure(&layers, MOVING));
-    figures.extend(sensitivities::figure(records, &layers));
     figures
 }
 
@@ -109,45 +106,4 @@ fn transport(layers: &[SolvedLayer<'_>]) -> Figure {
          formulas. The band about Wong & Parker's formula is the scatter of the experiments behind it.",
         vec![panel],
     )
-}
-
-/// Differences between neighbouring cell heights.
-fn convergence(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) -> Option<Figure> {
-    let studies = [
-        (BedMotion::Dilating, "with dilation: q*", "relative difference of q* [-]"),
-        (BedMotion::Frozen, "given fraction: profiles", "relative L2 difference [-]"),
-    ];
-    let mut panels = Vec::new();
-    for (motion, title, label) in studies {
-        let mut panel = Panel::new(title, Axis::logarithmic("height of a cell [mm]"), Axis::logarithmic(label));
-        for (slot, (run, _)) in layers.iter().enumerate() {
-            let study = order_study(records, run, motion);
-            let points: Vec<(f64, f64)> = study
-                .windows(2)
-                .map(|pair| (1e3 * pair[0].cell_height, difference(pair[0], pair[1], motion)))
-                .collect();
-            if slot == 0
-                && let (Some(first), Some(last)) = (points.first(), points.last())
-            {
-                let end = first.1 * (last.0 / first.0) * (last.0 / first.0);
-                let guide = vec![*first, (last.0, end)];
-                panel.reference("second order", guide);
-            }
-            if !points.is_empty() {
-                panel.line_points(&percent(run.stream().slope), slot, points);
-            }
-        }
-        if !panel.series.is_empty() {
-            panels.push(panel);
-        }
-    }
-    (!panels.is_empty()).then(|| {
-        Figure::new(
-            "convergence",
-            "Difference between each height of cells and half of it, over that height, for the transport of dilating \
-         layers and for the profiles of layers with a given smooth fraction.",
-            panels,
-        )
-        .in_columns(2)
-    })
 }

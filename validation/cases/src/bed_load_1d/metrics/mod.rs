@@ -72,7 +72,6 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     metrics.extend(measured::metrics(records));
     metrics.extend(suspension::metrics(records));
     with_slope(&mut metrics, judged);
-    metrics.extend(sensitivities::metrics(records));
     metrics
 }
 
@@ -184,11 +183,7 @@ fn order(records: &[BedLoad1dRecord], run: &BedLoad1dFlow, motion: BedMotion) ->
 }
 
 /// Layers on the slope of a run that differ in the height of a cell alone, from the coarsest on, each of half the height of the one before.
-pub(super) fn order_study<'a>(
-    records: &'a [BedLoad1dRecord],
-    run: &'a BedLoad1dFlow,
-    motion: BedMotion,
-) -> Vec<&'a LayerState> {
+fn order_study<'a>(records: &'a [BedLoad1dRecord], run: &'a BedLoad1dFlow, motion: BedMotion) -> Vec<&'a LayerState> {
     let is_of_study = |other: &BedLoad1dFlow| {
         other.closures == run.closures && other.is_on_slope(motion) && !matches!(other.start, LayerStart::Moving { .. })
     };
@@ -199,7 +194,7 @@ pub(super) fn order_study<'a>(
 }
 
 /// What is taken for the error of the coarser of two layers `[-]`.
-pub(super) fn difference(coarse: &LayerState, fine: &LayerState, motion: BedMotion) -> f64 {
+fn difference(coarse: &LayerState, fine: &LayerState, motion: BedMotion) -> f64 {
     match motion {
         BedMotion::Frozen => coarse.difference(fine, STUDIED_ABOVE),
         BedMotion::Dilating | BedMotion::AtRest => (coarse.transport() / fine.transport() - 1.0).abs(),

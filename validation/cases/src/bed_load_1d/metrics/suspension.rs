@@ -1,9 +1,9 @@
 //! Grains that eddies also carry: two measured sheet flows and the slopes of the case, with the uncertain inputs varied.
 
 use super::super::BedLoad1dRecord;
-use super::super::flow::{BedLoad1dFlow, BedMotion, LayerStart};
-use super::super::quantities::{DUCT_VELOCITY_DIFFERENCE, SETTLING_RATIO, SUSPENDED_TRANSPORT};
-use super::super::records::{InputSpread, of, on_slope};
+use super::super::flow::{BedLoad1dFlow, LayerStart};
+use super::super::quantities::DUCT_VELOCITY_DIFFERENCE;
+use super::super::records::{InputSpread, of};
 use crate::case::Flow;
 use crate::metric::{Metric, Origin};
 use crate::reference::bed_load::SHEET_FLOW_LOWEST_VELOCITY;
@@ -77,16 +77,5 @@ pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
             &words,
         ));
     }
-    for (run, state) in of(records, |run| is_own(run) && run.is_on_slope(BedMotion::Dilating)) {
-        let contacts = on_slope(records, run, BedLoad1dFlow::is_from_rest).next();
-        metrics.extend(contacts.map(|(_, contacts)| {
-            let ratio = SUSPENDED_TRANSPORT.of(&run.variant(), state.transport() / contacts.transport());
-            ratio.exactly(1.0, "the layer without suspension").with_snapshot_tolerance(1e-3, 0.0)
-        }));
-    }
-    metrics.extend(of(records, |run| is_own(run) && run.motion == BedMotion::Dilating).map(|(run, _)| {
-        let ratio = run.stream().settling_ratio(run.closures.drag).unwrap_or(f64::NAN);
-        SETTLING_RATIO.of(&run.variant(), ratio).with_snapshot_tolerance(1e-3, 0.0)
-    }));
     metrics
 }

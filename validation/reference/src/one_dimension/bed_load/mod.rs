@@ -108,10 +108,6 @@ pub struct Approach {
     pub steps: usize,
     /// Length of a time step `[s]`.
     pub time_step: f64,
-    /// Largest change of a velocity in the last step, over u_* `[-]`.
-    pub velocity_change: f64,
-    /// Largest change of φ in the last step `[-]`.
-    pub fraction_change: f64,
     /// Reason for an unsteady state; none for a steady one.
     pub unsteady: Option<String>,
 }
@@ -193,7 +189,7 @@ impl BedLoadLayer {
                 continue;
             };
             let state = column.state();
-            return Ok(Approach { state, steps, time_step, velocity_change, fraction_change, unsteady });
+            return Ok(Approach { state, steps, time_step, unsteady });
         }
     }
 

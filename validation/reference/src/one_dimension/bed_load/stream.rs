@@ -1,7 +1,6 @@
 //! The stream: its depths, its slope and the two materials.
 
-use crate::settling::{GrainForm, SettlingGrains};
-use bagnold_solver::material::drag::DragLaw;
+use crate::settling::SettlingGrains;
 use serde::{Deserialize, Serialize};
 
 /// A stream over a bed of grains, infinitely long. z is normal to the bed, 0 at the bed's top before anything moves.
@@ -76,13 +75,6 @@ impl Stream {
             kinematic_viscosity: self.kinematic_viscosity,
             gravity: self.gravity / self.root(),
         }
-    }
-
-    /// Settling velocity of a grain alone over u_* `[-]`, none where the law has none: eddies carry grains up to about 1.25
-    /// (Bagnold 1966).
-    #[must_use]
-    pub fn settling_ratio(&self, law: DragLaw) -> Option<f64> {
-        Some(self.settling_grains().terminal_velocity(law, GrainForm::Sphere)? / self.shear_velocity())
     }
 
     /// d √ρ_s `[√(kg/m)]`: I = γ d √ρ_s/√p′.
