@@ -33,7 +33,7 @@ pub(crate) fn all<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Figure> 
         }
     }
     figures.extend(measured::pile_figure(&laws));
-    figures.extend(convergence::figures(records));
+    figures.extend(convergence::figure(records));
     figures.extend(stress_updates::figure(records));
     for (run, record) in laws.iter().filter(|(run, _)| is_shown(run)).map(|record| (&record.0, &record.1)) {
         figures.push(pictures(run, &record.frames));

@@ -2,7 +2,7 @@
 
 use crate::figure::{Axis, Figure, Panel};
 use crate::observation::Frame;
-use crate::statistics::{FittedValue, Regression, common_slope, linear_fit, linear_regression};
+use crate::statistics::{Regression, common_slope, linear_fit, linear_regression};
 
 /// The flowing layer moves faster than this share of the profile's largest velocity `[-]`; what is slower is the tail.
 const FLOWING: f64 = 0.35;
@@ -94,15 +94,11 @@ pub(crate) fn linear_misfit_ratio(station: &Station, layer: f64) -> Option<f64> 
 }
 
 /// ℓ in u ∝ exp(y/ℓ) `[m]` that all tails share, each with an amplitude of its own; none without a tail of three points.
-pub(crate) fn decay_length(stations: &[Station]) -> Option<FittedValue> {
+pub(crate) fn decay_length(stations: &[Station]) -> Option<f64> {
     let logarithms = |tail: &Vec<(f64, f64)>| tail.iter().map(|&(y, u)| (y, libm::log(u))).collect();
     let tails: Vec<Vec<(f64, f64)>> =
         stations.iter().map(|station| &station.tail).filter(|tail| tail.len() >= FEWEST).map(logarithms).collect();
-    let rate = common_slope(&tails)?;
-    (rate.value > 0.0).then(|| FittedValue {
-        value: 1.0 / rate.value,
-        standard_error: rate.standard_error / (rate.value * rate.value),
-    })
+    common_slope(&tails).map(|rate| rate.value).filter(|rate| *rate > 0.0).map(|rate| 1.0 / rate)
 }
 
 /// Profiles with both fits: on linear axes with the line, on half-logarithmic ones with the exponential.
@@ -123,10 +119,10 @@ pub(crate) fn figure(name: &str, caption: &str, stations: &[Station], (unit_leng
         }
         if let (Some(decay), true) = (decay, station.tail.len() >= FEWEST) {
             let count = station.tail.len() as f64;
-            let offsets = station.tail.iter().map(|&(y, u)| libm::log(u) - y / decay.value);
+            let offsets = station.tail.iter().map(|&(y, u)| libm::log(u) - y / decay);
             let amplitude = offsets.sum::<f64>() / count;
             let ends = [station.tail[0].0, station.tail[station.tail.len() - 1].0];
-            let line = ends.map(|y| (y, libm::exp(amplitude + y / decay.value)));
+            let line = ends.map(|y| (y, libm::exp(amplitude + y / decay)));
             decaying.reference("", axes(&line));
         }
     }
@@ -158,7 +154,7 @@ mod tests {
         let tail = station.tail.iter().copied().filter(|point| point.0 < 0.5).collect();
         let station = Station { tail, ..station };
         let decay = decay_length(&[station.clone(), station]).expect("a tail");
-        assert!((decay.value - 0.05).abs() < 1e-12 && decay.standard_error < 1e-12);
+        assert!((decay - 0.05).abs() < 1e-12);
     }
 
     #[test]

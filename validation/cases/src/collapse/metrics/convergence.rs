@@ -1,8 +1,8 @@
 //! How far a column's result depends on the resolution, on the seed and on the hourglass coefficient.
 
+use super::Measure;
 use super::bands::{SAME_LAW, SAME_LAW_REASON, band};
 use super::quantities::*;
-use super::{Measure, RESULTS};
 use crate::collapse::heap::with_resolution;
 use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, Material};
 use crate::figure::{Axis, Figure, Panel};
@@ -88,17 +88,13 @@ impl<'a, const D: usize> ConvergenceStudy<'a, D> {
         runs.iter().filter_map(|(_, record)| record.data.front_uncertainty()).reduce(f64::max)
     }
 
-    /// Resolutions at which the hourglass coefficient was varied, with (coefficient, mean over the seeds) in ascending
-    /// order.
-    fn hourglasses(&self, measure: Measure) -> Vec<(usize, Vec<(f64, f64)>)> {
+    /// Resolutions at which the hourglass coefficient was varied, with means over the seeds by ascending coefficient.
+    fn hourglasses(&self, measure: Measure) -> Vec<(usize, Vec<f64>)> {
         let point = |(run, record): &CollapseRecord<D>| (run.numerics.hourglass, measure(&record.data));
         let sorted = |(resolution, runs): (usize, Vec<&CollapseRecord<D>>)| {
             let mut points: Vec<(f64, f64)> = runs.into_iter().map(point).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let of_one = |points: &[(f64, f64)]| {
-                let values: Vec<f64> = points.iter().map(|point| point.1).collect();
-                (points[0].0, mean(&values))
-            };
+            let of_one = |points: &[(f64, f64)]| mean(&points.iter().map(|point| point.1).collect::<Vec<_>>());
             (resolution, points.chunk_by(|a, b| a.0 == b.0).map(of_one).collect())
         };
         self.by_resolution(ColumnFlow::varies_hourglass).into_iter().map(sorted).collect()
@@ -114,15 +110,6 @@ pub(crate) fn metrics<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Metr
             let run_out = means.iter().filter(|mean| quantity == RUN_OUT.name && mean.runs >= ENSEMBLE);
             metrics.extend(run_out.map(|mean| against_law(&study, &variant, mean)));
             metrics.extend(of_ensembles(variant, &means, largest));
-        }
-    }
-    for (quantity, measure) in RESULTS {
-        let spread = relative_spread(records, measure);
-        if spread > 0.0 {
-            let source = "largest relative standard deviation over the seeds of the initial displacements: a part of the \
-                          uncertainty of run-out and height, which moves no limit";
-            let metric = ENSEMBLE_SPREAD.of(&Variant::of("quantity", quantity), 100.0 * spread);
-            metrics.push(metric.against(None, source, Confidence::Exact).with_snapshot_tolerance(0.02, 0.02));
         }
     }
     for study in ConvergenceStudy::all(records, ColumnFlow::varies_hourglass) {
@@ -153,8 +140,7 @@ fn against_law<const D: usize>(study: &ConvergenceStudy<'_, D>, variant: &Varian
 
 /// How far the choice of the hourglass coefficient moves a result, resolution by resolution.
 fn hourglass_spreads<const D: usize>(study: &ConvergenceStudy<'_, D>, quantity: &str, measure: Measure) -> Vec<Metric> {
-    let spread = |(resolution, points): (usize, Vec<(f64, f64)>)| {
-        let values: Vec<f64> = points.into_iter().map(|point| point.1).collect();
+    let spread = |(resolution, values): (usize, Vec<f64>)| {
         let (least, most) = range(values.iter().copied());
         let variant = study.name(Variant::of("quantity", quantity)).and("resolution", resolution);
         let metric = HOURGLASS_SPREAD.of(&variant, 100.0 * (most - least) / mean(&values));
@@ -179,30 +165,22 @@ fn hourglass_spreads<const D: usize>(study: &ConvergenceStudy<'_, D>, quantity: 
     study.hourglasses(measure).into_iter().map(spread).collect()
 }
 
-/// The means of a quantity over the seeds, and how they converge.
+/// Convergence of the means of a quantity over the seeds.
 fn of_ensembles(variant: Variant, means: &[Mean], largest_index: f64) -> Vec<Metric> {
-    let mut metrics = Vec::new();
-    for mean in means {
-        let at = variant.clone().and("resolution", mean.resolution);
-        let values = [(ENSEMBLE_MEAN, mean.value), (ENSEMBLE_STANDARD_ERROR, mean.standard_error)];
-        metrics.extend(values.map(|(quantity, value)| quantity.of(&at, value).with_snapshot_tolerance(1e-3, 1e-3)));
-    }
-    if let Some(found) = finest(means) {
-        let source = "half width of the finest mean's 95 % interval, from the three finest means: 1.25 |f − f_∞| of every \
-                      order from 0.4 to 2 that the scatter over the seeds leaves open, and that scatter";
-        metrics.extend([
-            OBSERVED_ORDER.of(&variant, found.order).with_snapshot_tolerance(0.05, 0.05),
-            GRID_CONVERGENCE_INDEX
-                .of(&variant, 100.0 * found.index)
-                .with_snapshot_tolerance(0.05, 0.2)
-                .exactly(0.0, source)
-                .gated(
-                    Limit::AtMost(100.0 * largest_index),
-                    "the project's aim: 3 % for the centroid, 8 % for the run-out, whatever the runs scatter by",
-                ),
-        ]);
-    }
-    metrics
+    let Some(found) = finest(means) else { return Vec::new() };
+    let source = "half width of the finest mean's 95 % interval, from the three finest means: 1.25 |f − f_∞| of every \
+                  order from 0.4 to 2 that the scatter over the seeds leaves open, and that scatter";
+    vec![
+        OBSERVED_ORDER.of(&variant, found.order).with_snapshot_tolerance(0.05, 0.05),
+        GRID_CONVERGENCE_INDEX
+            .of(&variant, 100.0 * found.index)
+            .with_snapshot_tolerance(0.05, 0.2)
+            .exactly(0.0, source)
+            .gated(
+                Limit::AtMost(100.0 * largest_index),
+                "the project's aim: 3 % for the centroid, 8 % for the run-out, whatever the runs scatter by",
+            ),
+    ]
 }
 
 /// How the three finest means converge.
@@ -238,35 +216,11 @@ pub(crate) fn relative_spread<const D: usize>(records: &[CollapseRecord<D>], mea
     ensembles.map(spread).fold(0.0, f64::max)
 }
 
-/// Figures of the studies that were made.
-pub(crate) fn figures<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<Figure> {
-    let mut resolution = ConvergenceStudy::all(records, ColumnFlow::is_of_ensemble);
+/// Figure of the studies of the resolution; none without any.
+pub(crate) fn figure<const D: usize>(records: &[CollapseRecord<D>]) -> Option<Figure> {
+    let mut studies = ConvergenceStudy::all(records, ColumnFlow::is_of_ensemble);
     // an ensemble at one resolution says nothing of convergence
-    resolution.retain(|study| study.means(|collapse| collapse.centroid).len() > 1);
-    let coefficient = ConvergenceStudy::all(records, ColumnFlow::varies_hourglass);
-    let mut figures = Vec::new();
-    if !resolution.is_empty() {
-        figures.push(grid_convergence_figure(&resolution));
-    }
-    if !coefficient.is_empty() {
-        let mut panel =
-            Panel::new("", Axis::linear("hourglass coefficient [-]"), Axis::linear("run-out (r∞ − r0)/r0 [-]"));
-        for study in coefficient {
-            for (resolution, points) in study.hourglasses(Collapse::run_out) {
-                panel.line_points(&format!("{}, {resolution} over r0", study.label()), panel.series.len(), points);
-            }
-        }
-        figures.push(Figure::new(
-            "hourglass",
-            "Run-out over the coefficient of the hourglass control: what the choice of a numerical parameter does to \
-             the result, at two resolutions.",
-            vec![panel],
-        ));
-    }
-    figures
-}
-
-fn grid_convergence_figure<const D: usize>(studies: &[ConvergenceStudy<'_, D>]) -> Figure {
+    studies.retain(|study| study.means(|collapse| collapse.centroid).len() > 1);
     let panels = MEASURED.map(|(name, measure, _)| {
         let y = format!("{} over the finest − 1 [%]", name.replace('_', "-"));
         let mut panel = Panel::new("", Axis::linear("particles over r0 [-]"), Axis::linear(&y));
@@ -284,13 +238,14 @@ fn grid_convergence_figure<const D: usize>(studies: &[ConvergenceStudy<'_, D>]) 
         }
         panel
     });
-    Figure::new(
+    let drawn = Figure::new(
         "grid-convergence",
         "Centroid, run-out and front at 0.05 r0 of the deposit over the resolution, relative to the finest: means over several seeds of \
          the initial displacements, with the standard error of the mean, at the finest the half width of its 95 % interval \
          (grid convergence index with the scatter).",
         panels.to_vec(),
-    )
+    );
+    (!studies.is_empty()).then_some(drawn)
 }
 
 #[cfg(test)]

@@ -60,11 +60,8 @@ pub(super) fn of_run<const D: usize>((run, record): &CollapseRecord<D>, records:
         let values: Vec<f64> = [shear.r_squared].into_iter().chain(r_squared_of_seeds(run, records)).collect();
         let over_seeds = Mean::of(run.resolution, &values).filter(|mean| mean.runs > 1);
         let judged = is_of_paper(run).then_some(Limit::AtLeast(LINEAR));
-        metrics.extend([
-            observed(FLOWING_LAYER_SHEAR_RATE, shear.slope),
-            linear(FLOWING_LAYER_R_SQUARED, shear.r_squared)
-                .gated_by(judged.filter(|_| over_seeds.is_none()), LINEAR_REASON),
-        ]);
+        let own = judged.filter(|_| over_seeds.is_none());
+        metrics.push(linear(FLOWING_LAYER_R_SQUARED, shear.r_squared).gated_by(own, LINEAR_REASON));
         metrics.extend(over_seeds.map(|mean| {
             linear(ENSEMBLE_FLOWING_LAYER_R_SQUARED, mean.value)
                 .known_to(Origin::Repeat, Some(mean.standard_error), "standard error of the mean over the seeds")
@@ -78,12 +75,8 @@ pub(super) fn of_run<const D: usize>((run, record): &CollapseRecord<D>, records:
         metrics.extend(stated(FASTEST_HEIGHT, edge.fastest_height(spacing), AT_THE_SURFACE));
         metrics.extend(stated(LINEAR_MISFIT_RATIO, linear_misfit_ratio(edge, spacing), LINEAR_LAYER));
     }
-    if let Some(decay) = decay_length(&stations) {
-        let over_diameter = |diameter: f64| observed(TAIL_DECAY_LENGTH_OVER_DIAMETER, decay.value / diameter);
-        metrics.extend(run.material.grain_diameter().map(over_diameter));
-        metrics.push(observed(TAIL_DECAY_LENGTH_OVER_SPACING, decay.value / spacing));
-        metrics.push(observed(TAIL_DECAY_LENGTH_STANDARD_ERROR, decay.standard_error / spacing));
-    }
+    let decay = decay_length(&stations);
+    metrics.extend(decay.map(|decay| observed(TAIL_DECAY_LENGTH_OVER_SPACING, decay / spacing)));
     let Some(wedge) = wedge_of(run, &record.frames) else { return metrics };
     metrics.push(observed(UNDISTURBED_SHARE, 100.0 * wedge.undisturbed));
     // of a shallow column no surface is an answer too

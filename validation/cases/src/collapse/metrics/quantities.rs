@@ -20,8 +20,6 @@ quantities! {
     KINETIC_ENERGY: verified("kinetic_energy", "-", "kinetic energy over ½ M g h_0, at a time over √(h_0/g)"),
     ENERGY_GAIN:
         accounted("energy_gain", "%", "largest rise of energy above its initial value, over the initial potential energy"),
-    FLOWING_LAYER_SHEAR_RATE:
-        validated("flowing_layer_shear_rate", "1/s", "slope of a line through the flowing layer's velocity"),
     FLOWING_LAYER_R_SQUARED: stated("flowing_layer_r_squared", "-", "R² of a straight line through the velocity of the flowing layer over height"),
     ENSEMBLE_FLOWING_LAYER_R_SQUARED: stated("ensemble_flowing_layer_r_squared", "-", "R² of a straight line through the velocity of the flowing layer over height, mean over the seeds"),
     FASTEST_HEIGHT:
@@ -30,13 +28,8 @@ quantities! {
         "linear_misfit_ratio", "-",
         "rms misfit of a straight line through the flowing layer's velocity over that of the better of Bagnold's profile and a parabola, of two constants each",
     ),
-    TAIL_DECAY_LENGTH_OVER_DIAMETER: validated(
-        "tail_decay_length_over_diameter", "-",
-        "decay length of the velocity below the flowing layer, over the grain diameter",
-    ),
     TAIL_DECAY_LENGTH_OVER_SPACING:
         validated("tail_decay_length_over_spacing", "-", "decay length of the velocity below the flowing layer, over the particle spacing"),
-    TAIL_DECAY_LENGTH_STANDARD_ERROR: validated("tail_decay_length_standard_error", "spacings", "standard error of the decay length below the flowing layer"),
     SURFACE_DISTANCE:
         validated("surface_distance", "%", "√⟨(h − h_measured)²⟩ of the deposit over the initial height"),
     FAILURE_LINE_DISTANCE:
@@ -46,11 +39,8 @@ quantities! {
     UNDISTURBED_SHARE: validated("undisturbed_share", "%", "share of the grains that is not displaced"),
     FAILURE_SURFACE_ANGLE: validated("failure_surface_angle", "°", "slope of the surface of the undisturbed grains"),
     ENSEMBLE_RUN_OUT: validated("ensemble_run_out", "-", "mean run-out over the seeds against the law of the same grains"),
-    ENSEMBLE_MEAN: verified("ensemble_mean", "-", "mean over the seeds"),
-    ENSEMBLE_STANDARD_ERROR: verified("ensemble_standard_error", "-", "standard error of the mean over the seeds"),
     OBSERVED_ORDER: verified("observed_order", "-", "order of convergence of the three finest means"),
     GRID_CONVERGENCE_INDEX: verified("grid_convergence_index", "%", "grid convergence index of the finest mean"),
-    ENSEMBLE_SPREAD: verified("ensemble_spread", "%", "largest relative standard deviation over the seeds"),
     HOURGLASS_SPREAD: verified(
         "hourglass_spread", "%",
         "range of a result over the hourglass coefficients, over its mean",
@@ -71,7 +61,6 @@ quantities! {
     VELOCITY_NOISE_RATIO: stated("velocity_noise_ratio", "-", "√⟨(u − u_neighbours)²⟩ over the mean speed in mid-collapse without the coupling (27), over its value with the coupling"),
     SCALING_EXPONENT: validated("scaling_exponent", "-", "exponent of a power law in the aspect ratio, tall columns"),
     SCALING_CONFIDENCE: validated("scaling_confidence", "-", "half width of the exponent's 95 % interval"),
-    SCALING_COEFFICIENT: validated("scaling_coefficient", "-", "coefficient of the power law"),
     BREAK_POINT: validated("break_point", "-", "aspect ratio at which the power law meets the line of shallow columns"),
 }
 

@@ -126,7 +126,6 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
                     gate.map(|_| Limit::AtMost(WIDEST)),
                     "an interval wider than the range of published exponents, 0.1 of run-outs and 0.15 of heights, tells nothing",
                 ),
-                observed(SCALING_COEFFICIENT, scaling.law.coefficient),
             ]);
             if quantity == RUN_OUT.name
                 && let Some(shallow) = shallow_coefficient(records, material)
