@@ -1,6 +1,7 @@
 //! Run-out of columns: the measurement at rest, and the uncertainty at the default resolution.
 
-use bagnold_cases::collapse::{Collapse, ColumnCase, ColumnFlow, Material};
+use bagnold_cases::collapse::columns::ColumnCase;
+use bagnold_cases::collapse::{Collapse, ColumnFlow, Material};
 use bagnold_harness::case::{Case, Flow, RunList, Silent, Tier};
 use bagnold_harness::metric::{COVERAGE, Origin};
 use bagnold_harness::observation::{Frame, Recorded};

@@ -2,6 +2,7 @@
 //! slope, which incline-collapse and flow-thickness share.
 
 mod column;
+pub mod columns;
 mod external;
 mod figures;
 mod heap;
@@ -10,25 +11,13 @@ mod interior;
 pub(super) mod metrics;
 mod slope;
 
-pub use column::{Alteration, ColumnCase, ColumnFlow, ExperimentGrains, Material};
+pub use column::{Alteration, ColumnFlow, ExperimentGrains, Material};
 pub use heap::{BIN_WIDTH, Collapse, FRONT_THICKNESS, Fronts};
 pub use slope::{SlopeCollapse, SlopeFlow};
 
 use crate::case::Flow;
 use crate::observation::Recorded;
 use crate::output::Table;
-
-/// Planar columns.
-pub mod planar {
-    /// The case.
-    pub const CASE: super::ColumnCase<2> = super::ColumnCase;
-}
-
-/// Round columns.
-pub mod round {
-    /// The case.
-    pub const CASE: super::ColumnCase<3> = super::ColumnCase;
-}
 
 /// A run with what it left behind.
 pub(super) type CollapseRecord<const D: usize> = (ColumnFlow<D>, Recorded<Collapse>);

@@ -1,11 +1,9 @@
 //! Columns on a horizontal bed, planar and round: the flow and its grains.
 
-mod case;
 mod flow;
 mod material;
 mod pile;
 
-pub use case::ColumnCase;
 pub use flow::ColumnFlow;
 pub(crate) use flow::{EARLIEST_REST, PICTURES};
 pub use material::{Alteration, ExperimentGrains, Material};

@@ -31,6 +31,18 @@ const ROUND: &str = "\
     Observed only. The height law of the same source, which is unverified. The published laws under any other \
     law than μ(I).";
 
+/// Planar columns.
+pub mod planar {
+    /// The case.
+    pub const CASE: super::ColumnCase<2> = super::ColumnCase;
+}
+
+/// Round columns.
+pub mod round {
+    /// The case.
+    pub const CASE: super::ColumnCase<3> = super::ColumnCase;
+}
+
 /// Columns that collapse and spread on a rough horizontal bed.
 #[derive(Debug)]
 pub struct ColumnCase<const D: usize>;
