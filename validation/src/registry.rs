@@ -3,8 +3,7 @@
 use crate::case::Registry;
 use crate::store::provenance::{Build, declare};
 use bagnold_cases::channel::{bed_load, clear_water, still_water, water_film};
-use bagnold_cases::collapse::columns::{planar as column_planar, round as column_round};
-use bagnold_cases::collapse::incline as incline_collapse;
+use bagnold_cases::collapse::{columns::column_planar, columns::column_round, incline as incline_collapse};
 use bagnold_cases::layer::{bagnold, film, flow_thickness, hydrostatic};
 use bagnold_cases::{bed_load_1d, nonlocal_shear, settling, water_column};
 use bagnold_scenes::study::canonical;

@@ -32,13 +32,13 @@ const ROUND: &str = "\
     law than μ(I).";
 
 /// Planar columns.
-pub mod planar {
+pub mod column_planar {
     /// The case.
     pub const CASE: super::ColumnCase<2> = super::ColumnCase;
 }
 
 /// Round columns.
-pub mod round {
+pub mod column_round {
     /// The case.
     pub const CASE: super::ColumnCase<3> = super::ColumnCase;
 }
