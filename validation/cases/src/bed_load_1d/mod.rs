@@ -39,8 +39,9 @@ impl Case for BedLoad1d {
         Judged. Transport on three slopes against a formula fitted to flume experiments. Two starts must reach one \
         steady state, balance and converge. Water over the moving bed against water over the same bed at rest. \
         Velocity of grains, transport of sheet flow and the onset of motion (Shields' curve) against measurements.\n\n\
-        Observed only. Depth of the moving layer and the decay of grain velocity with depth. The layer is also the reference of `bed-load`. Both share their closures, so their \
-        agreement verifies the particles and does not validate the physics.";
+        Observed only. Depth of the moving layer and the decay of grain velocity with depth. The layer is also the \
+        reference of `bed-load`. Both share their closures, so their agreement verifies the particles and does not \
+        validate the physics.";
     type Flow = BedLoad1dFlow;
     const QUANTITIES: &'static [Quantity] = quantities::QUANTITIES;
 

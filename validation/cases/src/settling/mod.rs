@@ -38,8 +38,9 @@ impl Case for Settling {
         computed from: |⟨u_f⟩ − u_s|, or for pair drag the U with C_d(U) U² = |⟨C_d |u_ba| u_ba⟩|. Momentum of both \
         phases must close to rounding in every step. At φ = 0.002 the suspension must settle like a single sphere. \
         Hindered settling against measurements.\n\n\
-        Observed only. Hindered settling beside Richardson & Zaki. The scatter of grain velocities: two phases with one pressure are ill-posed at short waves, and \
-        the drag kernel (two or three spacings wide) suppresses this for the duration of the run only.";
+        Observed only. Hindered settling beside Richardson & Zaki. The scatter of grain velocities: two phases with \
+        one pressure are ill-posed at short waves, and the drag kernel (two or three spacings wide) suppresses this \
+        for the duration of the run only.";
     type Flow = SettlingFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 

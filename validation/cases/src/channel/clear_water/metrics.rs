@@ -11,8 +11,8 @@ use crate::statistics::linear_fit;
 
 quantities! {
     [
-        channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL, channel::BED_SHEAR,
-        channel::HEIGHT_CHANGE, channel::PRESSURE_L2, printed_laws::LAW_ERROR,
+        channel::PARTICLES_LOST, channel::VELOCITY_ITERATIONS, channel::PRESSURE_ITERATIONS, channel::MOMENTUM_RESIDUAL,
+        channel::BED_SHEAR, channel::HEIGHT_CHANGE, channel::PRESSURE_L2, printed_laws::LAW_ERROR,
     ]
     STATIONARY_AFTER: verified("stationary_after", "s", "time at which the depth average becomes stationary by the criterion"),
     VELOCITY_RMS: verified("velocity_rms", "u_*", "√⟨(u − u_log)²⟩ over 0.1 h … 0.9 h"),

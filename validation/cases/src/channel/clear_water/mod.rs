@@ -33,8 +33,8 @@ impl Case for ClearWater {
         logarithmic law and must keep it.\n\n\
         Judged. Velocity profile, its slope over the logarithm of height, depth average and bed friction against the \
         law; the momentum balance.\n\n\
-        Observed only. Pressure and depth. Velocities of a run that starts \
-        apart from the law and does not become stationary.";
+        Observed only. Pressure and depth. Velocities of a run that starts apart from the law and does not become \
+        stationary.";
     const EXTERNAL_SCHEMA: ExternalSchema = channel::foreign::EXTERNAL_SCHEMA;
     type Flow = ClearWaterFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
