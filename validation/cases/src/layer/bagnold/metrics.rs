@@ -9,7 +9,7 @@ use crate::case::Flow;
 use crate::layer::{self, LayerObservation, PeriodicLayer};
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant, quantities};
 use crate::observation::Frame;
-use crate::reference::one_dimension::TransientHistory;
+use crate::reference::one_dimension::{BagnoldProfile, TransientHistory};
 use crate::setup::energy_ledger::{self, EnergyScale};
 use crate::shared::Arrangement;
 use crate::statistics::log_log_slope;
@@ -21,6 +21,8 @@ quantities! {
     IMPLIED_STRESS_ERROR: verified("implied_stress_error", "%", "mean of |μ(I)/tanθ − 1| over 0.1 h … 0.9 h"),
     WALL_SLIP: verified("wall_slip", "%", "(u(0) − u_exact(0))/u(h)"),
     RELATIVE_HEIGHT: verified("relative_height", "-", "twice the mean height over the nominal one at the end"),
+    VELOCITY_L2_MEASURED_HEIGHT:
+        verified("velocity_l2_measured_height", "%", "velocity_l2 against the profile of the measured height"),
     TRANSIENT_MEAN_ERROR_QUARTER: verified(
         "transient_mean_error_quarter", "%",
         "depth mean against the 1-D transient, at a quarter of the rise time",
@@ -120,7 +122,12 @@ fn steady(record: &Record) -> Vec<Metric> {
             by_resolution(error(quantity, value), run.layer.resolution, fine, coarse, reason)
         })
         .collect();
-    metrics.push(relative_height(run, data));
+    // at the measured height: what part of the error is the layer's settling
+    let height = relative_height(run, data);
+    let measured = BagnoldProfile { layer_height: exact.layer_height * height.value, ..exact };
+    metrics.push(height);
+    let errors = SteadyErrors::of(&data.profile, &measured);
+    metrics.extend(errors.map(|errors| error(VELOCITY_L2_MEASURED_HEIGHT, errors.velocity_l2)));
     if run.start == LayerStart::Rest {
         metrics.extend(transient(record));
     }
