@@ -119,7 +119,7 @@ fn every_element_that_rests_on_metrics_names_a_control() {
             case.controls().iter().any(|control| control.is_named_by(metric))
         };
         let names = &element.metrics;
-        let is_asked = element.settled.is_none() && !names.is_empty() && names.iter().all(is_measured);
+        let is_asked = element.not_covered.is_none() && !names.is_empty() && names.iter().all(is_measured);
         if is_asked && !names.iter().any(|name| is_named(&name.case, &name.metric)) {
             without.push(format!("{} {}", paper.name, element.id));
         }

@@ -64,12 +64,12 @@ fn broken(name: &MetricName, metric: &Metric, share: f64) -> Vec<f64> {
     };
     let reversed = vec![-metric.value];
     if let Some(printed) = name.printed {
-        return match (printed.lowest, printed.highest) {
-            (lower, upper) if lower.is_finite() && upper.is_finite() => beside(lower, upper),
+        return match (printed.at_least, printed.at_most) {
+            (Some(lower), Some(upper)) => beside(lower, upper),
             // a sign
-            (0.0, _) | (_, 0.0) => reversed,
-            (lower, _) if lower.is_finite() => vec![lower - share * lower.abs()],
-            (_, upper) => vec![upper + share * upper.abs()],
+            (Some(0.0), _) | (_, Some(0.0)) | (None, None) => reversed,
+            (Some(lower), None) => vec![lower - share * lower.abs()],
+            (None, Some(upper)) => vec![upper + share * upper.abs()],
         };
     }
     let expected = metric.reference.as_ref().and_then(|reference| reference.value);
@@ -135,7 +135,7 @@ fn drawn_rows_fall_when_what_they_state_is_false() {
     let rows: BTreeMap<String, &Element> = PAPERS
         .iter()
         .flat_map(|paper| paper.elements.iter().map(|row| (format!("{} {}", paper.name, row.id), row)))
-        .filter(|(_, row)| row.settled.is_none() && !row.metrics.is_empty())
+        .filter(|(_, row)| row.not_covered.is_none() && !row.metrics.is_empty())
         .collect();
     let cases: BTreeSet<&str> =
         rows.values().flat_map(|row| row.metrics.iter().map(|name| name.case.as_str())).collect();

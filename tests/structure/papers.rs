@@ -31,9 +31,10 @@ fn every_test_is_in_its_file() {
     let mut wrong = Vec::new();
     for (name, row) in elements() {
         for test in &row.tests {
-            let text = std::fs::read_to_string(workspace().join(&test.file)).unwrap_or_default();
-            if !text.contains(&format!("fn {}(", test.function)) {
-                wrong.push(format!("{name}: {} has no test {}", test.file, test.function));
+            let (file, function) = test.split_once("::").unwrap_or_default();
+            let text = std::fs::read_to_string(workspace().join(file)).unwrap_or_default();
+            if !text.contains(&format!("fn {function}(")) {
+                wrong.push(format!("{name}: no test {test}"));
             }
         }
     }
@@ -46,10 +47,10 @@ fn every_element_that_rests_on_tests_alone_names_an_error_that_one_of_them_notic
     let mutations = Mutations::read(&workspace()).expect("a file of mutations");
     let mut wrong = Vec::new();
     for (name, row) in elements() {
-        let rests_on_tests = row.settled.is_none() && row.metrics.is_empty() && row.runs.is_empty();
+        let rests_on_tests = row.not_covered.is_none() && row.metrics.is_empty() && row.runs.is_empty();
         let error = row.control.as_ref().and_then(|control| mutations.find(control));
         let is_noticed =
-            error.is_some_and(|error| row.tests.iter().any(|test| error.tests.contains(&test.to_string())));
+            error.is_some_and(|error| row.tests.iter().any(|test| error.tests.contains(test)));
         if rests_on_tests && !is_noticed {
             wrong.push(format!("{name}: {:?} is no error that its tests notice", row.control));
         }
@@ -103,11 +104,11 @@ fn every_metric_is_declared_by_its_case_and_of_runs_that_a_tier_has() {
 
 #[test]
 fn every_figure_is_of_a_case() {
-    let is_case = |case: &str| REGISTRY.find(case).is_ok();
+    let is_of_case = |figure: &str| figure.split_once('/').is_some_and(|(case, _)| REGISTRY.find(case).is_ok());
     let figures = elements().flat_map(|(name, row)| row.figures.iter().map(move |figure| (name.clone(), figure)));
     let wrong: Vec<String> = figures
-        .filter(|(_, figure)| !is_case(&figure.case))
-        .map(|(name, figure)| format!("{name}: no case {}", figure.case))
+        .filter(|(_, figure)| !is_of_case(figure))
+        .map(|(name, figure)| format!("{name}: {figure} is of no case"))
         .collect();
     assert_none(&wrong);
 }

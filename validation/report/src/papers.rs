@@ -55,7 +55,7 @@ impl Status {
     fn of_value(name: &MetricName, value: f64, verdict: Verdict) -> Option<Self> {
         match (name.printed, verdict) {
             (Some(printed), _) if printed.agrees(value) => Some(Self::Reproduced),
-            (Some(printed), _) if printed.contradicts && value.is_finite() => Some(Self::Contradicted),
+            (Some(printed), _) if !printed.shortcoming && value.is_finite() => Some(Self::Contradicted),
             (Some(_), _) | (None, Verdict::Fail) => Some(Self::NotReproduced),
             (None, Verdict::Pass) => Some(Self::Reproduced),
             (None, Verdict::Observed) => None,
@@ -120,7 +120,7 @@ impl<'r> ElementOutcome<'r> {
             runs.filter(|run| name.names(&run.variant)).map(|run| Ended::of(name, run))
         };
         let ended: Vec<Ended<'r>> = element.runs.iter().flat_map(of_run).collect();
-        let status = match &element.settled {
+        let status = match &element.not_covered {
             Some(_) => Status::NotCovered,
             None if element.metrics.is_empty() && element.runs.is_empty() => Status::Reproduced,
             None => Self::computed(element, &shown, &ended),

@@ -85,7 +85,7 @@ fn element(paper: &str, fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Valu
         "missing": missing.chain(gone).collect::<Vec<_>>(),
         // error that makes one of the tests fail; none where metrics speak
         "control": element.control,
-        "tests": element.tests.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "tests": element.tests,
         "figures": figures(fate, cases),
     })
 }
@@ -93,7 +93,7 @@ fn element(paper: &str, fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Valu
 /// Reason of a status: what is written where it is settled, or the controls under which it would count as reproduced too.
 fn reason(fate: &ElementOutcome<'_>) -> String {
     let names: Vec<String> = fate.accepts.iter().map(|(case, control)| format!("{control} of {case}")).collect();
-    match (&fate.element.settled, fate.status) {
+    match (&fate.element.not_covered, fate.status) {
         (Some(reason), _) => reason.clone(),
         (None, Status::NotCovered) => {
             "a metric or run that shows it is not part of this tier, or not judged".to_owned()
@@ -137,12 +137,12 @@ fn run(ended: &Ended<'_>) -> Value {
 
 /// A printed number with the range that counts as equal, or the range in which a statement without a number is read, in words.
 fn range(printed: Printed, unit: &str) -> String {
-    let (low, high) = (printed.lowest, printed.highest);
-    let range = match (low.is_finite(), high.is_finite()) {
-        (true, true) if low == high => with_unit(low, unit),
-        (true, true) => format!("{} … {}", four_digits(low), with_unit(high, unit)),
-        (true, false) => format!("≥ {}", with_unit(low, unit)),
-        _ => format!("≤ {}", with_unit(high, unit)),
+    let (low, high) = (printed.at_least, printed.at_most);
+    let range = match (low, high) {
+        (Some(low), Some(high)) if low == high => with_unit(low, unit),
+        (Some(low), Some(high)) => format!("{} … {}", four_digits(low), with_unit(high, unit)),
+        (Some(low), None) => format!("≥ {}", with_unit(low, unit)),
+        (None, high) => format!("≤ {}", with_unit(high.unwrap_or(f64::INFINITY), unit)),
     };
     match printed.value {
         Some(_) if low == high => format!("the paper {range}"),
@@ -154,8 +154,9 @@ fn range(printed: Printed, unit: &str) -> String {
 /// The first figure of this report for every name.
 fn figures(fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Vec<Value> {
     let drawn = fate.element.figures.iter().filter_map(|wanted| {
-        let case = cases.iter().find(|case| case.name == wanted.case)?;
-        let figure = case.figures.iter().find(|figure| figure.name.starts_with(&wanted.figure))?;
+        let (name, beginning) = wanted.split_once('/')?;
+        let case = cases.iter().find(|case| case.name == name)?;
+        let figure = case.figures.iter().find(|figure| figure.name.starts_with(beginning))?;
         Some(link(&case.name, &format!("figure-{}-{}", case.name, figure.name), &figure.name))
     });
     drawn.collect()

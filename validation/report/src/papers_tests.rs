@@ -16,23 +16,20 @@ source = "its text"
 id = "eq-1"
 place = "1"
 says = "gated"
-implemented = "none"
 metrics = [{ case = "film", metric = "velocity_l2", variant = "fluid=newtonian" }]
 
 [[element]]
 id = "number-1"
 place = "1"
 says = "printed <5>"
-implemented = "none"
-metrics = [{ case = "film", metric = "thickness", printed = 5.0, tolerance = 0.5 }]
+metrics = [{ case = "film", metric = "thickness", printed = { value = 5.0, at_least = 4.5, at_most = 5.5 } }]
 figures = ["film/oper"]
 
 [[element]]
 id = "number-2"
 place = "1"
 says = "a shortcoming of ours"
-implemented = "none"
-metrics = [{ case = "film", metric = "thickness", at_least = 5.0, outside = "not reproduced" }]
+metrics = [{ case = "film", metric = "thickness", printed = { at_least = 5.0, shortcoming = true } }]
 
 [[element]]
 id = "claim-1"
@@ -40,7 +37,7 @@ place = "1"
 says = "both"
 implemented = "solver/src/vector.rs"
 tests = ["solver/src/vector.rs::a_deviator_has_no_trace"]
-metrics = [{ case = "film", metric = "velocity_l2" }, { case = "film", metric = "thickness", at_most = 6.0 }]
+metrics = [{ case = "film", metric = "velocity_l2" }, { case = "film", metric = "thickness", printed = { at_most = 6.0 } }]
 
 [[element]]
 id = "claim-2"
@@ -53,10 +50,8 @@ tests = ["solver/src/vector.rs::a_deviator_has_no_trace"]
 id = "claim-3"
 place = "1"
 says = "settled"
-implemented = "none"
 metrics = [{ case = "film", metric = "thickness" }]
-status = "replaced"
-because = "by something else"
+not_covered = "replaced: by something else"
 "#;
 
 fn gated(value: f64) -> Metric {
@@ -110,7 +105,6 @@ source = "its text"
 id = "claim-1"
 place = "1"
 says = "it runs"
-implemented = "none"
 runs = [{ case = "film", variant = "numerics=paper" }]
 "#;
     let run = |outcome| RunSummary {

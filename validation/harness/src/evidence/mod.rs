@@ -21,7 +21,7 @@ pub use held_out::{HeldOutDatum, HeldOutJudgement};
 pub use input_range::{Basis, InputRange, Spread};
 pub use measured::{MeasuredData, Metadata, ReferenceKind};
 pub use measured_table::ReferenceColumn;
-pub use papers::{Element, FigureName, MetricName, PAPERS, Paper, Printed, RunName, TestName};
+pub use papers::{Element, MetricName, PAPERS, Paper, Printed, RunName};
 pub use sensitivity_table::{RangeEnd, SensitivityRow, sensitivity_table, sensitivity_text};
 pub use shipped::{read_shipped, shipped_table, shipped_tables};
 pub use stated_uncertainty::{Refinement, StatedPart, StatedUncertainty, UnknownPart, completed};

@@ -2,78 +2,70 @@
 //! and by what that is shown. The rows stand in `reference-data/papers`; whether one is reproduced is not written there but
 //! follows from the metrics that it names.
 
-mod file;
-#[cfg(test)]
-mod tests;
-
 use crate::metric::Variant;
 use serde::Deserialize;
-use std::fmt;
 use std::sync::LazyLock;
 
 /// One paper with all its elements.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Paper {
     /// Short name, of its file and in addresses of the page.
+    #[serde(skip)]
     pub name: String,
     /// Authors and title.
     pub title: String,
     /// Text that was read, with the parts that it lacks.
     pub source: String,
     /// Elements in the order of the paper.
+    #[serde(rename = "element")]
     pub elements: Vec<Element>,
 }
 
 /// One equation, table, figure, number or claim.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Element {
     /// Name, unique in its paper, such as `eq-13`, `fig-8` or `claim-short-run-out`.
     pub id: String,
     /// Location of the element in the paper.
     pub place: String,
     /// Statement of the element.
+    #[serde(rename = "says")]
     pub statement: String,
     /// The file that has it, from the root of the workspace; none where nothing does.
     pub implemented: Option<String>,
-    /// Tests that hold it.
-    pub tests: Vec<TestName>,
+    /// Tests that hold it, `path/of/file.rs::function`, from the root of the workspace.
+    #[serde(default)]
+    pub tests: Vec<String>,
     /// Error that makes one of the tests fail, where nothing else shows the element (`bagnold-dev mutate --tests`).
     pub control: Option<String>,
     /// Metrics that show it.
+    #[serde(default)]
     pub metrics: Vec<MetricName>,
     /// Runs that have to end without diverging.
+    #[serde(default)]
     pub runs: Vec<RunName>,
-    /// Figures that draw it.
-    pub figures: Vec<FigureName>,
-    /// Reason for which it is not covered, if neither a metric nor a test determines its status.
-    pub settled: Option<String>,
+    /// Figures that draw it: `case/beginning of the figure's name`.
+    #[serde(default)]
+    pub figures: Vec<String>,
+    /// Reason for which it is not covered, where neither a metric nor a test determines its status.
+    pub not_covered: Option<String>,
     /// Note for the reader; may be empty.
+    #[serde(default)]
     pub note: String,
 }
 
-/// A test by its file and function.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TestName {
-    /// File from the root of the workspace.
-    pub file: String,
-    /// Function.
-    pub function: String,
-}
-
-impl fmt::Display for TestName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}::{}", self.file, self.function)
-    }
-}
-
 /// Metrics of a case: those of a name whose variant has all the parts that are given.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct MetricName {
     /// Case.
     pub case: String,
     /// Name.
     pub metric: String,
     /// Keys and values that the variants of all these metrics contain.
+    #[serde(default)]
     pub variant: Variant,
     /// Number or range that the paper prints; none if the metric's own gate decides.
     pub printed: Option<Printed>,
@@ -89,34 +81,28 @@ pub struct RunName {
     pub variant: Variant,
 }
 
-/// A number or range that a paper prints.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A number or range that a paper prints, in the metric's unit.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Printed {
-    /// The number itself, in the metric's unit, where one is printed.
+    /// The number itself, where one is printed.
     pub value: Option<f64>,
-    /// Least value that agrees with it, in the metric's unit.
-    pub lowest: f64,
+    /// Least value that agrees with it.
+    pub at_least: Option<f64>,
     /// Largest value that agrees with it.
-    pub highest: f64,
-    /// Whether a number outside contradicts the paper; else it fails to reproduce what the paper shows.
-    pub contradicts: bool,
+    pub at_most: Option<f64>,
+    /// Whether a number outside is a shortcoming of ours; else it contradicts the paper.
+    #[serde(default)]
+    pub shortcoming: bool,
 }
 
 impl Printed {
     /// Whether a number agrees with what is printed; NaN never does.
     #[must_use]
     pub fn agrees(&self, value: f64) -> bool {
-        (self.lowest..=self.highest).contains(&value)
+        let is_above = self.at_least.is_none_or(|bound| value >= bound);
+        is_above && self.at_most.is_none_or(|bound| value <= bound)
     }
-}
-
-/// Figures of a case whose name begins like this.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FigureName {
-    /// Case.
-    pub case: String,
-    /// Beginning of the name.
-    pub figure: String,
 }
 
 /// The key of a variant that says which quantity of its runs a metric is of.
@@ -139,20 +125,29 @@ impl RunName {
     }
 }
 
+impl Paper {
+    /// Reads a text; `name` is that of its file, without folder and ending.
+    ///
+    /// # Errors
+    /// Text that is malformed, with its line and field.
+    pub fn parse(name: &str, text: &str) -> Result<Self, toml::de::Error> {
+        Ok(Self { name: name.to_owned(), ..toml::from_str(text)? })
+    }
+}
+
+macro_rules! shipped {
+    ($name:literal) => {{
+        let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/reference-data/papers/", $name, ".toml"));
+        Paper::parse($name, text).unwrap_or_else(|error| panic!("failed to read {}.toml: {error}", $name))
+    }};
+}
+
 /// The papers that the program accounts for.
 ///
 /// # Panics
 /// If a row is malformed. No user can bring that about: the rows are part of the program, and tests read every one of them.
-pub static PAPERS: LazyLock<Vec<Paper>> = LazyLock::new(|| {
-    let read = |name: &str, text: &str| match Paper::parse(name, text) {
-        Ok(paper) => paper,
-        Err(error) => panic!("failed to {error}"),
-    };
-    vec![
-        read(
-            "salehizadeh",
-            include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/reference-data/papers/salehizadeh.toml")),
-        ),
-        read("kazemi", include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/reference-data/papers/kazemi.toml"))),
-    ]
-});
+pub static PAPERS: LazyLock<Vec<Paper>> = LazyLock::new(|| vec![shipped!("salehizadeh"), shipped!("kazemi")]);
+
+#[cfg(test)]
+#[path = "papers_tests.rs"]
+mod tests;
