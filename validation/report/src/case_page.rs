@@ -124,15 +124,15 @@ fn figure(metric: &Metric, drawn: &[DrawnFigure], runs: &[&Variant]) -> String {
             _ if value.split('-').any(|word| word == drawn.name) => 1,
             _ => 0,
         };
-        metric.variant.parts().map(|(_, value)| by_value(&value.to_string())).max().unwrap_or_default()
+        metric.variant.parts().map(|(_, value)| by_value(value.text())).max().unwrap_or_default()
     };
     let fit = |drawn: &DrawnFigure| (of_run(drawn), shared(drawn), run_of(drawn).is_some());
     // `energy-budget-sand` shows nothing of a run with another material
     let is_of_another = |drawn: &&DrawnFigure| {
         let differs = |(key, value): &(&str, &metric::Value)| metric.variant.get(key).is_some_and(|own| own != *value);
         let others = runs.iter().flat_map(|run| run.parts()).filter(differs);
-        let mut words = others.map(|(_, value)| value.to_string()).filter(|word| word.len() > 1);
-        run_of(drawn).is_none() && words.any(|word| is_word_of(&drawn.name, &word))
+        let mut words = others.map(|(_, value)| value.text()).filter(|word| word.len() > 1);
+        run_of(drawn).is_none() && words.any(|word| is_word_of(&drawn.name, word))
     };
     let is_sound = |drawn: &&DrawnFigure| drawn.failure.is_none() && run_of(drawn).is_none_or(is_own);
     let candidates = drawn.iter().filter(is_sound).filter(|drawn| !is_of_another(drawn));

@@ -36,7 +36,7 @@ fn over_reference(metric: &Metric) -> f64 {
 
 /// Whether a variant has a part, such as `material=sand`.
 fn has(variant: &Variant, part: &str) -> bool {
-    variant.parts().any(|(key, value)| format!("{key}={value}") == part)
+    variant.parts().any(|(key, value)| format!("{key}={}", value.text()) == part)
 }
 
 const FLOWS: [Flow; 4] = [

@@ -38,7 +38,7 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> Value {
         // what is known of the uncertainty, over the width of the gate
         "width": width(metric),
         "metric": metric.name,
-        "variant": metric.variant.parts().map(|(key, value)| format!("{key}={value}")).collect::<Vec<_>>(),
+        "variant": metric.variant.parts().map(|(key, value)| format!("{key}={}", value.text())).collect::<Vec<_>>(),
         "value": metric.without_value().map_or_else(|| with_unit(metric.value, &metric.unit), str::to_owned),
         "prediction": metric.prediction.as_ref().map(|found| prediction(found, &metric.unit)),
         "reference": expected.map(|value| with_unit(value, &metric.unit)).unwrap_or_default(),

@@ -55,7 +55,7 @@ fn without_interval(metrics: &[Metric]) -> String {
     let mut of_gauge: BTreeMap<String, (Vec<f64>, &str)> = BTreeMap::new();
     for metric in metrics.iter().filter(|metric| metric.reference.is_none() && metric.prediction.is_none()) {
         if let Some(gauge) = metric.variant.get("gauge") {
-            let name = format!("`{}` of {gauge}", metric.name);
+            let name = format!("`{}` of {}", metric.name, gauge.text());
             of_gauge.entry(name).or_insert_with(|| (Vec::new(), &metric.unit)).0.push(metric.value);
         }
     }

@@ -36,7 +36,7 @@ pub(super) fn pair(first: &MetricsDocument, other: &mut MetricsDocument, tables:
     let paired = |(key, own, theirs): (String, Value, Value)| PairedKey {
         case: first.case.clone(),
         key,
-        values: [own.to_string(), theirs.to_string()],
+        values: [own.text().to_owned(), theirs.text().to_owned()],
     };
     differing.into_iter().map(paired).collect()
 }

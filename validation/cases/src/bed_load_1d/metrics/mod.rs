@@ -234,7 +234,7 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) 
     }
     for (from, to) in LOGARITHMIC_RANGES {
         if let Some(slope) = state.logarithmic_slope(1e-3 * from, 1e-3 * to, run.closures.karman) {
-            let variant = variant.clone().and("height", from..=to);
+            let variant = variant.clone().and("height", format!("{from}..{to}"));
             metrics.push(
                 LOGARITHMIC_SLOPE
                     .of(&variant, slope)

@@ -122,8 +122,7 @@ mod tests {
         );
         flow.bulk.bulk_density = 1500.0;
         assert!(flow.check().is_ok());
-        let name = flow.variant().get("material").map(ToString::to_string);
-        assert_eq!(name.as_deref(), Some("bingham"));
+        assert_eq!(flow.variant().get("material").map(|name| name.text().to_owned()).as_deref(), Some("bingham"));
         flow.material = Rheology::MuI(GLASS_BEADS.law);
         let message = flow.check().expect_err("two densities").to_string();
         assert!(message.starts_with("`bulk_density` is 1500, but must be 0 with the law \"mu-i\"; "), "{message}");

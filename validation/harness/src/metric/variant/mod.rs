@@ -68,8 +68,8 @@ impl Variant {
     /// Whether a number of this variant may come from a run of another: what both name has a value in common.
     #[must_use]
     pub fn concerns(&self, run: &Self) -> bool {
-        let in_common = |own: &Value, other: &Value| match (own, other.number()) {
-            (Value::Range(lower, upper), Some(number)) => (*lower..=*upper).contains(&number),
+        let in_common = |own: &Value, other: &Value| match (own.range(), other.number()) {
+            (Some(range), Some(number)) => range.contains(&number),
             _ => own.joined().iter().any(|value| other.joined().contains(value)),
         };
         run.parts().all(|(key, other)| self.get(key).is_none_or(|own| in_common(own, other)))
@@ -100,7 +100,7 @@ impl Variant {
     /// File name of this variant if the keys are known, from its values alone: `rest-40`.
     #[must_use]
     pub fn file_name_of_values(&self) -> String {
-        let values: Vec<String> = self.values().map(|value| file_name(&value.to_string())).collect();
+        let values: Vec<String> = self.values().map(|value| file_name(value.text())).collect();
         values.join("-")
     }
 }
@@ -112,7 +112,7 @@ fn file_name(text: &str) -> String {
 
 impl fmt::Display for Variant {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let text: Vec<String> = self.parts().map(|(key, value)| format!("{key}={value}")).collect();
+        let text: Vec<String> = self.parts().map(|(key, value)| format!("{key}={}", value.text())).collect();
         formatter.pad(&text.join(","))
     }
 }

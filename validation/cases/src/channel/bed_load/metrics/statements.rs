@@ -59,7 +59,7 @@ pub(super) fn stabilised(records: &[BedLoadRecord], record: &BedLoadRecord) -> V
     let profile = &data.channel.profile;
     metrics.extend(LAYERS.map(|(lower, upper)| {
         let estimate = profile.estimate(|points| profiles::semi_log_slope(run, points, lower, upper));
-        let named = variant.clone().and("height", 1e3 * lower..=1e3 * upper);
+        let named = variant.clone().and("height", format!("{}..{}", 1e3 * lower, 1e3 * upper));
         channel::observed(SEMI_LOG_SLOPE, &named, estimate, 1.0).exactly(1.0, "u_*/κ, fitted to u over ln(z + z_0)")
     }));
     metrics.push(number_of_layers(run, data));
