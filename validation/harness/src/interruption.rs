@@ -1,32 +1,32 @@
 //! Whether a signal has asked the program to end. Runs look between two steps, keep what they have and stop; a second
 //! signal ends the program at once.
 
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::flag;
+use signal_hook::low_level::signal_name;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// A signal that ends the program.
+/// A signal that ends the program, by its number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Signal {
-    /// Its number.
-    number: u8,
-    /// Its name.
-    pub name: &'static str,
-}
+pub struct Signal(i32);
 
 impl Signal {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        signal_name(self.0).unwrap_or("a signal")
+    }
+
     /// The exit code of a program that it has ended: 128 and its number, as shells have it.
     #[must_use]
     pub fn exit_code(self) -> u8 {
-        128 + self.number
+        u8::try_from(128 + self.0).unwrap_or(u8::MAX)
     }
 }
 
 /// Ctrl-C, what a batch system and `kill` send, and the end of a terminal.
-const SIGNALS: [Signal; 3] = [
-    Signal { number: 2, name: "SIGINT" },
-    Signal { number: 15, name: "SIGTERM" },
-    Signal { number: 1, name: "SIGHUP" },
-];
+const SIGNALS: [i32; 3] = [SIGINT, SIGTERM, SIGHUP];
 
 /// Flags that the signal handlers set.
 #[derive(Default)]
@@ -45,8 +45,8 @@ pub fn listen() -> std::io::Result<()> {
     let mut outcome = Ok(());
     FLAGS.get_or_init(|| {
         let flags = Flags::default();
-        for signal in SIGNALS.iter().filter(|signal| signal.name != "SIGHUP" || !is_ignored(signal.number)) {
-            if let Err(error) = register(&flags, *signal) {
+        for signal in SIGNALS.into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP)) {
+            if let Err(error) = register(&flags, signal) {
                 outcome = Err(error);
             }
         }
@@ -55,12 +55,12 @@ pub fn listen() -> std::io::Result<()> {
     outcome
 }
 
-fn register(flags: &Flags, signal: Signal) -> std::io::Result<()> {
-    let (number, code) = (i32::from(signal.number), i32::from(signal.exit_code()));
+fn register(flags: &Flags, signal: i32) -> std::io::Result<()> {
+    let code = i32::from(Signal(signal).exit_code());
     // in this order: the first signal finds the flag down, the second up
-    signal_hook::flag::register_conditional_shutdown(number, code, Arc::clone(&flags.asked))?;
-    signal_hook::flag::register_usize(number, Arc::clone(&flags.number), usize::from(signal.number))?;
-    signal_hook::flag::register(number, Arc::clone(&flags.asked))?;
+    flag::register_conditional_shutdown(signal, code, Arc::clone(&flags.asked))?;
+    flag::register_usize(signal, Arc::clone(&flags.number), signal as usize)?;
+    flag::register(signal, Arc::clone(&flags.asked))?;
     Ok(())
 }
 
@@ -68,14 +68,13 @@ fn register(flags: &Flags, signal: Signal) -> std::io::Result<()> {
 #[must_use]
 pub fn asked() -> Option<Signal> {
     let flags = FLAGS.get().filter(|flags| flags.asked.load(Ordering::SeqCst))?;
-    let number = flags.number.load(Ordering::SeqCst);
-    SIGNALS.into_iter().find(|signal| usize::from(signal.number) == number)
+    i32::try_from(flags.number.load(Ordering::SeqCst)).ok().map(Signal)
 }
 
 /// Asks for what a signal asks for: for programs that handle signals themselves, as a Python interpreter does.
 pub fn ask() {
     let flags = FLAGS.get_or_init(Flags::default);
-    flags.number.store(usize::from(SIGNALS[0].number), Ordering::SeqCst);
+    flags.number.store(SIGINT as usize, Ordering::SeqCst);
     flags.asked.store(true, Ordering::SeqCst);
 }
 
@@ -87,10 +86,10 @@ pub fn withdraw() {
 }
 
 /// Whether the process was started with a signal ignored; where the system does not tell, it was not.
-fn is_ignored(number: u8) -> bool {
+fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| u64::from_str_radix(line.strip_prefix("SigIgn:")?.trim(), 16).ok());
-    mask.is_some_and(|mask| mask >> (number - 1) & 1 == 1)
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
 }
 
 #[cfg(test)]
@@ -99,7 +98,7 @@ mod tests {
 
     #[test]
     fn exit_codes_are_those_of_shells_and_nobody_has_asked() {
-        let codes = SIGNALS.map(|signal| (signal.name, signal.exit_code()));
+        let codes = SIGNALS.map(|signal| (Signal(signal).name(), Signal(signal).exit_code()));
         assert_eq!(codes, [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)]);
         assert_eq!(asked(), None);
     }

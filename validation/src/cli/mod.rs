@@ -39,7 +39,7 @@ pub use simulation::{simulate_announced, warn_of_fast};
 pub use terminal::tell;
 
 use crate::case::{Limits, ParameterError, Registry};
-use crate::checkpoint::{self, InterruptedRuns};
+use crate::checkpoint;
 use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
 use crate::report::check_junit;
@@ -151,9 +151,9 @@ pub fn answered(answer: &clap::Error) -> ExitCode {
 
 /// Message after a signal: the results that are kept, and how to resume.
 fn interrupted(signal: Signal, error: &str) -> String {
-    let InterruptedRuns { whole, lost } = checkpoint::kept_at_the_end();
+    let [lost, whole] = checkpoint::stopped_runs();
     let runs = |count: usize| if count == 1 { "1 run".to_owned() } else { format!("{count} runs") };
-    let mut text = format!("interrupted by {}: what is finished is kept", signal.name);
+    let mut text = format!("interrupted by {}: what is finished is kept", signal.name());
     if whole > 0 {
         text += &format!(", and a checkpoint of {} in progress", runs(whole));
     }

@@ -6,11 +6,11 @@ mod stored;
 pub use stored::{Likeness, StoredState};
 
 use crate::interruption;
-use crate::output::{FirstWarning, SealedFormat};
+use crate::output::SealedFormat;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between two checkpoints, unless the user asks for another.
@@ -70,19 +70,22 @@ impl Checkpoints {
 
     /// Lets `decode` try what is left of an earlier program, the newest first, and gives what it makes of the first that
     /// it does not refuse, with a reason. Only the first caller finds anything: what follows in a run is new.
-    pub fn take<T>(&self, mut decode: impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
-        let mut state = self.lock();
-        let left = state.left.take().unwrap_or_else(|| self.whole());
-        state.left = Some(Vec::new());
-        left.into_iter().find_map(|found| Self::decoded(&found, &mut decode))
+    pub fn take<T>(&self, decode: impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
+        let taken = self.look(decode);
+        self.lock().left = Some(Vec::new());
+        taken
     }
 
     /// The same without taking it: the first that `decode` does not refuse stays, alone, for the next caller.
     pub fn look<T>(&self, mut decode: impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
         let mut state = self.lock();
         let left = state.left.take().unwrap_or_else(|| self.whole());
-        let seen = left.into_iter().find_map(|found| Some((Self::decoded(&found, &mut decode)?, found)));
-        let (decoded, found) = seen.map_or((None, None), |(decoded, found)| (Some(decoded), Some(found)));
+        let refuse = |reason| format!("does not hold the state of this run ({reason})");
+        let mut decoded = |found: &CheckpointFile| {
+            decode(&found.contents).map_err(|reason| warn(&found.path, &refuse(reason))).ok()
+        };
+        let seen = left.into_iter().find_map(|found| Some((decoded(&found)?, found)));
+        let (decoded, found) = seen.unzip();
         state.left = Some(found.into_iter().collect());
         decoded
     }
@@ -90,11 +93,6 @@ impl Checkpoints {
     /// Result of `decode` for the newest checkpoint that it can use.
     pub fn usable<T>(&self, decode: impl FnMut(&[u8]) -> Option<T>) -> Option<T> {
         self.whole().iter().map(|found| &found.contents[..]).find_map(decode)
-    }
-
-    fn decoded<T>(found: &CheckpointFile, decode: &mut impl FnMut(&[u8]) -> Result<T, String>) -> Option<T> {
-        let refuse = |reason| format!("does not hold the state of this run ({reason})");
-        decode(&found.contents).map_err(|reason| warn(&found.path, &refuse(reason))).ok()
     }
 
     /// File of the newest checkpoint.
@@ -134,11 +132,14 @@ impl Checkpoints {
                 tracing::info!("checkpoint in {}, written in {:.0} ms", self.folder.display(), cost.as_secs_f64() * 1e3)
             }
             Err(error) => {
-                static FULL: FirstWarning = FirstWarning::new();
-                let folder = self.folder.display();
-                FULL.warn(&format!(
-                    "checkpoint in {folder}: not kept ({error}); those before it stay, and the run continues"
-                ));
+                static FULL: Once = Once::new();
+                FULL.call_once(|| {
+                    tracing::warn!(
+                        "checkpoint in {}: not kept ({error}); those before it stay, and the run continues; further \
+                         warnings of this kind are not shown",
+                        self.folder.display()
+                    );
+                });
             }
         }
         written.is_ok()
@@ -187,28 +188,17 @@ fn warn(path: &Path, refused: &impl std::fmt::Display) {
     tracing::warn!("checkpoint {path}: not continued: it {refused}; the one before it is used, or the run begins anew");
 }
 
-/// Number of runs in progress at an interruption.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct InterruptedRuns {
-    /// Those of which a checkpoint was written.
-    pub whole: usize,
-    /// Those of which none could be written, or that keep none.
-    pub lost: usize,
-}
-
-static WHOLE: AtomicUsize = AtomicUsize::new(0);
-static LOST: AtomicUsize = AtomicUsize::new(0);
+static STOPPED: [AtomicUsize; 2] = [AtomicUsize::new(0), AtomicUsize::new(0)];
 
 /// Counts a run that an interruption has stopped.
 pub fn count_stopped(is_kept: bool) {
-    let count = if is_kept { &WHOLE } else { &LOST };
-    count.fetch_add(1, Ordering::Relaxed);
+    STOPPED[usize::from(is_kept)].fetch_add(1, Ordering::Relaxed);
 }
 
-/// Runs that an interruption has stopped so far.
+/// Numbers of runs that an interruption has stopped so far: without a checkpoint of that moment, and with one.
 #[must_use]
-pub fn kept_at_the_end() -> InterruptedRuns {
-    InterruptedRuns { whole: WHOLE.load(Ordering::Relaxed), lost: LOST.load(Ordering::Relaxed) }
+pub fn stopped_runs() -> [usize; 2] {
+    STOPPED.each_ref().map(|count| count.load(Ordering::Relaxed))
 }
 
 /// Whether the program has been asked to end.

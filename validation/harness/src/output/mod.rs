@@ -16,5 +16,5 @@ pub use folder::OutputFolder;
 pub use lock::FolderLock;
 pub(crate) use sealed::{Refused, SealedFormat};
 pub use table::Table;
-pub use warning::{FirstWarning, caution, caution_about, cautions};
+pub use warning::{caution, caution_about, cautions};
 pub use whole::write_whole;

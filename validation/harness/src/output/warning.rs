@@ -1,7 +1,6 @@
 //! Warnings that many runs may have the same cause for.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 /// Warnings so far by their subjects.
@@ -30,25 +29,4 @@ pub fn caution_about(subject: &str, text: &str) {
 #[must_use]
 pub fn cautions() -> BTreeMap<String, String> {
     CAUTIONS.lock().unwrap_or_else(PoisonError::into_inner).clone()
-}
-
-/// Warns once; what follows are details that only a verbose program shows.
-#[derive(Debug, Default)]
-pub struct FirstWarning(AtomicBool);
-
-impl FirstWarning {
-    /// Nothing was warned of yet.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self(AtomicBool::new(false))
-    }
-
-    /// Warns, and says that it does not do so again.
-    pub fn warn(&self, text: &str) {
-        if self.0.swap(true, Ordering::Relaxed) {
-            tracing::info!("{text}");
-        } else {
-            tracing::warn!("{text}; further warnings of this kind are not shown");
-        }
-    }
 }

@@ -15,11 +15,12 @@ pub use speeds::{AllSpeeds, Speeds};
 
 use crate::checkpoint::Checkpoints;
 use crate::observation::Recorded;
-use crate::output::{FirstWarning, reason};
+use crate::output::reason;
 use etcetera::BaseStrategy;
 use serde::{Serialize, de::DeserializeOwned};
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
+use std::sync::Once;
 use std::time::Duration;
 
 /// Folders of this many versions of the sources are kept.
@@ -191,12 +192,15 @@ impl Store {
     pub fn keep<O: Serialize>(&self, key: &StoreKey, record: &Recorded<O>) {
         let new = !self.folder.is_dir();
         if let Err(error) = entry::write(&self.path(key), &key.0, record) {
-            static FULL: FirstWarning = FirstWarning::new();
-            let reason = reason(&error);
-            FULL.warn(&format!(
-                "stored result {}: not kept ({reason}); the run is simulated again the next time",
-                self.path(key).display()
-            ));
+            static FULL: Once = Once::new();
+            let (path, reason) = (self.path(key), reason(&error));
+            FULL.call_once(|| {
+                tracing::warn!(
+                    "stored result {}: not kept ({reason}); the run is simulated again the next time; further warnings of \
+                     this kind are not shown",
+                    path.display()
+                );
+            });
             return;
         }
         Checkpoints::at(&self.checkpoint_folder(key), &key.0, None).discard();
