@@ -219,8 +219,7 @@ fn a_link_to_nothing_is_no_output_folder() {
     {
         let arguments = [command, &["-q", "--out", out]].concat();
         place.bagnold(&arguments).assert().code(2).stdout("").stderr(format!(
-            "error: output folder {out}: out is a symbolic link to gone/away, which does not exist; make that folder, remove \
-             the link, or name another folder with --out\n"
+            "error: {out}: cannot be written (file exists); choose a folder that you may write to with --out\n"
         ));
     }
 }

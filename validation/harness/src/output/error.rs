@@ -90,38 +90,9 @@ pub enum FolderError {
         /// Process that holds the lock, if known: " (process 17)".
         by: String,
     },
-    /// The folder, or one above it, is a link to nothing.
-    #[error("output folder {}: {} is a symbolic link to {}, which does not exist; make that folder, remove the link, or name another folder with --out", shown(.folder), shown(.link), shown(.target))]
-    Dangling {
-        /// The folder.
-        folder: PathBuf,
-        /// The link.
-        link: PathBuf,
-        /// Target of the link.
-        target: PathBuf,
-    },
     /// Files in it cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-}
-
-impl FolderError {
-    /// Refuses a folder that is a link to nothing, or lies below one.
-    ///
-    /// # Errors
-    /// That link.
-    pub(super) fn refuse_dangling(folder: &Path) -> Result<(), Self> {
-        // without the slash at the end, which would follow the link
-        let plain: PathBuf = folder.components().collect();
-        let link = plain.ancestors().find_map(|path| {
-            let target = std::fs::read_link(path).ok()?;
-            path.try_exists().is_ok_and(|exists| !exists).then(|| (path.to_owned(), target))
-        });
-        match link {
-            Some((link, target)) => Err(Self::Dangling { folder: folder.to_owned(), link, target }),
-            None => Ok(()),
-        }
-    }
 }
 
 /// The system's words without the error number, which means nothing to a reader: "permission denied".

@@ -40,8 +40,8 @@ impl OutputFolder {
     /// Makes sure that the folder may be written, before any time is spent on what goes into it.
     ///
     /// # Errors
-    /// A folder with foreign files, one that another command writes, a link to nothing, or one that cannot be made or
-    /// written.
+    /// A folder with foreign files, one that another command writes, or one that cannot be made or written, such as a link
+    /// to nothing.
     pub fn claim(folder: &Path) -> Result<Self, FolderError> {
         refuse_foreign(folder, MARKER)?;
         let lock = FolderLock::take(folder)?;
@@ -106,9 +106,8 @@ impl Drop for OutputFolder {
     }
 }
 
-/// Refuses a link to nothing, and a folder that holds anything of others and no marker of this name.
+/// Refuses a folder that holds anything of others and no marker of this name.
 pub(super) fn refuse_foreign(folder: &Path, marker: &str) -> Result<(), FolderError> {
-    FolderError::refuse_dangling(folder)?;
     let mut entries = match std::fs::read_dir(folder) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
         entries => entries.map_err(|error| FileError::unwritable(folder, &error))?,
@@ -242,19 +241,13 @@ mod tests {
     }
 
     #[test]
-    fn a_link_to_nothing_is_refused_with_where_it_points() {
+    fn a_link_to_nothing_is_refused() {
         let root = tempfile::tempdir().expect("temporary folder");
         let (link, target) = (root.path().join("link"), root.path().join("gone"));
         std::os::unix::fs::symlink(&target, &link).expect("a link");
         for folder in [link.clone(), link.join(""), link.join("below/it")] {
-            let expected = format!(
-                "output folder {}: {} is a symbolic link to {}, which does not exist; make that folder, remove the link, or \
-                 name another folder with --out",
-                folder.display(),
-                link.display(),
-                target.display()
-            );
-            assert_eq!(OutputFolder::claim(&folder).expect_err("dangling").to_string(), expected);
+            let refused = OutputFolder::claim(&folder).expect_err("dangling").to_string();
+            assert!(refused.starts_with(&format!("{}: cannot be written (", folder.display())), "{refused}");
         }
         std::fs::create_dir(&target).expect("writable");
         publish(&link, &["x"]);
