@@ -9,9 +9,6 @@ use std::time::{Duration, SystemTime};
 /// Ends the names of entries, checkpoints and drawings, and of what a killed process left half written.
 const ENDINGS: [&str; 6] = ["postcard", "checkpoint", "svg", "png", "gif", "partial"];
 
-/// By how much the clocks of machines that share a store may differ.
-const CLOCKS_DIFFER: Duration = Duration::from_secs(86_400);
-
 /// One file of the store.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct StoredFile {
@@ -85,9 +82,6 @@ pub fn prune(root: &Path, keep: RetentionPolicy, now: SystemTime) -> Result<Prun
     for folder in &folders {
         stored.extend(stored_below(folder)?);
     }
-    for entry in &mut stored {
-        entry.modified = dated(entry.modified, now);
-    }
     stored.sort_by(|a, b| b.modified.cmp(&a.modified).then_with(|| a.path.cmp(&b.path)));
     let (mut kept, mut pruned) = (0, Pruned::default());
     for entry in stored {
@@ -109,12 +103,6 @@ pub fn prune(root: &Path, keep: RetentionPolicy, now: SystemTime) -> Result<Prun
         }
     }
     Ok(pruned)
-}
-
-/// A time as it counts for an age. What is dated in the future by more than clocks differ was written by a clock that was
-/// wrong: nobody knows its age, and it would never grow old, so it counts as older than all.
-fn dated(modified: SystemTime, now: SystemTime) -> SystemTime {
-    if modified > now + CLOCKS_DIFFER { SystemTime::UNIX_EPOCH } else { modified.min(now) }
 }
 
 /// The folders of versions.
@@ -255,22 +243,6 @@ mod tests {
         let nothing = RetentionPolicy { younger_than: None, bytes: Some(0) };
         assert_eq!(prune(root.path(), nothing, now).expect("writable").files, 11);
         assert!(drawn.join("notes.txt").exists(), "what is not the store's stays");
-    }
-
-    #[test]
-    fn an_entry_of_the_future_counts_as_older_than_all() {
-        let (root, now) = store();
-        let file = |name: &str| root.path().join(format!("sources-{}", "a".repeat(16))).join(name);
-        for (name, time) in [("0.postcard", now + 400 * DAY), ("1.postcard", now + DAY / 2)] {
-            std::fs::File::open(file(name)).and_then(|file| file.set_modified(time)).expect("settable");
-        }
-        let young = RetentionPolicy { younger_than: Some(100 * DAY), bytes: None };
-        assert_eq!(prune(root.path(), young, now).expect("writable"), Pruned { files: 1, bytes: 1000 });
-        assert!(!file("0.postcard").exists() && file("1.postcard").exists());
-        std::fs::File::open(file("4.postcard")).and_then(|file| file.set_modified(now + 2 * DAY)).expect("settable");
-        let small = RetentionPolicy { younger_than: None, bytes: Some(8000) };
-        assert_eq!(prune(root.path(), small, now).expect("writable").files, 1);
-        assert!(!file("4.postcard").exists(), "the one whose age nobody knows goes first");
     }
 
     #[test]
