@@ -36,20 +36,9 @@ pub(crate) enum MeshError {
     /// It cannot be read.
     #[error("cannot be read ({0})")]
     Unreadable(std::io::Error),
-    /// A file of another kind, by its first bytes.
-    #[error("is {0} and not STL")]
-    OtherKind(&'static str),
     /// It is no STL, or damaged.
     #[error("is no sound STL file ({0})")]
     Malformed(std::io::Error),
-    /// A binary file whose length is not that of its triangles.
-    #[error("is truncated or not STL: its head announces {announced} triangles, it has {found}")]
-    Truncated {
-        /// Triangles that the head announces.
-        announced: usize,
-        /// Triangles that the length allows.
-        found: usize,
-    },
     /// Text that continues after its solid.
     #[error("holds several solids")]
     SeveralSolids,
@@ -69,11 +58,7 @@ impl MeshError {
     pub(crate) fn remedy(&self) -> &'static str {
         match self {
             Self::Unreadable(_) => "check the path, which begins at this file, and its permissions",
-            Self::OtherKind(TERRAIN) => {
-                "divide each cell between four heights into two triangles by a script, and write them as STL"
-            }
-            Self::OtherKind(_) => "write the mesh as STL",
-            Self::Malformed(_) | Self::Truncated { .. } => "write it anew from the program that made it",
+            Self::Malformed(_) => "write the mesh as STL, anew if it was cut short",
             Self::SeveralSolids => "write each as a file of its own, or all as one solid",
             Self::NotFinite(_) => "repair the mesh",
             Self::Empty(_) => "give a surface, in metres",
@@ -87,29 +72,7 @@ pub(crate) fn read_mesh(path: &Path) -> Result<Mesh, MeshError> {
     mesh_of(read_bytes(path, MOST_BYTES).map_err(MeshError::Unreadable)?)
 }
 
-/// First words of files that are taken for STL, and what they are.
-const OTHER_KINDS: [(&str, &str); 12] = [
-    ("", "empty"),
-    ("<", "a page of HTML or XML"),
-    ("ncols", TERRAIN),
-    ("dsaa", TERRAIN),
-    ("ply", "a PLY file"),
-    ("off", "an OFF file"),
-    ("v ", "an OBJ file"),
-    ("o ", "an OBJ file"),
-    ("mtllib", "an OBJ file"),
-    ("# ", "an OBJ file or a table"),
-    ("iso-10303", "a STEP file"),
-    ("pk", "a zipped file"),
-];
-const TERRAIN: &str = "a grid of heights";
-
 fn mesh_of(mut bytes: Vec<u8>) -> Result<Mesh, MeshError> {
-    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(HEADER)]).trim_start().to_ascii_lowercase();
-    let is = |(word, _): &&(&str, &str)| if word.is_empty() { start.is_empty() } else { start.starts_with(word) };
-    if let Some((_, kind)) = OTHER_KINDS.iter().find(is) {
-        return Err(MeshError::OtherKind(kind));
-    }
     if bytes.starts_with(b"SOLID") {
         bytes.make_ascii_lowercase();
     }
@@ -134,28 +97,23 @@ fn mesh_of(mut bytes: Vec<u8>) -> Result<Mesh, MeshError> {
     if mesh.triangles.is_empty() { Err(MeshError::Empty(mesh.left_out)) } else { Ok(mesh) }
 }
 
-/// Makes a file one that the reader takes for what it is, and looks at its length first.
+/// Makes a file one that the reader takes for what it is.
 fn prepare(bytes: &mut Vec<u8>) -> Result<(), MeshError> {
-    let announced = bytes.get(HEADER - 4..HEADER).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
-    let announced = announced.map_or(0, |count| count as usize);
-    let is_text = bytes.starts_with(b"solid") && bytes.len() != HEADER + RECORD * announced;
-    if is_text {
-        // a solid need not have a name
-        if matches!(bytes.get(5), Some(b'\n' | b'\r')) {
-            bytes.insert(5, b' ');
+    let announced = bytes.get(HEADER - 4..HEADER).and_then(|count| count.try_into().ok()).map_or(0, u32::from_le_bytes);
+    let is_text = bytes.starts_with(b"solid") && bytes.len() != HEADER + RECORD * announced as usize;
+    if !is_text {
+        // some programs begin the head of a binary file like text
+        if let Some(first) = bytes.first_mut() {
+            *first = b' ';
         }
-        let ends = bytes.split(|&byte| byte == b'\n').filter(|line| line.trim_ascii().starts_with(b"endsolid"));
-        return if ends.count() > 1 { Err(MeshError::SeveralSolids) } else { Ok(()) };
+        return Ok(());
     }
-    let found = bytes.len().saturating_sub(HEADER) / RECORD;
-    if bytes.len() >= HEADER && found < announced {
-        return Err(MeshError::Truncated { announced, found });
+    // a solid need not have a name
+    if matches!(bytes.get(5), Some(b'\n' | b'\r')) {
+        bytes.insert(5, b' ');
     }
-    // some programs begin the head of a binary file like text
-    if let Some(first) = bytes.first_mut() {
-        *first = b' ';
-    }
-    Ok(())
+    let ends = bytes.split(|&byte| byte == b'\n').filter(|line| line.trim_ascii().starts_with(b"endsolid"));
+    if ends.count() > 1 { Err(MeshError::SeveralSolids) } else { Ok(()) }
 }
 
 /// The shortest decimal number that single precision tells from its neighbours; 0 where a program left rounding.
@@ -210,13 +168,11 @@ mod tests {
 
     #[test]
     fn defect_of_a_file_is_named() {
-        assert_eq!(refused(&binary()[..150]), "is truncated or not STL: its head announces 2 triangles, it has 1");
+        assert_eq!(refused(&binary()[..150]), "is no sound STL file (failed to fill whole buffer)");
         assert_eq!(refused(&TEXT.as_bytes()[..78]), "is no sound STL file (EOF while expecting vertex)");
-        assert_eq!(refused(b" \n"), "is empty and not STL");
-        assert_eq!(refused(b"# Blender\nv 0 0 0\n"), "is an OBJ file or a table and not STL");
-        assert_eq!(refused(b"<!DOCTYPE html>"), "is a page of HTML or XML and not STL");
-        let grid = mesh_of(b"NCOLS 10\nNROWS 10\n".to_vec()).expect_err("a grid");
-        assert!(grid.remedy().starts_with("divide each cell between four heights"), "{grid}");
+        for other in [&b" \n"[..], b"# Blender\nv 0 0 0\n", b"<!DOCTYPE html>", b"NCOLS 10\nNROWS 10\n"] {
+            assert!(refused(other).starts_with("is no sound STL file ("), "{}", refused(other));
+        }
         assert_eq!(mesh_of(TEXT.to_uppercase().into()).expect("capitals").left_out, 1);
         assert_eq!(refused(b"solid nothing\nendsolid nothing\n"), "has no triangle with an area (0 without)");
         assert_eq!(refused(TEXT.repeat(2).as_bytes()), "holds several solids");
