@@ -14,7 +14,7 @@ pub fn gravity() -> Rule {
 
 /// Rows of particles over a layer.
 pub fn rows() -> Rule {
-    parameter::between(4.0, 1000.0, ROWS)
+    parameter::between(4.0, 1000.0, "20 is quick, 40 is accurate")
 }
 
 /// A slope angle `[°]`.
@@ -28,8 +28,6 @@ pub fn driving_slope() -> Rule {
     up_to(0.2, remedy).in_words("positive and at most 0.2")
 }
 
-const ROWS: &str = "20 is quick, 40 is accurate";
-
 /// A value in [lower, upper].
 pub fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &str) -> Result<(), ParameterError> {
     if value >= lower && value <= upper {
@@ -41,11 +39,6 @@ pub fn between(field: &str, value: f64, lower: f64, upper: f64, remedy: &str) ->
 /// A computed bound without the digits that rounding left behind.
 fn shown(bound: f64) -> f64 {
     format!("{bound:.9e}").parse().unwrap_or(bound)
-}
-
-/// Rows of particles over a layer, where 0 would mean none.
-pub fn row_count(field: &str, value: usize) -> Result<(), ParameterError> {
-    between(field, value as f64, 4.0, 1000.0, ROWS)
 }
 
 /// A number of things in [least, most].
@@ -98,14 +91,6 @@ pub fn viscous_step(path: &str, numerics: &Numerics, law: &Rheology) -> Result<(
 /// The operators and walls that a gate allows.
 pub fn gate(path: &str, numerics: &Numerics) -> Result<(), ParameterError> {
     refuse(path, numerics.wall_problem(Surface::Smooth))
-}
-
-/// The operators that the implicit runs allow which a list of the parameters asks for.
-pub fn implicit_runs(path: &str, numerics: &Numerics, list: &str) -> Result<(), ParameterError> {
-    let Some(operator) = numerics.pairwise_operator() else { return Ok(()) };
-    let rule = format!("\"single-divergence\" or \"uncorrected-divergence\" with the implicit runs of `{list}`");
-    let field = format!("{path}.momentum_operator");
-    Err(ParameterError::field(&field, operator, &rule, "choose one of these, or empty that list"))
 }
 
 /// Columns of fluid particles along the period of a channel: no particle may see another one twice.
