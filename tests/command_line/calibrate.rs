@@ -254,7 +254,7 @@ fn wrong_data_are_refused_by_name() {
     );
     assert_eq!(
         data(",uncertainty [m/s]\n", "\n").split(';').next(),
-        Some("error: failed to read the reference data mine.csv, line 9, column 2: 3 fields in a table of 2 columns")
+        Some("error: mine.csv: `line 9`: 3 columns, and the heading has 2")
     );
     assert_eq!(
         data(",uncertainty [m/s]", ",sigma [m/s]"),
@@ -263,13 +263,12 @@ fn wrong_data_are_refused_by_name() {
     );
     assert_eq!(
         data("y [m],", "z [m],"),
-        "error: failed to read the reference data mine.csv: there is no number column `y`; its columns are `z`, `u`, \
-         `uncertainty`"
+        "error: mine.csv: `y`: no column of numbers; the columns are `z`, `u`, `uncertainty`"
     );
     assert_eq!(
         data("0.126", "NaN"),
-        "error: failed to read the reference data mine.csv, line 10, column 2 (`u`): `NaN` is not a finite measured value; write \
-         one with a decimal point, or drop the row"
+        "error: mine.csv: `line 10` is \"NaN\" in column u [m/s], but must be a finite measured value; write one with a \
+         decimal point, or drop the row"
     );
 }
 

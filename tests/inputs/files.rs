@@ -148,7 +148,7 @@ fn a_calibration_plan_is_read_or_refused() {
 fn a_table_of_measurements_is_read_or_refused() {
     let tables = [texts("reference-data/settling", "csv"), texts("validation/calibrations", "csv")].concat();
     read_damaged(&tables, |_, text| {
-        let _ = MeasuredData::parse("table.csv", &String::from_utf8_lossy(text));
+        let _ = MeasuredData::parse(Path::new("table.csv"), &String::from_utf8_lossy(text));
     });
 }
 

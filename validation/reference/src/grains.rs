@@ -1,7 +1,8 @@
 //! Grains that papers tabulate, as `reference-data` lists them.
 
-use crate::evidence::{MeasuredData, ReferenceError};
+use crate::evidence::MeasuredData;
 use crate::evidence::{read_shipped, shipped_table};
+use crate::input::FieldError;
 use crate::metric::Confidence;
 use bagnold_solver::material::rheology::MuI;
 use std::sync::LazyLock;
@@ -71,7 +72,7 @@ pub static GLASS_BEADS_FLOW_RULE: LazyLock<FlowRule> = LazyLock::new(|| {
 
 impl PublishedGrains {
     /// The grains of a table with a row of this material.
-    pub fn read(table: &MeasuredData, material: &str) -> Result<Self, ReferenceError> {
+    pub fn read(table: &MeasuredData, material: &str) -> Result<Self, FieldError> {
         let number = |name| table.number_of("material", material, name);
         let law = MuI {
             static_friction: number("static friction")?,

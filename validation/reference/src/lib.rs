@@ -12,5 +12,5 @@ pub mod one_dimension;
 pub mod settling;
 pub mod water;
 
-use bagnold_harness::{evidence, metric};
+use bagnold_harness::{evidence, input, metric};
 use bagnold_inference::statistics;

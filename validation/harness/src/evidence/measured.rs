@@ -15,15 +15,17 @@
 //! All seven keys are required, each once. A column with a unit in brackets holds finite numbers; one without
 //! holds labels.
 
-use super::ReferenceError;
-use super::measured_table::{ReferenceColumn, parse_table};
-use crate::input::{DOCUMENT, plain_lines, read_text, shown};
+use crate::input::{FieldError, TableRows, is_mark, plain_lines};
 use crate::metric::{Confidence, MetricKind};
-use std::collections::BTreeMap;
-use std::path::Path;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// No measured number is larger, in whatever unit; squares of such numbers are still finite.
+const LARGEST: f64 = 1e30;
 
 /// Origin of a reference value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ReferenceKind {
     /// Exact for the model.
     Analytic,
@@ -38,15 +40,6 @@ pub enum ReferenceKind {
 }
 
 impl ReferenceKind {
-    /// All, each with its word in a file.
-    const ALL: [(&'static str, Self); 5] = [
-        ("analytic", Self::Analytic),
-        ("computed", Self::Computed),
-        ("fit", Self::Fit),
-        ("measured", Self::Measured),
-        ("statement", Self::Statement),
-    ];
-
     /// Kind of verdict that such a reference value supports.
     #[must_use]
     pub fn kind(self) -> MetricKind {
@@ -58,13 +51,15 @@ impl ReferenceKind {
 }
 
 /// Header of a reference file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Metadata {
     /// Quantity of the values.
     pub quantity: String,
     /// Unit of that quantity.
     pub unit: String,
     /// Origin of the values, `kind` in the file.
+    #[serde(rename = "kind")]
     pub origin: ReferenceKind,
     /// Confidence in the values; rows may state otherwise in a column `confidence`.
     pub confidence: Confidence,
@@ -76,11 +71,42 @@ pub struct Metadata {
     pub licence: String,
 }
 
+/// One column of a reference table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ReferenceColumn {
+    /// Finite numbers in a unit.
+    Numbers {
+        /// Name without the unit.
+        name: String,
+        /// Unit, from the brackets.
+        unit: String,
+        /// One value a row, in that unit.
+        values: Vec<f64>,
+    },
+    /// Text.
+    Labels {
+        /// Name.
+        name: String,
+        /// One label a row.
+        values: Vec<String>,
+    },
+}
+
+impl ReferenceColumn {
+    /// Name without the unit.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Numbers { name, .. } | Self::Labels { name, .. } => name,
+        }
+    }
+}
+
 /// A reference table with its provenance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredData {
     /// File as the caller named it.
-    pub file: String,
+    pub file: PathBuf,
     /// Header of the file.
     pub metadata: Metadata,
     /// Columns in the order of the file, all of the same length.
@@ -88,20 +114,42 @@ pub struct MeasuredData {
 }
 
 impl MeasuredData {
-    /// Reads a file.
-    pub fn read(path: &Path) -> Result<Self, ReferenceError> {
-        let file = shown(path);
-        let text =
-            read_text(path, DOCUMENT).map_err(|source| ReferenceError::Unreadable { file: file.clone(), source })?;
-        Self::parse(&file, &text)
-    }
-
     /// Reads a text; `file` names it in errors.
-    pub fn parse(file: &str, text: &str) -> Result<Self, ReferenceError> {
+    ///
+    /// # Errors
+    /// A header or a table that breaks a rule.
+    pub fn parse(file: &Path, text: &str) -> Result<Self, FieldError> {
         let text = &*plain_lines(text);
-        let header_lines = text.lines().take_while(|line| line.starts_with('#') || line.trim().is_empty()).count();
-        let metadata = parse_metadata(file, text, header_lines)?;
-        let columns = parse_table(file, text, header_lines)?;
+        let metadata = parse_metadata(text).map_err(|error| error.in_file(file))?;
+        let TableRows { heading, rows, .. } = TableRows::of(text, file)?;
+        let refuse =
+            |field: &str, defect: &str, remedy: &str| Err(FieldError::finding(field, defect, remedy).in_file(file));
+        let (line, names) = match (heading, rows.first()) {
+            (Some((line, names)), Some((_, first))) if names.len() == first.len() => (line, names),
+            (Some((line, _)), Some(_)) => {
+                return refuse(&format!("line {line}"), "a name for each column is missing", "separate columns by commas");
+            }
+            _ => return refuse("table", "missing", "write the columns' names and at least one row below the header"),
+        };
+        let mut columns: Vec<ReferenceColumn> = Vec::with_capacity(names.len());
+        for (index, heading) in names.into_iter().enumerate() {
+            let words = rows.iter().map(|(line, words)| (*line, words[index]));
+            let column = match heading.strip_suffix(']').and_then(|name| name.split_once('[')) {
+                None => {
+                    let values = words.map(|(_, label)| label.to_owned()).collect();
+                    ReferenceColumn::Labels { name: heading.to_owned(), values }
+                }
+                Some((name, unit)) => {
+                    let values = words.map(|(line, word)| number(heading, line, word)).collect::<Result<_, _>>();
+                    let values = values.map_err(|error| error.in_file(file))?;
+                    ReferenceColumn::Numbers { name: name.trim().to_owned(), unit: unit.trim().to_owned(), values }
+                }
+            };
+            if columns.iter().any(|other| other.name() == column.name()) {
+                return refuse(&format!("line {line}"), &format!("two columns `{}`", column.name()), "rename one");
+            }
+            columns.push(column);
+        }
         Ok(Self { file: file.to_owned(), metadata, columns })
     }
 
@@ -110,38 +158,38 @@ impl MeasuredData {
     }
 
     /// Values of a number column, by its name without the unit.
-    pub fn numbers(&self, name: &str) -> Result<&[f64], ReferenceError> {
+    pub fn numbers(&self, name: &str) -> Result<&[f64], FieldError> {
         match self.column(name) {
             Some(ReferenceColumn::Numbers { values, .. }) => Ok(values),
-            _ => Err(self.no_column("number", name)),
+            _ => Err(self.no_column("numbers", name)),
         }
     }
 
     /// Values of a label column.
-    pub fn labels(&self, name: &str) -> Result<&[String], ReferenceError> {
+    pub fn labels(&self, name: &str) -> Result<&[String], FieldError> {
         match self.column(name) {
             Some(ReferenceColumn::Labels { values, .. }) => Ok(values),
-            _ => Err(self.no_column("label", name)),
+            _ => Err(self.no_column("labels", name)),
         }
     }
 
     /// The row whose label in a column is this one; the first, if there are several.
-    pub fn row(&self, column: &str, label: &str) -> Result<usize, ReferenceError> {
+    pub fn row(&self, column: &str, label: &str) -> Result<usize, FieldError> {
         let labels = self.labels(column)?;
         labels.iter().position(|own| own == label).ok_or_else(|| {
-            let known = labels.join(", ");
-            self.error(format!("no row has `{label}` in the column `{column}`; there are {known}"))
+            let remedy = format!("the rows are {}", labels.join(", "));
+            FieldError::finding(column, format!("no row `{label}`"), &remedy).in_file(&self.file)
         })
     }
 
     /// The number of the row that a label names.
-    pub fn number_of(&self, column: &str, label: &str, number: &str) -> Result<f64, ReferenceError> {
+    pub fn number_of(&self, column: &str, label: &str, number: &str) -> Result<f64, FieldError> {
         let row = self.row(column, label)?;
         Ok(self.numbers(number)?[row])
     }
 
     /// Confidence in each row: its word in a column `confidence`, or else the header's.
-    pub fn confidences(&self) -> Result<Vec<Confidence>, ReferenceError> {
+    pub fn confidences(&self) -> Result<Vec<Confidence>, FieldError> {
         let rows = match self.columns.first() {
             Some(ReferenceColumn::Numbers { values, .. }) => values.len(),
             Some(ReferenceColumn::Labels { values, .. }) => values.len(),
@@ -157,7 +205,7 @@ impl MeasuredData {
     }
 
     /// A label column whose labels are numbers or `open`, which stands for infinity: the upper ends of ranges.
-    pub fn upper_ends(&self, column: &str) -> Result<Vec<f64>, ReferenceError> {
+    pub fn upper_ends(&self, column: &str) -> Result<Vec<f64>, FieldError> {
         let end = |label: &String| match label.as_str() {
             "open" => Ok(f64::INFINITY),
             text => match text.parse::<f64>() {
@@ -169,60 +217,45 @@ impl MeasuredData {
     }
 
     /// Error of a label that is not among those allowed.
-    #[must_use]
-    pub fn bad_label(&self, column: &str, label: &str, allowed: &str) -> ReferenceError {
-        self.error(format!("`{label}` in the column `{column}` is not one of {allowed}"))
+    pub fn bad_label(&self, column: &str, label: &str, allowed: &str) -> FieldError {
+        FieldError::new(column, format!("\"{label}\""), &format!("one of {allowed}"), "mend the row").in_file(&self.file)
     }
 
-    fn no_column(&self, kind: &str, name: &str) -> ReferenceError {
+    fn no_column(&self, kind: &str, name: &str) -> FieldError {
         let known: Vec<String> = self.columns.iter().map(|column| format!("`{}`", column.name())).collect();
-        self.error(format!("there is no {kind} column `{name}`; its columns are {}", known.join(", ")))
-    }
-
-    fn error(&self, defect: String) -> ReferenceError {
-        ReferenceError::at(&self.file, defect)
+        let remedy = format!("the columns are {}", known.join(", "));
+        FieldError::finding(name, format!("no column of {kind}"), &remedy).in_file(&self.file)
     }
 }
 
-const KEYS: [&str; 7] = ["quantity", "unit", "kind", "confidence", "uncertainty", "source", "licence"];
+/// A word as a number of a column.
+fn number(heading: &str, line: usize, word: &str) -> Result<f64, FieldError> {
+    word.parse::<f64>().ok().filter(|value| value.abs() <= LARGEST && !is_mark(*value)).ok_or_else(|| {
+        let value = format!("\"{word}\" in column {heading}");
+        let remedy = "write one with a decimal point, or drop the row";
+        FieldError::new(&format!("line {line}"), value, "a finite measured value", remedy)
+    })
+}
 
-fn parse_metadata(file: &str, text: &str, header_lines: usize) -> Result<Metadata, ReferenceError> {
-    let mut found = BTreeMap::new();
-    for (line, text) in (1..).zip(text.lines()).take(header_lines).filter(|(_, text)| !text.trim().is_empty()) {
-        let refuse = |rule: &str| Err(ReferenceError::at(&format!("{file}, line {line}"), format!("`{text}` {rule}")));
-        let Some((key, value)) = text.trim_start_matches('#').split_once(':') else {
-            return refuse("has no colon; write `# key: value`");
-        };
-        let (key, value) = (key.trim(), value.trim());
-        if !KEYS.contains(&key) {
-            return refuse(&format!("has an unknown key; the keys are {}", KEYS.join(", ")));
-        }
-        if value.is_empty() {
-            return refuse("has no value; write one, \"none\" if there is none");
-        }
-        if found.insert(key, (line, value)).is_some() {
-            return refuse("repeats a key; keep one of the lines");
+fn parse_metadata(text: &str) -> Result<Metadata, FieldError> {
+    let mut fields = toml::Table::new();
+    let header = text.lines().take_while(|line| line.starts_with('#') || line.trim().is_empty());
+    for (number, line) in (1..).zip(header).filter(|(_, line)| !line.trim().is_empty()) {
+        let (key, value) = line.trim_start_matches('#').split_once(':').unwrap_or_default();
+        if value.trim().is_empty() || fields.insert(key.trim().to_owned(), value.trim().into()).is_some() {
+            let remedy = "write `# key: value`, each key once, and \"none\" for no value";
+            return Err(FieldError::finding(&format!("line {number}"), format!("\"{line}\""), remedy));
         }
     }
-    let value = |key: &str| {
-        let missing = || format!("the line `# {key}: …` is missing; add it above the table");
-        found.get(key).copied().ok_or_else(|| ReferenceError::at(file, missing()))
-    };
-    let text = |key: &str| Ok(value(key)?.1.to_owned());
-    let not_one_of = |(line, text): (usize, &str), words: &str| {
-        ReferenceError::at(&format!("{file}, line {line}"), format!("`{text}` is not one of {words}"))
-    };
-    let (origin, confidence) = (value("kind")?, value("confidence")?);
-    let known = ReferenceKind::ALL.into_iter().find(|(word, _)| *word == origin.1);
-    Ok(Metadata {
-        quantity: text("quantity")?,
-        unit: text("unit")?,
-        origin: known.ok_or_else(|| not_one_of(origin, &ReferenceKind::ALL.map(|(word, _)| word).join(", ")))?.1,
-        confidence: Confidence::stated(confidence.1).ok_or_else(|| not_one_of(confidence, Confidence::STATED))?,
-        uncertainty: text("uncertainty")?,
-        source: text("source")?,
-        licence: text("licence")?,
-    })
+    let metadata: Metadata = fields.try_into().map_err(|error: toml::de::Error| {
+        let remedy = "write `# key: value` above the table for quantity, unit, kind, confidence, uncertainty, source and licence";
+        FieldError::finding("header", error.message(), remedy)
+    })?;
+    if metadata.confidence == Confidence::Exact {
+        let rule = format!("one of {}", Confidence::STATED);
+        return Err(FieldError::new("# confidence", "exact", &rule, "state how sure the values are"));
+    }
+    Ok(metadata)
 }
 
 #[cfg(test)]

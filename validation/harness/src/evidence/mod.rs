@@ -4,11 +4,9 @@
 //! Numbers of papers stand in `reference-data/*/*.csv`. The program carries these tables, reads each once, and no number of a
 //! paper is written in the code that uses it.
 
-mod error;
 mod held_out;
 mod input_range;
 mod measured;
-mod measured_table;
 mod papers;
 mod propagation;
 mod sensitivity_table;
@@ -16,11 +14,9 @@ mod shipped;
 mod stated_uncertainty;
 mod validation_set;
 
-pub use error::ReferenceError;
 pub use held_out::{HeldOutDatum, HeldOutJudgement};
 pub use input_range::{Basis, InputRange, Spread};
-pub use measured::{MeasuredData, Metadata, ReferenceKind};
-pub use measured_table::ReferenceColumn;
+pub use measured::{MeasuredData, Metadata, ReferenceColumn, ReferenceKind};
 pub use papers::{Element, MetricName, PAPERS, Paper, Printed, RunName};
 pub use sensitivity_table::{RangeEnd, SensitivityRow, sensitivity_table, sensitivity_text};
 pub use shipped::{read_shipped, shipped_table, shipped_tables};

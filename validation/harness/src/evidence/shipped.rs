@@ -1,6 +1,8 @@
 //! The tables of `reference-data` that the program carries: texts by name, and what is read from them once.
 
-use super::{MeasuredData, ReferenceError};
+use super::MeasuredData;
+use crate::input::FieldError;
+use std::path::Path;
 
 include!(concat!(env!("OUT_DIR"), "/reference_data.rs"));
 
@@ -13,10 +15,10 @@ pub fn shipped_tables() -> impl Iterator<Item = (&'static str, &'static str)> {
 ///
 /// # Errors
 /// If there is no such table, or it is malformed.
-pub fn shipped_table(name: &str) -> Result<MeasuredData, ReferenceError> {
+pub fn shipped_table(name: &str) -> Result<MeasuredData, FieldError> {
     let found = FILES.iter().find(|(own, _)| *own == name);
-    let (_, text) = found.ok_or_else(|| ReferenceError::at(name, "the program carries no such table"))?;
-    MeasuredData::parse(&format!("reference-data/{name}"), text)
+    let (_, text) = found.ok_or_else(|| FieldError::finding(name, "no table of the program", "mend its name"))?;
+    MeasuredData::parse(&Path::new("reference-data").join(name), text)
 }
 
 /// Value that `read` computes from a shipped table.
@@ -24,10 +26,10 @@ pub fn shipped_table(name: &str) -> Result<MeasuredData, ReferenceError> {
 /// # Panics
 /// If the table is not what `read` expects. No user can bring that about: the tables are part of the program, and tests
 /// read every one of them.
-pub fn read_shipped<T>(name: &str, read: impl FnOnce(&MeasuredData) -> Result<T, ReferenceError>) -> T {
+pub fn read_shipped<T>(name: &str, read: impl FnOnce(&MeasuredData) -> Result<T, FieldError>) -> T {
     match shipped_table(name).and_then(|table| read(&table)) {
         Ok(value) => value,
-        Err(error) => panic!("failed to {error}"),
+        Err(error) => panic!("{error}"),
     }
 }
 
@@ -40,8 +42,8 @@ mod tests {
     fn every_table_is_read_and_no_row_is_surer_than_it_can_be() {
         assert!(FILES.len() > 15, "{} tables", FILES.len());
         for (name, _) in shipped_tables() {
-            let table = shipped_table(name).unwrap_or_else(|error| panic!("failed to {error}"));
-            let rows = table.confidences().unwrap_or_else(|error| panic!("failed to {error}"));
+            let table = shipped_table(name).unwrap_or_else(|error| panic!("{error}"));
+            let rows = table.confidences().unwrap_or_else(|error| panic!("{error}"));
             assert!(!rows.contains(&Confidence::Exact), "{name}: a printed number is not exact");
         }
     }
@@ -49,6 +51,6 @@ mod tests {
     #[test]
     fn a_table_that_is_not_there_is_named() {
         let error = shipped_table("bagnold/no.csv").expect_err("absent").to_string();
-        assert_eq!(error, "read the reference data bagnold/no.csv: the program carries no such table");
+        assert_eq!(error, "`bagnold/no.csv`: no table of the program; mend its name");
     }
 }

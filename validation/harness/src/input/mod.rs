@@ -23,5 +23,5 @@ pub use packed_triangles::PackedTriangles;
 pub(crate) use packed_triangles::packed;
 pub(crate) use place::position;
 pub use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, read_bytes, read_own, read_text};
-pub use table::{comma_fault, is_comment, is_mark, number_remedy, plain_lines, row_remedy, text_fault};
-pub use text_table::TextTable;
+pub use table::{is_mark, plain_lines, text_fault};
+pub use text_table::{TableRows, TextTable};

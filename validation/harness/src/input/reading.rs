@@ -3,8 +3,10 @@
 //! A pipe would block, a device never ends, and a file of gigabytes is no case: each is refused before its contents are
 //! looked at, with a reason that goes into the error of whoever reads.
 
-use std::fs::{File, Metadata, OpenOptions};
+use rustix::fs::OFlags;
+use std::fs::OpenOptions;
 use std::io::{Error, ErrorKind, Read, Result};
+use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
 use std::path::Path;
 
 /// Largest file that people write by hand: cases, plans, templates and lists `[bytes]`.
@@ -18,16 +20,11 @@ pub const STORED: u64 = 1 << 32;
 
 /// A text file of at most so many bytes. Links are followed: whoever names a file may name it by a link.
 pub fn read_text(path: &Path, most: u64) -> Result<String> {
-    let bytes = read_all(open(path, false)?, most)?;
+    let bytes = read_bytes(path, most)?;
     // what some editors and spreadsheets call Unicode begins with a mark of two bytes
     let is_utf16 = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
     let what = if is_utf16 { "text in UTF-16, not in UTF-8" } else { "no text in UTF-8" };
     String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, what))
-}
-
-/// Any file of at most so many bytes. Links are followed.
-pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>> {
-    read_all(open(path, false)?, most)
 }
 
 /// A file that a program wrote under this very name: no link.
@@ -35,33 +32,21 @@ pub fn read_own(path: &Path, most: u64) -> Result<Vec<u8>> {
     if std::fs::symlink_metadata(path)?.file_type().is_symlink() {
         return Err(Error::new(ErrorKind::InvalidInput, "is a link, not a file of its own"));
     }
-    read_all(open(path, true)?, most)
+    read_bytes(path, most)
 }
 
-#[cfg(unix)]
-fn open(path: &Path, own: bool) -> Result<File> {
-    use rustix::fs::OFlags;
-    use std::os::unix::fs::OpenOptionsExt;
+/// Any file of at most so many bytes. Links are followed.
+pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>> {
     // without waiting for a writer of a pipe
-    let mut flags = OFlags::NONBLOCK;
-    if own {
-        flags |= OFlags::NOFOLLOW;
-    }
-    OpenOptions::new().read(true).custom_flags(i32::try_from(flags.bits()).unwrap_or_default()).open(path)
-}
-
-#[cfg(not(unix))]
-fn open(path: &Path, _own: bool) -> Result<File> {
-    OpenOptions::new().read(true).open(path)
-}
-
-fn read_all(file: File, most: u64) -> Result<Vec<u8>> {
+    let flags = OFlags::NONBLOCK.bits();
+    let file = OpenOptions::new().read(true).custom_flags(i32::try_from(flags).unwrap_or_default()).open(path)?;
     let metadata = file.metadata()?;
     if metadata.is_dir() {
         return Err(ErrorKind::IsADirectory.into());
     }
     if !metadata.is_file() {
-        return Err(Error::new(ErrorKind::InvalidInput, format!("is {}, not a regular file", kind(&metadata))));
+        let kind = if metadata.file_type().is_fifo() { "a named pipe" } else { "a device" };
+        return Err(Error::new(ErrorKind::InvalidInput, format!("is {kind}, not a regular file")));
     }
     let too_large = || Error::new(ErrorKind::FileTooLarge, format!("is larger than {} MiB", most >> 20));
     if metadata.len() > most {
@@ -71,24 +56,6 @@ fn read_all(file: File, most: u64) -> Result<Vec<u8>> {
     // one more than allowed: the file may grow meanwhile
     file.take(most + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most { Err(too_large()) } else { Ok(bytes) }
-}
-
-#[cfg(unix)]
-fn kind(metadata: &Metadata) -> &'static str {
-    use std::os::unix::fs::FileTypeExt;
-    let kind = metadata.file_type();
-    if kind.is_fifo() {
-        "a named pipe"
-    } else if kind.is_socket() {
-        "a socket"
-    } else {
-        "a device"
-    }
-}
-
-#[cfg(not(unix))]
-fn kind(_: &Metadata) -> &'static str {
-    "something else"
 }
 
 #[cfg(test)]
@@ -110,7 +77,6 @@ mod tests {
         assert_eq!(refused(folder.path(), 1 << 20), "is a directory");
     }
 
-    #[cfg(unix)]
     #[test]
     fn devices_pipes_and_links_of_ours_are_refused_without_a_wait() {
         let folder = tempfile::tempdir().expect("temporary folder");

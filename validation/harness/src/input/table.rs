@@ -16,102 +16,52 @@ pub fn is_mark(value: f64) -> bool {
     [-9999.0, -99999.0].contains(&value)
 }
 
-/// Fault in the text of a table, with its place.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TableFault {
-    /// Line, from 1.
-    pub line: usize,
-    /// Column of the table, from 1, as far as commas tell.
-    pub column: usize,
-    /// Defect of the line.
-    defect: String,
-    remedy: &'static str,
-}
-
-impl TableFault {
-    /// As the error of a field of which the line is one.
-    pub(crate) fn field_error(&self) -> FieldError {
-        FieldError::finding(&format!("line {}", self.line), &self.defect, self.remedy)
-    }
-
-    /// Defect and remedy, behind the name of the line.
-    pub fn in_words(&self) -> String {
-        format!("{}; {}", self.defect, self.remedy)
-    }
-}
-
 /// The first unclosed quote or control character of a text. A quoted word ends on its line: nothing in a table of numbers
 /// goes over several.
-pub fn text_fault(text: &str) -> Option<TableFault> {
-    text.split('\n').enumerate().find_map(|(index, line)| {
-        let fault = |before: &str, defect, remedy| {
-            Some(TableFault { line: index + 1, column: before.matches(',').count() + 1, defect, remedy })
-        };
+pub fn text_fault(text: &str) -> Option<FieldError> {
+    (1..).zip(text.split('\n')).find_map(|(number, line)| {
+        let fault = |defect: &str, remedy| Some(FieldError::finding(&format!("line {number}"), defect, remedy));
         // a byte that is no text, as in files of two bytes a letter
-        if let Some(place) = line.find(|letter: char| is_control(letter) && !matches!(letter, '\t' | '\r')) {
-            let letter = line[place..].chars().next().map_or(0, u32::from);
+        if let Some(letter) = line.chars().find(|letter| is_control(*letter) && !matches!(letter, '\t' | '\r')) {
             let remedy = "remove it, or write the file as plain text in UTF-8";
-            return fault(&line[..place], format!("control character U+{letter:04X}"), remedy);
+            return fault(&format!("control character U+{:04X}", u32::from(letter)), remedy);
         }
-        let open = if is_comment(line) { None } else { open_quote(line) };
-        open.and_then(|place| fault(&line[..place], "unclosed quote".to_owned(), "close the quote, or remove it"))
+        let is_open = !is_comment(line) && has_open_quote(line);
+        if is_open { fault("unclosed quote", "close the quote, or remove it") } else { None }
     })
 }
 
-/// Position of the first unclosed quote in a line. Quotes open at the beginning of a word; two in a quoted word are one
-/// that is meant.
-fn open_quote(line: &str) -> Option<usize> {
-    let mut open = None;
-    let mut begins = true;
-    let mut letters = line.char_indices().peekable();
-    while let Some((place, letter)) = letters.next() {
-        match (open, letter) {
-            (None, '"') if begins => open = Some(place),
-            (Some(_), '"') if letters.next_if(|(_, next)| *next == '"').is_none() => open = None,
+/// Whether a quote of a line is not closed. Quotes open at the beginning of a word; two in a quoted word are one that is meant.
+fn has_open_quote(line: &str) -> bool {
+    let (mut is_open, mut begins) = (false, true);
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
+        match (is_open, letter) {
+            (false, '"') if begins => is_open = true,
+            (true, '"') if letters.next_if(|next| *next == '"').is_none() => is_open = false,
             _ => {}
         }
         begins = matches!(letter, ',' | ';') || letter.is_whitespace();
     }
-    open
-}
-
-/// A heading whose columns are parted otherwise than by commas; `line` is its number, from 1.
-pub fn comma_fault(heading: &str, line: usize) -> Option<TableFault> {
-    const REMEDY: &str = "separate the columns by commas, and write decimals with a point";
-    let separator = if heading.contains(',') {
-        return None;
-    } else if heading.contains(';') {
-        "semicolons"
-    } else if heading.contains('\t') {
-        "tabs"
-    } else if heading.matches('[').count() > 1 {
-        "blanks"
-    } else {
-        return None;
-    };
-    Some(TableFault { line, column: 1, defect: format!("columns separated by {separator}"), remedy: REMEDY })
+    is_open
 }
 
 /// Remedy for a word in the place of a number.
-pub fn number_remedy(word: &str) -> &'static str {
-    let are_numbers = |separator: char| {
-        word.contains(separator) && word.split(separator).all(|part| is_number(part) || has_decimal_comma(part))
-    };
-    if is_missing(word) {
+pub(super) fn number_remedy(word: &str) -> &'static str {
+    let is_missing = ["", "-", "--", "na", "n/a", "null", "none"].contains(&word.to_ascii_lowercase().as_str());
+    if is_missing || word.parse().is_ok_and(is_mark) {
         "leave out rows in which a value is missing"
-    } else if are_numbers(';') {
-        "several values separated by semicolons: use one separator for all columns, and write decimals with a point"
-    } else if are_numbers('\t') || (word.contains(' ') && word.split_whitespace().all(is_number)) {
-        "several values separated by blanks or tabs: use one separator for all columns"
-    } else if !has_decimal_comma(word) && is_number(&word.replace(',', "")) {
+    } else if is_number(&word.replace(',', "")) && !is_number(&word.replace(',', ".")) {
         "write numbers without separators of thousands"
+    } else if word.contains([';', '\t', ' ']) {
+        "use one separator for all columns, and write decimals with a point"
     } else {
         "write decimals with a point"
     }
 }
 
 /// Remedy for a row whose number of values differs from the number of columns.
-pub fn row_remedy(row: &str, values: usize, columns: usize) -> &'static str {
+pub(super) fn row_remedy(row: &str, values: usize, columns: usize) -> &'static str {
     if [';', '\t'].iter().any(|separator| row.matches(*separator).count() + 1 == columns) {
         "use one separator for the whole table"
     } else if columns > 0 && values == 2 * columns {
@@ -125,18 +75,8 @@ fn is_number(word: &str) -> bool {
     word.trim().parse::<f64>().is_ok()
 }
 
-fn has_decimal_comma(word: &str) -> bool {
-    word.matches(',').count() == 1 && is_number(&word.replace(',', "."))
-}
-
-/// Whether a word stands for no value.
-fn is_missing(word: &str) -> bool {
-    ["", "-", "--", "na", "n/a", "null", "none"].contains(&word.to_ascii_lowercase().as_str())
-        || word.parse().is_ok_and(is_mark)
-}
-
 /// Whether a line is a comment.
-pub fn is_comment(line: &str) -> bool {
+pub(super) fn is_comment(line: &str) -> bool {
     line.trim_start().starts_with(['#', '%'])
 }
 
@@ -151,46 +91,32 @@ mod tests {
         {
             assert_eq!(text_fault(sound), None, "{sound}");
         }
-        for (text, line, column) in [
-            ("\"x,u\n1,2\n", 1, 1),
-            ("x,u\n1,\"2\n3,4\n", 2, 2),
-            ("x;u\n1; \"2\n\"3\";4\n", 2, 1),
-            ("x,u\n1,2\n3,\"4", 3, 2),
-            ("x,u\n1,\"a \"\" b\n", 2, 2),
+        for (text, line) in [
+            ("\"x,u\n1,2\n", 1),
+            ("x,u\n1,\"2\n3,4\n", 2),
+            ("x;u\n1; \"2\n\"3\";4\n", 2),
+            ("x,u\n1,2\n3,\"4", 3),
+            ("x,u\n1,\"a \"\" b\n", 2),
         ] {
-            let fault = text_fault(text).expect(text);
-            assert_eq!((fault.line, fault.column), (line, column), "{text}");
-            assert_eq!(
-                fault.field_error().to_string(),
-                format!("`line {line}`: unclosed quote; close the quote, or remove it")
-            );
+            let expected = format!("`line {line}`: unclosed quote; close the quote, or remove it");
+            assert_eq!(text_fault(text).expect(text).to_string(), expected);
         }
     }
 
     #[test]
     fn control_characters_are_named_by_their_number() {
-        let fault = text_fault("x,u\r\n1\t,\u{1b}[2J2\n").expect("an escape");
-        assert_eq!((fault.line, fault.column), (2, 2));
-        assert!(fault.in_words().starts_with("control character U+001B; "));
+        let fault = text_fault("x,u\r\n1\t,\u{1b}[2J2\n").expect("an escape").to_string();
+        assert!(fault.starts_with("`line 2`: control character U+001B; "), "{fault}");
         assert!(text_fault("# source: a\u{202e}b\n").is_some());
         // two bytes a letter
-        assert_eq!(text_fault("x\0,\0u\0\n\0").map(|fault| fault.line), Some(1));
+        assert_eq!(text_fault("x\0,\0u\0\n\0").map(|fault| fault.field), Some("line 1".to_owned()));
     }
 
     #[test]
     fn other_separators_and_decimals_are_told() {
-        assert_eq!(comma_fault("height [m],u [m/s]", 8), None);
-        assert_eq!(comma_fault("height [m]", 8), None);
-        for (heading, by) in [("y [m];u [m/s]", "semicolons"), ("y [m]\tu [m/s]", "tabs"), ("y [m]  u [m/s]", "blanks")]
-        {
-            let words = comma_fault(heading, 8).expect("no commas").in_words();
-            let expected =
-                format!("columns separated by {by}; separate the columns by commas, and write decimals with a point");
-            assert_eq!(words, expected);
+        for word in ["1;2", "1,5;2", "1 2"] {
+            assert!(number_remedy(word).starts_with("use one separator for all columns"), "{word}");
         }
-        assert!(number_remedy("1;2").starts_with("several values separated by semicolons"));
-        assert!(number_remedy("1,5;2").starts_with("several values separated by semicolons"));
-        assert!(number_remedy("1 2").starts_with("several values separated by blanks or tabs"));
         assert_eq!(number_remedy("1,5"), "write decimals with a point");
         assert_eq!(number_remedy("1,234.5"), "write numbers without separators of thousands");
         assert_eq!(number_remedy("-9999"), "leave out rows in which a value is missing");

@@ -25,74 +25,36 @@ impl TextTable {
     /// No numbers, a quote that is not closed, a line with another number of columns, or a word where a number should be.
     pub fn parse(text: &str, file: &Path) -> Result<Self, FieldError> {
         let text = &*plain_lines(text);
-        if let Some(fault) = text_fault(text) {
-            return Err(fault.field_error().in_file(file));
-        }
+        let TableRows { heading, comment, rows } = TableRows::of(text, file)?;
         let wrong = |line: usize, value: &str, rule: &str, remedy: &str| {
-            FieldError::new(&format!("line {}", line + 1), value, rule, remedy).in_file(file)
+            FieldError::new(&format!("line {line}"), value, rule, remedy).in_file(file)
         };
-        let mut comment = "";
-        let mut heading: Option<Vec<String>> = None;
-        let mut heading_line = 0;
-        let mut columns: Vec<Vec<f64>> = Vec::new();
-        let separator = text
-            .lines()
-            .find(|line| !is_blank(line) && !is_comment(line))
-            .and_then(|line| SEPARATORS.into_iter().find(|separator| line.contains(*separator)));
-        for (number, line) in text.lines().enumerate() {
-            if is_blank(line) {
-                continue;
-            }
-            if is_comment(line) {
-                comment = line.trim_start_matches(['#', '%', ' ']);
-                continue;
-            }
-            let mut words = words(line, separator);
-            // separators behind the last column, as spreadsheets write them
-            let known = heading.as_ref().map_or(columns.len(), Vec::len);
-            while separator.is_some() && words.len() > known && words.last().is_some_and(|word| word.is_empty()) {
-                words.pop();
-            }
-            if columns.is_empty() {
-                let is_name =
-                    |word: &&str| word.starts_with(|first: char| first.is_alphabetic() || "[(".contains(first));
-                if heading.is_some() && words.iter().all(|word| is_name(word) && word.parse::<f64>().is_err()) {
-                    let remedy = "put # before text above the table, and units into its heading";
-                    return Err(wrong(heading_line, "text above another line of text", "the heading", remedy));
-                }
-                if heading.is_none() && words.iter().any(|word| word.parse::<f64>().is_err()) {
-                    heading_line = number;
-                    heading = Some(words.iter().map(|word| (*word).to_owned()).collect());
-                    continue;
-                }
-                // blanks also part the words of a heading
-                if let Some(heading) = heading.as_ref().filter(|own| separator.is_some() && own.len() != words.len()) {
-                    let defect = format!("{} columns, and the heading has {}", words.len(), heading.len());
-                    return Err(wrong(number, &defect, "", row_remedy(line, words.len(), heading.len())));
-                }
-                columns = vec![Vec::new(); words.len()];
-            }
-            if words.len() != columns.len() {
-                let defect = format!("{} columns, and the lines before have {}", words.len(), columns.len());
-                return Err(wrong(number, &defect, "", row_remedy(line, words.len(), columns.len())));
-            }
-            for (place, (column, word)) in columns.iter_mut().zip(words).enumerate() {
+        let Some((_, first)) = rows.first() else {
+            return Err(wrong(1, "without numbers", "the first of a table", "give a file with columns of numbers"));
+        };
+        let is_name = |word: &&str| word.starts_with(|first: char| first.is_alphabetic() || "[(".contains(first));
+        if let Some((line, _)) = &heading
+            && first.iter().all(|word| is_name(word) && word.parse::<f64>().is_err())
+        {
+            let remedy = "put # before text above the table, and units into its heading";
+            return Err(wrong(*line, "text above another line of text", "the heading", remedy));
+        }
+        let headings = heading.map_or(comment, |(_, words)| words);
+        let headings: Vec<String> = if headings.len() == first.len() {
+            headings.into_iter().map(str::to_owned).collect()
+        } else {
+            (1..=first.len()).map(|column| column.to_string()).collect()
+        };
+        let mut columns = vec![Vec::new(); first.len()];
+        for (line, words) in rows {
+            for ((column, name), word) in columns.iter_mut().zip(&headings).zip(words) {
                 let value = word.parse::<f64>().map_err(|_| {
-                    let name = heading.as_ref().and_then(|own| own.get(place).cloned());
-                    let name = name.unwrap_or_else(|| (place + 1).to_string());
-                    let value = format!("\"{}\" in column {}", shortened(word), shortened(&name));
-                    wrong(number, &value, "a number", number_remedy(word))
+                    let value = format!("\"{}\" in column {}", shortened(word), shortened(name));
+                    wrong(line, &value, "a number", number_remedy(word))
                 })?;
                 column.push(value);
             }
         }
-        if columns.is_empty() {
-            return Err(wrong(0, "without numbers", "the first of a table", "give a file with columns of numbers"));
-        }
-        let headings = heading
-            .or_else(|| Some(words(comment, separator).into_iter().map(str::to_owned).collect()))
-            .filter(|headings: &Vec<String>| headings.len() == columns.len())
-            .unwrap_or_else(|| (1..=columns.len()).map(|column| column.to_string()).collect());
         Ok(Self { headings, columns })
     }
 
@@ -107,6 +69,62 @@ impl TextTable {
             let rule = format!("a column of {}: {}", file.display(), shortened(&self.headings.join(", ")));
             FieldError::new(field, format!("\"{heading}\""), &rule, &format!("{guess}headings are taken as they stand"))
         })
+    }
+}
+
+/// The words of a table, row by row, each row with the number of its line from 1.
+pub struct TableRows<'t> {
+    /// Names of the columns; none where the first row holds numbers.
+    pub heading: Option<(usize, Vec<&'t str>)>,
+    /// Words of the last comment above the rows.
+    comment: Vec<&'t str>,
+    /// As many words in each.
+    pub rows: Vec<(usize, Vec<&'t str>)>,
+}
+
+impl<'t> TableRows<'t> {
+    /// The words of a text whose first line that is no comment is the heading, unless it holds numbers alone.
+    ///
+    /// # Errors
+    /// A quote that is not closed, control characters, a line with another number of columns.
+    pub fn of(text: &'t str, file: &Path) -> Result<Self, FieldError> {
+        if let Some(fault) = text_fault(text) {
+            return Err(fault.in_file(file));
+        }
+        let mut table = Self { heading: None, comment: Vec::new(), rows: Vec::new() };
+        let mut lines = text.lines().filter(|line| !is_blank(line) && !is_comment(line));
+        let separator =
+            lines.next().and_then(|line| SEPARATORS.into_iter().find(|separator| line.contains(*separator)));
+        // a heading above single words is one name
+        let is_list = separator.is_none() && lines.next().is_some_and(|row| words(row, None).len() == 1);
+        for (number, line) in (1..).zip(text.lines()).filter(|(_, line)| !is_blank(line)) {
+            if is_comment(line) {
+                let comment = line.trim_start_matches(['#', '%', ' ']);
+                table.comment = if table.rows.is_empty() { words(comment, separator) } else { table.comment };
+                continue;
+            }
+            let mut words = words(line, separator);
+            let is_first = table.heading.is_none() && table.rows.is_empty();
+            // blanks also part the words of a heading
+            let known = table.heading.as_ref().filter(|_| separator.is_some()).map(|(_, words)| (words.len(), "heading has"));
+            let known = known.or_else(|| table.rows.first().map(|(_, words)| (words.len(), "lines before have")));
+            // separators behind the last column, as spreadsheets write them
+            let least = known.map_or(0, |(columns, _)| columns);
+            while separator.is_some() && words.len() > least && words.last().is_some_and(|word| word.is_empty()) {
+                words.pop();
+            }
+            if is_first && words.iter().any(|word| word.parse::<f64>().is_err()) {
+                table.heading = Some((number, if is_list { vec![line.trim()] } else { words }));
+                continue;
+            }
+            if let Some((columns, whose)) = known.filter(|(columns, _)| *columns != words.len()) {
+                let defect = format!("{} columns, and the {whose} {columns}", words.len());
+                let remedy = row_remedy(line, words.len(), columns);
+                return Err(FieldError::finding(&format!("line {number}"), defect, remedy).in_file(file));
+            }
+            table.rows.push((number, words));
+        }
+        Ok(table)
     }
 }
 
@@ -187,7 +205,11 @@ mod tests {
         );
         assert_eq!(
             message("x,y\n1,2\n3\n"),
-            "a.csv: `line 3`: 1 columns, and the lines before have 2; complete or shorten the row"
+            "a.csv: `line 3`: 1 columns, and the heading has 2; complete or shorten the row"
+        );
+        assert_eq!(
+            message("1,2\n3\n"),
+            "a.csv: `line 2`: 1 columns, and the lines before have 2; complete or shorten the row"
         );
         assert_eq!(
             message("x,y\n1,2\n3,b\n"),

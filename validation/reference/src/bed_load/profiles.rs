@@ -2,7 +2,8 @@
 //! (Revil-Baudard et al. 2015), tables of `reference-data/bed-load`.
 
 use crate::evidence::read_shipped;
-use crate::evidence::{MeasuredData, ReferenceError};
+use crate::evidence::MeasuredData;
+use crate::input::FieldError;
 use crate::one_dimension::bed_load::Stream;
 use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 
@@ -84,7 +85,7 @@ impl MeasuredBedLoad {
     #[must_use]
     pub fn profiles(self) -> BedLoadProfiles {
         let level = self.level();
-        let points = |table: &MeasuredData, name: &str| -> Result<HeightProfile, ReferenceError> {
+        let points = |table: &MeasuredData, name: &str| -> Result<HeightProfile, FieldError> {
             let heights = table.numbers("height")?.iter().map(|height| height - level);
             Ok(heights.zip(table.numbers(name)?.iter().copied()).collect())
         };

@@ -2,7 +2,8 @@
 //! q* = c (τ* − τ*_c)^n with q* = q_s/√((s − 1) g d³), 0 below the critical Shields number τ*_c.
 
 use crate::evidence::read_shipped;
-use crate::evidence::{MeasuredData, ReferenceError, ReferenceKind};
+use crate::evidence::{MeasuredData, ReferenceKind};
+use crate::input::FieldError;
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
@@ -112,7 +113,7 @@ struct FormulaCoefficients {
 /// In the order of [`TransportFormula::ALL`].
 static ROWS: LazyLock<Vec<FormulaCoefficients>> = LazyLock::new(|| read_shipped("bed-load/formulas.csv", rows));
 
-fn rows(table: &MeasuredData) -> Result<Vec<FormulaCoefficients>, ReferenceError> {
+fn rows(table: &MeasuredData) -> Result<Vec<FormulaCoefficients>, FieldError> {
     let (sources, confidences) = (table.labels("source")?, table.confidences()?);
     let row = |formula: TransportFormula| {
         let row = table.row("formula", formula.key())?;

@@ -2,7 +2,8 @@
 //! `column-round` list. Lengths over the initial half width r_0, a = h_0/r_0.
 
 use crate::evidence::read_shipped;
-use crate::evidence::{MeasuredData, ReferenceError};
+use crate::evidence::MeasuredData;
+use crate::input::FieldError;
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
@@ -88,7 +89,7 @@ pub static COLLAPSE_DURATION: LazyLock<(f64, String, Confidence)> = LazyLock::ne
 
 impl CollapseLaws {
     /// The laws of a table: rows of one quantity and source are branches of one law.
-    pub fn read(table: &MeasuredData) -> Result<Self, ReferenceError> {
+    pub fn read(table: &MeasuredData) -> Result<Self, FieldError> {
         let (quantities, sources) = (table.labels("quantity")?, table.labels("source")?);
         let (confidences, to) = (table.confidences()?, table.upper_ends("to, or open")?);
         let (from, coefficients) = (table.numbers("from")?, table.numbers("coefficient")?);

@@ -1,8 +1,9 @@
 //! Columns that experimenters let collapse, as points: the planar pile of aluminium bars of Bui et al. (2008) and run-outs of round
 //! columns, tables of `reference-data/column-planar` and `column-round`.
 
-use crate::evidence::{MeasuredData, ReferenceError};
+use crate::evidence::MeasuredData;
 use crate::evidence::{read_shipped, shipped_table};
+use crate::input::FieldError;
 use crate::metric::Confidence;
 use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};
 use std::sync::LazyLock;
@@ -55,7 +56,7 @@ pub static ROUND_COLUMN_RUN_OUTS: LazyLock<MeasuredRunOuts> =
     LazyLock::new(|| read_shipped("column-round/measured-run-out.csv", MeasuredRunOuts::read));
 
 impl MeasuredPile {
-    fn read(lines: &MeasuredData, pile: &MeasuredData) -> Result<Self, ReferenceError> {
+    fn read(lines: &MeasuredData, pile: &MeasuredData) -> Result<Self, FieldError> {
         let (names, x, height) = (lines.labels("line")?, lines.numbers("x")?, lines.numbers("height")?);
         let of = |line: &str| -> Vec<(f64, f64)> {
             (0..names.len()).filter(|&row| names[row] == line).map(|row| (x[row], height[row])).collect()
@@ -102,7 +103,7 @@ impl MeasuredPile {
 }
 
 impl MeasuredRunOuts {
-    fn read(table: &MeasuredData) -> Result<Self, ReferenceError> {
+    fn read(table: &MeasuredData) -> Result<Self, FieldError> {
         let (ratios, run_outs) = (table.numbers("aspect ratio")?, table.numbers("run-out")?);
         let confidences = table.confidences()?;
         let of = |doubtful: bool| -> Vec<(f64, f64)> {

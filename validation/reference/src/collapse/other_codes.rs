@@ -1,7 +1,8 @@
 //! Collapses under μ(I) as other codes compute them, over time: tables `other-codes.csv` of `reference-data/column-planar`, `column-round` and
 //! `incline-collapse`.
 
-use crate::evidence::{MeasuredData, ReferenceError, read_shipped};
+use crate::evidence::{MeasuredData, read_shipped};
+use crate::input::FieldError;
 use crate::metric::Confidence;
 use std::sync::LazyLock;
 
@@ -56,7 +57,7 @@ pub static SLOPE_CODES: LazyLock<OtherCodes> =
     LazyLock::new(|| read_shipped("incline-collapse/other-codes.csv", OtherCodes::read));
 
 impl OtherCodes {
-    fn read(table: &MeasuredData) -> Result<Self, ReferenceError> {
+    fn read(table: &MeasuredData) -> Result<Self, FieldError> {
         let (codes, quantities) = (table.labels("code")?, table.labels("quantity")?);
         let (flows, times) = (table.numbers("flow")?, table.numbers("time")?);
         let (values, uncertainties) = (table.numbers("value")?, table.numbers("uncertainty")?);

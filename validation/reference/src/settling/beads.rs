@@ -2,8 +2,9 @@
 //! falls and their deposit rises, tables `measured-….csv` of `reference-data/settling`.
 
 use super::grains::SettlingGrains;
-use crate::evidence::{MeasuredData, ReferenceError};
+use crate::evidence::MeasuredData;
 use crate::evidence::{read_shipped, shipped_table};
+use crate::input::FieldError;
 use crate::metric::Confidence;
 use crate::statistics::{FittedValue, common_slope};
 use std::sync::LazyLock;
@@ -74,8 +75,8 @@ fn between(heights: &[f64], values: &[f64], (from, to): (f64, f64)) -> FittedVal
 }
 
 impl SettlingBeads {
-    fn read(interfaces: &MeasuredData, fraction: &MeasuredData, beads: &MeasuredData) -> Result<Self, ReferenceError> {
-        let of = |name| -> Result<Vec<(f64, f64)>, ReferenceError> {
+    fn read(interfaces: &MeasuredData, fraction: &MeasuredData, beads: &MeasuredData) -> Result<Self, FieldError> {
+        let of = |name| -> Result<Vec<(f64, f64)>, FieldError> {
             let times = interfaces.numbers("time")?.iter().copied();
             Ok(times.zip(interfaces.numbers(name)?.iter().copied()).collect())
         };
@@ -105,7 +106,7 @@ impl SettlingBeads {
             };
             Ok((what, moved(-half), moved(half)))
         });
-        let ends = ends.collect::<Result<_, ReferenceError>>()?;
+        let ends = ends.collect::<Result<_, FieldError>>()?;
         Ok(Self {
             grains,
             ends,

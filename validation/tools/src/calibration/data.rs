@@ -3,7 +3,8 @@
 use super::error::CalibrationError;
 use super::target::{Datum, DatumUncertainty, ProfileLocation, Target, parted};
 use crate::evidence::{MeasuredData, ReferenceColumn};
-use crate::input::FieldError;
+use crate::input::{DOCUMENT, FieldError, read_text};
+use crate::output::FileError;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -217,7 +218,8 @@ impl DatumText {
     }
 
     fn of_file(&self, block: usize, path: &Path) -> Result<Vec<Datum>, CalibrationError> {
-        let data = MeasuredData::read(path)?;
+        let text = read_text(path, DOCUMENT).map_err(|error| FileError::unreadable(path, &error))?;
+        let data = MeasuredData::parse(path, &text)?;
         let source = data.metadata.source.clone();
         let (values, unit) = match &self.table {
             // a profile: the columns have the table's names
@@ -228,17 +230,12 @@ impl DatumText {
             }
             None => numbers(&data, path, "value", None)?,
         };
-        let (sigmas, _) = numbers(&data, path, "uncertainty", Some(&unit)).map_err(|error| match error {
-            CalibrationError::Reference(_) => FieldError::new(
-                "uncertainty",
-                "missing",
-                "a column of standard deviations",
-                &format!("add `uncertainty [{unit}]`; Bagnold does not invent one"),
-            )
-            .in_file(path)
-            .into(),
-            other => other,
-        })?;
+        if data.numbers("uncertainty").is_err() {
+            let remedy = format!("add `uncertainty [{unit}]`; Bagnold does not invent one");
+            let error = FieldError::new("uncertainty", "missing", "a column of standard deviations", &remedy);
+            return Err(error.in_file(path).into());
+        }
+        let (sigmas, _) = numbers(&data, path, "uncertainty", Some(&unit))?;
         if let Some(row) = sigmas.iter().position(|sigma| *sigma <= 0.0) {
             let field = format!("uncertainty, row {}", row + 1);
             return Err(FieldError::new(&field, sigmas[row], "positive", "give the standard deviation")

@@ -2,7 +2,6 @@
 
 use crate::case::ParameterError;
 use crate::evaluation::PlanError;
-use crate::evidence::ReferenceError;
 use crate::input::{FieldError, shown};
 use crate::output::{FileError, FolderError};
 use std::path::PathBuf;
@@ -19,9 +18,6 @@ pub enum CalibrationError {
     /// A case refuses what it asks for.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// A file of reference data cannot be used.
-    #[error("failed to {0}")]
-    Reference(#[from] ReferenceError),
     /// Its folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),

@@ -208,7 +208,7 @@ fn tables(folder: &Path) -> Result<Vec<Table>, FileError> {
 fn table(file: &Path) -> Result<Table, FileError> {
     let text = text(file)?;
     if let Some(fault) = text_fault(&text) {
-        return Err(damaged(file, format!("line {}: {}", fault.line, fault.in_words())));
+        return Err(damaged(file, fault.to_string()));
     }
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let wrong = |error: csv::Error| damaged(file, error.to_string());
