@@ -1,6 +1,7 @@
 //! Judgements of calibrations on data that were held out. `tests/snapshots/calibrations/NAME.json` holds those of the examples, so
 //! that a report shows them without a search.
 
+use super::shipped::carried;
 use serde::{Deserialize, Serialize};
 
 include!(concat!(env!("OUT_DIR"), "/held_out_judgements.rs"));
@@ -80,9 +81,7 @@ impl HeldOutJudgement {
     /// If one is malformed. No user can bring that about: they are part of the program, and a test reads each.
     #[must_use]
     pub fn shipped() -> Vec<(&'static str, Self)> {
-        let name = |path: &'static str| path.strip_suffix(".json");
-        let read = |text| serde_json::from_str(text).expect("the program carries judgements that it wrote");
-        FILES.iter().filter_map(|(path, text)| Some((name(path)?, read(text)))).collect()
+        carried(&FILES, ".json", serde_json::from_str).into_iter().collect()
     }
 }
 

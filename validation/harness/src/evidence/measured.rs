@@ -15,7 +15,7 @@
 //! All seven keys are required, each once. A column with a unit in brackets holds finite numbers; one without
 //! holds labels.
 
-use crate::input::{FieldError, TableRows, is_mark, plain_lines};
+use crate::input::{FieldError, TableRows, is_mark, name_and_unit, plain_lines};
 use crate::metric::{Confidence, MetricKind};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -134,7 +134,7 @@ impl MeasuredData {
         let mut columns: Vec<ReferenceColumn> = Vec::with_capacity(names.len());
         for (index, heading) in names.into_iter().enumerate() {
             let words = rows.iter().map(|(line, words)| (*line, words[index]));
-            let column = match heading.strip_suffix(']').and_then(|name| name.split_once('[')) {
+            let column = match name_and_unit(heading) {
                 None => {
                     let values = words.map(|(_, label)| label.to_owned()).collect();
                     ReferenceColumn::Labels { name: heading.to_owned(), values }
@@ -142,7 +142,7 @@ impl MeasuredData {
                 Some((name, unit)) => {
                     let values = words.map(|(line, word)| number(heading, line, word)).collect::<Result<_, _>>();
                     let values = values.map_err(|error| error.in_file(file))?;
-                    ReferenceColumn::Numbers { name: name.trim().to_owned(), unit: unit.trim().to_owned(), values }
+                    ReferenceColumn::Numbers { name: name.to_owned(), unit: unit.to_owned(), values }
                 }
             };
             if columns.iter().any(|other| other.name() == column.name()) {

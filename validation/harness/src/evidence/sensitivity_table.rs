@@ -1,6 +1,7 @@
 //! Results of a case at both ends of the ranges of its inputs, `validation/harness/sensitivities/CASE.csv`, which `bagnold-dev sensitivities CASE`
 //! computes.
 
+use super::shipped::carried;
 use crate::metric::Variant;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -42,16 +43,8 @@ pub struct SensitivityRow {
 }
 
 /// All tables by case.
-static TABLES: LazyLock<BTreeMap<&'static str, Vec<SensitivityRow>>> = LazyLock::new(|| {
-    let read = |(name, text): &(&'static str, &'static str)| {
-        let case = name.strip_suffix(".csv").unwrap_or(name);
-        match rows(text) {
-            Ok(rows) => (case, rows),
-            Err(error) => panic!("failed to read validation/harness/sensitivities/{name}: {error}"),
-        }
-    };
-    FILES.iter().map(read).collect()
-});
+static TABLES: LazyLock<BTreeMap<&'static str, Vec<SensitivityRow>>> =
+    LazyLock::new(|| carried(&FILES, ".csv", rows));
 
 fn rows(text: &str) -> Result<Vec<SensitivityRow>, csv::Error> {
     csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes()).deserialize().collect()

@@ -2,6 +2,8 @@
 
 use super::MeasuredData;
 use crate::input::FieldError;
+use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::path::Path;
 
 include!(concat!(env!("OUT_DIR"), "/reference_data.rs"));
@@ -19,6 +21,22 @@ pub fn shipped_table(name: &str) -> Result<MeasuredData, FieldError> {
     let found = FILES.iter().find(|(own, _)| *own == name);
     let (_, text) = found.ok_or_else(|| FieldError::finding(name, "no table of the program", "mend its name"))?;
     MeasuredData::parse(&Path::new("reference-data").join(name), text)
+}
+
+/// What texts that the program carries hold, by their names without an ending; other texts are left out.
+///
+/// # Panics
+/// If one is malformed. No user can bring that about: tests read every one of them.
+pub(super) fn carried<T, E: Display>(
+    texts: &[(&'static str, &'static str)],
+    ending: &str,
+    read: impl Fn(&'static str) -> Result<T, E>,
+) -> BTreeMap<&'static str, T> {
+    let texts = texts.iter().filter_map(|(name, text)| Some((name, name.strip_suffix(ending)?, text)));
+    let read = |(name, key, text): (&&str, _, &&'static str)| {
+        (key, read(text).unwrap_or_else(|error| panic!("failed to read {name}: {error}")))
+    };
+    texts.map(read).collect()
 }
 
 /// Value that `read` computes from a shipped table.

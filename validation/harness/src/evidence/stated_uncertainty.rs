@@ -6,6 +6,7 @@
 
 use super::input_range::{Basis, InputRange};
 use super::propagation::{by_input, by_spacing, rows_of};
+use super::shipped::carried;
 use super::sensitivity_table::{SensitivityRow, sensitivity_table};
 use crate::metric::{ComparisonPart, Metric, Origin, Variant};
 use serde::Deserialize;
@@ -13,9 +14,6 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 include!(concat!(env!("OUT_DIR"), "/stated_uncertainties.rs"));
-
-/// Name of the file in the folder of a case.
-const FILE: &str = "uncertainty.toml";
 
 /// Reason why a run that shows the effect of an input has no input uncertainty.
 const ALTERED: &str = "this run shows what an input does, and is no comparison of its own";
@@ -102,16 +100,8 @@ pub struct StatedUncertainty {
     pub unknown: Vec<UnknownPart>,
 }
 
-static STATED: LazyLock<BTreeMap<&'static str, StatedUncertainty>> = LazyLock::new(|| {
-    let of_file = |(name, text): &(&'static str, &'static str)| {
-        let case = name.strip_suffix(FILE)?.strip_suffix('/')?;
-        match toml::from_str(text) {
-            Ok(stated) => Some((case, stated)),
-            Err(error) => panic!("failed to read reference-data/{name}: {error}"),
-        }
-    };
-    FILES.iter().filter_map(of_file).collect()
-});
+static STATED: LazyLock<BTreeMap<&'static str, StatedUncertainty>> =
+    LazyLock::new(|| carried(&FILES, "/uncertainty.toml", toml::from_str));
 
 fn concerns(quantities: &[String], variant: &Variant, metric: &Metric) -> bool {
     let is_named = quantities.is_empty() || quantities.contains(&metric.name);

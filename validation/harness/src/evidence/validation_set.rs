@@ -155,30 +155,33 @@ impl ValidationSet {
         self.comparisons.iter().filter(|row| quantities.contains(&row.quantity.as_str()))
     }
 
+    /// Those that do not show the effect of an input.
+    fn own<'s>(&'s self, quantities: &'s [&str]) -> impl Iterator<Item = &'s ValidatedComparison> {
+        self.of(quantities).filter(|row| !row.is_altered())
+    }
+
     /// Number of comparisons of some quantities, without those that show the effect of an input.
     #[must_use]
     pub fn number(&self, quantities: &[&str]) -> usize {
-        self.of(quantities).filter(|row| !row.is_altered()).count()
+        self.own(quantities).count()
     }
 
     /// Prediction over reference of the comparisons that bias and scatter rest on.
     pub fn ratios<'s>(&'s self, quantities: &'s [&str]) -> impl Iterator<Item = (&'s ValidatedComparison, f64)> {
-        let own = self.of(quantities).filter(|row| !row.is_altered());
-        own.filter_map(|row| Some((row, row.comparison()?.predicted / row.reference)))
+        self.own(quantities).filter_map(|row| Some((row, row.comparison()?.predicted / row.reference)))
     }
 
     /// Bias and scatter of some quantities; none with fewer than three comparisons. What is there to show what an input does is no
     /// comparison of its own: it would count an experiment several times, and its inputs as the model's scatter.
     #[must_use]
     pub fn bias(&self, quantities: &[&str]) -> Option<ModelBias> {
-        let own = self.of(quantities).filter(|row| !row.is_altered());
-        model_bias(&own.filter_map(ValidatedComparison::comparison).collect::<Vec<_>>())
+        model_bias(&self.own(quantities).filter_map(ValidatedComparison::comparison).collect::<Vec<_>>())
     }
 
     /// Root mean square of the relative standard uncertainties by the inputs of these comparisons, where they are known `[-]`.
     #[must_use]
     pub fn input_uncertainty(&self, quantities: &[&str]) -> Option<f64> {
-        let own = self.of(quantities).filter(|row| !row.is_altered() && row.comparison().is_some());
+        let own = self.own(quantities).filter(|row| row.comparison().is_some());
         let squares: Vec<f64> = own.filter_map(|row| row.input_uncertainty).map(|own| own * own).collect();
         (!squares.is_empty()).then(|| (squares.iter().sum::<f64>() / squares.len() as f64).sqrt())
     }

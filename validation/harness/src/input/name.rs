@@ -36,6 +36,13 @@ pub fn check_text(field: &str, text: &str) -> Result<(), FieldError> {
     Ok(())
 }
 
+/// Name and unit of a heading or label such as `y [m]`; none without a unit.
+#[must_use]
+pub fn name_and_unit(text: &str) -> Option<(&str, &str)> {
+    let (name, unit) = text.trim().strip_suffix(']')?.rsplit_once('[')?;
+    Some((name.trim(), unit.trim()))
+}
+
 /// The name that is most like `name`, if any is like it at all or has it for one of its words.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {

@@ -21,13 +21,6 @@ const SYMBOLS: [(&str, f64, UnitExponents); 10] = [
 const PREFIXES: [(&str, f64); 8] =
     [("k", 1e3), ("M", 1e6), ("h", 1e2), ("d", 1e-1), ("c", 1e-2), ("m", 1e-3), ("u", 1e-6), ("µ", 1e-6)];
 
-/// A unit: its value in SI and its dimension.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Unit {
-    factor: f64,
-    dimension: UnitExponents,
-}
-
 /// The factor from one unit to another `[-]`; none where one is unknown or they measure different things.
 pub fn factor(from: &str, to: &str) -> Option<f64> {
     factor_with(from, to, &[])
@@ -36,7 +29,7 @@ pub fn factor(from: &str, to: &str) -> Option<f64> {
 /// The factor from one unit to another `[-]`, either of which may use further symbols, each with its value in SI and its dimension.
 pub fn factor_with(from: &str, to: &str, further: &[(&str, f64, UnitExponents)]) -> Option<f64> {
     let (from, to) = (parse(from, further)?, parse(to, further)?);
-    (from.dimension == to.dimension).then_some(from.factor / to.factor)
+    (from.1 == to.1).then_some(from.0 / to.0)
 }
 
 /// Whether a unit can be converted at all.
@@ -44,28 +37,30 @@ pub fn is_known(unit: &str) -> bool {
     parse(unit, &[]).is_some()
 }
 
-fn parse(text: &str, further: &[(&str, f64, UnitExponents)]) -> Option<Unit> {
+/// Value in SI and dimension of a unit.
+fn parse(text: &str, further: &[(&str, f64, UnitExponents)]) -> Option<(f64, UnitExponents)> {
     let text = text.trim();
     if text.is_empty() {
         return None;
     }
-    let mut unit = Unit { factor: 1.0, dimension: [0; 3] };
+    let (mut factor, mut dimension) = (1.0, [0; 3]);
     for (place, part) in text.split('/').enumerate() {
         let sign = if place == 0 { 1 } else { -1 };
         let part = if place > 0 { part.trim_start_matches('(').trim_end_matches(')') } else { part };
         for word in part.split(['·', '*', ' ']).filter(|word| !word.is_empty()) {
             let (symbol, power) = powered(word)?;
-            let is_further = |own: &&(&str, f64, UnitExponents)| own.0 == symbol;
-            let own = further.iter().find(is_further).map(|own| Unit { factor: own.1, dimension: own.2 });
-            let own = own.or_else(|| symbol_of(symbol))?;
-            let power = sign * power;
-            unit.factor *= own.factor.powi(power);
-            for (sum, own) in unit.dimension.iter_mut().zip(own.dimension) {
-                *sum += power * own;
+            let own = found(symbol, further).or_else(|| symbol_of(symbol))?;
+            factor *= own.0.powi(sign * power);
+            for (sum, own) in dimension.iter_mut().zip(own.1) {
+                *sum += sign * power * own;
             }
         }
     }
-    Some(unit)
+    Some((factor, dimension))
+}
+
+fn found(word: &str, symbols: &[(&str, f64, UnitExponents)]) -> Option<(f64, UnitExponents)> {
+    symbols.iter().find(|(symbol, ..)| *symbol == word).map(|(_, factor, dimension)| (*factor, *dimension))
 }
 
 /// A symbol and its power: `cm^3`, `cm³`, `m2`, `s^-1`.
@@ -82,21 +77,16 @@ fn powered(word: &str) -> Option<(&str, i32)> {
     Some((word, 1))
 }
 
-fn symbol_of(word: &str) -> Option<Unit> {
+fn symbol_of(word: &str) -> Option<(f64, UnitExponents)> {
     // `0.1 mm`: a unit of one's own, such as a hundredth of a layer of 10 mm
     if let Some(factor) = word.parse::<f64>().ok().filter(|factor| factor.is_finite() && *factor > 0.0) {
-        return Some(Unit { factor, dimension: [0; 3] });
+        return Some((factor, [0; 3]));
     }
-    let own = |word: &str| {
-        let found = SYMBOLS.iter().find(|(symbol, ..)| *symbol == word)?;
-        Some(Unit { factor: found.1, dimension: found.2 })
+    let prefixed = |(prefix, scale): &(&str, f64)| {
+        let base = word.strip_prefix(prefix).filter(|base| !["-", "%", "min", "h"].contains(base))?;
+        found(base, &SYMBOLS).map(|(factor, dimension)| (scale * factor, dimension))
     };
-    own(word).or_else(|| {
-        PREFIXES.iter().find_map(|(prefix, factor)| {
-            let base = word.strip_prefix(prefix).filter(|base| !["-", "%", "min", "h"].contains(base)).and_then(own)?;
-            Some(Unit { factor: factor * base.factor, ..base })
-        })
-    })
+    found(word, &SYMBOLS).or_else(|| PREFIXES.iter().find_map(prefixed))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Columns of an external file: the quantity and unit of each.
 
 use crate::case::{ExternalColumn, RunScales};
-use crate::input::{FieldError, number_in, unit};
+use crate::input::{FieldError, name_and_unit, number_in, unit};
 
 /// Source of the values of a quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,31 +24,23 @@ pub enum ColumnSource {
     },
 }
 
-/// Reads [`ColumnSource`]s.
-pub struct ColumnText;
-
-impl ColumnText {
+impl ColumnSource {
     /// `"x [cm]"` for a column, `{ value = 0.25, unit = "cm^2" }` for what is the same for all.
-    pub fn parse(value: &toml::Value, field: &str) -> Result<ColumnSource, FieldError> {
+    pub fn parse(value: &toml::Value, field: &str) -> Result<Self, FieldError> {
         const REMEDY: &str =
             "such as \"x [cm]\" for a column with its unit, or { value = 0.25, unit = \"cm^2\" } for all";
         let wrong = |text: String| FieldError::new(field, text, "a heading with its unit in brackets", REMEDY);
         match value {
             toml::Value::String(text) => {
-                let parted = text.trim().strip_suffix(']').and_then(|text| text.rsplit_once('['));
-                let (name, unit) = parted.ok_or_else(|| wrong(format!("\"{text}\"")))?;
-                Ok(ColumnSource::Heading {
-                    text: text.clone(),
-                    name: name.trim().to_owned(),
-                    unit: unit.trim().to_owned(),
-                })
+                let (name, unit) = name_and_unit(text).ok_or_else(|| wrong(format!("\"{text}\"")))?;
+                Ok(Self::Heading { text: text.clone(), name: name.to_owned(), unit: unit.to_owned() })
             }
             toml::Value::Table(table) => {
                 let number = table.get("value").and_then(number_in);
                 let unit = table.get("unit").and_then(toml::Value::as_str);
                 match (number, unit, table.len()) {
                     (Some(value), Some(unit), 2) if value.is_finite() => {
-                        Ok(ColumnSource::Constant { value, unit: unit.to_owned() })
+                        Ok(Self::Constant { value, unit: unit.to_owned() })
                     }
                     _ => Err(wrong(value.to_string())),
                 }
@@ -56,9 +48,7 @@ impl ColumnText {
             other => Err(wrong(other.to_string())),
         }
     }
-}
 
-impl ColumnSource {
     fn unit(&self) -> &str {
         match self {
             Self::Heading { unit, .. } | Self::Constant { unit, .. } => unit,
@@ -97,7 +87,7 @@ mod tests {
 
     fn parse(text: &str) -> Result<ColumnSource, FieldError> {
         let table: toml::Table = toml::from_str(&format!("x = {text}")).expect("TOML");
-        ColumnText::parse(&table["x"], "columns.x")
+        ColumnSource::parse(&table["x"], "columns.x")
     }
 
     #[test]

@@ -5,7 +5,7 @@ mod drawing;
 mod place;
 mod reading;
 
-pub use column::{ColumnSource, ColumnText};
+pub use column::ColumnSource;
 
 use crate::case::CaseResult;
 use crate::evaluation::PlanError;

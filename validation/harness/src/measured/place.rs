@@ -3,7 +3,7 @@
 use super::reading::same_kind;
 use super::{MeasuredColumn, Measurements};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::input::FieldError;
+use crate::input::{FieldError, name_and_unit};
 use crate::statistics::{Extrapolation, interpolated};
 use std::collections::BTreeSet;
 
@@ -134,9 +134,7 @@ fn is_ours(series: &Series) -> bool {
 
 /// Name and unit of a label.
 fn parted(label: &str) -> (&str, &str) {
-    let label = label.trim();
-    let parted = label.strip_suffix(']').and_then(|label| label.rsplit_once('['));
-    parted.map_or((label, "-"), |(name, unit)| (name.trim(), unit.trim()))
+    name_and_unit(label).unwrap_or((label.trim(), "-"))
 }
 
 /// Heading of a curve in the tables of results, where it is a column of a gauge: its legend with a unit, or of an only curve the axis.

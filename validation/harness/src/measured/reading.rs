@@ -1,9 +1,8 @@
 //! The file of measurements.
 
-use super::column::{ColumnSource, ColumnText};
 use super::{MeasuredColumn, Measurements, Said};
 use crate::evaluation::PlanError;
-use crate::input::{DOCUMENT, FieldError, TextTable, is_mark, plain_lines, read_text, unit};
+use crate::input::{DOCUMENT, FieldError, TextTable, is_mark, name_and_unit, plain_lines, read_text, unit};
 use crate::metric::Confidence;
 use crate::output::FileError;
 use std::path::Path;
@@ -66,10 +65,9 @@ fn parse(path: &Path, text: &str) -> Result<Measurements, FieldError> {
 }
 
 fn column(heading: &str, values: Vec<f64>) -> Result<MeasuredColumn, FieldError> {
-    let ColumnSource::Heading { name, unit, .. } =
-        ColumnText::parse(&toml::Value::String(heading.to_owned()), heading)?
-    else {
-        unreachable!("a text is a heading")
+    let Some((name, unit)) = name_and_unit(heading) else {
+        let rule = "a heading with its unit in brackets";
+        return Err(FieldError::new(heading, format!("\"{heading}\""), rule, "such as \"x [cm]\""));
     };
     if let Some(row) = values.iter().position(|value| is_mark(*value)) {
         let defect = format!("{} in row {}, a mark of a missing value", values[row], row + 1);
@@ -79,7 +77,7 @@ fn column(heading: &str, values: Vec<f64>) -> Result<MeasuredColumn, FieldError>
         let value = format!("{} in row {}", values[row], row + 1);
         return Err(FieldError::new(heading, value, "finite numbers up to 1e30", "leave the row out or mend it"));
     }
-    Ok(MeasuredColumn { name, unit, values })
+    Ok(MeasuredColumn { name: name.to_owned(), unit: unit.to_owned(), values })
 }
 
 /// The factor from one unit to another `[-]`; of the same text it is 1, also where the unit is unknown.

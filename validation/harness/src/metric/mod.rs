@@ -104,19 +104,12 @@ impl Limit {
     /// nothing: both say that something was not measured or not known.
     #[must_use]
     pub fn holds(self, value: f64) -> bool {
-        let bounds_are_finite = match self {
-            Self::AtMost(bound) | Self::AtLeast(bound) => bound.is_finite(),
-            Self::Within(lower, upper) => lower.is_finite() && upper.is_finite(),
+        let (lower, upper) = match self {
+            Self::AtMost(bound) => (f64::MIN, bound),
+            Self::AtLeast(bound) => (bound, f64::MAX),
+            Self::Within(lower, upper) => (lower, upper),
         };
-        value.is_finite() && bounds_are_finite && self.admits(value)
-    }
-
-    fn admits(self, value: f64) -> bool {
-        match self {
-            Self::AtMost(bound) => value <= bound,
-            Self::AtLeast(bound) => value >= bound,
-            Self::Within(lower, upper) => value >= lower && value <= upper,
-        }
+        lower.is_finite() && upper.is_finite() && (lower..=upper).contains(&value)
     }
 
     /// The rule, with its bounds as `digits` writes them: `≤ 0.7`, `0.5 … 2`.

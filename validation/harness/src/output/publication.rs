@@ -21,9 +21,6 @@ pub(super) const STAGING: &str = ".bagnold-output-staging";
 /// Contents that are committed, but not yet all in their place.
 pub(super) const COMMITTED: &str = ".bagnold-output-new";
 
-/// Folder of the committed contents to which old entries are moved, so that they leave in no time.
-const REPLACED: &str = ".bagnold-output-old";
-
 /// Entries that are read as a result.
 const RESULTS: [&str; 2] = ["index.html", "metrics.json"];
 
@@ -47,15 +44,12 @@ pub(super) fn finish(folder: &Path) -> io::Result<()> {
     let (old, new) = (read_marker(folder), read_marker(&committed));
     let all = old.union(&new).cloned().collect();
     write_marker(folder, &all)?;
-    let replaced = committed.join(REPLACED);
-    remove(&replaced)?;
-    std::fs::create_dir(&replaced)?;
     let is_result = |name: &&String| RESULTS.contains(&name.as_str());
     let (results, others): (Vec<&String>, Vec<&String>) = all.iter().partition(is_result);
     for name in results.iter().chain(&others) {
         // a new one that is not among the committed ones any more is in its place
         if !new.contains(*name) || committed.join(name).symlink_metadata().is_ok() {
-            shift(folder, &replaced, name)?;
+            remove(&folder.join(name))?;
         }
     }
     for name in others.iter().chain(&results) {

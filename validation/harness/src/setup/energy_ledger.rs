@@ -41,28 +41,34 @@ pub enum EnergyScale {
 }
 
 impl EnergyScale {
-    /// The energy of the scale, the limit of what may stay open of it `[%]`, and what it is called.
-    pub fn of(self, book: &EnergyBook) -> (f64, f64, &'static str) {
+    /// The energy of the scale, what it is called, and the limit of what may stay open of it `[%]` with its reason.
+    pub fn of(self, book: &EnergyBook) -> (f64, &'static str, (f64, &'static str)) {
         match self {
-            Self::Steady => (book.turnover(), OPEN_STEADY, WORK),
-            Self::Fall => (book.turnover(), OPEN_FALL, WORK),
-            Self::Work => (book.turnover(), OPEN, WORK),
+            Self::Steady => (book.turnover(), WORK, OPEN_STEADY),
+            Self::Fall => (book.turnover(), WORK, OPEN_FALL),
+            Self::Work => (book.turnover(), WORK, (OPEN, OPEN_REASON)),
             Self::WorkOver { fall_time, weight_by_height, time_step } => {
                 let work = book.turnover().max(LEAST_WORK * weight_by_height);
                 let falls = book.motion / (work * fall_time);
                 let open = STEPS * falls * time_step / fall_time + time_step / book.last.0;
-                (work, OPEN + 100.0 * open, WORK_OR_WEIGHT)
+                (work, WORK_OR_WEIGHT, (OPEN + 100.0 * open, OPEN_REASON_OVER_TIME))
             }
-            Self::AtRest(energy) => (energy, OPEN_AT_REST, "of ρ0 g H² times the layer's length"),
+            Self::AtRest(energy) => (energy, "of ρ0 g H² times the layer's length", (OPEN_AT_REST, OPEN_REASON)),
         }
     }
 }
 
-/// Largest unexplained share of the work, and of a layer's energy at rest `[%]`.
+/// Largest unexplained share of the work, and of a layer's energy at rest `[%]`; with reasons where they have their own.
 const OPEN: f64 = 0.5;
-const OPEN_FALL: f64 = 0.25;
-const OPEN_STEADY: f64 = 0.02;
 const OPEN_AT_REST: f64 = 1e-3;
+const OPEN_FALL: (f64, &str) = (
+    0.25,
+    "columns of up to three radii leave 0.04 to 0.21 per cent; what is left is the length of a step, within which forces change",
+);
+const OPEN_STEADY: (f64, &str) = (
+    0.02,
+    "an evenly sheared layer changes little within a step: ten rows leave 0.01 per cent, forty rows a hundredth of that",
+);
 
 const WORK: &str = "of the largest work done: by gravity, by walls, dissipated, or brought in by what moves";
 
@@ -78,8 +84,6 @@ const STEPS: f64 = 4.0;
 
 const OPEN_REASON: &str = "an error of one per cent in the term that does most cannot hide in half a per cent; what is left is the \
      length of a step, within which forces change";
-const FALL_REASON: &str = "columns of up to three radii leave 0.04 to 0.21 per cent; what is left is the length of a step, within which forces change";
-const STEADY_REASON: &str = "an evenly sheared layer changes little within a step: ten rows leave 0.01 per cent, forty rows a hundredth of that";
 
 /// Largest rise of the energy `[%]` with its reason: of an evenly sheared layer, and of all others.
 const RISE_STEADY: (f64, &str) =
@@ -96,13 +100,7 @@ const OPEN_REASON_OVER_TIME: &str = "half a per cent, in which an error of one p
 
 /// The residual over a scale.
 pub fn residual(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Metric {
-    let (energy, open, named) = scale.of(book);
-    let reason = match scale {
-        EnergyScale::WorkOver { .. } => OPEN_REASON_OVER_TIME,
-        EnergyScale::Steady => STEADY_REASON,
-        EnergyScale::Fall => FALL_REASON,
-        EnergyScale::Work | EnergyScale::AtRest(_) => OPEN_REASON,
-    };
+    let (energy, named, (open, reason)) = scale.of(book);
     ENERGY_RESIDUAL
         .of(variant, 100.0 * book.residual() / energy)
         .exactly(0.0, &format!("every term of the scheme books its work; in per cent {named}"))
@@ -115,7 +113,7 @@ pub fn metrics(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Vec<
     if book.total.is_empty() {
         return Vec::new();
     }
-    let (energy, _, named) = scale.of(book);
+    let (energy, named, _) = scale.of(book);
     let share = |value: f64| 100.0 * value / energy;
     let (rise, rise_reason) = if scale == EnergyScale::Steady { RISE_STEADY } else { RISE };
     vec![

@@ -17,19 +17,15 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Origin of the code of a case: the packages of this program or another crate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CodeOrigin(Home);
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Home {
-    Package,
-    Elsewhere,
+pub struct CodeOrigin {
+    is_elsewhere: bool,
 }
 
 impl CodeOrigin {
     /// In a crate that the hash of the sources knows nothing of.
-    pub const ELSEWHERE: Self = Self(Home::Elsewhere);
+    pub const ELSEWHERE: Self = Self { is_elsewhere: true };
     /// In the packages whose sources the program declares.
-    pub const PACKAGE: Self = Self(Home::Package);
+    pub const PACKAGE: Self = Self { is_elsewhere: false };
 
     /// That of several cases together: elsewhere, if any of them stands there.
     #[must_use]

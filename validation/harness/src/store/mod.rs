@@ -124,17 +124,17 @@ impl Store {
     pub fn ends(&self, key: &StoreKey) -> Checkpoints {
         let all = self.folder.join(ENDED);
         inventory::keep_newest(inventory::folders_in(&all).unwrap_or_default(), MOST_ENDED);
-        let ends = Checkpoints::at(&all.join(&key.0), &key.0, None);
-        if self.policy == StorePolicy::Refresh {
-            ends.discard();
-        }
-        ends
+        self.kept_in(&all.join(&key.0), key)
     }
 
     /// Checkpoints of an unfinished run; emptied if everything is to begin anew.
     #[must_use]
     pub fn checkpoints(&self, key: &StoreKey) -> Checkpoints {
-        let checkpoints = Checkpoints::at(&self.checkpoint_folder(key), &key.0, self.checkpoint_interval);
+        self.kept_in(&self.checkpoint_folder(key), key)
+    }
+
+    fn kept_in(&self, folder: &Path, key: &StoreKey) -> Checkpoints {
+        let checkpoints = Checkpoints::at(folder, &key.0, self.checkpoint_interval);
         if self.policy == StorePolicy::Refresh {
             checkpoints.discard();
         }

@@ -14,9 +14,6 @@ use std::path::Path;
 /// Name of the file in the folder of a store.
 const FILE: &str = "speeds.json";
 
-/// Runs of a case that are kept one by one; what is beyond goes into none.
-const MOST_RUNS: usize = 512;
-
 /// A time `[s]` of one core, expected and taken.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Taken {
@@ -46,13 +43,9 @@ pub struct Speeds {
 impl Speeds {
     /// A run took so many seconds of one core, and was expected to take `nominal`.
     pub fn learn(&mut self, case: &str, variant: &Variant, nominal: f64, taken: f64) {
-        if !(nominal > 0.0 && nominal.is_finite() && taken > 0.0 && taken.is_finite()) {
-            return;
-        }
-        let runs = &mut self.cases.entry(case.to_owned()).or_default().runs;
-        let name = variant.to_string();
-        if runs.len() < MOST_RUNS || runs.contains_key(&name) {
-            runs.insert(name, Taken { nominal, taken });
+        if nominal > 0.0 && nominal.is_finite() && taken > 0.0 && taken.is_finite() {
+            let runs = &mut self.cases.entry(case.to_owned()).or_default().runs;
+            runs.insert(variant.to_string(), Taken { nominal, taken });
         }
     }
 

@@ -3,7 +3,7 @@
 
 use super::file::{Distance, Reduction};
 use crate::case::CaseResult;
-use crate::input::{FieldError, nearest};
+use crate::input::{FieldError, name_and_unit, nearest};
 use crate::measured::Measurements;
 use crate::metric::{Metric, Variant};
 use crate::output::Table;
@@ -37,8 +37,7 @@ pub(super) struct RunCurve {
 
 /// The unit at the end of a heading; `-` where there is none.
 pub(super) fn unit_of(heading: &str) -> &str {
-    let parted = heading.trim().strip_suffix(']').and_then(|heading| heading.rsplit_once('['));
-    parted.map_or("-", |(_, unit)| unit.trim())
+    name_and_unit(heading).map_or("-", |(_, unit)| unit)
 }
 
 impl ColumnWindow {

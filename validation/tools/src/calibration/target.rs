@@ -1,7 +1,7 @@
 //! Quantity of a case's record with which a datum is compared, and the comparison.
 
 use crate::evaluation::EvaluationRecord;
-use crate::input::nearest;
+use crate::input::{name_and_unit, nearest};
 use crate::statistics::{Extrapolation, interpolated};
 use serde::{Deserialize, Serialize};
 
@@ -204,5 +204,5 @@ impl Datum {
 
 /// Name and unit of a column such as `u [m/s]`.
 pub(super) fn parted(column: &str) -> (&str, &str) {
-    column.split_once('[').map_or((column, "-"), |(name, rest)| (name.trim(), rest.trim_end_matches(']').trim()))
+    name_and_unit(column).unwrap_or((column, "-"))
 }

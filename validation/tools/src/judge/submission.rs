@@ -3,7 +3,7 @@
 use crate::case::{CaseFile, Tier};
 use crate::evaluation::{PlanError, read_plan};
 use crate::input::{FieldError, check_name};
-use crate::measured::{ColumnSource, ColumnText};
+use crate::measured::ColumnSource;
 use crate::metric::Variant;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -279,6 +279,6 @@ pub(super) fn sources(
 ) -> Result<BTreeMap<String, ColumnSource>, FieldError> {
     columns
         .iter()
-        .map(|(name, value)| Ok((name.clone(), ColumnText::parse(value, &format!("{field}.columns.{name}"))?)))
+        .map(|(name, value)| Ok((name.clone(), ColumnSource::parse(value, &format!("{field}.columns.{name}"))?)))
         .collect()
 }

@@ -2,7 +2,7 @@
 //! so that a run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use crate::input::{DOCUMENT, FieldError, TextTable, read_text, unit};
+use crate::input::{DOCUMENT, FieldError, TextTable, name_and_unit, read_text, unit};
 use std::path::Path;
 use toml::{Table, Value};
 
@@ -56,8 +56,7 @@ fn rows(text: &str, file: &Path, rate_unit: &str) -> Result<Vec<(f64, f64)>, Fie
                 "leave the row out or mend it",
             );
         }
-        let given =
-            heading.strip_suffix(']').and_then(|heading| heading.rsplit_once('[')).map_or(own, |(_, unit)| unit);
+        let given = name_and_unit(heading).map_or(own, |(_, unit)| unit);
         match if given == own { Some(1.0) } else { unit::factor(given, own) } {
             Some(factor) => Ok(values.iter().map(|value| value * factor).collect::<Vec<f64>>()),
             None => refused(format!("[{given}]"), &format!("a unit of the kind of [{own}]"), "mend the heading"),
