@@ -49,8 +49,7 @@ fn every_element_that_rests_on_tests_alone_names_an_error_that_one_of_them_notic
     for (name, row) in elements() {
         let rests_on_tests = row.not_covered.is_none() && row.metrics.is_empty() && row.runs.is_empty();
         let error = row.control.as_ref().and_then(|control| mutations.find(control));
-        let is_noticed =
-            error.is_some_and(|error| row.tests.iter().any(|test| error.tests.contains(test)));
+        let is_noticed = error.is_some_and(|error| row.tests.iter().any(|test| error.tests.contains(test)));
         if rests_on_tests && !is_noticed {
             wrong.push(format!("{name}: {:?} is no error that its tests notice", row.control));
         }

@@ -81,9 +81,8 @@ impl Checkpoints {
         let mut state = self.lock();
         let left = state.left.take().unwrap_or_else(|| self.whole());
         let refuse = |reason| format!("does not hold the state of this run ({reason})");
-        let mut decoded = |found: &CheckpointFile| {
-            decode(&found.contents).map_err(|reason| warn(&found.path, &refuse(reason))).ok()
-        };
+        let mut decoded =
+            |found: &CheckpointFile| decode(&found.contents).map_err(|reason| warn(&found.path, &refuse(reason))).ok();
         let seen = left.into_iter().find_map(|found| Some((decoded(&found)?, found)));
         let (decoded, found) = seen.unzip();
         state.left = Some(found.into_iter().collect());

@@ -109,8 +109,10 @@ pub struct MeasuredData {
     pub file: PathBuf,
     /// Header of the file.
     pub metadata: Metadata,
-    /// Columns in the order of the file, all of the same length.
+    /// Columns in the order of the file.
     pub columns: Vec<ReferenceColumn>,
+    /// Length of each.
+    rows: usize,
 }
 
 impl MeasuredData {
@@ -127,7 +129,11 @@ impl MeasuredData {
         let (line, names) = match (heading, rows.first()) {
             (Some((line, names)), Some((_, first))) if names.len() == first.len() => (line, names),
             (Some((line, _)), Some(_)) => {
-                return refuse(&format!("line {line}"), "a name for each column is missing", "separate columns by commas");
+                return refuse(
+                    &format!("line {line}"),
+                    "a name for each column is missing",
+                    "separate columns by commas",
+                );
             }
             _ => return refuse("table", "missing", "write the columns' names and at least one row below the header"),
         };
@@ -150,7 +156,7 @@ impl MeasuredData {
             }
             columns.push(column);
         }
-        Ok(Self { file: file.to_owned(), metadata, columns })
+        Ok(Self { file: file.to_owned(), metadata, columns, rows: rows.len() })
     }
 
     fn column(&self, name: &str) -> Option<&ReferenceColumn> {
@@ -190,13 +196,8 @@ impl MeasuredData {
 
     /// Confidence in each row: its word in a column `confidence`, or else the header's.
     pub fn confidences(&self) -> Result<Vec<Confidence>, FieldError> {
-        let rows = match self.columns.first() {
-            Some(ReferenceColumn::Numbers { values, .. }) => values.len(),
-            Some(ReferenceColumn::Labels { values, .. }) => values.len(),
-            None => 0,
-        };
         if self.column("confidence").is_none() {
-            return Ok(vec![self.metadata.confidence; rows]);
+            return Ok(vec![self.metadata.confidence; self.rows]);
         }
         self.labels("confidence")?
             .iter()
@@ -218,7 +219,8 @@ impl MeasuredData {
 
     /// Error of a label that is not among those allowed.
     pub fn bad_label(&self, column: &str, label: &str, allowed: &str) -> FieldError {
-        FieldError::new(column, format!("\"{label}\""), &format!("one of {allowed}"), "mend the row").in_file(&self.file)
+        FieldError::new(column, format!("\"{label}\""), &format!("one of {allowed}"), "mend the row")
+            .in_file(&self.file)
     }
 
     fn no_column(&self, kind: &str, name: &str) -> FieldError {

@@ -97,15 +97,13 @@ fn rows_are_found_by_their_labels_and_say_how_sure_they_are() {
     assert_eq!(data.number_of("law", "b", "c").expect("present"), 4.0);
     assert_eq!(data.confidences().expect("words"), [Confidence::High, Confidence::Low]);
     assert_eq!(data.upper_ends("to, or open").expect("ends"), [2.5, f64::INFINITY]);
-    assert_eq!(
-        data.row("law", "d").expect_err("absent").to_string(),
-        "data.csv: `law`: no row `d`; the rows are a, b"
-    );
+    assert_eq!(data.row("law", "d").expect_err("absent").to_string(), "data.csv: `law`: no row `d`; the rows are a, b");
     assert_eq!(
         data.upper_ends("law").expect_err("words").to_string(),
         "data.csv: `law` is \"a\", but must be one of finite numbers and `open`; mend the row"
     );
-    let bad = MeasuredData::parse(Path::new("data.csv"), &format!("{HEADER}law,confidence\na,sure\n")).expect("readable");
+    let bad =
+        MeasuredData::parse(Path::new("data.csv"), &format!("{HEADER}law,confidence\na,sure\n")).expect("readable");
     assert!(bad.confidences().expect_err("no word").to_string().contains("`confidence` is \"sure\""));
     let plain = MeasuredData::parse(Path::new("data.csv"), &format!("{HEADER}y [m]\n1\n2\n")).expect("readable");
     assert_eq!(plain.confidences().expect("the header's"), [Confidence::High; 2]);

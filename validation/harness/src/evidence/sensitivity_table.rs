@@ -43,8 +43,7 @@ pub struct SensitivityRow {
 }
 
 /// All tables by case.
-static TABLES: LazyLock<BTreeMap<&'static str, Vec<SensitivityRow>>> =
-    LazyLock::new(|| carried(&FILES, ".csv", rows));
+static TABLES: LazyLock<BTreeMap<&'static str, Vec<SensitivityRow>>> = LazyLock::new(|| carried(&FILES, ".csv", rows));
 
 fn rows(text: &str) -> Result<Vec<SensitivityRow>, csv::Error> {
     csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes()).deserialize().collect()

@@ -6,8 +6,8 @@
 
 use super::input_range::{Basis, InputRange};
 use super::propagation::{by_input, by_spacing, rows_of};
-use super::shipped::carried;
 use super::sensitivity_table::{SensitivityRow, sensitivity_table};
+use super::shipped::carried;
 use crate::metric::{ComparisonPart, Metric, Origin, Variant};
 use serde::Deserialize;
 use std::collections::BTreeMap;

@@ -6,14 +6,15 @@
 use super::mesh::{MOST_TRIANGLES, Triangle};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use std::borrow::Cow;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Triangles `[m]` with the text that says them, shared by all copies of the parameters.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(from = "String", into = "String")]
+#[schemars(with = "String", inline)]
 pub struct PackedTriangles {
     text: Arc<str>,
     triangles: Arc<[Triangle]>,
@@ -106,32 +107,17 @@ fn unpacked(text: &str) -> Option<Vec<Triangle>> {
     (of_triangles.len() <= MOST_TRIANGLES).then(|| of_triangles.iter().map(triangle).collect())?
 }
 
-impl Serialize for PackedTriangles {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(&self.text)
-    }
-}
-
-impl<'de> Deserialize<'de> for PackedTriangles {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
+impl From<String> for PackedTriangles {
+    fn from(text: String) -> Self {
         let triangles = unpacked(&text).unwrap_or_default();
         let (bounds, area) = (bounds_of(&triangles), triangles.iter().map(area_of).sum());
-        Ok(Self { text: text.into(), triangles: triangles.into(), bounds, area })
+        Self { text: text.into(), triangles: triangles.into(), bounds, area }
     }
 }
 
-impl JsonSchema for PackedTriangles {
-    fn schema_name() -> Cow<'static, str> {
-        String::schema_name()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        String::json_schema(generator)
-    }
-
-    fn inline_schema() -> bool {
-        true
+impl From<PackedTriangles> for String {
+    fn from(packed: PackedTriangles) -> Self {
+        packed.text.as_ref().to_owned()
     }
 }
 

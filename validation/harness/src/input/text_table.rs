@@ -32,12 +32,8 @@ impl TextTable {
         let Some((_, first)) = rows.first() else {
             return Err(wrong(1, "without numbers", "the first of a table", "give a file with columns of numbers"));
         };
-        let is_name = |word: &&str| word.starts_with(|first: char| first.is_alphabetic() || "[(".contains(first));
-        if let Some((line, _)) = &heading
-            && first.iter().all(|word| is_name(word) && word.parse::<f64>().is_err())
-        {
-            let remedy = "put # before text above the table, and units into its heading";
-            return Err(wrong(*line, "text above another line of text", "the heading", remedy));
+        if let Some(fault) = heading.as_ref().and_then(|(line, _)| text_above(*line, first)) {
+            return Err(fault.in_file(file));
         }
         let headings = heading.map_or(comment, |(_, words)| words);
         let headings: Vec<String> = if headings.len() == first.len() {
@@ -106,7 +102,8 @@ impl<'t> TableRows<'t> {
             let mut words = words(line, separator);
             let is_first = table.heading.is_none() && table.rows.is_empty();
             // blanks also part the words of a heading
-            let known = table.heading.as_ref().filter(|_| separator.is_some()).map(|(_, words)| (words.len(), "heading has"));
+            let known =
+                table.heading.as_ref().filter(|_| separator.is_some()).map(|(_, words)| (words.len(), "heading has"));
             let known = known.or_else(|| table.rows.first().map(|(_, words)| (words.len(), "lines before have")));
             // separators behind the last column, as spreadsheets write them
             let least = known.map_or(0, |(columns, _)| columns);
@@ -118,6 +115,10 @@ impl<'t> TableRows<'t> {
                 continue;
             }
             if let Some((columns, whose)) = known.filter(|(columns, _)| *columns != words.len()) {
+                let above = table.heading.as_ref().filter(|_| table.rows.is_empty());
+                if let Some(fault) = above.and_then(|(line, _)| text_above(*line, &words)) {
+                    return Err(fault.in_file(file));
+                }
                 let defect = format!("{} columns, and the {whose} {columns}", words.len());
                 let remedy = row_remedy(line, words.len(), columns);
                 return Err(FieldError::finding(&format!("line {number}"), defect, remedy).in_file(file));
@@ -126,6 +127,15 @@ impl<'t> TableRows<'t> {
         }
         Ok(table)
     }
+}
+
+/// Fault of a heading above a row that is another one.
+fn text_above(line: usize, row: &[&str]) -> Option<FieldError> {
+    let is_name = |word: &&str| word.starts_with(|first: char| first.is_alphabetic() || "[(".contains(first));
+    let is_heading = row.iter().all(|word| is_name(word) && word.parse::<f64>().is_err());
+    let remedy = "put # before text above the table, and units into its heading";
+    let field = format!("line {line}");
+    is_heading.then(|| FieldError::new(&field, "text above another line of text", "the heading", remedy))
 }
 
 /// Whether a line holds nothing, or nothing but separators.

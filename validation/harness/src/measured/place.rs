@@ -100,7 +100,8 @@ impl MatchingPanel {
         if curves.is_empty() {
             let (name, figure) = (&measurements.abscissa.name, &figures[self.figure].name);
             let values = measurements.abscissa.values.iter().map(|value| value * self.factors.0);
-            let rule = format!("where a curve of {figure} has a value; {}", reach(self, &series));
+            let points = series.iter().flat_map(|series| &series.points).map(|point| self.turned(*point).0);
+            let rule = format!("where a curve of {figure} has a value; they reach over {}", range(points));
             let error = FieldError::new(name, range(values), &rule, "check the unit and the origin of the abscissa");
             return Err(error.in_file(&measurements.path));
         }
@@ -199,12 +200,6 @@ fn too_many(measurements: &Measurements, figures: &[Figure], several: &[Matching
     let rule = format!("the axes of a single panel, but these have them: {}", names.join("; "));
     let remedy = "write `# figure: NAME`, and `# panel: TITLE` where that does not suffice, above the table";
     FieldError::new("columns", axes(measurements), &rule, remedy).in_file(&measurements.path)
-}
-
-/// Range over which curves have values, in words.
-fn reach(place: &MatchingPanel, series: &[&Series]) -> String {
-    let points = series.iter().flat_map(|series| &series.points).map(|point| place.turned(*point).0);
-    format!("they reach over {}", range(points))
 }
 
 fn range(values: impl Iterator<Item = f64>) -> String {

@@ -182,7 +182,7 @@ fn invalid_measurements_are_refused() {
         ),
         (
             "t,front [m],uncertainty [m]\n1,1,1\n",
-            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; such as \"x [cm]\" for a column with its unit, or { value = 0.25, unit = \"cm^2\" } for all",
+            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; such as \"x [cm]\"",
         ),
         (
             "t [s],front [m],uncertainty [s]\n1,1,1\n",
