@@ -1,7 +1,6 @@
 //! Grains that papers tabulate, as `reference-data` lists them.
 
-use crate::evidence::MeasuredData;
-use crate::evidence::{read_shipped, shipped_table};
+use crate::evidence::{MeasuredData, read_shipped, shipped_table};
 use crate::input::FieldError;
 use crate::metric::Confidence;
 use bagnold_solver::material::rheology::MuI;

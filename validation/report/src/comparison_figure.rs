@@ -85,8 +85,7 @@ fn names(own: &[Comparison<'_>]) -> Vec<String> {
     };
     let name = |compared: &Comparison<'_>| {
         let parts = compared.metric.variant.parts().filter(|(key, _)| !is_common(compared, key));
-        let parts: Vec<String> =
-            parts.map(|(key, value)| format!("{} {}", key.replace('_', " "), value.text())).collect();
+        let parts: Vec<String> = parts.map(|(key, value)| key.replace('_', " ") + " " + value.text()).collect();
         format!("{} {}", compared.case, parts.join(", ")).trim_end().to_owned()
     };
     own.iter().map(name).collect()

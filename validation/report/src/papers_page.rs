@@ -171,11 +171,10 @@ pub(super) fn json(tier: Tier, accounts: &[PaperSummary<'_>]) -> String {
                 .into_iter()
                 .map(|status| (status.word().to_owned(), account.count(status).into()))
                 .collect();
-            let elements: Vec<Value> = account
-                .elements
-                .iter()
-                .map(|fate| json!({ "id": fate.element.id, "status": fate.status.word(), "reason": reason(fate) }))
-                .collect();
+            let row = |fate: &ElementOutcome<'_>| {
+                json!({ "id": fate.element.id, "status": fate.status.word(), "reason": reason(fate) })
+            };
+            let elements: Vec<Value> = account.elements.iter().map(row).collect();
             json!({ "paper": account.paper.name, "counts": counts, "elements": elements })
         })
         .collect();

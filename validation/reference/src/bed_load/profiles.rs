@@ -1,8 +1,7 @@
 //! Bed load over the height as others have found it: a grain simulation (Maurin et al.) and a measured sheet flow
 //! (Revil-Baudard et al. 2015), tables of `reference-data/bed-load`.
 
-use crate::evidence::MeasuredData;
-use crate::evidence::read_shipped;
+use crate::evidence::{MeasuredData, read_shipped};
 use crate::input::FieldError;
 use crate::one_dimension::bed_load::Stream;
 use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};

@@ -1,8 +1,7 @@
 //! Published formulas of bed-load transport, which `reference-data/bed-load/formulas.csv` lists: fits to experiments,
 //! q* = c (τ* − τ*_c)^n with q* = q_s/√((s − 1) g d³), 0 below the critical Shields number τ*_c.
 
-use crate::evidence::read_shipped;
-use crate::evidence::{MeasuredData, ReferenceKind};
+use crate::evidence::{MeasuredData, ReferenceKind, read_shipped};
 use crate::input::FieldError;
 use crate::metric::Confidence;
 use std::sync::LazyLock;

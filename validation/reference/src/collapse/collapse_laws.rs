@@ -1,8 +1,7 @@
 //! Published laws of run-out and final height of granular columns, which `laws.csv` of `reference-data/column-planar` and
 //! `column-round` list. Lengths over the initial half width r_0, a = h_0/r_0.
 
-use crate::evidence::MeasuredData;
-use crate::evidence::read_shipped;
+use crate::evidence::{MeasuredData, read_shipped};
 use crate::input::FieldError;
 use crate::metric::Confidence;
 use std::sync::LazyLock;

@@ -1,8 +1,7 @@
 //! Columns that experimenters let collapse, as points: the planar pile of aluminium bars of Bui et al. (2008) and run-outs of round
 //! columns, tables of `reference-data/column-planar` and `column-round`.
 
-use crate::evidence::MeasuredData;
-use crate::evidence::{read_shipped, shipped_table};
+use crate::evidence::{MeasuredData, read_shipped, shipped_table};
 use crate::input::FieldError;
 use crate::metric::Confidence;
 use crate::statistics::{Extrapolation, interpolated, neighbour_scatter};

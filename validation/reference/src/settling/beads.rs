@@ -2,8 +2,7 @@
 //! falls and their deposit rises, tables `measured-….csv` of `reference-data/settling`.
 
 use super::grains::SettlingGrains;
-use crate::evidence::MeasuredData;
-use crate::evidence::{read_shipped, shipped_table};
+use crate::evidence::{MeasuredData, read_shipped, shipped_table};
 use crate::input::FieldError;
 use crate::metric::Confidence;
 use crate::statistics::{FittedValue, common_slope};
@@ -88,7 +87,6 @@ impl SettlingBeads {
             common_slope(&[points]).map_or(none, |fit| FittedValue { value: fit.value.abs(), ..fit })
         };
         let value = |what| beads.number_of("what", what, "value");
-        let half_width = |what| beads.number_of("what", what, "half width");
         let heights = fraction.numbers("height")?;
         let grains = SettlingGrains {
             grain_diameter: value("bead diameter")?,
@@ -98,7 +96,7 @@ impl SettlingBeads {
             gravity: GRAVITY,
         };
         let ends = NUMBERS.iter().map(|&(what, number)| {
-            let half = half_width(what)?;
+            let half = beads.number_of("what", what, "half width")?;
             let moved = |by: f64| {
                 let mut moved = grains;
                 *number(&mut moved) += by;
