@@ -267,7 +267,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
             "`at_most`: invalid type: string \"2\", expected a number, without quotes",
         ),
         ("base = \"flume.toml\"", "", "`case` is missing"),
-        ("base = \"flume.toml\"", "case = \"scen\"", "unknown case `scen`; did you mean `scene`?"),
+        ("base = \"flume.toml\"", "case = \"scen\"", "`scen`: unknown case; did you mean `scene`?"),
         ("base = \"flume.toml\"", "base = \"no.toml\"", "no.toml: cannot be read"),
         ("reason = \"the flume is that long\"", "", "`checks[0].reason` is missing"),
         ("within = [0.0, 1.0]", "within = [1.0, 0.0]", "`checks[0].within` is 1 … 0"),

@@ -129,13 +129,13 @@ fn wrong_plans_are_refused_by_name() {
         "error: plan.toml: `vary[0].lower` is 2, but must be below `upper`, which is 1; exchange the two bounds"
     );
     let case = refusal(&PLAN.replace("case = \"film\"", "case = \"flim\""), &[]);
-    assert_eq!(case, "error: plan.toml: unknown case `flim`; did you mean `film`? `bagnold list` prints all cases");
+    assert_eq!(case, "error: plan.toml: `flim`: unknown case; did you mean `film`? `bagnold list` prints all cases");
     let syntax = refusal(&PLAN.replace("[[vary]]", "[[parameter]]"), &[]);
-    assert!(syntax.starts_with("error: plan.toml: line 8, column 3: unknown field `parameter`"), "{syntax}");
+    assert!(syntax.starts_with("error: plan.toml: `line 8, column 3`: unknown field `parameter`"), "{syntax}");
     let design = refusal(&PLAN.replace("design = \"grid\"", "design = \"sobol\""), &[]);
     assert_eq!(
         design,
-        "error: plan.toml: line 2, column 10: expected design = \"grid\", or a table [design.latin_hypercube] or \
+        "error: plan.toml: `line 2, column 10`: expected design = \"grid\", or a table [design.latin_hypercube] or \
          [design.sobol] with `points` and `seed`; `bagnold sweep --help` shows a plan"
     );
 }

@@ -58,7 +58,7 @@ fn prepared(input: &Input) -> Result<Box<dyn PreparedCase>, String> {
 /// Whether a message names a field that the input sets, or one that holds it or lies within; of a field that the input makes
 /// necessary it says that it is missing.
 fn names_a_field(message: &str, input: &Input) -> bool {
-    if message.contains("` is missing; ") {
+    if message.contains("`: missing; ") {
         return true;
     }
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();

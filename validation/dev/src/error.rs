@@ -1,7 +1,6 @@
 //! Errors that end the program with exit code 2.
 
 use crate::case::ParameterError;
-use crate::evaluation::PlanError;
 use crate::mutation::CopyError;
 use crate::output::{FileError, FolderError};
 
@@ -10,9 +9,6 @@ use crate::output::{FileError, FolderError};
 pub(crate) enum DevError {
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// The list of mutations is refused.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
     #[error(transparent)]
     Folder(#[from] FolderError),
     #[error(transparent)]

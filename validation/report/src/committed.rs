@@ -4,8 +4,8 @@
 use super::baseline::{Baseline, MetricKey};
 use super::error::BaselineError;
 use super::expected_failures::{ExpectedFailure, ExpectedFailures};
+use crate::case::ParameterError;
 use crate::case::Tier;
-use crate::evaluation::PlanError;
 use crate::input::{FieldError, shown};
 use crate::store::provenance::workspace;
 use std::path::{Path, PathBuf};
@@ -51,7 +51,7 @@ impl CommittedValues {
     ///
     /// # Errors
     /// The first file that belongs to none of these studies.
-    pub fn refuse_orphans(&self, studies: &[&str]) -> Result<(), PlanError> {
+    pub fn refuse_orphans(&self, studies: &[&str]) -> Result<(), ParameterError> {
         for tier in TIERS {
             for entry in std::fs::read_dir(self.folder().join(tier.name())).into_iter().flatten().flatten() {
                 let file = entry.path();

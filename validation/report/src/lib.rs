@@ -62,7 +62,7 @@ pub use summary::{of_case, of_metrics};
 
 use bagnold_figure as figure;
 use bagnold_harness::{
-    case, control, evaluation, evidence, input, measured, metric, observation, output, page as pages, result, store,
+    case, control, evidence, input, measured, metric, observation, output, page as pages, result, store,
 };
 use bagnold_inference::statistics;
 use bagnold_number as number;

@@ -3,7 +3,6 @@
 use crate::calibration::CalibrationError;
 use crate::case::ParameterError;
 use crate::compare::CompareError;
-use crate::evaluation::PlanError;
 use crate::judge::JudgeError;
 use crate::output::{FileError, FolderError, reason};
 use crate::report::{ProcessError, ReportError};
@@ -15,9 +14,6 @@ pub enum ProgramError {
     /// A case does not take its parameters, or its threads cannot be started.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// A study is refused.
-    #[error(transparent)]
-    Study(#[from] PlanError),
     /// A folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),

@@ -7,9 +7,7 @@ use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
 use super::simulation::{announce, introduce, reject_fast, simulate_showing};
-use crate::case::{
-    Changes, OutputPlan, ParameterError, Registry, Request, Requested, SettingError, Tier, settings_to_vary,
-};
+use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, Tier, settings_to_vary};
 use crate::checkpoint::{Checkpoints, StoredState};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
@@ -74,7 +72,7 @@ pub(super) fn run(
     };
     let Requested { prepared, tier, overlay, output: wanted, changed, has_own_parameters } =
         request.prepare(registry).map_err(|error| match (error, &command.from) {
-            (ParameterError::Setting(SettingError::Path { path, .. }), Some(file)) if path == "from" => {
+            (error, Some(file)) if error.field_path() == Some("from") => {
                 let rule = "left out for this case: only scenes start from a state";
                 ParameterError::field("--from", file.display(), rule, "change the parameters of the case instead")
             }

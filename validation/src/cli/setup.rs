@@ -29,8 +29,7 @@ pub(super) fn schema(show: &SchemaArguments, session: &mut Session<'_>) -> Resul
         (Err(_), "sweep") => crate::sweep::schema().clone(),
         (Err(unknown), name) => {
             let kind = nearest(name, ["study", "calibration", "sweep"]);
-            let meant = |kind| ParameterError::UnknownCase { file: None, name: name.to_owned(), nearest: Some(kind) };
-            return Err(kind.map_or(unknown, meant).into());
+            return Err(if kind.is_some() { ParameterError::unknown_case(name, &kind) } else { unknown }.into());
         }
     };
     print(session.output, &format!("{schema:#}\n"));

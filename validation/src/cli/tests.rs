@@ -120,12 +120,12 @@ fn bad_parameters_are_refused_before_anything_is_written() {
     assert_eq!(
         refused("case = \"pendulum\"\nslope_angel = 9", &[mine]),
         format!(
-            "{path}: unknown field `slope_angel`; did you mean `slope_angle`? `bagnold show pendulum` prints all fields"
+            "{path}: `slope_angel`: unknown field; did you mean `slope_angle`? `bagnold show pendulum` prints all fields"
         )
     );
     assert_eq!(
         refused("case = \"pendulm\"", &[mine]),
-        format!("{path}: unknown case `pendulm`; did you mean `pendulum`? `bagnold list` prints all cases")
+        format!("{path}: `pendulm`: unknown case; did you mean `pendulum`? `bagnold list` prints all cases")
     );
     // The file is not to blame for what --set gives.
     assert_eq!(
@@ -138,7 +138,7 @@ fn bad_parameters_are_refused_before_anything_is_written() {
     );
     assert_eq!(
         refused(SHOWN, &["pendlum"]),
-        "unknown case `pendlum`; did you mean `pendulum`? `bagnold list` prints all cases"
+        "`pendlum`: unknown case; did you mean `pendulum`? `bagnold list` prints all cases"
     );
     assert_eq!(
         refused(SHOWN, &["no-such.toml"]),
@@ -166,5 +166,5 @@ fn a_report_holds_every_case_and_keeps_what_is_not_its_own() {
     assert!(out.join("cases/pendulum/metrics.json").is_file());
     assert!(out.join("README.md").is_file());
     let unknown = bagnold(&[&arguments[..], &["--cases", "pendulum,film"]].concat()).0.expect_err("refused");
-    assert_eq!(unknown, "unknown case `film`; `bagnold list` prints all cases");
+    assert_eq!(unknown, "`film`: unknown case; `bagnold list` prints all cases");
 }

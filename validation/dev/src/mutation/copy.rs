@@ -1,7 +1,7 @@
 //! A copy of the program that holds all mutations, of which one is chosen as it starts.
 
 use super::record::{FILE, Mutations};
-use crate::evaluation::PlanError;
+use crate::case::ParameterError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::FileError;
 use serde_json::Value;
@@ -69,7 +69,7 @@ const NO_LINTS: &str = "#![allow(warnings, arithmetic_overflow, unconditional_pa
 pub enum CopyError {
     /// The records, or a text that the sources do not have once.
     #[error(transparent)]
-    Record(#[from] PlanError),
+    Record(#[from] ParameterError),
     /// A file of the copy.
     #[error(transparent)]
     File(#[from] FileError),
@@ -293,7 +293,7 @@ fn changed_sources(workspace: &Path, mutations: &Mutations) -> Result<BTreeMap<P
             let (text, choices) = sources.get_mut(&path).expect("it was just read");
             let refused = |value: String, rule: &str, remedy: &str| {
                 let error = FieldError::new(&format!("mutation \"{}\"", mutation.name), value, rule, remedy);
-                CopyError::from(PlanError::from(error.in_file(&workspace.join(FILE))))
+                CopyError::from(ParameterError::from(error.in_file(&workspace.join(FILE))))
             };
             let needle = place.needle();
             let found: Vec<usize> = text.match_indices(&needle).map(|(start, _)| start).collect();

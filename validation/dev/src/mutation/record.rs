@@ -1,7 +1,8 @@
 //! The mutations, as a file beside the sources holds them.
 
 use super::Scope;
-use crate::evaluation::{PlanError, read_plan};
+use crate::case::ParameterError;
+use crate::evaluation::read_plan;
 use crate::input::FieldError;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -76,7 +77,7 @@ impl Mutations {
     ///
     /// # Errors
     /// A file that cannot be read or typed, or two of the same name.
-    pub fn read(workspace: &Path) -> Result<Self, PlanError> {
+    pub fn read(workspace: &Path) -> Result<Self, ParameterError> {
         let file = workspace.join(FILE);
         let all: Self = read_plan(&file, "bagnold-dev mutate")?;
         let mut names = BTreeSet::new();

@@ -15,7 +15,7 @@ pub use flow::{Flow, RunList};
 pub use flow::{cost, list};
 pub use given::changes::Changes;
 pub use given::changes::{table_of_settings, twice_given};
-pub use given::error::{ParameterError, SettingError};
+pub use given::error::ParameterError;
 pub use given::file::CaseFile;
 pub use given::output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
 pub use outcome::conditions::{Condition, Conditions};

@@ -3,13 +3,13 @@
 //! An evaluation is a file, written whole or not at all, and known by its [`key`]: what the program computes with, the
 //! case, its tier, all its parameters and the runs that are meant. Whoever finds the file need not simulate.
 
-mod error;
 mod paths;
+mod plan;
 mod record;
 mod sensitivity;
 
-pub use error::{PlanError, parse_plan, read_plan};
 pub use paths::Paths;
+pub use plan::{parse_plan, read_plan};
 pub use record::{EvaluationRecord, MetricValue};
 pub use sensitivity::SensitivityPlan;
 

@@ -4,7 +4,7 @@
 //! characters that change the direction of writing would show a name other than the one that is there.
 
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Whether a terminal obeys a character instead of showing it: control characters, marks and overrides of the direction of
 /// writing, separators of lines and paragraphs.
@@ -46,11 +46,6 @@ fn escaped_where(text: &str, is_escaped: impl Fn(char) -> bool) -> Cow<'_, str> 
         }
     }
     Cow::Owned(shown)
-}
-
-/// The file before a message, or nothing.
-pub(crate) fn origin(file: &Option<PathBuf>) -> String {
-    file.as_ref().map_or_else(String::new, |file| format!("{}: ", shown(file)))
 }
 
 #[cfg(test)]

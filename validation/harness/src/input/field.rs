@@ -1,17 +1,27 @@
 //! A field whose value breaks a rule: the error that most input is refused with.
 
-use super::escape::{escaped, origin};
+use super::escape::{escaped, shown};
+use super::place::position;
 use crate::sampling::BoundsError;
 use bagnold_solver::parameter::shortened;
 use std::path::{Path, PathBuf};
 
+/// Where a value is given.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Origin {
+    /// In a file.
+    File(PathBuf),
+    /// By a `--set path=value`.
+    Setting(String),
+}
+
 /// "`field` is `value`, but must be `rule`; `remedy`", or "`field`: `value`; `remedy`" where no rule has to be told.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{}`{field}`{}; {remedy}", origin(.file), defect(value, rule))]
+#[error("{}`{field}`{}; {remedy}", before(origin), defect(value, rule))]
 #[must_use]
 pub struct FieldError {
-    /// File it stands in, where known; whoever reads the file adds it.
-    pub file: Option<PathBuf>,
+    /// Where it is given, if that is known; whoever reads a file adds it.
+    pub origin: Option<Origin>,
     /// Dotted TOML path.
     pub field: String,
     /// The offending value as written.
@@ -27,7 +37,7 @@ impl FieldError {
     pub fn new(field: &str, value: impl std::fmt::Display, rule: &str, remedy: &str) -> Self {
         let value = value.to_string();
         let value = escaped(&if rule.is_empty() { value } else { shortened(value) }).into_owned();
-        Self { file: None, field: escaped(field).into_owned(), value, rule: rule.into(), remedy: remedy.into() }
+        Self { origin: None, field: escaped(field).into_owned(), value, rule: rule.into(), remedy: remedy.into() }
     }
 
     /// The error of a field whose defect needs no rule, such as an unclosed quote.
@@ -46,10 +56,31 @@ impl FieldError {
         self
     }
 
-    /// Says in which file the field stands, unless that is already known.
+    /// Says in which file the field stands, unless its origin is already known.
     pub fn in_file(mut self, path: &Path) -> Self {
-        self.file.get_or_insert_with(|| path.to_owned());
+        self.origin.get_or_insert_with(|| Origin::File(path.to_owned()));
         self
+    }
+
+    /// Says that a `--set` gives the field.
+    pub fn set_by(mut self, argument: String) -> Self {
+        self.origin = Some(Origin::Setting(shortened(argument)));
+        self
+    }
+
+    /// A text that is not TOML, or has other fields than its type; `message` and `remedy` are those of its reader.
+    pub fn of_toml(text: &str, error: &toml::de::Error, message: impl std::fmt::Display, remedy: &str) -> Self {
+        let (line, column) = position(text, error.span().map_or(0, |span| span.start));
+        Self::finding(&format!("line {line}, column {column}"), message, remedy)
+    }
+}
+
+/// The origin before a message.
+pub(crate) fn before(origin: &Option<Origin>) -> String {
+    match origin {
+        Some(Origin::File(path)) => format!("{}: ", shown(path)),
+        Some(Origin::Setting(argument)) => format!("`--set {}`: ", escaped(argument)),
+        None => String::new(),
     }
 }
 

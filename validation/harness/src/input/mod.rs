@@ -12,15 +12,14 @@ mod table;
 mod text_table;
 pub mod unit;
 
-pub(crate) use escape::origin;
 pub use escape::{escaped, escaped_lines, is_control, shown};
-pub use field::FieldError;
+pub(crate) use field::before;
+pub use field::{FieldError, Origin};
 pub(crate) use mesh::{MOST_TRIANGLES, Triangle, read_mesh};
 pub use name::{check_name, check_text, did_you_mean, name_and_unit, nearest};
 pub use number::number_in;
 pub use packed_triangles::PackedTriangles;
 pub(crate) use packed_triangles::packed;
-pub(crate) use place::position;
 pub use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, read_bytes, read_own, read_text};
 pub use table::{is_mark, plain_lines, text_fault};
 pub use text_table::{TableRows, TextTable};

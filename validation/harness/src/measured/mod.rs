@@ -8,7 +8,7 @@ mod reading;
 pub use column::ColumnSource;
 
 use crate::case::CaseResult;
-use crate::evaluation::PlanError;
+use crate::case::ParameterError;
 use crate::input::FieldError;
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant};
 use place::{CurveResidual, MatchingPanel};
@@ -63,7 +63,7 @@ struct Said {
 ///
 /// # Errors
 /// Two files of one name, and what [`Measurements::draw`] refuses.
-pub fn draw_measured(result: &mut CaseResult, measurements: &[Measurements]) -> Result<(), PlanError> {
+pub fn draw_measured(result: &mut CaseResult, measurements: &[Measurements]) -> Result<(), ParameterError> {
     for (number, own) in measurements.iter().enumerate() {
         if let Some(twin) = measurements[..number].iter().find(|twin| twin.kept() == own.kept()) {
             let rule = format!("of another name than {}", twin.path.display());
@@ -88,7 +88,7 @@ impl Measurements {
     /// # Errors
     /// A file that cannot be read or is no such table, numbers that are not finite, uncertainties that are not positive, comments
     /// that look like a key but are none.
-    pub fn read(path: &Path) -> Result<Self, PlanError> {
+    pub fn read(path: &Path) -> Result<Self, ParameterError> {
         reading::read(path)
     }
 
@@ -130,7 +130,7 @@ impl Measurements {
     ///
     /// # Errors
     /// Axes that no figure of the case has or more than one, a curve that is not there, measurements beside every curve.
-    pub fn draw(&self, result: &mut CaseResult) -> Result<(), PlanError> {
+    pub fn draw(&self, result: &mut CaseResult) -> Result<(), ParameterError> {
         let place = MatchingPanel::of(self, &result.figures)?;
         let curves = place.curves(self, &result.figures)?;
         drawing::draw(self, &place, &mut result.figures);

@@ -1,7 +1,7 @@
 //! The file of measurements.
 
 use super::{MeasuredColumn, Measurements, Said};
-use crate::evaluation::PlanError;
+use crate::case::ParameterError;
 use crate::input::{DOCUMENT, FieldError, TextTable, is_mark, name_and_unit, plain_lines, read_text, unit};
 use crate::metric::Confidence;
 use crate::output::FileError;
@@ -16,7 +16,7 @@ const OTHER_KEYS: [&str; 5] = ["quantity", "unit", "kind", "uncertainty", "licen
 /// No measurement is larger, in whatever unit; squares of such numbers are still finite.
 const LARGEST: f64 = 1e30;
 
-pub(super) fn read(path: &Path) -> Result<Measurements, PlanError> {
+pub(super) fn read(path: &Path) -> Result<Measurements, ParameterError> {
     let text = read_text(path, DOCUMENT).map_err(|error| FileError::unreadable(path, &error))?;
     Ok(parse(path, &text).map_err(|error| error.in_file(path))?)
 }

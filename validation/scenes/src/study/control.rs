@@ -1,9 +1,9 @@
 //! Controls of a study: changes of its parameters that its checks must reject.
 
 use super::Study;
+use crate::case::ParameterError;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier, twice_given};
 use crate::control::{Answer, Control, ControlKind};
-use crate::evaluation::PlanError;
 use crate::input::{FieldError, check_name, check_text};
 use crate::metric::{Limit, Metric, Variant};
 use schemars::JsonSchema;
@@ -83,7 +83,7 @@ impl Study {
         tier: Option<Tier>,
         settings: &[String],
         limits: Limits,
-    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
+    ) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
         let mut all = Vec::new();
         for (place, control) in self.controls().into_iter().enumerate() {
             let ControlKind::Input { set, .. } = control.kind else { continue };
@@ -103,10 +103,7 @@ impl Study {
             }
             // without the control's changes the same variants have been prepared
             let cases = self.prepare_variants(registry, tier, &[settings, &set[..]].concat(), limits);
-            all.extend(cases.map_err(|error| match error {
-                PlanError::Parameter(error) => PlanError::of(error, &self.file),
-                error => error,
-            })?);
+            all.extend(cases.map_err(|error| error.in_plan(&self.file))?);
         }
         Ok(all)
     }

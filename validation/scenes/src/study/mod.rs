@@ -41,7 +41,7 @@ pub use suite::{Suite, is_study};
 
 use crate::case::list::ListedChange;
 use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
-use crate::evaluation::{PlanError, parse_plan};
+use crate::evaluation::parse_plan;
 use crate::figure::Figure;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::measured::Measurements;
@@ -69,7 +69,7 @@ impl Study {
     ///
     /// # Errors
     /// A file that cannot be read or typed, or a field that breaks a rule.
-    pub fn read(file: &Path, registry: Registry) -> Result<Self, PlanError> {
+    pub fn read(file: &Path, registry: Registry) -> Result<Self, ParameterError> {
         let text = read_text(file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(file, &error))?;
         let study = Self::parse(file, &text)?;
         // a canonical study may be printed, changed and run from its file
@@ -82,7 +82,7 @@ impl Study {
     }
 
     /// The study of a file with this text, and of the files that it names.
-    fn parse(file: &Path, text: &str) -> Result<Self, PlanError> {
+    fn parse(file: &Path, text: &str) -> Result<Self, ParameterError> {
         let text: StudyText = parse_plan(file, text, "bagnold run")?;
         let in_file = |error: FieldError| error.in_file(file);
         text.check().map_err(in_file)?;
@@ -188,7 +188,7 @@ impl Study {
         tier: Option<Tier>,
         settings: &[String],
         limits: Limits,
-    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
+    ) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
         for setting in settings {
             self.refuse_varied(setting)?;
         }
@@ -204,7 +204,7 @@ impl Study {
         tier: Option<Tier>,
         settings: &[String],
         limits: Limits,
-    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
+    ) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
         let case = registry.find(&self.base.case).map_err(|error| error.in_file(&self.base.path))?;
         let base = self.of_tier(tier.unwrap_or(self.tier())).base;
         let prepare = |changed: &ListedChange, settings: &[String]| {
@@ -215,8 +215,8 @@ impl Study {
         };
         // what the file says is refused by its place there, what the command line says by its field
         let refused = |changed: &ListedChange, error: ParameterError| match prepare(changed, &[]) {
-            Ok(_) => PlanError::Parameter(error),
-            Err(error) => PlanError::of(error, &self.file),
+            Ok(_) => error,
+            Err(error) => error.in_plan(&self.file),
         };
         let of_variant = |changed| prepare(changed, settings).map_err(|error| refused(changed, error));
         self.changes.iter().map(of_variant).collect()
@@ -274,7 +274,7 @@ impl Study {
     ///
     /// # Errors
     /// A check that names a table, column, metric or variant that there is not.
-    pub fn judge(&self, mut results: Vec<CaseResult>) -> Result<CaseResult, PlanError> {
+    pub fn judge(&self, mut results: Vec<CaseResult>) -> Result<CaseResult, ParameterError> {
         let mut wrong = results.split_off(self.changes.len().min(results.len())).into_iter();
         let mut judged = self.judge_variants(results)?;
         let mut rejections = Vec::new();
@@ -288,7 +288,7 @@ impl Study {
         Ok(judged)
     }
 
-    fn judge_variants(&self, results: Vec<CaseResult>) -> Result<CaseResult, PlanError> {
+    fn judge_variants(&self, results: Vec<CaseResult>) -> Result<CaseResult, ParameterError> {
         let tier = results.first().map_or(Tier::Quick, |result| result.tier);
         let mut judged = self.without_runs(tier, &results);
         for (place, check) in self.checks.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! A folder of studies, simulated and judged together.
 
 use super::Study;
+use crate::case::ParameterError;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
-use crate::evaluation::PlanError;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, OutputFolder};
 use std::path::{Path, PathBuf};
@@ -37,8 +37,8 @@ impl Suite {
     /// # Errors
     /// A folder that cannot be read or holds no study, a TOML file that cannot be read, a study in a folder below, two of
     /// the same name.
-    pub fn read(folder: &Path, registry: Registry) -> Result<Self, PlanError> {
-        let unreadable = |error: &std::io::Error| PlanError::File(FileError::unreadable(folder, error));
+    pub fn read(folder: &Path, registry: Registry) -> Result<Self, ParameterError> {
+        let unreadable = |error: &std::io::Error| ParameterError::File(FileError::unreadable(folder, error));
         let mut files: Vec<PathBuf> = Vec::new();
         for path in entries(folder).map_err(|error| unreadable(&error))? {
             if path.is_dir() && !OutputFolder::is_one(&path) {
@@ -90,7 +90,7 @@ impl Suite {
         registry: Registry,
         tier: Option<Tier>,
         limits: Limits,
-    ) -> Result<Vec<Box<dyn PreparedCase>>, PlanError> {
+    ) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
         let mut all = Vec::new();
         for study in &self.studies {
             all.extend(study.prepare(registry, tier, &[], limits)?);
@@ -102,7 +102,7 @@ impl Suite {
     ///
     /// # Errors
     /// A check that names what there is not.
-    pub fn judge(&self, results: Vec<CaseResult>) -> Result<Vec<CaseResult>, PlanError> {
+    pub fn judge(&self, results: Vec<CaseResult>) -> Result<Vec<CaseResult>, ParameterError> {
         let mut results = results.into_iter();
         self.studies.iter().map(|study| study.judge(results.by_ref().take(study.case_count()).collect())).collect()
     }

@@ -8,8 +8,7 @@ use super::error::CalibrationError;
 use super::plan::{CalibrationPlan, DataBlock};
 use crate::case::ListOfRuns;
 use crate::case::list::ListedChange;
-use crate::evaluation::PlanError;
-use crate::input::{FieldError, nearest, number_in};
+use crate::input::{FieldError, did_you_mean, nearest, number_in};
 use toml::Value;
 
 /// The parameters of a block's case, all of them.
@@ -34,9 +33,9 @@ impl BlockParameters<'_> {
         let Some(values) = list.changes().into_iter().map(of_run).collect::<Option<Vec<Value>>>() else {
             let mut paths = Vec::new();
             collect(&self.parameters, "", &mut paths);
-            let guess = nearest(path, paths.iter().map(String::as_str));
-            let (file, case) = (plan.file.clone(), self.block.request.case.clone());
-            return Err(PlanError::Path { file, path: path.to_owned(), nearest: guess, case }.into());
+            let guess = did_you_mean(&nearest(path, paths.iter().map(String::as_str)));
+            let remedy = format!("{guess}`bagnold show {}` prints all fields", self.block.request.case);
+            return Err(FieldError::finding(path, "unknown field", &remedy).in_file(&plan.file).into());
         };
         let numbers = values.iter().flat_map(|value| match value {
             Value::Array(list) => list.iter().map(number_in).collect(),

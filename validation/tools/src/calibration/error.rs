@@ -1,7 +1,6 @@
 //! Errors of a calibration that does not begin or finds nothing.
 
 use crate::case::ParameterError;
-use crate::evaluation::PlanError;
 use crate::input::{FieldError, shown};
 use crate::output::{FileError, FolderError};
 use std::path::PathBuf;
@@ -11,13 +10,10 @@ use std::path::PathBuf;
 pub enum CalibrationError {
     /// Its plan cannot be followed.
     #[error(transparent)]
-    Plan(#[from] PlanError),
+    Plan(#[from] ParameterError),
     /// A field of its plan or of its data breaks a rule.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A case refuses what it asks for.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
     /// Its folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),

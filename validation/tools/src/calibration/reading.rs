@@ -5,7 +5,7 @@ use super::error::CalibrationError;
 use super::plan::CalibrationPlan;
 use super::text::CalibrationText;
 use crate::case::{Limits, Registry};
-use crate::evaluation::{PlanError, read_plan};
+use crate::evaluation::read_plan;
 use crate::input::FieldError;
 use crate::store::Store;
 use std::collections::BTreeMap;
@@ -49,7 +49,7 @@ impl CalibrationPlan {
             }
             let prepare = |settings: &[String]| {
                 let prepared = block.request.prepare(registry, &self.file, settings, self.limits);
-                prepared.map_err(|error| PlanError::of(error.of_block(&block.field), &self.file))
+                prepared.map_err(|error| error.of_block(&block.field).in_plan(&self.file))
             };
             for choice in &self.choices {
                 prepare(&choice.in_case(&block.request.case))?;

@@ -1,6 +1,6 @@
 //! Errors of `bagnold judge`.
 
-use crate::evaluation::PlanError;
+use crate::case::ParameterError;
 use crate::input::{FieldError, shown};
 use crate::output::FolderError;
 use crate::report::ReportError;
@@ -22,7 +22,7 @@ pub enum JudgeError {
     },
     /// A submission or a file of it.
     #[error(transparent)]
-    Plan(#[from] PlanError),
+    Plan(#[from] ParameterError),
     /// The folder.
     #[error(transparent)]
     Folder(#[from] FolderError),

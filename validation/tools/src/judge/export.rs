@@ -33,7 +33,7 @@ pub fn export(
         own.map_or(Ok(()), |own| results(own, folder))
     };
     put().map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))?;
-    let submission = blank(case, tier).map_err(|error| crate::evaluation::PlanError::of(error, folder))?;
+    let submission = blank(case, tier).map_err(|error| error.in_plan(folder))?;
     std::fs::write(folder.join("submission.toml"), submission)
         .map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))
 }

@@ -25,7 +25,6 @@ pub use submission::{CoarseRun, Code, ForeignRun, LawOrigin, ParticleFiles, Subm
 pub use verdicts::MetricComparison;
 
 use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCase, Registry};
-use crate::evaluation::PlanError;
 use crate::figure::Figure;
 use crate::input::FieldError;
 use crate::metric::{Metric, Variant, Verdict};
@@ -140,13 +139,11 @@ impl CaseSubmissions {
                 return Err(FieldError::new("code", value, &rule, "give it a version").in_file(&other.path).into());
             }
         }
-        let case =
-            registry.find(&first.case).map_err(|error| PlanError::of(error.in_file(&first.path), &first.path))?;
+        let case = registry.find(&first.case).map_err(|error| error.in_file(&first.path))?;
         let changes = Changes { file: Some((&first.path, first.with.clone())), settings: &[], ..Changes::default() };
-        let all = case.prepare(first.tier, &changes).map_err(|error| PlanError::of(error, &first.path))?;
+        let all = case.prepare(first.tier, &changes).map_err(|error| error.in_plan(&first.path))?;
         // the export has the tier's parameters, whatever a submission lays over them
-        let exported =
-            case.prepare(first.tier, &Changes::default()).map_err(|error| PlanError::of(error, &first.path))?;
+        let exported = case.prepare(first.tier, &Changes::default()).map_err(|error| error.in_plan(&first.path))?;
         let inputs = inputs::digest(exported.parameters_toml());
         let gates = gates::digests(&exported.asked().metrics);
         for submission in &submissions {

@@ -3,8 +3,8 @@
 use super::lammps;
 use super::submission::{ForeignRun, ParticleFiles, TableFile, rising, sources};
 use super::vtk::{self, NamedArrays, PLACES, PointArrays};
+use crate::case::ParameterError;
 use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame, RunScales};
-use crate::evaluation::PlanError;
 use crate::input::{self, FieldError, TextTable, did_you_mean, nearest};
 use crate::measured::ColumnSource;
 use crate::output::FileError;
@@ -29,9 +29,9 @@ pub(super) fn read(
     (form, scales): (&ExternalSchema, Option<RunScales>),
     field: &str,
     folder: &Path,
-) -> Result<ExternalData, PlanError> {
+) -> Result<ExternalData, ParameterError> {
     let plan = |texts: &_, items, field: &str| plan(texts, items, scales, field);
-    let columns = |table: &TableFile, items, field: &str| -> Result<NamedColumns, PlanError> {
+    let columns = |table: &TableFile, items, field: &str| -> Result<NamedColumns, ParameterError> {
         let plan = plan(&table.columns, items, field)?;
         let file = folder.join(&table.file);
         Ok(of_table(&read_text_table(&file)?, &plan, &file)?)
@@ -105,7 +105,11 @@ fn there(named: Vec<(f64, PathBuf)>, by: &Path) -> Result<Vec<(f64, PathBuf)>, F
     Ok(named)
 }
 
-fn pictures(files: &ParticleFiles, plan: &ColumnAssignments, folder: &Path) -> Result<Vec<ParticleFrame>, PlanError> {
+fn pictures(
+    files: &ParticleFiles,
+    plan: &ColumnAssignments,
+    folder: &Path,
+) -> Result<Vec<ParticleFrame>, ParameterError> {
     let named: Vec<(f64, PathBuf)> = if files.is_collection() {
         let file = folder.join(&files.files[0]);
         let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
@@ -151,7 +155,7 @@ fn ending(file: &Path) -> String {
 }
 
 /// Files with those that only name pieces replaced by the pieces.
-fn in_pieces(named: Vec<(f64, PathBuf)>) -> Result<Vec<(f64, PathBuf)>, PlanError> {
+fn in_pieces(named: Vec<(f64, PathBuf)>) -> Result<Vec<(f64, PathBuf)>, ParameterError> {
     let mut files = Vec::new();
     for (time, file) in named {
         if vtk::PARALLEL.contains(&ending(&file).as_str()) {
@@ -165,11 +169,11 @@ fn in_pieces(named: Vec<(f64, PathBuf)>) -> Result<Vec<(f64, PathBuf)>, PlanErro
     Ok(files)
 }
 
-fn read_bytes(file: &Path) -> Result<Vec<u8>, PlanError> {
+fn read_bytes(file: &Path) -> Result<Vec<u8>, ParameterError> {
     Ok(input::read_bytes(file, LARGEST_FILE).map_err(|error| FileError::unreadable(file, &error))?)
 }
 
-fn read_text_table(file: &Path) -> Result<TextTable, PlanError> {
+fn read_text_table(file: &Path) -> Result<TextTable, ParameterError> {
     let bytes = read_bytes(file)?;
     Ok(TextTable::parse(&String::from_utf8_lossy(&bytes), file)?)
 }

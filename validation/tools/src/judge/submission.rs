@@ -1,7 +1,7 @@
 //! Submission of an external code: a TOML file with its case, its runs, and the data of each run.
 
-use crate::case::{CaseFile, Tier};
-use crate::evaluation::{PlanError, read_plan};
+use crate::case::{CaseFile, ParameterError, Tier};
+use crate::evaluation::read_plan;
 use crate::input::{FieldError, check_name};
 use crate::measured::ColumnSource;
 use crate::metric::Variant;
@@ -133,7 +133,7 @@ impl Submission {
     ///
     /// # Errors
     /// A file that cannot be read, is not TOML, or lacks something.
-    pub fn read(path: &Path) -> Result<Self, PlanError> {
+    pub fn read(path: &Path) -> Result<Self, ParameterError> {
         let submission: Self = read_plan(path, "bagnold judge")?;
         submission.check().map_err(|error| error.in_file(path))?;
         let fields = submission.parameters(path)?;
@@ -141,7 +141,7 @@ impl Submission {
     }
 
     /// The parameters: those of `base` with those of `with` laid over them.
-    fn parameters(&self, path: &Path) -> Result<toml::Table, PlanError> {
+    fn parameters(&self, path: &Path) -> Result<toml::Table, ParameterError> {
         let own = CaseFile::of_parameters(path, &self.case, None, &self.with)?;
         let Some(base) = &self.base else { return Ok(own.fields) };
         let mut file = CaseFile::read(&path.parent().unwrap_or(Path::new("")).join(base))?;

@@ -60,7 +60,7 @@ pub struct League {
 /// A folder that cannot be read or holds no submission.
 pub fn submissions(folder: &Path) -> Result<Vec<PathBuf>, JudgeError> {
     let unreadable = |error: std::io::Error| {
-        JudgeError::from(crate::evaluation::PlanError::from(FileError::unreadable(folder, &error)))
+        JudgeError::from(crate::case::ParameterError::from(FileError::unreadable(folder, &error)))
     };
     let folders = |of: &Path| -> std::io::Result<Vec<PathBuf>> {
         let entries = std::fs::read_dir(of)?.map(|entry| entry.map(|entry| entry.path()));

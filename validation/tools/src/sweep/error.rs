@@ -1,7 +1,6 @@
 //! Errors of a sweep that does not begin or resume.
 
 use crate::case::ParameterError;
-use crate::evaluation::PlanError;
 use crate::input::{FieldError, shown};
 use crate::output::{FileError, FolderError};
 use std::path::PathBuf;
@@ -11,13 +10,10 @@ use std::path::PathBuf;
 pub enum SweepError {
     /// Its plan cannot be followed.
     #[error(transparent)]
-    Plan(#[from] PlanError),
+    Plan(#[from] ParameterError),
     /// It has no such run.
     #[error(transparent)]
     Entry(#[from] FieldError),
-    /// A case refuses the parameters of a run.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
     /// A folder holds no sweep.
     #[error("{}: holds no sweep (no manifest.json); name the folder that `bagnold sweep` wrote", shown(.folder))]
     NoSweep {

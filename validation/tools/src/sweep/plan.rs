@@ -3,8 +3,8 @@
 use super::error::SweepError;
 use super::manifest::{Manifest, SweepRun};
 use crate::case::list::ListedChange;
-use crate::case::{Limits, ListOfRuns, ParameterError, PreparedCase, Registry, VariedParameter};
-use crate::evaluation::{self, CaseRequest, Paths, PlanError, read_plan};
+use crate::case::{Limits, ListOfRuns, PreparedCase, Registry, VariedParameter};
+use crate::evaluation::{self, CaseRequest, Paths, read_plan};
 use crate::input::{FieldError, check_name};
 use crate::metric::Variant;
 use crate::sampling::{Bounds, Spacing, design};
@@ -244,9 +244,7 @@ impl SweepPlan {
                         entry.parameters_toml = prepared.parameters_toml().to_owned();
                     }
                     // a path or a type that is wrong is wrong at every point
-                    Err(error @ ParameterError::Setting(_)) => {
-                        return Err(PlanError::of(error, &self.file).into());
-                    }
+                    Err(error) if error.is_of_setting() => return Err(error.in_plan(&self.file).into()),
                     Err(error) => {
                         entry.refusal = Some(error.to_string());
                         refusal.get_or_insert(error);

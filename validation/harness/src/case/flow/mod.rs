@@ -247,12 +247,7 @@ fn placed(case: &str, fault: Fault, base: &Table, change: &ListedChange) -> Para
     };
     match fault {
         Fault::Unknown { known, .. } => {
-            let known = [known, crate::case::given::changes::paths(base)];
-            let nearest = fault::nearest_path(&path, &[&known[0], &known[1]]);
-            let remedy = nearest.map_or_else(
-                || format!("`bagnold show {case}` prints all fields"),
-                |nearest| format!("did you mean `{nearest}`?"),
-            );
+            let remedy = fault::unknown_field(&path, &[&known, &crate::case::given::changes::paths(base)], case).remedy;
             let field = if place.starts_with("vary") || place.contains("].vary") { "path" } else { path.as_str() };
             FieldError::new(&format!("{place}.{field}"), format!("\"{path}\""), "a field of the flow", &remedy).into()
         }

@@ -1,8 +1,9 @@
 //! From defaults, a TOML file and `--set` to typed parameters, with errors that name the field.
 
-use super::error::{ParameterError, SettingError};
+use super::error::ParameterError;
 use super::{fault, friction_angle, plausible};
 use crate::case::plan::estimate::Limits;
+use crate::input::FieldError;
 use crate::metric::Variant;
 use crate::output::caution;
 use bagnold_solver::material::rheology::open::registered;
@@ -213,13 +214,10 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> P
         (Fault::Unknown { known: beside, .. }, Some((path, value))) => {
             unknown_path(case, &[&beside, &known], path, value)
         }
-        (Fault::Kind { rule, choice, .. }, Some((path, value))) => SettingError::Value {
-            path: path.to_owned(),
-            value: value.to_owned(),
-            rule: fault::without_unit(rule, value),
-            remedy: fault::remedy(choice.as_ref(), case),
+        (Fault::Kind { rule, choice, .. }, Some((path, value))) => {
+            let (rule, remedy) = (fault::without_unit(rule, value), fault::remedy(choice.as_ref(), case));
+            FieldError::new(path, value, &rule, &remedy).set_by(format!("{path}={value}")).into()
         }
-        .into(),
         (fault, _) => {
             let set = is_set(changes.settings, fault.path());
             let error = fault::in_parameters(fault, case, &known);
@@ -233,13 +231,7 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> P
 
 /// A path that does not exist; `known` are those that do, the ones beside it first.
 fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> ParameterError {
-    SettingError::Path {
-        path: path.to_owned(),
-        value: value.to_owned(),
-        nearest: fault::nearest_path(path, known),
-        case: case.to_owned(),
-    }
-    .into()
+    fault::unknown_field(path, known, case).set_by(format!("{path}={value}")).into()
 }
 
 /// Whether one of the `--set` arguments gives `field`, so that the file is not to blame for its value.
@@ -343,12 +335,11 @@ fn is_other_choice(shape: &Shape<'_>, table: &Table, changes: &Table) -> bool {
 }
 
 /// Refuses a `path=value` that gives a field which one before it gives: which is meant would be ambiguous.
-fn refuse_twice(before: &[String], argument: &str) -> Result<(), SettingError> {
-    let Some((path, value)) = parts(argument) else { return Ok(()) };
+fn refuse_twice(before: &[String], argument: &str) -> Result<(), FieldError> {
     for earlier in before {
         if let Some(field) = twice_given(earlier, argument) {
-            let (path, value, earlier) = (path.to_owned(), value.to_owned(), earlier.clone());
-            return Err(SettingError::Twice { path, value, field, earlier });
+            let defect = format!("given twice, first by `--set {earlier}`");
+            return Err(FieldError::finding(&field, defect, "give each field once").set_by(argument.to_owned()));
         }
     }
     Ok(())
@@ -387,7 +378,10 @@ fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &st
                 find(defaults, &path).filter(|value| !value.is_table()).map(|value| format!("{path}={value}"))
             })
             .unwrap_or_else(|| "path=value".to_owned());
-        return Err(SettingError::Form { argument: argument.to_owned(), example }.into());
+        let path = format!("\"{}\"", argument.split('=').next().unwrap_or_default());
+        let rule = "the dotted path of a parameter, followed by `=` and a value";
+        let error = FieldError::new("path", path, rule, &format!("such as `{example}`"));
+        return Err(error.set_by(argument.to_owned()).into());
     };
     let mut keys: Vec<&str> = path.split('.').collect();
     let last = keys.pop().unwrap_or(path);

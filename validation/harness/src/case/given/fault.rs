@@ -2,7 +2,7 @@
 
 use super::error::ParameterError;
 use crate::case::shown::notes::remark;
-use crate::input::nearest;
+use crate::input::{FieldError, did_you_mean, nearest};
 use bagnold_solver::parameter::{Fault, ParameterProblem};
 
 /// A parameter that is out of its range, or excludes another choice.
@@ -15,12 +15,7 @@ impl From<ParameterProblem> for ParameterError {
 /// The error for a fault in the parameters of `case`; `known` are all paths that it has.
 pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> ParameterError {
     match fault {
-        Fault::Unknown { path, known: beside } => ParameterError::UnknownField {
-            file: None,
-            nearest: nearest_path(&path, &[&beside, known]),
-            field: path,
-            case: case.to_owned(),
-        },
+        Fault::Unknown { path, known: beside } => unknown_field(&path, &[&beside, known], case).into(),
         Fault::Missing { path, absent } => {
             let of = |(name, about): &(String, String)| match about.as_str() {
                 "" => format!("`{name}`"),
@@ -34,7 +29,7 @@ pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String])
                 // of a table that is left out by default
                 format!("`bagnold schema {case}` tells what it is")
             };
-            ParameterError::MissingField { file: None, field: path, remedy }
+            FieldError::finding(&path, "missing", &remedy).into()
         }
         Fault::Kind { path, value, rule, choice } => {
             let value = value.unwrap_or_else(|| "not valid".to_owned());
@@ -43,6 +38,12 @@ pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String])
         }
         Fault::Range(problem) => problem.into(),
     }
+}
+
+/// A path that the parameters of a case do not have; `known` are those that it has, the ones beside it first.
+pub(in crate::case) fn unknown_field(path: &str, known: &[&[String]], case: &str) -> FieldError {
+    let guess = did_you_mean(&nearest_path(path, known));
+    FieldError::finding(path, "unknown field", &format!("{guess}`bagnold show {case}` prints all fields"))
 }
 
 /// The rule that a value breaks: that it has no unit, where a word of a few letters stands behind a number.

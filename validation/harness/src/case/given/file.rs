@@ -4,7 +4,7 @@ use super::changes::lay_over;
 use super::error::ParameterError;
 use super::{meshes, rates};
 use crate::case::{OutputPlan, Tier};
-use crate::input::{DOCUMENT, nearest, position, read_text};
+use crate::input::{DOCUMENT, FieldError, nearest, read_text};
 use crate::output::FileError;
 use bagnold_solver::parameter::shortened;
 use std::collections::BTreeMap;
@@ -40,8 +40,7 @@ impl CaseFile {
 
     fn parse(path: &Path, text: &str) -> Result<Self, ParameterError> {
         let mut fields: Table = toml::from_str(text).map_err(|error| {
-            let (line, column) = position(text, error.span().map_or(0, |span| span.start));
-            ParameterError::Syntax { file: path.to_owned(), line, column, message: error.message().to_owned() }
+            FieldError::of_toml(text, &error, error.message(), "correct the TOML syntax there").in_file(path)
         })?;
         let wrong = |field: &str, value: &Value, rule: &str, remedy: &str| {
             ParameterError::field(field, value, rule, remedy).in_file(path)
@@ -54,7 +53,10 @@ impl CaseFile {
                     ("absent from the file of a case", "`bagnold run` takes a study; here name its base");
                 return Err(ParameterError::field("study", "given", rule, remedy).in_file(path));
             }
-            None => return Err(ParameterError::NoCase { file: path.to_owned() }),
+            None => {
+                let remedy = "add `case = \"…\"` (`bagnold list` prints the names)";
+                return Err(FieldError::finding("case", "missing", remedy).in_file(path).into());
+            }
         };
         let tier = match fields.remove("tier") {
             None => None,
@@ -161,7 +163,7 @@ mod tests {
     fn a_file_must_be_toml_and_name_its_case() {
         assert_eq!(
             message("depth = 1.0"),
-            "case.toml: `case` is missing, but must name the case that the file describes; add `case = \"…\"` (`bagnold list` prints the names)"
+            "case.toml: `case`: missing; add `case = \"…\"` (`bagnold list` prints the names)"
         );
         assert_eq!(
             message("case = 3"),
@@ -172,7 +174,7 @@ mod tests {
             "case.toml: `tier` is \"papre\", but must be one of `quick`, `paper`, `fine`; did you mean `paper`?"
         );
         assert!(message("study = \"mine\"").contains("`study` is given, but must be absent from the file of a case"));
-        assert!(message("case = \"film\"\ndepth = = 1").starts_with("case.toml: line 2, column 9: "));
+        assert!(message("case = \"film\"\ndepth = = 1").starts_with("case.toml: `line 2, column 9`: "));
     }
 
     #[test]

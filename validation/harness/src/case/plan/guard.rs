@@ -87,7 +87,7 @@ impl<'a, F: Flow> Guard<'a, F> {
         let leads = |path: &str| self.restored(path).is_some_and(|parameters| self.holds(&parameters));
         match changed.iter().find(|(path, _)| leads(path)) {
             Some((field, value)) => ParameterError::Follows {
-                file: None,
+                origin: None,
                 field: field.clone(),
                 value: value.clone(),
                 error: Box::new(error),
@@ -183,7 +183,7 @@ pub(in crate::case) fn with_changed(error: ParameterError, changed: &[(String, S
     if changed.len() > LISTED {
         listed.push(format!("and {} more", changed.len() - LISTED));
     }
-    ParameterError::Changed { file: None, error: Box::new(error), changed: listed.join(", ") }
+    ParameterError::Changed { origin: None, error: Box::new(error), changed: listed.join(", ") }
 }
 
 #[cfg(test)]

@@ -42,11 +42,8 @@ impl Registry {
     /// # Errors
     /// An unknown name; the error suggests the nearest one.
     pub fn find(self, name: &str) -> Result<&'static dyn AnyCase, ParameterError> {
-        self.iter().find(|case| case.name() == name).ok_or_else(|| ParameterError::UnknownCase {
-            file: None,
-            name: name.to_owned(),
-            nearest: nearest(name, self.iter().map(AnyCase::name)),
-        })
+        let unknown = || ParameterError::unknown_case(name, &nearest(name, self.iter().map(AnyCase::name)));
+        self.iter().find(|case| case.name() == name).ok_or_else(unknown)
     }
 }
 
@@ -60,12 +57,12 @@ mod tests {
         assert_eq!(message("pendulum"), None);
         assert_eq!(
             message("pendlum"),
-            Some("unknown case `pendlum`; did you mean `pendulum`? `bagnold list` prints all cases".to_owned())
+            Some("`pendlum`: unknown case; did you mean `pendulum`? `bagnold list` prints all cases".to_owned())
         );
         assert_eq!(
             message("pendulum.toml"),
-            Some("unknown case `pendulum.toml`; that is a file, which `bagnold run` reads; `bagnold list` prints all cases".to_owned())
+            Some("`pendulum.toml`: unknown case; that is a file, which `bagnold run` reads; `bagnold list` prints all cases".to_owned())
         );
-        assert_eq!(message("zzz"), Some("unknown case `zzz`; `bagnold list` prints all cases".to_owned()));
+        assert_eq!(message("zzz"), Some("`zzz`: unknown case; `bagnold list` prints all cases".to_owned()));
     }
 }
