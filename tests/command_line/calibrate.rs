@@ -171,7 +171,7 @@ fn wrong_plans_are_refused_by_name() {
     let plan = |from: &'static str, to: &'static str| refusal(move |text| text.replace(from, to), str::to_owned);
     assert_eq!(
         plan("material.viscosity", "material.viscoscity"),
-        "error: plan.toml: `path` is `material.viscoscity`, but `film` has no such field; did you mean \
+        "error: plan.toml: `material.viscoscity`: unknown field; did you mean \
          `material.viscosity`? `bagnold show film` prints all fields"
     );
     assert_eq!(
@@ -223,7 +223,7 @@ fn validation_data_must_differ_in_physics() {
     );
     assert_eq!(
         refusal(|text| text.replace("conditions = [\"slope_angle\"]", "conditions = [\"slope_angel\"]"), str::to_owned),
-        "error: plan.toml: `path` is `slope_angel`, but `film` has no such field; did you mean `slope_angle`? `bagnold show \
+        "error: plan.toml: `slope_angel`: unknown field; did you mean `slope_angle`? `bagnold show \
          film` prints all fields"
     );
     assert_eq!(
@@ -337,7 +337,7 @@ fn choices_that_set_nothing_are_refused() {
     );
     assert_eq!(
         refusal("material.viscosity=1.0", "material.viscoscity=1.0"),
-        "error: plan.toml: `path` is `material.viscoscity`, but `film` has no such field; did you mean \
+        "error: plan.toml: `material.viscoscity`: unknown field; did you mean \
          `material.viscosity`? `bagnold show film` prints all fields"
     );
     assert_eq!(

@@ -252,12 +252,12 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
     for (from, to, said) in [
         ("table = \"gauges\"", "table = \"gaugs\"", "`checks[0].table` is \"gaugs\", but must be a table of scene"),
         ("front: front [m]", "front [m]", "did you mean \"front: front [m]\"?"),
-        ("path = \"spacing\"", "path = \"spacin\"", "bad.toml: `path` is `spacin`, but `scene` has no such field"),
+        ("path = \"spacing\"", "path = \"spacin\"", "bad.toml: `spacin`: unknown field"),
         ("0.0125]", "0.02]", "`vary[0].values[1]` is 0.02, equal to `vary[0].values[0]`, but must be unique"),
         ("0.0125]", "-1.0]", "bad.toml: `spacing` is -1"),
         ("study = \"my-flume\"", "study = \"film\"", "unlike the name of a case"),
         ("study = \"my-flume\"", "study = \"../x\"", "a name that a folder can have"),
-        ("study = ", "study == ", "bad.toml: line 1, column 8"),
+        ("study = ", "study == ", "bad.toml: `line 1, column 8`"),
         // in a suite it would be passed over, and its gates with it
         ("study = ", "stduy = ", "unknown field `stduy`, expected one of `study`"),
         ("at_most = 0.0", "at_most = -2.0", "`checks[1].at_most` is -2, but must be 0 or more"),

@@ -120,7 +120,7 @@ fn wrong_plans_are_refused_by_name() {
     let path = refusal(&PLAN.replace("material.viscosity", "material.viscoscity"), &[]);
     assert_eq!(
         path,
-        "error: plan.toml: `path` is `material.viscoscity`, but `film` has no such field; did you mean \
+        "error: plan.toml: `material.viscoscity`: unknown field; did you mean \
          `material.viscosity`? `bagnold show film` prints all fields"
     );
     let reversed = PLAN.replace("values = [0.5, 0.7, 1.0, 1.4]", "lower = 2.0\nupper = 1.0\nlevels = 3");
