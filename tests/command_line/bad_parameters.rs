@@ -70,7 +70,7 @@ fn grains_that_do_not_settle() {
     refused(
         &place,
         &["settling", "--vary", "law=di-felice,ergun", "--set", "solid_fraction=0.1"],
-        "`solid_fraction` is 0.1, and so `law` is ergun, but must be a law for this `solid_fraction`; \"ergun\" begins at 0.2",
+        "`law` is ergun, but must be a law for this `solid_fraction`; \"ergun\" begins at 0.2; what differs from the tier: `solid_fraction` is 0.1",
     );
 }
 
@@ -96,8 +96,7 @@ fn a_reservoir_of_too_few_or_too_many_rows() {
             "`resolution` is {resolution}, but must be such that the reservoir is 4 to 1000 rows of particles high; its height, `initial_height` over `reservoir_length` times this, is {rows}: choose a {choice} resolution"
         )
     };
-    // the field that was changed comes first
-    let lowered = format!("`initial_height` is 0.01, and so {}", message(30, 1, "larger"));
+    let lowered = format!("{}; what differs from the tier: `initial_height` is 0.01", message(30, 1, "larger"));
     refused(&place, &["incline-collapse", "--set", "initial_height=0.01"], &lowered);
     refused(
         &place,
@@ -156,7 +155,7 @@ fn an_implicit_step_without_a_viscous_law_or_its_divergence() {
     refused(
         &place,
         &["column-planar", "--set", "numerics.momentum_operator=\"pairwise\""],
-        "`numerics.momentum_operator` is \"pairwise\", and so `numerics.viscous_step` is implicit, but must be explicit with the pairwise momentum operators; choose the operator \"single-divergence\", or \"explicit\"",
+        "`numerics.viscous_step` is implicit, but must be explicit with the pairwise momentum operators; choose the operator \"single-divergence\", or \"explicit\"; what differs from the tier: `numerics.momentum_operator` is \"pairwise\"",
     );
 }
 

@@ -121,10 +121,7 @@ pub fn evaluate(
             |result| EvaluationRecord::of(&key, &result),
         )),
         Ok(Err(
-            error @ (ParameterError::Field(_)
-            | ParameterError::Scene(_)
-            | ParameterError::Follows { .. }
-            | ParameterError::Changed { .. }),
+            error @ (ParameterError::Field(_) | ParameterError::Scene(_) | ParameterError::Changed { .. }),
         )) => Ok(EvaluationRecord::failed(&key, &case, &error.to_string())),
         Ok(Err(error)) => Err(error),
         Err(_) => Ok(EvaluationRecord::failed(

@@ -133,7 +133,7 @@ pub struct RunList<F> {
 #[derive(Debug, Clone)]
 struct ListedFlows<F> {
     flows: Vec<F>,
-    /// Keys that tell them apart where their own names do not; empty where these suffice.
+    /// Keys that tell each of them apart where their own names do not.
     labels: Vec<Variant>,
 }
 
@@ -150,6 +150,12 @@ impl<F: Flow> ListedFlows<F> {
             }
         }
         let labels = labels(&flows, &listed);
+        let mut names = BTreeSet::new();
+        let mut names_of = flows.iter().zip(&labels).map(|(flow, label)| flow.variant().followed_by(label));
+        if let Some(twin) = names_of.find(|name| !names.insert(name.clone())) {
+            let (value, rule) = (format!("of two runs \"{twin}\""), "a list of runs with unlike names");
+            return Err(ParameterError::field("vary", value, rule, "give what is varied another `name`"));
+        }
         Ok(Self { flows, labels })
     }
 }
@@ -177,7 +183,7 @@ impl<F: Flow> RunList<F> {
     }
 }
 
-/// Of the keys that a list gives its runs, those that tell runs apart which have one name; none where there are no such runs.
+/// Of the keys that a list gives its runs, for each run those that tell runs apart which have one name.
 fn labels<F: Flow>(flows: &[F], listed: &[Variant]) -> Vec<Variant> {
     let own: Vec<Variant> = flows.iter().map(F::variant).collect();
     let mut first: BTreeMap<String, usize> = BTreeMap::new();
@@ -187,9 +193,6 @@ fn labels<F: Flow>(flows: &[F], listed: &[Variant]) -> Vec<Variant> {
         let differs =
             |(key, value): &(&str, &VariantValue)| own.get(key).is_none() && listed[twin].get(key) != Some(*value);
         keys.extend(listed_here.parts().filter(differs).map(|(key, _)| key));
-    }
-    if keys.is_empty() {
-        return Vec::new();
     }
     let label = |listed: &Variant| {
         let parts = listed.parts().filter(|(key, _)| keys.contains(key));
@@ -332,8 +335,7 @@ impl<F: Flow> RunList<F> {
     /// Keys that tell a run apart from others with its own name.
     pub(in crate::case) fn label(&self, run: &F) -> Variant {
         let ListedFlows { flows, labels } = self.listed();
-        let place = if labels.is_empty() { None } else { flows.iter().position(|own| own == run) };
-        place.map(|place| labels[place].clone()).unwrap_or_default()
+        flows.iter().position(|own| own == run).map(|place| labels[place].clone()).unwrap_or_default()
     }
 
     /// Full name of a run.

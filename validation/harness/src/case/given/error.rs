@@ -10,18 +10,6 @@ pub enum ParameterError {
     /// A field holds a value that breaks a rule.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A field of the user's leads to an error about another one.
-    #[error("{}`{field}` is {value}, and so {error}", before(origin))]
-    Follows {
-        /// File it stands in, where known.
-        origin: Option<Origin>,
-        /// Dotted TOML path.
-        field: String,
-        /// Its value.
-        value: String,
-        /// Error that follows from this value.
-        error: Box<ParameterError>,
-    },
     /// An error that names no field of the user's.
     #[error("{}{error}; what differs from the tier: {changed}", before(origin))]
     Changed {
@@ -86,7 +74,7 @@ impl ParameterError {
     #[must_use]
     pub fn field_path(&self) -> Option<&str> {
         match self {
-            Self::Field(FieldError { field, .. }) | Self::Follows { field, .. } => Some(field),
+            Self::Field(error) => Some(&error.field),
             _ => None,
         }
     }
@@ -100,9 +88,7 @@ impl ParameterError {
     /// Says in which file the parameter at fault stands, unless that is already known.
     #[must_use]
     pub fn in_file(mut self, path: &Path) -> Self {
-        if let Self::Field(FieldError { origin, .. }) | Self::Follows { origin, .. } | Self::Changed { origin, .. } =
-            &mut self
-        {
+        if let Self::Field(FieldError { origin, .. }) | Self::Changed { origin, .. } = &mut self {
             origin.get_or_insert_with(|| Origin::File(path.to_owned()));
         }
         self

@@ -69,7 +69,7 @@ impl Estimate {
     }
 
     /// Ratio of the estimate to the limits; above 1 if it exceeds them. One run at a time must fit into the memory.
-    fn excess(&self, limits: &Limits) -> f64 {
+    pub(in crate::case) fn excess(&self, limits: &Limits) -> f64 {
         let excess = (self.memory(1) / limits.memory).max(self.core_seconds / 3600.0 / limits.core_hours);
         // a run whose cost is not even a number is beyond any limit
         if excess.is_finite() && self.memory(1).is_finite() && self.core_seconds.is_finite() {
@@ -105,11 +105,6 @@ impl Estimate {
                 ),
             )
         })
-    }
-
-    /// Whether it asks for less than another, as the limits count it.
-    pub(in crate::case) fn is_less_than(&self, other: &Self, limits: &Limits) -> bool {
-        self.excess(limits) < other.excess(limits)
     }
 }
 

@@ -6,7 +6,6 @@ use crate::case::given::error::ParameterError;
 use crate::case::{Estimate, Flow, RunList, Tier};
 use crate::output::caution;
 use bagnold_solver::parameter::shortened;
-use std::collections::BTreeMap;
 use toml::Table;
 
 /// Most changed fields that a message lists.
@@ -33,14 +32,16 @@ impl<'a, F: Flow> Guard<'a, F> {
 
     /// The runs that the parameters ask for.
     pub(in crate::case) fn runs(&self) -> Result<Vec<F>, ParameterError> {
-        let source = self.changes.source();
-        self.parameters.list.check_single_tier().map_err(|error| source.placed(self.named(error.into())))?;
-        let chosen = self.chosen(self.parameters);
-        chosen.iter().try_for_each(|flow| flow.check()).map_err(|error| source.placed(self.named(error)))?;
+        self.check().map_err(|error| self.changes.source().placed(error))?;
         self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
-        self.check_unique(&chosen).map_err(|error| source.placed(error))?;
-        self.check_cost(&chosen).map_err(|error| source.placed(error))?;
         Ok(self.parameters.flows().to_vec())
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.parameters.list.check_single_tier()?;
+        let chosen = self.chosen(self.parameters);
+        chosen.iter().try_for_each(|flow| flow.check()).map_err(|error| with_changed(error, &self.changed()))?;
+        self.check_cost(&of_runs(&chosen))
     }
 
     /// Those of the runs that are to be simulated.
@@ -51,12 +52,6 @@ impl<'a, F: Flow> Guard<'a, F> {
             only.is_empty() || only.iter().any(|asked| variant.includes(asked))
         };
         list.flows().iter().filter(is_chosen).collect()
-    }
-
-    /// Whether a list makes the runs that are to be simulated and breaks no rule of theirs.
-    fn holds(&self, list: &RunList<F>) -> bool {
-        let chosen = self.chosen(list);
-        list.list.check_single_tier().is_ok() && !chosen.is_empty() && chosen.iter().all(|flow| flow.check().is_ok())
     }
 
     /// Fields that differ from the tier's, with their values.
@@ -77,91 +72,35 @@ impl<'a, F: Flow> Guard<'a, F> {
         !["variants", "vary"].contains(&path) || of_file || is_set(self.changes.settings, path)
     }
 
-    /// An error about a field that the user has not changed becomes one of the field that leads to it.
-    fn named(&self, error: ParameterError) -> ParameterError {
-        let changed = self.changed();
-        let is_changed = |field: &str| changed.iter().any(|(path, _)| is_same_or_within(field, path));
-        if error.field_path().is_some_and(is_changed) {
-            return error;
-        }
-        let leads = |path: &str| self.restored(path).is_some_and(|parameters| self.holds(&parameters));
-        match changed.iter().find(|(path, _)| leads(path)) {
-            Some((field, value)) => ParameterError::Follows {
-                origin: None,
-                field: field.clone(),
-                value: value.clone(),
-                error: Box::new(error),
-            },
-            None => with_changed(error, &changed),
-        }
-    }
-
-    /// The parameters with one field as the tier has it, if that makes any.
-    fn restored(&self, path: &str) -> Option<RunList<F>> {
+    /// Estimated resources with one field as the tier has it, if that makes any runs.
+    fn without(&self, path: &str) -> Option<Estimate> {
         let before = find(&self.defaults, path)?.clone();
         let mut table = self.asked.clone();
         let mut keys: Vec<&str> = path.split('.').collect();
         let last = keys.pop()?;
         let holder = keys.into_iter().try_fold(&mut table, |table, key| table.get_mut(key)?.as_table_mut())?;
         holder.insert(last.to_owned(), before);
-        RunList::<F>::of_table(self.case, table).ok()
-    }
-
-    /// Checks that the names of runs are unique: two of one name would be taken for each other.
-    fn check_unique(&self, runs: &[&F]) -> Result<(), ParameterError> {
-        let Some(twin) = twin(self.parameters, runs) else { return Ok(()) };
-        let remedy = format!("two runs would both be called `{twin}`: name it once");
-        let lists = leaves(&self.asked).into_iter().filter_map(|path| {
-            let values = find(&self.asked, &path)?.as_array()?;
-            let index = (0..values.len()).find(|&index| values[..index].contains(&values[index]))?;
-            Some((format!("{path}[{index}]"), values[index].to_string()))
-        });
-        let is_cause = |(path, _): &(String, String)| {
-            let field = path.split('[').next().unwrap_or(path);
-            self.restored(field).is_some_and(|parameters| self.twin_of(&parameters).is_none())
-        };
-        let changed = self.changed();
-        let cause = lists.chain(changed.iter().cloned()).find(is_cause).or_else(|| changed.first().cloned());
-        let (field, value) = cause.unwrap_or_else(|| ("tier".to_owned(), self.tier.name().to_owned()));
-        Err(ParameterError::field(&field, value, "unique", &remedy))
-    }
-
-    /// The name that two runs of other parameters share.
-    fn twin_of(&self, parameters: &RunList<F>) -> Option<String> {
-        if self.holds(parameters) { twin(parameters, &self.chosen(parameters)) } else { None }
+        let parameters = RunList::<F>::of_table(self.case, table).ok()?;
+        let chosen = self.chosen(&parameters);
+        (!chosen.is_empty() && chosen.iter().all(|flow| flow.check().is_ok())).then(|| of_runs(&chosen))
     }
 
     /// Check of memory and time against the limits; the field is the one that, as the tier has it, saves most.
-    fn check_cost(&self, runs: &[&F]) -> Result<(), ParameterError> {
+    fn check_cost(&self, estimate: &Estimate) -> Result<(), ParameterError> {
         let limits = &self.changes.limits;
-        let estimate = of_runs(runs);
         let Some((rule, remedy)) = estimate.problem(limits) else { return Ok(()) };
-        let mut least: Option<(Estimate, (String, String))> = None;
-        for field in self.changed() {
-            let Some(parameters) = self.restored(&field.0).filter(|parameters| self.holds(parameters)) else {
-                continue;
-            };
-            let without = of_runs(&self.chosen(&parameters));
-            let best = least.as_ref().map_or(&estimate, |(best, _)| best);
-            if without.is_less_than(best, limits) {
-                least = Some((without, field));
-            }
-        }
-        let cause = least.map(|(_, field)| field).or_else(|| self.changed().into_iter().next());
-        let (field, value) = cause.unwrap_or_else(|| ("tier".to_owned(), self.tier.name().to_owned()));
-        Err(ParameterError::field(&field, value, &rule, &remedy))
+        let (changed, tier) = (self.changed(), ("tier".to_owned(), self.tier.name().to_owned()));
+        let saved = changed.iter().filter_map(|field| Some((self.without(&field.0)?.excess(limits), field)));
+        let saved = saved.filter(|(excess, _)| *excess < estimate.excess(limits));
+        let most = saved.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, field)| field);
+        let (field, value) = most.or(changed.first()).unwrap_or(&tier);
+        Err(ParameterError::field(field, value, &rule, &remedy))
     }
 }
 
 /// Estimated resources of the runs together.
 fn of_runs<F: Flow>(runs: &[&F]) -> Estimate {
     runs.iter().map(|run| Estimate::of(run.cost())).fold(Estimate::default(), Estimate::and)
-}
-
-/// The name that two runs share.
-fn twin<F: Flow>(parameters: &RunList<F>, runs: &[&F]) -> Option<String> {
-    let mut seen = BTreeMap::new();
-    runs.iter().map(|run| parameters.variant_of(run).to_string()).find(|name| seen.insert(name.clone(), ()).is_some())
 }
 
 /// Whether a field is another, or lies within it, or holds it.
@@ -205,11 +144,10 @@ mod tests {
     }
 
     #[test]
-    fn two_runs_of_one_name_are_refused_with_the_list_that_makes_them() {
+    fn two_runs_of_one_name_are_refused() {
         assert_eq!(
             refused(&["vary=[{path=\"grain.damping\", name=\"steps\", values=[1.0, 2.0]}]"], LIMITS),
-            "`vary` is [{ name = \"steps\", path = \"grain.damping\", values = [1.0, 2.0] }], but must be unique; two runs would \
-             both be called `steps=20`: name it once"
+            "`vary` is of two runs \"steps=20\", but must be a list of runs with unlike names; give what is varied another `name`"
         );
     }
 
