@@ -3,7 +3,7 @@
 
 use super::run_out::{PlanarColumn, column};
 use bagnold_cases::collapse::Collapse;
-use bagnold_harness::case::{Flow, Silent};
+use bagnold_harness::case::{Flow, Progress};
 
 /// Relative change that the baseline allows `[-]`.
 const TOLERANCE: f64 = 1e-3;
@@ -17,7 +17,7 @@ const RUN_OUT_TOLERANCE: f64 = 1.2e-2;
 
 /// The column a = 1 of Lagrée's grains from a lattice with displacements of this many spacings.
 fn collapse(jitter: f64) -> Collapse {
-    PlanarColumn { jitter, ..column(1.0) }.simulate(&Silent).expect("a valid scene").data
+    PlanarColumn { jitter, ..column(1.0) }.simulate(&Progress::SILENT).expect("a valid scene").data
 }
 
 #[test]

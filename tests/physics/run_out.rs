@@ -2,7 +2,7 @@
 
 use bagnold_cases::collapse::columns::ColumnCase;
 use bagnold_cases::collapse::{Collapse, ColumnFlow, Material};
-use bagnold_harness::case::{Case, Flow, RunList, Silent, Tier};
+use bagnold_harness::case::{Case, Flow, Progress, RunList, Tier};
 use bagnold_harness::metric::{COVERAGE, Origin};
 use bagnold_harness::observation::{Frame, Recorded};
 use bagnold_solver::material::rheology::Rheology;
@@ -18,7 +18,7 @@ pub(super) fn column(aspect_ratio: f64) -> PlanarColumn {
 
 fn records<R: Flow<Observation = Collapse>>(runs: Vec<R>) -> Vec<(R, Recorded<Collapse>)> {
     let simulated = |run: R| {
-        let record = run.simulate(&Silent).expect("a valid scene");
+        let record = run.simulate(&Progress::SILENT).expect("a valid scene");
         (run, record)
     };
     runs.into_iter().map(simulated).collect()

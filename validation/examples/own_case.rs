@@ -44,7 +44,7 @@ impl Flow for Wave {
     fn variant(&self) -> Variant {
         Variant::of("rows", self.rows)
     }
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<f64>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<f64>, ParameterError> {
         let (n, spacing) = (self.rows, 1.0 / self.rows as f64);
         let place = |k: usize| Vector::<2>::new((k % n) as f64 + 0.5, (k / n) as f64 + 0.5) * spacing;
         let mut flow = scene::Flow::at_rest((0..n * n).map(place).collect(), 1000.0, spacing);

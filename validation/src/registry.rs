@@ -76,7 +76,7 @@ registry!($
 #[cfg(test)]
 mod tests {
     use super::REGISTRY;
-    use crate::case::{Changes, PreparedCase, Silent, Tier};
+    use crate::case::{Changes, PreparedCase, Progress, Tier};
     use crate::metric::Variant;
     use crate::report::Baseline;
     use crate::store::{CodeOrigin, Store, StorePolicy};
@@ -173,7 +173,7 @@ mod tests {
             let settings: Vec<&str> = own.into_iter().chain(law.iter().map(String::as_str)).collect();
             let prepared = prepared(case, &settings).expect("valid");
             let store = Store::at(std::path::Path::new("unused"), StorePolicy::Bypass);
-            prepared.simulate(0, &store, &Silent).expect("a scene");
+            prepared.simulate(0, &store, &Progress::SILENT).expect("a scene");
             let result = prepared.finish().expect("a result");
             assert!(!result.metrics.is_empty(), "{case}: {settings:?}");
         }

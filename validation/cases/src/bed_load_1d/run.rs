@@ -89,14 +89,14 @@ impl Flow for BedLoad1dFlow {
         RunCost { seconds_per_particle_step: 0.5e-6, ..RunCost::weakly_compressible(cells, layers * USUAL_STEPS) }
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadLayerObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<BedLoadLayerObservation>, ParameterError> {
         solve(self, progress)
     }
 }
 
 /// Seeks the steady state of a layer.
-fn solve(flow: &BedLoad1dFlow, progress: &dyn Progress) -> Result<Recorded<BedLoadLayerObservation>, ParameterError> {
-    if progress.conditions().is_some() {
+fn solve(flow: &BedLoad1dFlow, progress: &Progress) -> Result<Recorded<BedLoadLayerObservation>, ParameterError> {
+    if progress.conditions.is_some() {
         return Err(ParameterError::Interrupted);
     }
     let started = Instant::now();

@@ -155,7 +155,7 @@ impl<'a> Channel<'a> {
     ///
     /// # Errors
     /// A scene that breaks a rule of the solver; an interruption.
-    pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
+    pub fn run(&self, progress: &Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         Ok(self.run_observed(progress, (), |(), _, _| {})?.0)
     }
 
@@ -166,7 +166,7 @@ impl<'a> Channel<'a> {
     /// A scene that breaks a rule of the solver; an interruption.
     pub fn run_observed<O: Serialize + DeserializeOwned>(
         &self,
-        progress: &dyn Progress,
+        progress: &Progress,
         beside: O,
         mut observe: impl FnMut(&mut O, &IncompressibleSimulation<2>, bool),
     ) -> Result<(Recorded<ChannelObservation>, O), ParameterError> {

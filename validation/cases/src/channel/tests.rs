@@ -1,7 +1,7 @@
 //! A small film through scene, probe and record.
 
 use super::*;
-use crate::case::Silent;
+use crate::case::Progress;
 use crate::observation::Outcome;
 
 const DEPTH: f64 = 0.012;
@@ -29,7 +29,7 @@ fn film(until: AveragingWindowEnd, window: f64) -> Channel<'static> {
 #[test]
 fn momentum_closes_and_samples_are_evenly_spaced() {
     let (record, seen) = film(AveragingWindowEnd::Time(0.1), 0.05)
-        .run_observed(&Silent, (0, 0), |seen: &mut (usize, usize), simulation, in_window| {
+        .run_observed(&Progress::SILENT, (0, 0), |seen: &mut (usize, usize), simulation, in_window| {
             assert_eq!(simulation.fluid().0.len(), 36);
             seen.0 += 1;
             seen.1 += usize::from(in_window);
@@ -53,14 +53,14 @@ fn momentum_closes_and_samples_are_evenly_spaced() {
 #[test]
 fn a_stationary_flow_ends_one_window_after_the_criterion() {
     let until = AveragingWindowEnd::Stationary { tolerance: 0.1, checks: 2, at_most: 10.0 };
-    let record = film(until, 0.02).run(&Silent).expect("a valid scene");
+    let record = film(until, 0.02).run(&Progress::SILENT).expect("a valid scene");
     let data = &record.data;
     assert!(matches!(record.outcome, Outcome::Stopped { .. }), "{:?}", record.outcome);
     assert_eq!(data.stationary_since, Some(data.window.0));
     assert!((data.window.1 - data.window.0 - 0.02).abs() < 1.1e-3);
 
     let never = AveragingWindowEnd::Stationary { tolerance: 0.1, checks: 2, at_most: 0.01 };
-    let record = film(never, 0.02).run(&Silent).expect("a valid scene");
+    let record = film(never, 0.02).run(&Progress::SILENT).expect("a valid scene");
     assert_eq!(record.outcome, Outcome::Finished);
     assert_eq!(record.data.stationary_since, None);
     assert!((record.data.window.0 - 0.01).abs() < 1e-9);

@@ -238,7 +238,7 @@ impl Layer<'_> {
     ///
     /// # Errors
     /// A scene that breaks a rule of the solver; an interruption.
-    pub fn run(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
+    pub fn run(&self, progress: &Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let stage =
             SimulationStage { progress, end: self.duration, interval: self.interval, window: 0.0, context: &() };
         let begin = |simulation: &Simulation<2>| {

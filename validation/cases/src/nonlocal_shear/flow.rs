@@ -172,7 +172,7 @@ impl Flow for NonlocalShearFlow {
         })
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ShearObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<ShearObservation>, ParameterError> {
         self.with_channel(self.steady(&self.nominal()), |channel| {
             let stage = SimulationStage {
                 progress,

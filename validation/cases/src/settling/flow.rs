@@ -125,7 +125,7 @@ impl Flow for SettlingFlow {
         RunCost::incompressible(particles as f64, self.duration() / self.numerics.time_step)
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<SettlingObservation>, ParameterError> {
         Probe::run(&self.scene(), self.grains, self.size(), self.duration(), progress)
     }
 }

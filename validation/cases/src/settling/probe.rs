@@ -91,7 +91,7 @@ impl Probe {
         grains: SettlingGrains,
         size: Vector<2>,
         duration: f64,
-        progress: &dyn Progress,
+        progress: &Progress,
     ) -> Result<Recorded<SettlingObservation>, ParameterError> {
         let probe = Self {
             grains,

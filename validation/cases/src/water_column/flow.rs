@@ -140,7 +140,7 @@ impl Flow for WaterColumnFlow {
         RunCost::weakly_compressible(particles, crossing * self.duration)
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<ColumnObservation>, ParameterError> {
         let end = self.duration * self.time_scale();
         let stage = SimulationStage { progress, end, interval: end / SAMPLES, window: 0.0, context: &() };
         let begin = |_: &_| ColumnObservation::default();

@@ -30,11 +30,10 @@ pub use plan::expectation::{speed_up, wall_time};
 pub use plan::registry::Registry;
 pub(crate) use plan::request::only;
 pub use plan::request::{Request, Requested};
-pub use plan::schedule::{Monitor, Silent, execute, share_out, share_out_for};
+pub use plan::schedule::{Monitor, Progress, Silent, execute, share_out, share_out_for};
 pub use shown::features::{FeatureOption, Features};
 pub use shown::tables::tables_to_add;
 
-use crate::checkpoint::Checkpoints;
 use crate::figure::{Animation, Figure};
 use crate::input::FieldError;
 use crate::metric::{Metric, Quantity};
@@ -42,7 +41,6 @@ use crate::observation::Recorded;
 use crate::store::CodeOrigin;
 use schemars::JsonSchema;
 use serde::Serialize;
-use std::sync::OnceLock;
 
 /// Cost of a case.
 #[derive(
@@ -73,30 +71,6 @@ impl Tier {
 impl std::fmt::Display for Tier {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(self.name())
-    }
-}
-
-/// Progress of a run; called often, must be cheap.
-pub trait Progress: Sync {
-    /// `simulated` of `total` seconds are done, with `particle_steps` particle-steps so far.
-    fn advance(&self, simulated: f64, total: f64, particle_steps: f64);
-    /// News of the run for its user: where it resumes, or why it begins anew.
-    fn tell(&self, news: &str);
-    /// Checkpoints of the run; none if nothing is kept.
-    fn checkpoints(&self) -> Option<&Checkpoints> {
-        None
-    }
-    /// States near the end of finished runs that this one may continue, and the place of its own; none if nothing is kept.
-    fn ends(&self) -> Option<&Checkpoints> {
-        None
-    }
-    /// Place for boundaries and start of the run, which then ends before its first step; none for a run that is simulated.
-    fn conditions(&self) -> Option<&OnceLock<Conditions>> {
-        None
-    }
-    /// Receiver of states during the run; none if no states are requested.
-    fn output(&self) -> Option<&dyn StateOutput> {
-        None
     }
 }
 

@@ -47,7 +47,7 @@ impl Flow for Swing {
     fn cost(&self) -> RunCost {
         RunCost::weakly_compressible(1.0, self.steps as f64)
     }
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Vec<f64>>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<Vec<f64>>, ParameterError> {
         if self.steps == 0 {
             return Err(ParameterError::field("steps", 0, "positive", "take more steps"));
         }

@@ -120,9 +120,9 @@ pub fn evaluate(
             || EvaluationRecord::failed(&key, &case, "nothing was simulated"),
             |result| EvaluationRecord::of(&key, &result),
         )),
-        Ok(Err(
-            error @ (ParameterError::Field(_) | ParameterError::Scene(_) | ParameterError::Changed { .. }),
-        )) => Ok(EvaluationRecord::failed(&key, &case, &error.to_string())),
+        Ok(Err(error @ (ParameterError::Field(_) | ParameterError::Scene(_) | ParameterError::Changed { .. }))) => {
+            Ok(EvaluationRecord::failed(&key, &case, &error.to_string()))
+        }
         Ok(Err(error)) => Err(error),
         Err(_) => Ok(EvaluationRecord::failed(
             &key,

@@ -134,7 +134,7 @@ where
         Some(Self { duration: 0.0, interval: 0.0, pictures: 0, ..self.clone() })
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<SceneObservation<D>>, ParameterError> {
         let (made, cut_off) = self.scene()?;
         let begun = made.flow.position.len();
         if begun == 0 && self.inlets.is_empty() {
@@ -185,7 +185,7 @@ where
             },
             |(_, watch)| pictures().adopt(&mut watch.pictures),
         )?;
-        if let Some(state) = progress.ends().and_then(Checkpoints::newest) {
+        if let Some(state) = progress.ends.and_then(Checkpoints::newest) {
             progress.tell(&format!(
                 "a state near its end, for --from, is {} (copy it: only the last two of a scene are kept)",
                 state.display()

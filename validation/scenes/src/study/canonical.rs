@@ -218,7 +218,7 @@ impl PreparedCase for StudyPlan {
         case.kept_state(own, store)
     }
 
-    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
+    fn simulate(&self, run: usize, store: &Store, progress: &Progress) -> Result<(), ParameterError> {
         let (case, own, _) = self.at(run);
         case.simulate(own, store, progress)
     }

@@ -79,7 +79,7 @@ impl Flow for BedLoadFlow {
         }
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<BedLoadObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<BedLoadObservation>, ParameterError> {
         if self.formulation.is_continuum() {
             let layer = self.layer()?;
             let start = |z: f64| self.start() * layer.at(z).fluid_velocity;
@@ -96,7 +96,7 @@ impl BedLoadFlow {
         &self,
         channel: &Channel<'_>,
         layer: Option<&LayerState>,
-        progress: &dyn Progress,
+        progress: &Progress,
     ) -> Result<Recorded<BedLoadObservation>, ParameterError> {
         let (record, observer) = channel.run_observed(
             progress,

@@ -123,7 +123,7 @@ impl Flow for ClearWaterFlow {
         Some(Self { period, ..self.clone() })
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let law = self.reference();
         self.channel(&|z| self.start_share * law.velocity(z)).run(progress)
     }

@@ -58,7 +58,7 @@ impl Flow for StillWaterFlow {
         Some(Self { duration: 0.0, ..self.clone() })
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         self.channel().run(progress)
     }
 }

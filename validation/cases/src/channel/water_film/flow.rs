@@ -70,7 +70,7 @@ impl Flow for WaterFilmFlow {
         RunCost::incompressible(self.water.particles(), self.channel(&|_| 0.0).expected_steps())
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<ChannelObservation>, ParameterError> {
         let film = self.exact(self.water.depth);
         self.channel(&|z| film.velocity(z)).run(progress)
     }

@@ -179,7 +179,7 @@ impl<const D: usize> Flow for ColumnFlow<D> {
         Some(Self { duration: 0.0, ..self.clone() })
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<Collapse>, ParameterError> {
         if D == 2 { self.run::<2>(progress) } else { self.run::<3>(progress) }
     }
 }
@@ -410,7 +410,7 @@ impl<const D: usize> ColumnFlow<D> {
         scene
     }
 
-    fn run<const N: usize>(&self, progress: &dyn Progress) -> Result<Recorded<Collapse>, ParameterError>
+    fn run<const N: usize>(&self, progress: &Progress) -> Result<Recorded<Collapse>, ParameterError>
     where
         Simulation<N>: Compiled<N>,
     {

@@ -152,7 +152,7 @@ impl Flow for SlopeFlow {
         Some(Self { duration: 0.0, ..self.clone() })
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<SlopeCollapse>, ParameterError> {
         let surveyor = self.surveyor();
         let begin =
             |_: &_| (CollapseObserver::new(surveyor, FRAME_INTERVAL, PICTURES.to_vec(), EARLIEST_REST), Vec::new());

@@ -163,7 +163,7 @@ impl Flow for BagnoldFlow {
         RunCost::weakly_compressible(self.layer.particles(), share * self.layer(&still, &still).expected_steps())
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         if let Some(reason) = self.beyond_limits() {
             tracing::warn!("{}: {reason}", self.variant());
         }

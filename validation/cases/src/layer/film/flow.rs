@@ -95,7 +95,7 @@ impl Flow for FilmFlow {
         RunCost::weakly_compressible(self.layer.particles(), self.layer(&|_| 0.0).expected_steps())
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         let film = self.film();
         let velocity = |y: f64| if self.is_newtonian() { 0.0 } else { film.velocity(y) };
         // a law that carries its stress along starts with that of the film, others make it from the velocity

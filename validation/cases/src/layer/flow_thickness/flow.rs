@@ -142,7 +142,7 @@ impl Flow for FlowThicknessFlow {
         RunCost::weakly_compressible(self.layer.particles(), rounds * steps)
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<FlowThicknessObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<FlowThicknessObservation>, ParameterError> {
         if self.is_sought() {
             let start = self.profile(self.start_angle);
             let (velocity, shear_stress) = (|y| start.velocity(y).unwrap_or(0.0), |y| start.shear_stress(y));

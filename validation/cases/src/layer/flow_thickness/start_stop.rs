@@ -75,7 +75,7 @@ impl StartStop {
 
 impl SlopeSearch<'_> {
     /// Bisects.
-    pub(super) fn run(&self, progress: &dyn Progress) -> Result<Recorded<StartStop>, ParameterError> {
+    pub(super) fn run(&self, progress: &Progress) -> Result<Recorded<StartStop>, ParameterError> {
         let (stopping, flowing) = self.bracket;
         let new = SlopeBisection { stopping, flowing, trials: Vec::new(), steps: 0, simulated_time: 0.0, seconds: 0.0 };
         let mut search: SlopeBisection = resumed(progress).unwrap_or(new);
@@ -103,7 +103,7 @@ impl SlopeSearch<'_> {
     fn attempt(
         &self,
         angle: f64,
-        progress: &dyn Progress,
+        progress: &Progress,
         search: &SlopeBisection,
     ) -> Result<(SlopeTrial, Simulation<2>, Ending<Snapshot<2>>), ParameterError> {
         let layer = Layer { inclination: angle.to_radians(), ..self.layer.clone() };

@@ -59,7 +59,7 @@ impl Flow for HydrostaticFlow {
         RunCost::weakly_compressible(self.layer.particles(), self.layer().expected_steps())
     }
 
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<LayerObservation>, ParameterError> {
         self.layer().run(progress)
     }
 }

@@ -81,7 +81,7 @@ pub trait Flow:
     ///
     /// # Errors
     /// Parameters whose combination gives no valid scene.
-    fn simulate(&self, progress: &dyn Progress) -> Result<Recorded<Self::Observation>, ParameterError>;
+    fn simulate(&self, progress: &Progress) -> Result<Recorded<Self::Observation>, ParameterError>;
 }
 
 /// The file of the flows of each tier.

@@ -10,7 +10,7 @@ use crate::case::outcome::result::{CaseResult, RunSummary, microseconds_each};
 use crate::case::shown::{notes::notes, schema};
 use crate::case::{
     Case, CaseFile, Conditions, Estimate, ExternalData, ExternalSchema, Flow, Progress, RecordOf, RunList, RunScales,
-    StateOutput, Tier, tables_to_add,
+    Tier, tables_to_add,
 };
 use crate::checkpoint::{Checkpoints, is_interrupted};
 use crate::control::{self, Control};
@@ -93,7 +93,7 @@ pub trait PreparedCase: Send + Sync {
     ///
     /// # Errors
     /// Parameters whose combination gives no valid scene.
-    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError>;
+    fn simulate(&self, run: usize, store: &Store, progress: &Progress) -> Result<(), ParameterError>;
     /// Scales of a run, in which another code may give its columns.
     fn scales(&self, _run: usize) -> Option<RunScales> {
         None
@@ -183,48 +183,8 @@ impl<C: Case> AnyCase for C {
     }
 }
 
-/// The progress of a run that keeps checkpoints.
-struct CheckpointedProgress<'a> {
-    progress: &'a dyn Progress,
-    checkpoints: Option<Checkpoints>,
-    ends: Option<Checkpoints>,
-}
-
-impl Progress for CheckpointedProgress<'_> {
-    fn advance(&self, simulated: f64, total: f64, particle_steps: f64) {
-        self.progress.advance(simulated, total, particle_steps);
-    }
-
-    fn tell(&self, news: &str) {
-        self.progress.tell(news);
-    }
-
-    fn checkpoints(&self) -> Option<&Checkpoints> {
-        self.checkpoints.as_ref()
-    }
-
-    fn ends(&self) -> Option<&Checkpoints> {
-        self.ends.as_ref()
-    }
-
-    fn output(&self) -> Option<&dyn StateOutput> {
-        self.progress.output()
-    }
-}
-
 /// A run and, once it is done, its record and whether that came from the store.
 type Slot<R> = (R, OnceLock<(Recorded<<R as Flow>::Observation>, bool)>);
-
-/// Progress of a run that is described and not simulated.
-impl Progress for OnceLock<Conditions> {
-    fn advance(&self, _: f64, _: f64, _: f64) {}
-
-    fn tell(&self, _: &str) {}
-
-    fn conditions(&self) -> Option<&Self> {
-        Some(self)
-    }
-}
 
 struct CasePlan<C: Case> {
     tier: Tier,
@@ -371,7 +331,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         self.ends(run, store)?.newest()
     }
 
-    fn simulate(&self, run: usize, store: &Store, progress: &dyn Progress) -> Result<(), ParameterError> {
+    fn simulate(&self, run: usize, store: &Store, progress: &Progress) -> Result<(), ParameterError> {
         let (description, slot) = &self.slots[run];
         if is_interrupted() {
             return Err(ParameterError::Interrupted);
@@ -385,7 +345,8 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         }
         let checkpoints = key.as_ref().filter(|_| !anew).map(|key| store.checkpoints(key));
         let ends = if anew { None } else { self.ends(run, store) };
-        let simulated = description.simulate(&CheckpointedProgress { progress, checkpoints, ends });
+        let simulated =
+            description.simulate(&Progress { checkpoints: checkpoints.as_ref(), ends: ends.as_ref(), ..*progress });
         let record = match simulated {
             // what was cut short may look like something that is refused
             Err(_) if is_interrupted() => return Err(ParameterError::Interrupted),
@@ -423,7 +384,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         let described = OnceLock::new();
         // a run of particles ends before its first step; what a case of another crate does is unknown
         if C::ORIGIN == CodeOrigin::PACKAGE {
-            self.slots[run].0.simulate(&described).err()?;
+            self.slots[run].0.simulate(&Progress { conditions: Some(&described), ..Progress::SILENT }).err()?;
         }
         described.into_inner()
     }

@@ -55,7 +55,7 @@ pub trait Recordable {
 pub fn record<const D: usize, O>(
     scene: impl Fn() -> Scene<D>,
     end: f64,
-    progress: &dyn Progress,
+    progress: &Progress,
     measure: impl FnOnce(&Snapshot<D>) -> O,
 ) -> Result<Recorded<O>, ParameterError>
 where

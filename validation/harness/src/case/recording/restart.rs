@@ -48,7 +48,7 @@ pub trait Restartable<const D: usize>: Recordable + Sized {
 #[derive(Clone, Copy)]
 pub struct SimulationStage<'a, C> {
     /// Progress of the run, with its checkpoints.
-    pub progress: &'a dyn Progress,
+    pub progress: &'a Progress<'a>,
     /// Its end `[s]`.
     pub end: f64,
     /// Time between two observations `[s]`.
@@ -103,9 +103,9 @@ struct CheckpointContents<'a, C, O, S> {
 }
 
 /// Results of an interrupted run before the simulation in which it was interrupted.
-pub fn resumed<C: DeserializeOwned>(progress: &dyn Progress) -> Option<C> {
+pub fn resumed<C: DeserializeOwned>(progress: &Progress) -> Option<C> {
     let context = |bytes: &[u8]| postcard::take_from_bytes(bytes).map(|(context, _)| context);
-    progress.checkpoints()?.look(|bytes| context(bytes).map_err(|error| error.to_string()))
+    progress.checkpoints?.look(|bytes| context(bytes).map_err(|error| error.to_string()))
 }
 
 /// Runs a simulation and shows it to `observe` at the start, at intervals and at the end, until that breaks, together with
@@ -151,12 +151,11 @@ where
 {
     let now = Instant::now();
     let SimulationStage { progress, end, interval, window, context } = stage;
-    if let Some(conditions) = progress.conditions() {
+    if let Some(conditions) = progress.conditions {
         let described = scene(StartState::Described).map_err(Into::into)?;
         conditions.get_or_init(|| Conditions::from(&described));
         return Err(ParameterError::Interrupted);
     }
-    let checkpoints = progress.checkpoints();
     let restore = |bytes: &[u8]| {
         let read: RestoredCheckpoint<C, O, S::Saved> =
             postcard::from_bytes(bytes).map_err(|error| error.to_string())?;
@@ -175,8 +174,8 @@ where
             }
         }
     };
-    let left = checkpoints.and_then(|checkpoints| checkpoints.take(restore));
-    let left = left.or_else(|| progress.ends()?.usable(shorter));
+    let left = progress.checkpoints.and_then(|checkpoints| checkpoints.take(restore));
+    let left = left.or_else(|| progress.ends?.usable(shorter));
     let (mut simulation, mut course, kept, started) = match left {
         Some((simulation, course, kept, seconds)) => {
             progress.tell(&format!("resumes from its checkpoint at t = {:.4} s", simulation.time()));
@@ -212,12 +211,10 @@ where
         }
     };
     let output = progress.output();
-    let ends = progress.ends();
-    let before = end - window;
     let mut watching = CheckpointingObserver {
-        checkpoints,
-        ends,
-        before,
+        checkpoints: progress.checkpoints,
+        ends: progress.ends,
+        before: end - window,
         output,
         context,
         started,
