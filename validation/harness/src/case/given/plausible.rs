@@ -2,84 +2,52 @@
 
 use crate::input::number_in;
 use crate::number::four_digits;
+use std::ops::{Range, RangeInclusive};
 use toml::{Table, Value};
 
 /// A field by the end of its name, its usual range, and the slip behind a value outside of it.
 struct Usual {
     field: &'static str,
-    low: f64,
-    high: f64,
+    range: RangeInclusive<f64>,
     unit: &'static str,
-    /// The value if the slip is the likely one, and the words for it.
-    slip: fn(f64) -> Option<(f64, &'static str)>,
+    /// Values for which the slip is the likely one, what was meant by them, and the words for it.
+    slip: (Range<f64>, fn(f64) -> f64, &'static str),
 }
 
+const ANY: f64 = f64::INFINITY;
+const DEGREES: &str = "as an angle in degrees, which `friction_angle` takes,";
+
+/// Usual values; the first of several rows for one field has its range.
 const USUAL: &[Usual] = &[
+    Usual { field: "slope_angle", range: 1.0..=60.0, unit: "°", slip: (0.1..1.0, f64::to_degrees, "in radians") },
+    Usual { field: "friction_angle", range: 3.0..=60.0, unit: "°", slip: (-ANY..1.2, f64::to_degrees, "in radians") },
+    Usual { field: "static_friction", range: 0.02..=2.0, unit: "-", slip: (3.0..60.0, tangent, DEGREES) },
+    Usual { field: "grain_diameter", range: 1e-6..=0.1, unit: "m", slip: (0.1..ANY, thousandth, "in millimetres") },
     Usual {
-        field: "slope_angle",
-        low: 1.0,
-        high: 60.0,
-        unit: "°",
-        slip: |value| (value > 0.1 && value < 1.0).then_some((value.to_degrees(), "in radians")),
+        field: "grain_density", range: 500.0..=12e3, unit: "kg/m³", slip: (-ANY..12.0, thousandfold, "in g/cm³")
     },
-    Usual {
-        field: "friction_angle",
-        low: 3.0,
-        high: 60.0,
-        unit: "°",
-        slip: |value| (value < 1.2).then(|| (value.to_degrees(), "in radians")),
-    },
-    Usual {
-        field: "static_friction",
-        low: 0.02,
-        high: 2.0,
-        unit: "-",
-        slip: |value| {
-            (3.0..60.0)
-                .contains(&value)
-                .then(|| (libm::tan(value.to_radians()), "as an angle in degrees, which `friction_angle` takes,"))
-        },
-    },
-    Usual {
-        field: "grain_diameter",
-        low: 1e-6,
-        high: 0.1,
-        unit: "m",
-        slip: |value| (value > 0.1).then_some((value * 1e-3, "in millimetres")),
-    },
-    Usual {
-        field: "grain_density",
-        low: 500.0,
-        high: 12_000.0,
-        unit: "kg/m³",
-        slip: |value| (value < 12.0).then_some((value * 1e3, "in g/cm³")),
-    },
-    Usual {
-        field: "bulk_density",
-        low: 100.0,
-        high: 8000.0,
-        unit: "kg/m³",
-        slip: |value| (value < 8.0).then_some((value * 1e3, "in g/cm³")),
-    },
-    Usual {
-        field: "fluid_density",
-        low: 500.0,
-        high: 3000.0,
-        unit: "kg/m³",
-        slip: |value| (value > 0.5 && value < 3.0).then_some((value * 1e3, "in g/cm³")),
-    },
-    Usual {
-        field: "gravity",
-        low: 1.0,
-        high: 300.0,
-        unit: "m/s²",
-        slip: |value| match value {
-            900.0..1100.0 => Some((value * 1e-2, "in cm/s²")),
-            9000.0..11_000.0 => Some((value * 1e-3, "in mm/s²")),
-            _ => None,
-        },
-    },
+    Usual { field: "bulk_density", range: 100.0..=8e3, unit: "kg/m³", slip: (-ANY..8.0, thousandfold, "in g/cm³") },
+    Usual { field: "fluid_density", range: 500.0..=3e3, unit: "kg/m³", slip: (0.5..3.0, thousandfold, "in g/cm³") },
+    Usual { field: "gravity", range: 1.0..=300.0, unit: "m/s²", slip: (900.0..1100.0, hundredth, "in cm/s²") },
+    Usual { field: "gravity", range: 1.0..=300.0, unit: "m/s²", slip: (9e3..11e3, thousandth, "in mm/s²") },
 ];
+
+fn tangent(degrees: f64) -> f64 {
+    libm::tan(degrees.to_radians())
+}
+
+fn hundredth(value: f64) -> f64 {
+    value * 1e-2
+}
+
+fn thousandth(value: f64) -> f64 {
+    value * 1e-3
+}
+
+fn thousandfold(value: f64) -> f64 {
+    value * 1e3
+}
+
 /// Most spacings that a grain is wide: beyond, a particle is a small part of a grain.
 const WIDEST_GRAIN: f64 = 10.0;
 
@@ -117,14 +85,15 @@ fn collect(fields: &Table, above: &str, found: &mut Vec<(String, String)>) {
 }
 
 fn unusual(name: &str, path: &str, value: f64) -> Option<(String, String)> {
-    let usual = USUAL.iter().find(|usual| usual.field == name)?;
+    let mut rows = USUAL.iter().filter(|usual| usual.field == name).peekable();
+    let Usual { range, unit, .. } = rows.peek()?;
     // 0 switches most of these off
-    if value == 0.0 || (usual.low..=usual.high).contains(&value) {
+    if value == 0.0 || range.contains(&value) {
         return None;
     }
-    let Usual { low, high, unit, slip, .. } = usual;
-    let shown = four_digits(value);
-    let likely = slip(value).map(|(meant, words)| format!("; {shown} {words} is {}", four_digits(meant)));
+    let (shown, low, high) = (four_digits(value), range.start(), range.end());
+    let slip = rows.map(|usual| &usual.slip).find(|(values, ..)| values.contains(&value));
+    let likely = slip.map(|(_, meant, words)| format!("; {shown} {words} is {}", four_digits(meant(value))));
     let text = format!("`{path}` is {shown} {unit}, usual are {low} to {high} {unit}{}", likely.unwrap_or_default());
     Some((path.to_owned(), text))
 }
