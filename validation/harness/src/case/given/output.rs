@@ -1,7 +1,8 @@
 //! States that a run shows on its way, for other programs to look at: `[output]` in a case file.
 
-use crate::input::{FieldError, did_you_mean, nearest, number_in};
+use crate::input::{FieldError, did_you_mean, nearest};
 use crate::observation::Frame;
+use serde::Deserialize;
 use std::path::Path;
 
 /// Quantities of a state that can be written, of both models; a case without a quantity leaves it out.
@@ -21,11 +22,13 @@ pub const OUTPUT_FIELDS: [&str; 12] = [
 ];
 
 /// Selection of the states that a run writes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table")]
 pub struct OutputPlan {
     /// Time between two of them `[s]`.
     pub every: f64,
     /// Quantities of the particles; all where none are named.
+    #[serde(default)]
     pub fields: Vec<String>,
 }
 
@@ -38,30 +41,6 @@ pub trait StateOutput: Sync {
 }
 
 impl OutputPlan {
-    /// The table `[output]` of a case file.
-    ///
-    /// # Errors
-    /// An interval that is no positive number, quantities that are unknown, other keys.
-    pub fn of(table: &toml::Table) -> Result<Self, FieldError> {
-        if let Some(key) = table.keys().find(|key| !["every", "fields"].contains(&key.as_str())) {
-            let guess = did_you_mean(&nearest(key, ["every", "fields"]));
-            let remedy = format!("{guess}every = 0.01 is a hundredth of a second");
-            return Err(FieldError::new(&format!("output.{key}"), "given", "`every` or `fields`", &remedy));
-        }
-        let every = table.get("every").map(number_in);
-        let texts = |list: &toml::Value| {
-            list.as_array()?.iter().map(|item| item.as_str().map(str::to_owned)).collect::<Option<Vec<String>>>()
-        };
-        let fields = match table.get("fields") {
-            None => Vec::new(),
-            Some(list) => texts(list).ok_or_else(|| {
-                let rule = format!("a list of {}", OUTPUT_FIELDS.join(", "));
-                FieldError::new("output.fields", list, &rule, "leave it out for all")
-            })?,
-        };
-        Self::new(every.flatten().unwrap_or(f64::NAN), fields)
-    }
-
     /// A plan of checked values.
     ///
     /// # Errors
@@ -94,16 +73,15 @@ impl OutputPlan {
     /// Takes the table out of the fields of a case file.
     ///
     /// # Errors
-    /// Errors of [`OutputPlan::of`]; a value that is not a table.
+    /// Errors of [`OutputPlan::new`]; other keys, and values of another type.
     pub(in crate::case) fn taken(fields: &mut toml::Table, path: &Path) -> Result<Option<Self>, FieldError> {
-        match fields.remove("output") {
-            None => Ok(None),
-            Some(toml::Value::Table(table)) => Self::of(&table).map(Some).map_err(|error| error.in_file(path)),
-            Some(other) => {
-                let remedy = "such as output = { every = 0.01 }";
-                Err(FieldError::new("output", other, "a table with `every` and `fields`", remedy).in_file(path))
-            }
-        }
+        let Some(given) = fields.remove("output") else { return Ok(None) };
+        let plan = given.clone().try_into().map_err(|error: toml::de::Error| {
+            let remedy = format!("{}: write such as output = {{ every = 0.01 }}", error.message());
+            FieldError::new("output", given, "a table with `every` and `fields`", &remedy)
+        });
+        let plan = plan.and_then(|plan: Self| Self::new(plan.every, plan.fields));
+        plan.map(Some).map_err(|error| error.in_file(path))
     }
 }
 
@@ -130,7 +108,7 @@ mod tests {
         for (text, expected) in [
             (
                 "output = 3",
-                "case.toml: `output` is 3, but must be a table with `every` and `fields`; such as output = { every = 0.01 }",
+                "case.toml: `output` is 3, but must be a table with `every` and `fields`; invalid type: integer `3`, expected a table: write such as output = { every = 0.01 }",
             ),
             (
                 "output = { every = -1 }",
@@ -138,11 +116,11 @@ mod tests {
             ),
             (
                 "output = { }",
-                "case.toml: `output.every` is NaN, but must be a positive number; give the time between two states in seconds, such as every = 0.01",
+                "case.toml: `output` is {}, but must be a table with `every` and `fields`; missing field `every`: write such as output = { every = 0.01 }",
             ),
             (
                 "output = { evry = 1 }",
-                "case.toml: `output.evry` is given, but must be `every` or `fields`; did you mean `every`? every = 0.01 is a hundredth of a second",
+                "case.toml: `output` is { evry = 1 }, but must be a table with `every` and `fields`; unknown field `evry`, expected `every` or `fields`: write such as output = { every = 0.01 }",
             ),
         ] {
             assert_eq!(taken(text), Err(expected.to_owned()));
