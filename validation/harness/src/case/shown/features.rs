@@ -2,10 +2,10 @@
 //! and from the serialised run, so that a new option of a law, an operator or a boundary shows by itself.
 
 use crate::case::Registry;
-use bagnold_solver::parameter::Shape;
+use bagnold_solver::parameter::{Shape, Variant};
 use serde::Serialize;
 use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// A choice that has been made: a parameter and the name of its option.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -19,7 +19,7 @@ pub struct FeatureOption {
 /// All parameters that are chosen from a list, or that 0 switches off, with their options.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Features {
-    options: BTreeMap<String, BTreeSet<String>>,
+    options: BTreeSet<FeatureOption>,
 }
 
 /// The words by which a parameter's description states that it is a switch too.
@@ -42,12 +42,7 @@ impl Features {
 
     /// The options in alphabetical order.
     pub fn options(&self) -> impl Iterator<Item = FeatureOption> {
-        let of_feature = |(feature, options): (&String, &BTreeSet<String>)| {
-            let feature = feature.clone();
-            let named = move |option: &String| FeatureOption { feature: feature.clone(), option: option.clone() };
-            options.iter().map(named).collect::<Vec<_>>()
-        };
-        self.options.iter().flat_map(of_feature)
+        self.options.iter().cloned()
     }
 
     /// Options that a serialised run has chosen.
@@ -63,22 +58,8 @@ impl Features {
             Shape::Fields { properties, .. } => {
                 properties.iter().for_each(|(name, property)| self.collect(name, property));
             }
-            Shape::Choice(variants) => {
-                for variant in variants {
-                    self.add(name, variant.name);
-                    if let Some(content) = variant.content {
-                        self.collect(name, content);
-                    }
-                }
-            }
-            Shape::Tagged { tag, variants, .. } => {
-                for variant in variants {
-                    self.add(tag, variant.name);
-                    if let Some(content) = variant.content {
-                        self.collect(tag, content);
-                    }
-                }
-            }
+            Shape::Choice(variants) => self.collect_variants(name, &variants),
+            Shape::Tagged { tag, variants, .. } => self.collect_variants(tag, &variants),
             Shape::List(items) => self.collect(name, items),
             Shape::Tuple(items) => items.iter().for_each(|item| self.collect(name, item)),
             Shape::Number => {
@@ -92,15 +73,23 @@ impl Features {
         }
     }
 
+    fn collect_variants(&mut self, name: &str, variants: &[Variant<'_>]) {
+        for variant in variants {
+            self.add(name, variant.name);
+            if let Some(content) = variant.content {
+                self.collect(name, content);
+            }
+        }
+    }
+
     fn add(&mut self, feature: &str, option: &str) {
-        self.options.entry(feature.to_owned()).or_default().insert(option.to_owned());
+        self.options.insert(FeatureOption { feature: feature.to_owned(), option: option.to_owned() });
     }
 
     fn walk(&self, name: &str, value: &Value, chosen: &mut BTreeSet<FeatureOption>) {
         let mut choose = |option: &str| {
-            if self.options.get(name).is_some_and(|options| options.contains(option)) {
-                chosen.insert(FeatureOption { feature: name.to_owned(), option: option.to_owned() });
-            }
+            let option = FeatureOption { feature: name.to_owned(), option: option.to_owned() };
+            chosen.extend(self.options.get(&option).cloned());
         };
         match value {
             Value::String(option) => choose(option),
