@@ -18,9 +18,8 @@ use bagnold_solver::parameter::{Fault, Shape, first_fault, schema_of};
 use schemars::JsonSchema;
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
-use std::any::TypeId;
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Mutex, OnceLock, PoisonError};
+use std::sync::OnceLock;
 use toml::{Table, Value};
 
 /// One simulation with all of its parameters, each declared once: a field with its doc comment, unit and range. Its serialised
@@ -104,14 +103,9 @@ struct TiersFile {
 }
 
 impl TiersFile {
-    /// That of a flow, read at the first call and then kept.
-    fn of<F: Flow>() -> &'static Self {
-        static READ: Mutex<BTreeMap<TypeId, &'static TiersFile>> = Mutex::new(BTreeMap::new());
-        let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
-        read.entry(TypeId::of::<F>()).or_insert_with(|| {
-            let file = toml::from_str(F::RUNS);
-            Box::leak(Box::new(file.unwrap_or_else(|error| panic!("a case's list of runs is TOML: {error}"))))
-        })
+    /// That of a flow.
+    fn of<F: Flow>() -> Self {
+        toml::from_str(F::RUNS).unwrap_or_else(|error| panic!("a case's list of runs is TOML: {error}"))
     }
 }
 
@@ -277,7 +271,7 @@ impl<F: Flow> RunList<F> {
 
     /// Lays the changes over the defaults, checks each field along the schema, and types the result.
     pub(in crate::case) fn resolve(&self, case: &str, changes: &Changes<'_>) -> Result<Self, ParameterError> {
-        refuse_former(Self::field_now, changes)?;
+        refuse_former(&TiersFile::of::<F>().former, changes)?;
         let table = checked(case, schema_of::<Self>(), &table_of(self), changes, Self::set_for_all)?;
         Self::of_table(case, table).map_err(|error| changes.blamed(error))
     }
@@ -289,7 +283,7 @@ impl<F: Flow> RunList<F> {
     #[must_use]
     pub fn of_tier(tier: Tier) -> Self {
         let file = TiersFile::of::<F>();
-        let mut changes = file.set.clone();
+        let mut changes = file.set;
         for (lowest, values) in [(Tier::Paper, &file.paper), (Tier::Fine, &file.fine)] {
             if lowest <= tier {
                 lay_over(&mut changes, values);
@@ -298,7 +292,7 @@ impl<F: Flow> RunList<F> {
         let values = changes.into_iter().map(|(path, value)| ("set".to_owned(), path, value)).collect();
         let change = ListedChange { variant: Variant::default(), values };
         let base = changed("CASE", &table_of(&F::default()), &change).unwrap_or_else(|error| panic!("{tier}: {error}"));
-        let list = ListOfRuns { variants: file.variants.clone(), vary: file.vary.clone() }.of_tier(tier);
+        let list = ListOfRuns { variants: file.variants, vary: file.vary }.of_tier(tier);
         Self { base, list, listed: OnceLock::new() }
     }
 
@@ -341,11 +335,6 @@ impl<F: Flow> RunList<F> {
     /// Full name of a run.
     pub(in crate::case) fn variant_of(&self, run: &F) -> Variant {
         run.variant().followed_by(&self.label(run))
-    }
-
-    /// The field that takes the place of one of earlier files.
-    pub(in crate::case) fn field_now(former: &str) -> Option<String> {
-        TiersFile::of::<F>().former.get(former).cloned()
     }
 
     /// Makes the values at these paths those of all runs, whatever the list says of them.

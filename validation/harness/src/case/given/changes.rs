@@ -10,6 +10,7 @@ use bagnold_solver::material::rheology::open::registered;
 use bagnold_solver::parameter::{Fault, Shape, first_fault};
 use serde::{Serialize, de::DeserializeOwned};
 use serde_json::Value as Schema;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
@@ -139,11 +140,11 @@ pub(in crate::case) fn checked(
 
 /// Refuses lists of values that are runs of one flow now.
 pub(in crate::case) fn refuse_former(
-    now: fn(&str) -> Option<String>,
+    former: &BTreeMap<String, String>,
     changes: &Changes<'_>,
 ) -> Result<(), ParameterError> {
     let refused = |old: &str, value: &str, file: Option<&Path>| {
-        let now = now(old).or_else(|| now(old.split('.').next()?))?;
+        let now = former.get(old).or_else(|| former.get(old.split('.').next()?))?;
         let rule = format!("absent: a run has one value, `{now}`");
         let remedy = format!("give several by `--vary {now}=A,B,C`, in a file by [[vary]] with path = \"{now}\"");
         let error = ParameterError::field(old, value, &rule, &remedy);
