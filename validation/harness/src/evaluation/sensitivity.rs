@@ -1,6 +1,6 @@
 //! A case at both ends of the ranges of its inputs, one at a time: what `validation/harness/sensitivities` is made of.
 
-use crate::case::{AnyCase, CaseResult, Changes, Limits, ParameterError, PreparedCase, Tier};
+use crate::case::{AnyCase, CaseResult, Changes, Limits, ParameterError, PreparedCase, Tier, only};
 use crate::evidence::{RangeEnd, SensitivityRow, StatedUncertainty};
 use crate::metric::{Metric, MetricKind, Variant};
 use std::collections::BTreeMap;
@@ -71,13 +71,8 @@ impl SensitivityPlan {
         limits: Limits,
     ) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
         let prepare = |step: &Step| {
-            let only = step.only;
-            case.prepare(Tier::Quick, &Changes { file: None, settings: &step.settings, limits, only }).map(|prepared| {
-                let is_chosen =
-                    |run: &usize| only.is_empty() || only.iter().any(|keys| prepared.variant(*run).includes(keys));
-                let chosen: Vec<usize> = (0..prepared.run_count()).filter(is_chosen).collect();
-                prepared.choose(&chosen)
-            })
+            let changes = Changes { file: None, settings: &step.settings, limits, only: step.only };
+            only(case.prepare(Tier::Quick, &changes)?, step.only, "only")
         };
         self.steps.iter().map(prepare).collect()
     }
