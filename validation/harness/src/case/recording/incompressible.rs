@@ -1,28 +1,46 @@
 //! Records of incompressible simulations.
 
-use super::{Recordable, RecordedState, Restartable, picture};
+use super::picture::{self, flat, named};
+use super::{Restartable, Stop};
+use crate::case::ParameterError;
 use crate::observation::Frame;
 use bagnold_solver::incompressible::{
     IncompressibleScene, IncompressibleSimulation, IncompressibleSnapshot, PhaseSnapshot, SavedIncompressible,
 };
-use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
+use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError};
 use bagnold_solver::vector::Vector;
 
-impl<const D: usize> RecordedState for IncompressibleSnapshot<D> {
-    fn bits(&self) -> Vec<u8> {
-        self.to_bytes()
-    }
-
-    fn frame(&self) -> Frame {
-        Frame::of_phases(self)
-    }
-}
-
-impl Recordable for IncompressibleSimulation<2> {
+impl Restartable for IncompressibleSimulation<2> {
     type State = IncompressibleSnapshot<2>;
+    type Scene = IncompressibleScene<2>;
+    type Saved = SavedIncompressible<2>;
+
+    fn begin(scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
+        Self::new(scene)
+    }
+
+    fn continued(scene: IncompressibleScene<2>, saved: Self::Saved) -> Result<Self, ContinueError> {
+        Self::continued(scene, saved)
+    }
+
+    fn saved(&self) -> impl serde::Serialize {
+        self.save()
+    }
+
+    fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> Result<Stop, ParameterError> {
+        Stop::of(self.follow(course, observer))
+    }
 
     fn state(&self) -> IncompressibleSnapshot<2> {
         self.snapshot()
+    }
+
+    fn bits(state: &IncompressibleSnapshot<2>) -> Vec<u8> {
+        state.to_bytes()
+    }
+
+    fn frame(state: &IncompressibleSnapshot<2>) -> Frame {
+        Frame::of_phases(state)
     }
 
     fn picture(&self) -> Frame {
@@ -46,33 +64,11 @@ impl Recordable for IncompressibleSimulation<2> {
     }
 }
 
-impl Restartable<2> for IncompressibleSimulation<2> {
-    type Scene = IncompressibleScene<2>;
-    type Saved = SavedIncompressible<2>;
-
-    fn begin(scene: IncompressibleScene<2>) -> Result<Self, SceneError> {
-        Self::new(scene)
-    }
-
-    fn continued(scene: IncompressibleScene<2>, saved: Self::Saved) -> Result<Self, ContinueError> {
-        Self::continued(scene, saved)
-    }
-
-    fn saved(&self) -> impl serde::Serialize {
-        self.save()
-    }
-
-    fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> StopReason<2> {
-        self.follow(course, observer)
-    }
-}
-
 impl Frame {
     /// A picture of both phases, the fluid's particles first; `phase` is 0 for the fluid and 1 for the sediment.
     #[must_use]
     pub fn of_phases<const D: usize>(snapshot: &IncompressibleSnapshot<D>) -> Self {
         let phases = [&snapshot.fluid, &snapshot.sediment];
-        let flat = |v: &Vector<D>| [v[0], v[1], if D == 3 { v[2] } else { 0.0 }];
         let joined = |array: fn(&PhaseSnapshot<D>) -> &Vec<Vector<D>>| {
             phases.iter().flat_map(|phase| array(phase)).map(flat).collect::<Vec<_>>()
         };
@@ -85,11 +81,11 @@ impl Frame {
             time: snapshot.time,
             position: joined(|phase| &phase.position),
             scalars: vec![
-                ("pressure".to_owned(), "Pa".to_owned(), scalar(|phase| &phase.pressure)),
-                ("concentration".to_owned(), "-".to_owned(), scalar(|phase| &phase.concentration)),
-                ("phase".to_owned(), "-".to_owned(), phase.collect()),
+                named("pressure", "Pa", scalar(|phase| &phase.pressure)),
+                named("concentration", "-", scalar(|phase| &phase.concentration)),
+                named("phase", "-", phase.collect()),
             ],
-            vectors: vec![("velocity".to_owned(), "m/s".to_owned(), joined(|phase| &phase.velocity))],
+            vectors: vec![named("velocity", "m/s", joined(|phase| &phase.velocity))],
         }
     }
 }

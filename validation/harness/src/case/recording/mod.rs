@@ -21,32 +21,6 @@ use serde::{Serialize, de::DeserializeOwned};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-/// A state of a simulation.
-pub trait RecordedState {
-    /// Its bits in a fixed order.
-    fn bits(&self) -> Vec<u8>;
-    /// A picture of it, in the plane or in space.
-    fn frame(&self) -> Frame;
-}
-
-/// A simulation that can be recorded.
-pub trait Recordable {
-    /// Its states.
-    type State: RecordedState;
-    /// A copy of the present state.
-    fn state(&self) -> Self::State;
-    /// The present state as other programs want to see it.
-    fn picture(&self) -> Frame;
-    /// The particles of its walls; none where there are none.
-    fn walls(&self) -> Option<Frame>;
-    /// Particles that move.
-    fn particles(&self) -> usize;
-    /// Steps taken.
-    fn steps(&self) -> u64;
-    /// Time `[s]`.
-    fn time(&self) -> f64;
-}
-
 /// Runs a weakly compressible simulation of a scene up to a time `[s]` and records it, with the data that `measure` takes
 /// from the last state.
 ///
@@ -67,11 +41,11 @@ where
 }
 
 /// Simulation at its end, how it ended, and what its observer has kept.
-pub struct ObservedRun<S: Recordable, O> {
+pub struct ObservedRun<const D: usize, O> {
     /// The simulation at its end.
-    pub simulation: S,
+    pub simulation: Simulation<D>,
     /// End of the run with defaults: no frames, no criterion of the observer, and a divergence is an error.
-    pub ending: Ending<S::State>,
+    pub ending: Ending<Snapshot<D>>,
     /// Data that the observer has kept.
     pub kept: O,
 }
@@ -86,7 +60,7 @@ pub fn watch<const D: usize, O, C>(
     scene: impl Fn(StartState) -> Result<Scene<D>, SceneError>,
     keep: impl FnOnce(&Simulation<D>) -> O,
     mut observe: impl FnMut(&mut O, &Snapshot<D>) -> ControlFlow<()>,
-) -> Result<ObservedRun<Simulation<D>, O>, ParameterError>
+) -> Result<ObservedRun<D, O>, ParameterError>
 where
     Simulation<D>: Compiled<D>,
     O: Serialize + DeserializeOwned,
@@ -123,28 +97,28 @@ pub struct Ending<S> {
     pub started: Instant,
 }
 
-impl<S: RecordedState> Ending<S> {
+impl<S> Ending<S> {
     /// That of a run that has left no frames, does not say why it was stopped, and whose divergence would be an error.
     pub fn of(stop: Stop, last_good: S, started: Instant) -> Self {
         Self { stop, last_good, criterion: String::new(), may_diverge: false, frames: Vec::new(), started }
     }
 
     /// The record, with the data that `measure` takes from the last state: the last good one after a divergence.
-    pub fn record<O>(self, simulation: &impl Recordable<State = S>, measure: impl FnOnce(&S) -> O) -> Recorded<O> {
+    pub fn record<R: Restartable<State = S>, O>(self, simulation: &R, measure: impl FnOnce(&S) -> O) -> Recorded<O> {
         let now = simulation.state();
         let (outcome, end, first_bad) = match self.stop {
             Stop::Finished => (Outcome::Finished, now, None),
             Stop::Stopped => (Outcome::Stopped { criterion: self.criterion }, now, None),
             Stop::Diverged(message) => {
                 let outcome = Outcome::Diverged { message, expected: self.may_diverge };
-                (outcome, self.last_good, Some(now.frame()))
+                (outcome, self.last_good, Some(R::frame(&now)))
             }
         };
         let mut frames = self.frames;
-        frames.push(end.frame());
+        frames.push(R::frame(&end));
         Recorded {
             outcome,
-            state_hash: state_hash(&end.bits()),
+            state_hash: state_hash(&R::bits(&end)),
             particles: simulation.particles(),
             steps: simulation.steps(),
             simulated_time: simulation.time(),

@@ -6,13 +6,19 @@ use bagnold_solver::material::rheology::field::FieldStep;
 use bagnold_solver::vector::{Vector, equivalent_shear_stress, shear_rate};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 
-fn flat<const D: usize>(v: &Vector<D>) -> [f64; 3] {
+/// A vector in three dimensions.
+pub(super) fn flat<const D: usize>(v: &Vector<D>) -> [f64; 3] {
     [v[0], v[1], if D == 3 { v[2] } else { 0.0 }]
+}
+
+/// An array of all particles with its name and unit.
+pub(super) fn named<T>(name: &str, unit: &str, values: Vec<T>) -> (String, String, Vec<T>) {
+    (name.to_owned(), unit.to_owned(), values)
 }
 
 /// The place of every particle in the scene.
 fn identities(count: usize) -> (String, String, Vec<f64>) {
-    ("id".to_owned(), "-".to_owned(), (0..count).map(|id| id as f64).collect())
+    named("id", "-", (0..count).map(|id| id as f64).collect())
 }
 
 /// Particles of a weakly compressible flow: besides pressure, density and velocity the shear rate |γ̇|, the stress
@@ -44,7 +50,6 @@ where
     };
     let states = stresses.iter().zip(&snapshot.pressure).enumerate();
     let mobilised = states.map(|state| if elasticity(state) > 0.0 { 0.0 } else { 1.0 }).collect();
-    let named = |name: &str, unit: &str, values: Vec<f64>| (name.to_owned(), unit.to_owned(), values);
     let mut frame = Frame::of_flow(&snapshot);
     // what cannot be told of a body at rest, and is no field of the solver
     frame.scalars.retain(|(name, ..)| name != "viscosity");
@@ -75,8 +80,8 @@ pub(super) fn of_walls<const D: usize>(simulation: &Simulation<D>) -> Option<Fra
     Some(Frame {
         time: simulation.time(),
         position: particles.position[walls.clone()].iter().map(flat).collect(),
-        scalars: vec![("pressure".to_owned(), "Pa".to_owned(), particles.pressure[walls.clone()].to_vec())],
-        vectors: vec![("velocity".to_owned(), "m/s".to_owned(), particles.velocity[walls].iter().map(flat).collect())],
+        scalars: vec![named("pressure", "Pa", particles.pressure[walls.clone()].to_vec())],
+        vectors: vec![named("velocity", "m/s", particles.velocity[walls].iter().map(flat).collect())],
     })
 }
 
@@ -86,7 +91,7 @@ pub(super) fn of_phases(simulation: &IncompressibleSimulation<2>) -> Frame {
     let mut frame = Frame::of_phases(&snapshot);
     let masses = snapshot.fluid.mass.iter().chain(&snapshot.sediment.mass).copied().collect();
     frame.scalars.insert(0, identities(frame.position.len()));
-    frame.scalars.push(("mass".to_owned(), "kg".to_owned(), masses));
+    frame.scalars.push(named("mass", "kg", masses));
     frame
 }
 

@@ -1,9 +1,9 @@
 //! Runs that can be interrupted between two steps and continued by another program: simulation, where it stands between
 //! its observations, and what its observer keeps are one checkpoint.
 
-use super::Recordable;
 use crate::case::{Conditions, ParameterError, Progress, StateOutput};
 use crate::checkpoint::{Checkpoints, StoredState, count_stopped, is_interrupted};
+use crate::observation::Frame;
 use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::fmt::Display;
@@ -22,8 +22,10 @@ pub enum StartState {
     Described,
 }
 
-/// A simulation that can be saved and continued.
-pub trait Restartable<const D: usize>: Recordable + Sized {
+/// A simulation that can be recorded, saved and continued.
+pub trait Restartable: Sized {
+    /// Its states.
+    type State;
     /// Scene that the simulation is set up from.
     type Scene;
     /// Form in which the simulation is saved.
@@ -41,7 +43,26 @@ pub trait Restartable<const D: usize>: Recordable + Sized {
     /// Itself, to be written and read as [`Restartable::Saved`].
     fn saved(&self) -> impl Serialize;
     /// Runs along a course.
-    fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> StopReason<D>;
+    ///
+    /// # Errors
+    /// An interruption.
+    fn follow(&mut self, course: &mut RunProgress, observer: &mut impl Observer<Self>) -> Result<Stop, ParameterError>;
+    /// A copy of the present state.
+    fn state(&self) -> Self::State;
+    /// Bits of a state in a fixed order.
+    fn bits(state: &Self::State) -> Vec<u8>;
+    /// A picture of a state, in the plane or in space.
+    fn frame(state: &Self::State) -> Frame;
+    /// The present state as other programs want to see it.
+    fn picture(&self) -> Frame;
+    /// The particles of its walls; none where there are none.
+    fn walls(&self) -> Option<Frame>;
+    /// Particles that move.
+    fn particles(&self) -> usize;
+    /// Steps taken.
+    fn steps(&self) -> u64;
+    /// Time `[s]`.
+    fn time(&self) -> f64;
 }
 
 /// One simulation of a run.
@@ -68,6 +89,18 @@ pub enum Stop {
     Stopped,
     /// Diverged, in words.
     Diverged(String),
+}
+
+impl Stop {
+    /// The end that the solver gives as its reason.
+    pub(super) fn of<const D: usize>(reason: StopReason<D>) -> Result<Self, ParameterError> {
+        match reason {
+            StopReason::Finished => Ok(Self::Finished),
+            StopReason::Stopped => Ok(Self::Stopped),
+            StopReason::Diverged(divergence) => Ok(Self::Diverged(divergence.to_string())),
+            StopReason::Interrupted => Err(ParameterError::Interrupted),
+        }
+    }
 }
 
 /// Simulation that was run or resumed, why it stopped, and what its observer has kept.
@@ -113,14 +146,14 @@ pub fn resumed<C: DeserializeOwned>(progress: &Progress) -> Option<C> {
 ///
 /// # Errors
 /// A scene that breaks a rule or cannot be made; an interruption.
-pub fn follow<const D: usize, S, O, C, E>(
+pub fn follow<S, O, C, E>(
     stage: SimulationStage<'_, C>,
     scene: impl Fn(StartState) -> Result<S::Scene, E>,
     keep: impl FnOnce(&S) -> O,
     observe: impl FnMut(&mut O, &S) -> ControlFlow<()>,
 ) -> Result<RestartableRun<S, O>, ParameterError>
 where
-    S: Restartable<D>,
+    S: Restartable,
     O: Serialize + DeserializeOwned,
     C: Serialize + DeserializeOwned,
     E: Into<ParameterError> + Display,
@@ -134,7 +167,7 @@ where
 ///
 /// # Errors
 /// A scene that breaks a rule or cannot be made; an interruption.
-pub fn follow_on<const D: usize, S, O, C, E>(
+pub fn follow_on<S, O, C, E>(
     stage: SimulationStage<'_, C>,
     state: Option<&StoredState>,
     scene: impl Fn(StartState) -> Result<S::Scene, E>,
@@ -143,7 +176,7 @@ pub fn follow_on<const D: usize, S, O, C, E>(
     mut adopt: impl FnMut(&mut O) -> Result<(), String>,
 ) -> Result<RestartableRun<S, O>, ParameterError>
 where
-    S: Restartable<D>,
+    S: Restartable,
     O: Serialize + DeserializeOwned,
     C: Serialize + DeserializeOwned,
     E: Into<ParameterError> + Display,
@@ -222,12 +255,7 @@ where
         observe,
         simulation: PhantomData,
     };
-    let stop = match simulation.follow(&mut course, &mut watching) {
-        StopReason::Finished => Stop::Finished,
-        StopReason::Stopped => Stop::Stopped,
-        StopReason::Diverged(divergence) => Stop::Diverged(divergence.to_string()),
-        StopReason::Interrupted => return Err(ParameterError::Interrupted),
-    };
+    let stop = simulation.follow(&mut course, &mut watching)?;
     if let Some(output) = output {
         output.take(simulation.picture(), simulation.walls());
     }
@@ -235,7 +263,7 @@ where
 }
 
 /// Shows a simulation to the observer of a case and to who wants states on its way, and keeps checkpoints.
-struct CheckpointingObserver<'a, const D: usize, S, O, C, F> {
+struct CheckpointingObserver<'a, S, O, C, F> {
     checkpoints: Option<&'a Checkpoints>,
     /// Place of a state near the end, until it is written, and the time before which it is taken `[s]`.
     ends: Option<&'a Checkpoints>,
@@ -248,9 +276,9 @@ struct CheckpointingObserver<'a, const D: usize, S, O, C, F> {
     simulation: PhantomData<S>,
 }
 
-impl<const D: usize, S, O, C, F> Observer<S> for CheckpointingObserver<'_, D, S, O, C, F>
+impl<S, O, C, F> Observer<S> for CheckpointingObserver<'_, S, O, C, F>
 where
-    S: Restartable<D>,
+    S: Restartable,
     O: Serialize,
     C: Serialize,
     F: FnMut(&mut O, &S) -> ControlFlow<()>,
