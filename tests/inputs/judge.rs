@@ -98,7 +98,7 @@ fn judge(input: &Input, tally: &mut Tally) {
         Ok(Ok(prepared)) => prepared,
     };
     tally.taken += 1;
-    if prepared.estimate().core_seconds > WORTH_COMPUTING {
+    if prepared.estimate_of_all().core_seconds > WORTH_COMPUTING {
         return;
     }
     tally.computed += 1;

@@ -12,7 +12,7 @@ fn result_of(text: &str) -> (CaseResult, f64) {
     let changes = Changes { file: Some((std::path::Path::new("scene.toml"), fields)), ..Changes::default() };
     let case = REGISTRY.find(case.as_str().expect("a name")).expect("a case");
     let prepared = case.prepare(Tier::Quick, &changes).unwrap_or_else(|error| panic!("{error}"));
-    let expected = prepared.estimate().particle_steps;
+    let expected = prepared.estimate_of_all().particle_steps;
     let mut results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent).expect("a result");
     (results.remove(0), expected)
 }

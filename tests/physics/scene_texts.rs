@@ -68,7 +68,7 @@ pub(crate) fn result(text: &str) -> (f64, CaseResult) {
     let changes = Changes { file: Some((Path::new("scene.toml"), fields)), ..Changes::default() };
     let prepared = REGISTRY.find("scene").and_then(|case| case.prepare(Tier::Quick, &changes));
     let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
-    let expected = prepared.particle_steps(0);
+    let expected = prepared.estimate(0).particle_steps;
     let mut results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent).expect("a result");
     (expected, results.remove(0))
 }

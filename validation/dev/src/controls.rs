@@ -2,7 +2,7 @@
 //! committed tables of what became of them.
 
 use crate::arguments::ControlsArguments;
-use crate::case::{CaseResult, Registry, Request, Tier, share_out_for};
+use crate::case::{CaseResult, Registry, Request, Tier, share_out};
 use crate::control::{Control, ControlKind, ControlTrial, Found, TriedControls};
 use crate::error::DevError;
 use crate::evidence::PAPERS;
@@ -78,7 +78,7 @@ fn of_solver(
     let right = right.map_err(|reason| DevError::Trial { case: case.to_owned(), reason })?;
     let limit = Duration::from_secs_f64(10.0 * right.wall_seconds + PATIENCE);
     let bar = CountBar::new("controls", errors.len(), 0, quiet);
-    share_out_for(errors, |(control, number): (&Control, usize)| -> Result<_, DevError> {
+    share_out(errors, |(control, number): (&Control, usize)| -> Result<_, DevError> {
         bar.say(&control.name);
         // a program that stops has noticed, but its gates have not
         let wrong = program.run(&number.to_string(), &scope, limit).ok();

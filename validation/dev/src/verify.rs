@@ -151,7 +151,7 @@ mod tests {
         for run in &list.runs {
             let changes = Changes { settings: &run.settings, ..Changes::default() };
             let prepared = REGISTRY.find(&run.case).and_then(|case| case.prepare(Tier::Quick, &changes));
-            let estimate = prepared.expect("valid settings").estimate();
+            let estimate = prepared.expect("valid settings").estimate_of_all();
             assert!(estimate.core_seconds < 3.0, "{}: {} s", run.case, estimate.core_seconds);
         }
     }

@@ -5,9 +5,10 @@ use crate::case::{CaseResult, Estimate, PreparedCase, speed_up, wall_time};
 use crate::metric::Variant;
 use crate::store::{AllSpeeds, Speeds, instruction_set, profile};
 use bagnold_solver::material::rheology::open::registered;
+use indicatif::HumanDuration;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Times on the machine that the shipped estimates come from: `speeds.json` of its store after `bagnold report`.
 const SHIPPED: &str = include_str!("speeds.json");
@@ -37,8 +38,8 @@ impl Expectation {
             let run = |run: usize| ExpectedRun {
                 case: case.name(),
                 variant: case.variant(run),
-                nominal: case.nominal_seconds(run),
-                cost: case.particle_steps(run),
+                nominal: case.estimate(run).core_seconds,
+                cost: case.estimate(run).particle_steps,
             };
             (0..case.run_count()).map(run).collect()
         };
@@ -49,7 +50,8 @@ impl Expectation {
 
     /// Expected time, in words.
     pub(super) fn in_words(&self, estimate: &Estimate, root: &Path, threads: usize) -> String {
-        estimate.in_words(self.seconds(AllSpeeds::read(root).of(&build()), threads), threads)
+        let seconds = self.seconds(AllSpeeds::read(root).of(&build()), threads);
+        in_words(estimate.runs, seconds, threads)
     }
 
     /// Wall time `[s]` by what is known of this machine; what was never measured here is taken over from the shipped times, by
@@ -136,6 +138,14 @@ impl Expectation {
     }
 }
 
+/// Number of runs and their time `[s]` on so many threads.
+fn in_words(runs: usize, seconds: f64, threads: usize) -> String {
+    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let (runs, threads) = (counted(runs, "run"), counted(threads, "thread"));
+    let time = HumanDuration(Duration::from_secs_f64(seconds.clamp(1.0, 1e12)));
+    format!("{runs}, about {time} on {threads} of this machine if nothing is stored")
+}
+
 /// Properties of the build that distinguish speeds in one store. User-defined laws are slower than built-in ones.
 fn build() -> String {
     let laws = if registered().is_empty() { "" } else { ", with laws of its own" };
@@ -160,6 +170,13 @@ mod tests {
             runs: nominal.iter().enumerate().map(run).collect(),
             times: Mutex::new(Vec::new()),
         }
+    }
+
+    #[test]
+    fn an_expected_time_has_the_unit_that_suits_it() {
+        let expected = "1 run, about 30 seconds on 1 thread of this machine if nothing is stored";
+        assert_eq!(in_words(1, 30.0, 1), expected);
+        assert!(in_words(2, 600.0, 2).starts_with("2 runs, about 10 minutes on 2 threads"));
     }
 
     #[test]

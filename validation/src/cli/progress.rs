@@ -75,7 +75,7 @@ impl<'a> RunsBar<'a> {
         let of_case = |case: &dyn PreparedCase| -> Vec<RunProgress> {
             let run = |run| RunProgress {
                 name: format!("{} {}", case.name(), case.variant(run)).trim_end().to_owned(),
-                weight: case.particle_steps(run).max(1.0),
+                weight: case.estimate(run).particle_steps.max(1.0),
                 done: 0.0,
                 particle_steps: 0.0,
                 begun: None,

@@ -38,7 +38,7 @@ pub(super) fn announce(
     }
     let expectation = Expectation::of(command, cases);
     if !quiet {
-        let estimate = cases.iter().map(|case| case.estimate()).fold(Estimate::default(), Estimate::and);
+        let estimate = cases.iter().map(|case| case.estimate_of_all()).fold(Estimate::default(), Estimate::and);
         tell(&expectation.in_words(&estimate, store.root(), rayon::current_num_threads()));
     }
     expectation

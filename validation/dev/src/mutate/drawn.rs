@@ -2,7 +2,7 @@
 
 use super::program::Program;
 use crate::arguments::DrawnArguments;
-use crate::case::{ParameterError, Registry, share_out, share_out_for};
+use crate::case::{ParameterError, Registry, share_out};
 use crate::error::DevError;
 use crate::interruption;
 use crate::mutation::{
@@ -95,7 +95,7 @@ pub(super) fn drawn(command: &DrawnArguments, workspace: &Path, session: &mut Se
 
 /// Every case at the quick tier without an error, and the places whose expressions it reaches.
 fn traced(program: &Program, places: &[usize], registry: Registry) -> Result<BTreeMap<String, TracedCase>, DevError> {
-    let cases = share_out_for(registry.iter().map(|case| case.name().to_owned()).collect(), |case: String| {
+    let cases = share_out(registry.iter().map(|case| case.name().to_owned()).collect(), |case: String| {
         let file = program.file(&format!("reached-{case}"));
         let scope = Scope { case, settings: Vec::new() };
         let right = program.run(&file.to_string_lossy(), &scope, Duration::MAX);
@@ -180,5 +180,6 @@ impl Trial<'_, '_> {
             }
             self.keep(place, outcome)
         })
+        .map(drop)
     }
 }

@@ -5,7 +5,7 @@ mod program;
 mod through_tests;
 
 use crate::arguments::{MutateAction, MutateArguments};
-use crate::case::{Tier, share_out_for};
+use crate::case::{Tier, share_out};
 use crate::error::DevError;
 use crate::mutation::{
     CHOICE, Detection, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, page, run_trial,
@@ -157,7 +157,7 @@ fn try_all<W: Ord + Send + Sync, R: Send + Sync>(
 ) -> Result<Vec<MutationOutcome>, DevError> {
     let all: BTreeSet<W> = errors.iter().flat_map(|error| witnesses(error)).collect();
     let bar = CountBar::new(what, all.len() + errors.len(), 0, quiet);
-    let said = share_out_for(Vec::from_iter(all), |witness: W| {
+    let said = share_out(Vec::from_iter(all), |witness: W| {
         let started = Instant::now();
         let said = right(&witness);
         going_on()?;
@@ -170,7 +170,7 @@ fn try_all<W: Ord + Send + Sync, R: Send + Sync>(
     };
     let mut queue = errors.to_vec();
     queue.sort_by_key(|error| std::cmp::Reverse(cost(error)));
-    let mut findings = share_out_for(queue, |error: &Mutation| {
+    let mut findings = share_out(queue, |error: &Mutation| {
         bar.say(&error.name);
         let own = witnesses(error);
         let own: Vec<(&W, &R)> = own.iter().filter_map(|witness| Some((witness, &said.get(witness)?.0))).collect();

@@ -30,7 +30,7 @@ pub use plan::expectation::{speed_up, wall_time};
 pub use plan::registry::Registry;
 pub(crate) use plan::request::only;
 pub use plan::request::{Request, Requested};
-pub use plan::schedule::{Monitor, Progress, Silent, execute, share_out, share_out_for};
+pub use plan::schedule::{Monitor, Progress, Silent, execute, share_out};
 pub use shown::features::{FeatureOption, Features};
 pub use shown::tables::tables_to_add;
 

@@ -190,18 +190,9 @@ impl PreparedCase for StudyPlan {
         case.run_parameters(own)
     }
 
-    fn particle_steps(&self, run: usize) -> f64 {
+    fn estimate(&self, run: usize) -> Estimate {
         let (case, own, _) = self.at(run);
-        case.particle_steps(own)
-    }
-
-    fn nominal_seconds(&self, run: usize) -> f64 {
-        let (case, own, _) = self.at(run);
-        case.nominal_seconds(own)
-    }
-
-    fn estimate(&self) -> Estimate {
-        self.parts.iter().map(|part| part.estimate()).fold(Estimate::default(), Estimate::and)
+        case.estimate(own)
     }
 
     fn briefs(&self) -> Vec<String> {

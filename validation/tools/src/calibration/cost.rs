@@ -35,7 +35,7 @@ impl EvaluationCost {
                 .map(|block| {
                     let settings = plan.settings(block, &values);
                     let prepared = block.request.prepare(registry, &plan.file, &settings, Limits::NONE).ok()?;
-                    Some(prepared.estimate().core_seconds / 3600.0 * plan.repeats.count as f64)
+                    Some(prepared.estimate_of_all().core_seconds / 3600.0 * plan.repeats.count as f64)
                 })
                 .sum()
         };

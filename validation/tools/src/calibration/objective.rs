@@ -6,7 +6,7 @@ use super::folder::CalibrationFolder;
 use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
 use super::target::{Datum, DatumUncertainty, ProfileLocation, Target};
-use crate::case::{PreparedCase, Registry, Silent, share_out_for};
+use crate::case::{PreparedCase, Registry, Silent, share_out};
 use crate::evaluation::{self, EvaluationRecord};
 use crate::inference::Evaluate;
 use crate::input::FieldError;
@@ -114,11 +114,9 @@ impl Objective<'_> {
             }
         }
         self.watch.expected(waiting.len());
-        let cost = |prepared: &dyn PreparedCase| -> f64 {
-            (0..prepared.run_count()).map(|k| prepared.particle_steps(k)).sum()
-        };
+        let cost = |prepared: &dyn PreparedCase| prepared.estimate_of_all().particle_steps;
         waiting.sort_by(|a, b| cost(b.2.as_ref()).total_cmp(&cost(a.2.as_ref())).then(a.0.cmp(&b.0)));
-        records.extend(share_out_for(waiting, |(_, key, prepared)| -> Result<_, CalibrationError> {
+        records.extend(share_out(waiting, |(_, key, prepared)| -> Result<_, CalibrationError> {
             let record = evaluation::evaluate(prepared, self.store, &Silent)?;
             self.watch.evaluated(&record.case, record.failure.as_deref());
             let file = self.file(&key);

@@ -69,4 +69,5 @@ pub fn run_locally(
         watch.ended(entry, &record);
         Ok(())
     })
+    .map(drop)
 }

@@ -271,7 +271,7 @@ fn file_name(label: &str) -> String {
 }
 
 fn cost(prepared: &dyn PreparedCase) -> f64 {
-    let sum: f64 = (0..prepared.run_count()).map(|run| prepared.particle_steps(run)).sum();
+    let sum = prepared.estimate_of_all().particle_steps;
     // JSON has no infinity
     sum.min(f64::MAX)
 }

@@ -6,7 +6,7 @@ pub mod list;
 use self::cost::RunCost;
 use self::list::{ListOfRuns, ListedChange, NamedVariant, VariedParameter};
 use crate::case::given::changes::{
-    Changes, checked, lay_at, lay_over, overlay, refuse_former, table_of, typed, unknown_law,
+    Changes, checked, lay_at, lay_over, overlay, paths, refuse_former, table_of, typed, unknown_law,
 };
 use crate::case::given::fault;
 use crate::case::{ParameterError, Progress, RunScales, Tier};
@@ -239,24 +239,11 @@ fn placed(case: &str, fault: Fault, base: &Table, change: &ListedChange) -> Para
         .iter()
         .rev()
         .find(|(_, own, value)| gives(own) || value.is_table() && path.starts_with(own.as_str()));
-    let Some((place, own, value)) = given else {
-        return fault::in_parameters(fault, case, &crate::case::given::changes::paths(base));
-    };
-    match fault {
-        Fault::Unknown { known, .. } => {
-            let remedy = fault::unknown_field(&path, &[&known, &crate::case::given::changes::paths(base)], case).remedy;
-            let field = if place.starts_with("vary") || place.contains("].vary") { "path" } else { path.as_str() };
-            FieldError::new(&format!("{place}.{field}"), format!("\"{path}\""), "a field of the flow", &remedy).into()
-        }
-        fault => match fault::in_parameters(fault, case, &crate::case::given::changes::paths(base)) {
-            ParameterError::Field(error) => {
-                let text = error.value.clone();
-                let shown = if own == &path { value.to_string() } else { text };
-                FieldError::new(&format!("{place}.{path}"), shown, &error.rule, &error.remedy).into()
-            }
-            other => other,
-        },
-    }
+    let error = fault::in_parameters(fault, case, &paths(base));
+    let Some((place, own, given)) = given else { return error.into() };
+    let is_value = own == &path && !error.rule.is_empty();
+    let value = if is_value { given.to_string() } else { error.value };
+    FieldError { field: format!("{place}.{path}"), value, ..error }.into()
 }
 
 impl<'de, F: Flow> Deserialize<'de> for RunList<F> {

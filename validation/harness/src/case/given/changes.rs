@@ -110,7 +110,7 @@ pub(in crate::case) fn checked(
     let mut settings = Table::new();
     for (index, argument) in changes.settings.iter().enumerate() {
         refuse_twice(&changes.settings[..index], argument)?;
-        add_setting(case, defaults, &mut settings, argument)?;
+        add_setting(defaults, &mut settings, argument)?;
     }
     let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
     for (file, fields) in file.into_iter().chain([(None, &settings)]) {
@@ -223,8 +223,8 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> P
             let set = is_set(changes.settings, fault.path());
             let error = fault::in_parameters(fault, case, &known);
             match &changes.file {
-                Some((file, _)) if !set => error.in_file(file),
-                _ => error,
+                Some((file, _)) if !set => error.in_file(file).into(),
+                _ => error.into(),
             }
         }
     }
@@ -371,7 +371,7 @@ fn is_below(path: &str, above: &str) -> bool {
 }
 
 /// Adds one `path=value` to the table of all that are set.
-fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &str) -> Result<(), ParameterError> {
+fn add_setting(defaults: &Table, settings: &mut Table, argument: &str) -> Result<(), FieldError> {
     let Some((path, text)) = parts(argument).filter(|(path, text)| !path.is_empty() && !text.is_empty()) else {
         let example = paths(defaults)
             .into_iter()
@@ -382,24 +382,9 @@ fn add_setting(case: &str, defaults: &Table, settings: &mut Table, argument: &st
         let path = format!("\"{}\"", argument.split('=').next().unwrap_or_default());
         let rule = "the dotted path of a parameter, followed by `=` and a value";
         let error = FieldError::new("path", path, rule, &format!("such as `{example}`"));
-        return Err(error.set_by(argument.to_owned()).into());
+        return Err(error.set_by(argument.to_owned()));
     };
-    let mut keys: Vec<&str> = path.split('.').collect();
-    let last = keys.pop().unwrap_or(path);
-    let mut parent = settings;
-    for key in keys {
-        let inner = parent.entry(key).or_insert_with(|| Value::Table(Table::new()));
-        parent = match inner {
-            Value::Table(inner) => inner,
-            _ => return Err(unknown_path(case, &[&paths(defaults)], path, text)),
-        };
-    }
-    match (parent.get_mut(last), value_of(text)) {
-        (Some(Value::Table(inner)), Value::Table(change)) => overlay(&Schema::Null, inner, &change),
-        (_, value) => {
-            parent.insert(last.to_owned(), value);
-        }
-    }
+    lay_at(settings, path, &value_of(text));
     Ok(())
 }
 
@@ -409,7 +394,7 @@ pub fn table_of_settings(settings: &[String]) -> Table {
     let mut table = Table::new();
     for setting in settings {
         // a setting that is refused is refused where it is applied
-        let _ = add_setting("", &Table::new(), &mut table, setting);
+        let _ = add_setting(&Table::new(), &mut table, setting);
     }
     table
 }

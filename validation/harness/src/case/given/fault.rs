@@ -8,14 +8,18 @@ use bagnold_solver::parameter::{Fault, ParameterProblem};
 /// A parameter that is out of its range, or excludes another choice.
 impl From<ParameterProblem> for ParameterError {
     fn from(problem: ParameterProblem) -> Self {
-        Self::field(&problem.field, problem.value, &problem.rule, &problem.remedy)
+        of_problem(&problem).into()
     }
 }
 
+fn of_problem(problem: &ParameterProblem) -> FieldError {
+    FieldError::new(&problem.field, &problem.value, &problem.rule, &problem.remedy)
+}
+
 /// The error for a fault in the parameters of `case`; `known` are all paths that it has.
-pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> ParameterError {
+pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String]) -> FieldError {
     match fault {
-        Fault::Unknown { path, known: beside } => unknown_field(&path, &[&beside, known], case).into(),
+        Fault::Unknown { path, known: beside } => unknown_field(&path, &[&beside, known], case),
         Fault::Missing { path, absent } => {
             let of = |(name, about): &(String, String)| match about.as_str() {
                 "" => format!("`{name}`"),
@@ -29,14 +33,14 @@ pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String])
                 // of a table that is left out by default
                 format!("`bagnold schema {case}` tells what it is")
             };
-            FieldError::finding(&path, "missing", &remedy).into()
+            FieldError::finding(&path, "missing", &remedy)
         }
         Fault::Kind { path, value, rule, choice } => {
             let value = value.unwrap_or_else(|| "not valid".to_owned());
             let rule = without_unit(rule, value.trim_matches('"'));
-            ParameterError::field(&path, value, &rule, &remedy(choice.as_ref(), case))
+            FieldError::new(&path, value, &rule, &remedy(choice.as_ref(), case))
         }
-        Fault::Range(problem) => problem.into(),
+        Fault::Range(problem) => of_problem(&problem),
     }
 }
 

@@ -77,12 +77,12 @@ pub trait PreparedCase: Send + Sync {
     fn variant(&self, run: usize) -> Variant;
     /// Everything that a run depends on, by the names of its fields; null if it cannot be written as JSON.
     fn run_parameters(&self, run: usize) -> serde_json::Value;
-    /// Expected cost of a run in particle-steps.
-    fn particle_steps(&self, run: usize) -> f64;
-    /// Time of a run on one core that follows from its parameters alone `[s]`; limits are counted by it.
-    fn nominal_seconds(&self, run: usize) -> f64;
+    /// Estimated resources of a run.
+    fn estimate(&self, run: usize) -> Estimate;
     /// Estimated resources of all runs together.
-    fn estimate(&self) -> Estimate;
+    fn estimate_of_all(&self) -> Estimate {
+        (0..self.run_count()).map(|run| self.estimate(run)).fold(Estimate::default(), Estimate::and)
+    }
     /// One line on each run that has something to tell before it starts.
     fn briefs(&self) -> Vec<String>;
     /// Key of a run in a store, equal for identical simulations; none if the store is bypassed.
@@ -307,16 +307,8 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         self.slots[run].0.scales()
     }
 
-    fn particle_steps(&self, run: usize) -> f64 {
-        self.slots[run].0.cost().particle_steps
-    }
-
-    fn nominal_seconds(&self, run: usize) -> f64 {
-        Estimate::of(self.slots[run].0.cost()).core_seconds
-    }
-
-    fn estimate(&self) -> Estimate {
-        self.slots.iter().map(|(run, _)| Estimate::of(run.cost())).fold(Estimate::default(), Estimate::and)
+    fn estimate(&self, run: usize) -> Estimate {
+        Estimate::of(self.slots[run].0.cost())
     }
 
     fn briefs(&self) -> Vec<String> {

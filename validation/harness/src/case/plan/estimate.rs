@@ -1,7 +1,6 @@
 //! Estimated resources of runs before anything is allocated (particles, memory, steps and time), and their limits.
 
 use crate::case::RunCost;
-use std::fmt;
 
 /// Memory of a particle in the snapshots of a run that is done `[bytes]`.
 const BYTES_KEPT: f64 = 700.0;
@@ -108,33 +107,6 @@ impl Estimate {
     }
 }
 
-/// "9 runs, about 2 min on 2 threads".
-impl Estimate {
-    /// In words, for so many threads, on which the runs are expected to take so many `seconds`.
-    #[must_use]
-    pub fn in_words(&self, seconds: f64, threads: usize) -> String {
-        let runs = if self.runs == 1 { "1 run".to_owned() } else { format!("{} runs", self.runs) };
-        let threads = if threads == 1 { "1 thread".to_owned() } else { format!("{threads} threads") };
-        format!("{runs}, about {} on {threads} of this machine if nothing is stored", Duration(seconds))
-    }
-}
-
-/// A time in the unit that suits it.
-struct Duration(f64);
-
-impl fmt::Display for Duration {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let seconds = self.0;
-        if seconds < 90.0 {
-            write!(formatter, "{} s", rounded(seconds.max(1.0)))
-        } else if seconds < 5400.0 {
-            write!(formatter, "{} min", rounded(seconds / 60.0))
-        } else {
-            write!(formatter, "{} h", rounded(seconds / 3600.0))
-        }
-    }
-}
-
 /// Two digits are more than an estimate knows.
 fn rounded(value: f64) -> String {
     if value.abs() >= 1e4 {
@@ -228,16 +200,5 @@ mod tests {
             assert!(of(1.0, 1.0).and(of(cost, cost)).problem(&LIMITS).is_some());
             assert!(of(cost, cost).and(of(1.0, 1.0)).problem(&LIMITS).is_some());
         }
-    }
-
-    #[test]
-    fn an_estimate_is_said_in_the_unit_that_suits_it() {
-        assert_eq!(
-            of(1.0, 1.0).in_words(30.0, 1),
-            "1 run, about 30 s on 1 thread of this machine if nothing is stored"
-        );
-        let two = of(1.0, 600.0).and(of(1.0, 600.0));
-        assert_eq!(two.in_words(600.0, 2), "2 runs, about 10 min on 2 threads of this machine if nothing is stored");
-        assert!(of(1.0, 1.0).in_words(36_000.0, 1).contains("about 10 h"));
     }
 }

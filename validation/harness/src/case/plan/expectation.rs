@@ -1,4 +1,4 @@
-//! Expected wall time of several runs, from their times on one core, in the order of [`crate::case::execute`].
+//! Expected wall time of several runs, from their times on one core.
 
 /// Gain in speed by every thread of a run beyond its first `[-]`. Small runs gain less, large ones more.
 const GAIN: f64 = 0.7;
@@ -9,31 +9,13 @@ pub fn speed_up(threads: usize) -> f64 {
     1.0 + GAIN * (threads.max(1) - 1) as f64
 }
 
-/// Wall time of runs in the order in which they begin, on so many threads, from their times on one core; all in `[s]`. They
-/// are shared out as [`crate::case::share_out`] does it: one thread each while there are more runs than threads, a fair share for the
-/// last few.
+/// Wall time of runs on so many threads, from their times on one core; all in `[s]`: that of the longest run with its share of the
+/// threads, or of all threads at work on all runs.
 #[must_use]
 pub fn wall_time(core_seconds: &[f64], threads: usize) -> f64 {
-    let threads = threads.max(1);
-    // when each run ends, and the threads that it has until then
-    let mut going: Vec<(f64, usize)> = Vec::new();
-    let (mut now, mut free, mut end) = (0.0_f64, threads, 0.0_f64);
-    for (begun, seconds) in core_seconds.iter().enumerate() {
-        if free == 0 || going.len() >= threads.min(core_seconds.len()) {
-            let first = (0..going.len()).min_by(|&a, &b| going[a].0.total_cmp(&going[b].0));
-            if let Some(first) = first {
-                let (ended, share) = going.swap_remove(first);
-                now = ended;
-                free += share;
-            }
-        }
-        let share = (free / (core_seconds.len() - begun)).max(1);
-        free = free.saturating_sub(share);
-        let ends = now + seconds.max(0.0) / speed_up(share);
-        end = end.max(ends);
-        going.push((ends, share));
-    }
-    end
+    let share = threads / core_seconds.len().max(1);
+    let longest = core_seconds.iter().copied().fold(0.0, f64::max) / speed_up(share);
+    longest.max(core_seconds.iter().sum::<f64>() / threads.max(1) as f64)
 }
 
 #[cfg(test)]

@@ -70,42 +70,35 @@ impl<'a> Progress<'a> {
     }
 }
 
-/// One run of one case.
-#[derive(Debug, Clone, Copy)]
-struct ScheduledRun {
-    case: usize,
-    run: usize,
-    /// Position over all cases, which the monitor knows it by.
-    number: usize,
-}
-
 /// State that the worker threads share.
-struct Queue<J, E> {
-    /// Jobs not yet begun, the last first: the next one is popped off the end.
-    waiting: Vec<J>,
+struct Queue<J, R, E> {
+    /// Jobs not yet begun with their places, the last first: the next one is popped off the end.
+    waiting: Vec<(usize, J)>,
     /// Threads that no job uses.
     free: usize,
+    /// Results by place.
+    done: BTreeMap<usize, R>,
     /// The first error; it stops the rest.
     error: Option<E>,
 }
 
-/// Does jobs, the first first, on the current rayon pool's number of threads: one thread each while there are more jobs
-/// than threads, a fair share for the last few. Every job finds a pool of its own as the current one.
+/// The results of jobs, in the order of the jobs, done the first first on the current rayon pool's number of threads: one thread each
+/// while there are more jobs than threads, a fair share for the last few. Every job finds a pool of its own as the current one.
 ///
 /// # Errors
 /// The first job that fails; jobs that have not begun are then left.
-pub fn share_out<J: Send, E: From<ParameterError> + Send>(
-    mut jobs: Vec<J>,
-    work: impl Fn(J) -> Result<(), E> + Sync,
-) -> Result<(), E> {
-    jobs.reverse();
+pub fn share_out<J: Send, R: Send, E: From<ParameterError> + Send>(
+    jobs: Vec<J>,
+    work: impl Fn(J) -> Result<R, E> + Sync,
+) -> Result<Vec<R>, E> {
     let threads = rayon::current_num_threads();
     let workers = threads.min(jobs.len());
-    let queue = Mutex::new(Queue { waiting: jobs, free: threads, error: None });
+    let waiting = jobs.into_iter().enumerate().rev().collect();
+    let queue = Mutex::new(Queue { waiting, free: threads, done: BTreeMap::new(), error: None });
     let lock = || queue.lock().unwrap_or_else(PoisonError::into_inner);
     let worker = || {
         loop {
-            let (job, share) = {
+            let ((place, job), share) = {
                 let mut state = lock();
                 // A share leaves enough for the others, so a worker that finds a job also finds a thread.
                 let share = (state.free / state.waiting.len().max(1)).max(1);
@@ -120,9 +113,12 @@ pub fn share_out<J: Send, E: From<ParameterError> + Send>(
                 .and_then(|pool| pool.install(|| work(job)));
             let mut state = lock();
             state.free += share;
-            if let Err(error) = outcome {
-                state.waiting.clear();
-                state.error.get_or_insert(error);
+            match outcome {
+                Ok(result) => drop(state.done.insert(place, result)),
+                Err(error) => {
+                    state.waiting.clear();
+                    state.error.get_or_insert(error);
+                }
             }
         }
     };
@@ -131,27 +127,8 @@ pub fn share_out<J: Send, E: From<ParameterError> + Send>(
             scope.spawn(worker);
         }
     });
-    match queue.into_inner().unwrap_or_else(PoisonError::into_inner).error {
-        Some(error) => Err(error),
-        None => Ok(()),
-    }
-}
-
-/// The results of jobs, in the order of the jobs; else as [`share_out`].
-///
-/// # Errors
-/// The first job that fails; jobs that have not begun are then left.
-pub fn share_out_for<J: Send, R: Send, E: From<ParameterError> + Send>(
-    jobs: Vec<J>,
-    work: impl Fn(J) -> Result<R, E> + Sync,
-) -> Result<Vec<R>, E> {
-    let given = Mutex::new(BTreeMap::new());
-    share_out(jobs.into_iter().enumerate().collect(), |(place, job)| {
-        let result = work(job)?;
-        given.lock().unwrap_or_else(PoisonError::into_inner).insert(place, result);
-        Ok::<(), E>(())
-    })?;
-    Ok(given.into_inner().unwrap_or_else(PoisonError::into_inner).into_values().collect())
+    let Queue { done, error, .. } = queue.into_inner().unwrap_or_else(PoisonError::into_inner);
+    error.map_or_else(|| Ok(done.into_values().collect()), Err)
 }
 
 /// Simulates all runs of all cases on the current rayon pool's number of threads and judges them.
@@ -163,20 +140,17 @@ pub fn execute(
     store: &Store,
     monitor: &dyn Monitor,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    let mut jobs: Vec<ScheduledRun> = cases
-        .iter()
-        .enumerate()
-        .flat_map(|(case, prepared)| (0..prepared.run_count()).map(move |run| (case, run)))
-        .enumerate()
-        .map(|(number, (case, run))| ScheduledRun { case, run, number })
-        .collect();
-    let cost = |job: &ScheduledRun| cases[job.case].particle_steps(job.run);
+    let places = |(case, own): (usize, &Box<dyn PreparedCase>)| (0..own.run_count()).map(move |run| (case, run));
+    let runs = cases.iter().enumerate().flat_map(places);
+    // each with its position over all cases, which the monitor knows it by
+    let mut jobs: Vec<(usize, (usize, usize))> = runs.enumerate().collect();
+    let cost = |&(_, (case, run)): &(usize, (usize, usize))| cases[case].estimate(run).particle_steps;
     // The longest first; of equal cost the first first.
-    jobs.sort_by(|a, b| cost(b).total_cmp(&cost(a)).then(a.number.cmp(&b.number)));
-    share_out(jobs, |job| {
-        monitor.started(job.number);
-        let outcome = cases[job.case].simulate(job.run, store, &Progress::of(monitor, job.number));
-        monitor.finished(job.number);
+    jobs.sort_by(|a, b| cost(b).total_cmp(&cost(a)));
+    share_out(jobs, |(number, (case, run))| {
+        monitor.started(number);
+        let outcome = cases[case].simulate(run, store, &Progress::of(monitor, number));
+        monitor.finished(number);
         outcome
     })?;
     let results = cases.into_iter().map(PreparedCase::finish).collect::<Result<_, _>>()?;
