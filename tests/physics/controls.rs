@@ -1,7 +1,7 @@
 //! Controls: every gate names wrong physics or a wrong input that it must reject, and does what its control says of it.
 
 use bagnold_harness::case::{AnyCase, CaseResult, Request, Silent, Tier, execute};
-use bagnold_harness::control::{Answer, Control, ControlKind, ControlTrial, TriedControls};
+use bagnold_harness::control::{Answer, Control, ControlTrial, TriedControls};
 use bagnold_harness::evidence::{MetricName, PAPERS};
 use bagnold_harness::metric::{MetricKind, Verdict};
 use bagnold_harness::store::{Store, StorePolicy};
@@ -21,17 +21,16 @@ fn results(requests: &[Request<'_>]) -> Vec<CaseResult> {
 /// Results of the controls of a case: those that a report runs, and those of its table.
 fn trials(case: &dyn AnyCase, right: &CaseResult) -> Vec<ControlTrial> {
     let (controls, tried) = (case.controls(), TriedControls::shipped(case.name()));
-    let in_report = |control: &&Control| matches!(control.kind, ControlKind::Input { in_table: false, .. });
-    let own: Vec<&Control> = controls.iter().filter(in_report).collect();
+    let own: Vec<&Control> = controls.iter().filter(|control| control.is_of_report()).collect();
     let mut requests = Vec::new();
     for control in &own {
-        let ControlKind::Input { set, only, .. } = &control.kind else { unreachable!("chosen above") };
-        requests.push(Request { target: case.name(), settings: set, only, ..Request::default() });
+        let (settings, only) = (&control.set, &control.only);
+        requests.push(Request { target: case.name(), settings, only, ..Request::default() });
     }
     let wrong = results(&requests);
     let mut trials: Vec<ControlTrial> =
         own.into_iter().zip(&wrong).map(|(control, wrong)| wrong.trial(control.clone(), right)).collect();
-    for control in controls.iter().filter(|control| !in_report(control)) {
+    for control in controls.iter().filter(|control| !control.is_of_report()) {
         let trial = tried.trial(control);
         trials.push(
             trial.unwrap_or_else(|| {

@@ -4,7 +4,6 @@
 use crate::structure::source::workspace;
 use bagnold_dev::mutation::Mutations;
 use bagnold_harness::case::{Changes, Tier};
-use bagnold_harness::control::ControlKind;
 use bagnold_validation::REGISTRY;
 
 #[test]
@@ -48,11 +47,7 @@ fn every_mutation_has_tests_or_cases_that_take_their_settings() {
 
 /// Errors of the solver that the cases' controls name.
 fn solver_controls() -> impl Iterator<Item = String> {
-    let controls = REGISTRY.iter().flat_map(|case| case.controls());
-    controls.filter_map(|control| match control.kind {
-        ControlKind::Solver(error) => Some(error),
-        ControlKind::Input { .. } => None,
-    })
+    REGISTRY.iter().flat_map(|case| case.controls()).filter_map(|control| control.solver)
 }
 
 #[test]

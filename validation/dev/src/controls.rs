@@ -3,7 +3,7 @@
 
 use crate::arguments::ControlsArguments;
 use crate::case::{CaseResult, Registry, Request, Tier, share_out};
-use crate::control::{Control, ControlKind, ControlTrial, Found, TriedControls};
+use crate::control::{Control, ControlTrial, Found, TriedControls};
 use crate::error::DevError;
 use crate::evidence::PAPERS;
 use crate::metric::{Metric, Verdict};
@@ -33,7 +33,7 @@ pub(crate) fn controls(command: &ControlsArguments, session: &mut Session<'_>) -
     let mut same = true;
     for name in cases {
         let mut own: Vec<Control> = session.registry.find(name)?.controls();
-        own.retain(|control| !matches!(control.kind, ControlKind::Input { in_table: false, .. }));
+        own.retain(|control| !control.is_of_report());
         if own.is_empty() {
             continue;
         }
@@ -63,10 +63,7 @@ fn of_solver(
     mutations: &Mutations,
     quiet: bool,
 ) -> Result<Vec<ControlTrial>, DevError> {
-    let errors = controls.iter().filter_map(|control| match &control.kind {
-        ControlKind::Solver(error) => Some((control, error)),
-        ControlKind::Input { .. } => None,
-    });
+    let errors = controls.iter().filter_map(|control| Some((control, control.solver.as_ref()?)));
     let errors: Vec<(&Control, usize)> = errors
         .map(|(control, error)| Ok((control, mutations.number(named(mutations, error)?))))
         .collect::<Result<_, DevError>>()?;
@@ -105,11 +102,10 @@ fn of_inputs(
 ) -> Result<Vec<ControlTrial>, DevError> {
     let mut requests = vec![Request { target: case, tier: Some(Tier::Quick), ..Request::default() }];
     let mut dear: Vec<&Control> = Vec::new();
-    for control in controls {
-        if let ControlKind::Input { set, only, .. } = &control.kind {
-            requests.push(Request { target: case, tier: Some(Tier::Quick), settings: set, only, ..Request::default() });
-            dear.push(control);
-        }
+    for control in controls.iter().filter(|control| control.solver.is_none()) {
+        let (settings, only) = (&control.set, &control.only);
+        requests.push(Request { target: case, tier: Some(Tier::Quick), settings, only, ..Request::default() });
+        dear.push(control);
     }
     if dear.is_empty() {
         return Ok(Vec::new());

@@ -3,7 +3,7 @@
 use super::super::tests::write;
 use super::super::{Report, Severity, judge, papers_page, tests};
 use super::*;
-use crate::control::{Control, ControlKind, ControlTrial, Found};
+use crate::control::{Control, ControlTrial, Found};
 use crate::figure::Figure;
 use crate::metric::{Limit, MetricKind, Variant};
 use crate::store::Drawings;
@@ -189,9 +189,9 @@ fn the_papers_are_accounted_for_where_their_cases_run() {
 
 /// A control of which the element names a metric, as the control has it.
 fn trial(metric: &str, found: &Metric) -> ControlTrial {
-    let kind = ControlKind::Solver("an-error".to_owned());
+    let solver = Some("an-error".to_owned());
     let (name, error, rejected_by) = ("an-error".to_owned(), "wrong".to_owned(), vec![metric.to_owned()]);
-    let control = Control { name, error, kind, rejected_by, accepted_by: Vec::new() };
+    let control = Control { name, error, solver, rejected_by, ..Control::default() };
     ControlTrial { control, found: vec![Found::of(found, Some(found))], diverged: false, tried_at: None }
 }
 

@@ -2,7 +2,7 @@
 
 use super::CaseReport;
 use super::width::share_of_gate;
-use crate::control::{Answer, ControlKind, ControlTrial, ErrorSeries};
+use crate::control::{Answer, ControlTrial, ErrorSeries};
 use crate::metric::{Metric, MetricKind, Verdict};
 use serde_json::{Value, json};
 
@@ -64,7 +64,7 @@ pub(super) fn table(case: &CaseReport) -> Option<Value> {
             "name": control.name,
             "error": control.error,
             "command": control.command(&case.name),
-            "is_solver": matches!(control.kind, ControlKind::Solver(_)),
+            "is_solver": control.solver.is_some(),
             "note": match (&trial.tried_at, trial.diverged) {
                 (_, true) => "a run diverged, whose gates show nothing".to_owned(),
                 (Some(commit), _) => format!("tried at {}", crate::store::provenance::short_commit(commit)),

@@ -3,7 +3,7 @@
 use super::error::ProgramError;
 use super::simulation::simulate;
 use crate::case::{CaseResult, Limits, Registry, Request, Tier};
-use crate::control::{ControlKind, ControlTrial, TriedControls};
+use crate::control::{ControlTrial, TriedControls};
 use crate::store::Store;
 
 /// The controls of these results that a report has: changes of parameters are run, the others are in the committed table. None at
@@ -22,8 +22,9 @@ pub(super) fn of_results(
         let Some(own) = registry.find(&result.name).ok().filter(|_| result.tier == Tier::Quick) else { continue };
         let tried = TriedControls::shipped(&result.name);
         for control in own.controls() {
-            if let ControlKind::Input { set, only, in_table: false, .. } = &control.kind {
-                let request = Request { target: &result.name, tier: Some(Tier::Quick), settings: set, only, limits };
+            if control.is_of_report() {
+                let (settings, only) = (&control.set, &control.only);
+                let request = Request { target: &result.name, tier: Some(Tier::Quick), settings, only, limits };
                 prepared.push(request.prepare(registry)?.prepared);
                 places.push((case, control));
             } else {

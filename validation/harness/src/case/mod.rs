@@ -14,7 +14,7 @@ pub use flow::list::{ListOfRuns, NamedVariant, VariedParameter, settings_to_vary
 pub use flow::{Flow, RunList};
 pub use flow::{cost, list};
 pub use given::changes::Changes;
-pub use given::changes::{table_of_settings, twice_given};
+pub use given::changes::{leaves, table_of_settings, twice_given};
 pub use given::error::ParameterError;
 pub use given::file::CaseFile;
 pub use given::output::{OUTPUT_FIELDS, OutputPlan, StateOutput};
@@ -23,7 +23,7 @@ pub use outcome::foreign::{
     ExternalColumn, ExternalData, ExternalObservation, ExternalResult, ExternalSchema, NamedColumns, ParticleFrame,
     RunScales,
 };
-pub use outcome::result::{CaseResult, RunSummary};
+pub use outcome::result::{CaseResult, RunSummary, hash_of_states};
 pub use plan::erased::{AnyCase, PreparedCase};
 pub use plan::estimate::{Estimate, Limits};
 pub use plan::expectation::{speed_up, wall_time};
@@ -44,11 +44,24 @@ use serde::Serialize;
 
 /// Cost of a case.
 #[derive(
-    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, serde::Deserialize, JsonSchema, clap::ValueEnum,
+    Debug,
+    Default,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    PartialOrd,
+    Ord,
+    Hash,
+    Serialize,
+    serde::Deserialize,
+    JsonSchema,
+    clap::ValueEnum,
 )]
 #[serde(rename_all = "snake_case")]
 pub enum Tier {
     /// Seconds to three minutes per case.
+    #[default]
     Quick,
     /// Minutes to hours per case.
     Paper,

@@ -19,36 +19,33 @@ pub use trial::{Answer, ControlTrial, Found};
 use crate::metric::Variant;
 use serde::Deserialize;
 
-/// Kind of a control.
-#[derive(Debug, Clone, PartialEq)]
-pub enum ControlKind {
-    /// `path=value` changes of the case's parameters, and the runs that they need: all where none is named.
-    Input {
-        /// The changes.
-        set: Vec<String>,
-        /// Keys of the runs.
-        only: Vec<Variant>,
-        /// Keys and values of the right run that its runs stand for, where the change has a key in their names.
-        stands_for: Variant,
-        /// Whether it takes too long for a report and stands in the table instead.
-        in_table: bool,
-    },
-    /// An error of the solver by its name.
-    Solver(String),
-}
-
-/// Named wrong physics or a named wrong input of one case.
-#[derive(Debug, Clone, PartialEq)]
+/// Named wrong physics or a named wrong input of one case: changes of parameters, or an error of the solver.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Control {
     /// Name, unique in its case, such as `coulomb-friction`.
     pub name: String,
     /// The error in words.
     pub error: String,
-    /// Change of parameters, or error of the solver.
-    pub kind: ControlKind,
+    /// `path=value` changes of the case's parameters; empty for an error of the solver.
+    #[serde(default)]
+    pub set: Vec<String>,
+    /// Keys of the runs that the changes need; all where none is named.
+    #[serde(default)]
+    pub only: Vec<Variant>,
+    /// Keys and values of the right run that its runs stand for, where the change has a key in their names.
+    #[serde(default)]
+    pub stands_for: Variant,
+    /// Whether the changes take too long for a report and stand in the table instead.
+    #[serde(default)]
+    pub in_table: bool,
+    /// An error of the solver by its name.
+    pub solver: Option<String>,
     /// Metrics that are meant to feel it and reject it.
+    #[serde(default)]
     pub rejected_by: Vec<String>,
     /// Metrics that are meant to feel it and accept it nevertheless.
+    #[serde(default)]
     pub accepted_by: Vec<AcceptingMetric>,
 }
 
@@ -75,16 +72,20 @@ impl Control {
         self.accepted_by.iter().find(|entry| entry.metric == metric).map(|entry| entry.because.as_str())
     }
 
+    /// Whether a report runs it beside the case; the others stand in the table.
+    #[must_use]
+    pub fn is_of_report(&self) -> bool {
+        self.solver.is_none() && !self.in_table
+    }
+
     /// The command that runs it.
     #[must_use]
     pub fn command(&self, case: &str) -> String {
-        match &self.kind {
-            ControlKind::Input { set, only, .. } => {
-                let only: String = only.iter().map(|keys| format!(" --only {keys}")).collect();
-                let set: String = set.iter().map(|change| format!(" --set '{change}'")).collect();
-                format!("bagnold run {case}{only}{set}")
-            }
-            ControlKind::Solver(error) => format!("cargo run -p bagnold-dev -- mutate trial {error} {case}"),
+        if let Some(error) = &self.solver {
+            return format!("cargo run -p bagnold-dev -- mutate trial {error} {case}");
         }
+        let only: String = self.only.iter().map(|keys| format!(" --only {keys}")).collect();
+        let set: String = self.set.iter().map(|change| format!(" --set '{change}'")).collect();
+        format!("bagnold run {case}{only}{set}")
     }
 }

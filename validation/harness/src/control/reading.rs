@@ -1,7 +1,6 @@
 //! A file of controls → controls; every rule that one can break.
 
-use super::{AcceptingMetric, Control, ControlKind, ErrorSeries};
-use crate::metric::Variant;
+use super::{Control, ErrorSeries};
 use serde::Deserialize;
 
 include!(concat!(env!("OUT_DIR"), "/controls.rs"));
@@ -13,27 +12,7 @@ struct File {
     #[serde(default)]
     series: Vec<String>,
     #[serde(default, rename = "control")]
-    controls: Vec<Row>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Row {
-    name: String,
-    error: String,
-    #[serde(default)]
-    set: Vec<String>,
-    #[serde(default)]
-    only: Vec<Variant>,
-    #[serde(default)]
-    stands_for: Variant,
-    #[serde(default)]
-    in_table: bool,
-    solver: Option<String>,
-    #[serde(default)]
-    rejected_by: Vec<String>,
-    #[serde(default)]
-    accepted_by: Vec<AcceptingMetric>,
+    controls: Vec<Control>,
 }
 
 /// Controls that cannot be read; the message completes "failed to …".
@@ -76,12 +55,7 @@ fn parse(file: &str, text: &str) -> Result<Vec<Control>, ControlError> {
         if row.rejected_by.is_empty() && row.accepted_by.is_empty() {
             return Err(of("is meant for no metric; name some in `rejected_by` or `accepted_by`"));
         }
-        let Row { name, error, set, only, stands_for, in_table, solver, rejected_by, accepted_by } = row;
-        let kind = match solver {
-            Some(error) => ControlKind::Solver(error),
-            None => ControlKind::Input { set, only, stands_for, in_table },
-        };
-        controls.push(Control { name, error, kind, rejected_by, accepted_by });
+        controls.push(row);
     }
     for name in rows.series {
         let series = ErrorSeries::find(&name);

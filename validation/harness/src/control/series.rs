@@ -1,6 +1,6 @@
 //! Errors of one parameter in several sizes: how small an error of it does a gate still reject?
 
-use super::{Control, ControlKind};
+use super::Control;
 
 /// Errors of one parameter of a law.
 #[derive(Debug, PartialEq)]
@@ -52,9 +52,8 @@ impl ErrorSeries {
         self.factors.iter().map(|factor| Control {
             name: self.error(*factor),
             error: format!("{} × {factor}", self.parameter),
-            kind: ControlKind::Solver(self.error(*factor)),
-            rejected_by: Vec::new(),
-            accepted_by: Vec::new(),
+            solver: Some(self.error(*factor)),
+            ..Control::default()
         })
     }
 }
@@ -63,7 +62,7 @@ impl Control {
     /// The series that the control is of, and the factor of its parameter `[-]`; none for one that stands alone.
     #[must_use]
     pub fn size(&self) -> Option<(&'static ErrorSeries, f64)> {
-        let ControlKind::Solver(error) = &self.kind else { return None };
+        let error = self.solver.as_ref()?;
         let factor =
             |series: &ErrorSeries| series.factors.iter().copied().find(|factor| series.error(*factor) == *error);
         ALL.iter().find_map(|series| Some((series, factor(series)?)))

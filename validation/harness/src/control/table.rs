@@ -123,16 +123,15 @@ impl TriedControls {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::control::ControlKind;
 
     #[test]
     fn a_table_is_read_as_it_was_written() {
         let control = Control {
             name: "still".to_owned(),
             error: "nothing moves".to_owned(),
-            kind: ControlKind::Solver("none".to_owned()),
+            solver: Some("none".to_owned()),
             rejected_by: vec!["front".to_owned()],
-            accepted_by: Vec::new(),
+            ..Control::default()
         };
         let variant: Variant = "a=3,start=rest".parse().expect("a variant");
         let found = |metric: &str, value, verdict| Found {

@@ -1,6 +1,6 @@
 //! Result of a control: the gates that reject it.
 
-use super::{Control, ControlKind};
+use super::Control;
 use crate::metric::{Metric, Value, Variant, Verdict};
 
 /// Answer of a gate to a control.
@@ -96,8 +96,7 @@ impl ControlTrial {
 impl Control {
     /// The variant of the right case that one of the control stands for.
     fn as_right(&self, variant: &Variant) -> Variant {
-        let ControlKind::Input { stands_for, .. } = &self.kind else { return variant.clone() };
-        let value = |key: &str, own: &Value| stands_for.get(key).unwrap_or(own).clone();
+        let value = |key: &str, own: &Value| self.stands_for.get(key).unwrap_or(own).clone();
         variant.parts().fold(Variant::default(), |all, (key, own)| all.and(key, value(key, own)))
     }
 }
@@ -126,9 +125,8 @@ mod tests {
 
     fn trial(wrong: Option<&Metric>, diverged: bool) -> ControlTrial {
         let set = vec!["x=1".to_owned()];
-        let kind = ControlKind::Input { set, only: Vec::new(), stands_for: Variant::of("start", 1), in_table: false };
         let (name, error) = ("still".to_owned(), "nothing moves".to_owned());
-        let control = Control { name, error, kind, rejected_by: Vec::new(), accepted_by: Vec::new() };
+        let control = Control { name, error, set, stands_for: Variant::of("start", 1), ..Control::default() };
         ControlTrial { control, found: vec![Found::of(&front(0.5, None), wrong)], diverged, tried_at: None }
     }
 

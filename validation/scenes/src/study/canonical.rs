@@ -6,13 +6,12 @@
 use super::file::StudyText;
 use super::{Study, schema};
 use crate::case::{
-    AnyCase, CaseResult, Changes, Estimate, ExternalData, ExternalResult, ExternalSchema, ParameterError, PreparedCase,
-    Progress, Registry, Tier, table_of_settings, tables_to_add,
+    AnyCase, CaseResult, Changes, Estimate, ParameterError, PreparedCase, Progress, Registry, Tier, table_of_settings,
+    tables_to_add,
 };
-use crate::control::{Control, ControlKind, TriedControls};
+use crate::control::{Control, TriedControls};
 use crate::figure::Figure;
-use crate::input::FieldError;
-use crate::metric::{Quantity, Variant};
+use crate::metric::Variant;
 use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
 use std::path::{Path, PathBuf};
@@ -69,10 +68,6 @@ impl AnyCase for CanonicalStudy {
         &self.study().text.description
     }
 
-    fn quantities(&self) -> &'static [Quantity] {
-        &[]
-    }
-
     fn origin(&self) -> CodeOrigin {
         self.base().origin()
     }
@@ -84,10 +79,7 @@ impl AnyCase for CanonicalStudy {
     fn controls(&self) -> Vec<Control> {
         let (mut controls, tried) = (self.study().controls(), TriedControls::shipped(self.name));
         for control in &mut controls {
-            let dear = tried.trial(control).is_some();
-            if let ControlKind::Input { in_table, .. } = &mut control.kind {
-                *in_table = dear;
-            }
+            control.in_table = tried.trial(control).is_some();
         }
         controls
     }
@@ -113,10 +105,6 @@ impl AnyCase for CanonicalStudy {
 
     fn parameter_schema(&self) -> &'static serde_json::Value {
         self.base().parameter_schema()
-    }
-
-    fn form(&self) -> &'static ExternalSchema {
-        &ExternalSchema::NUMBERS
     }
 
     fn prepare(&'static self, tier: Tier, changes: &Changes<'_>) -> Result<Box<dyn PreparedCase>, ParameterError> {
@@ -228,10 +216,6 @@ impl PreparedCase for StudyPlan {
         }
         plan.study.drop_checks_without_runs();
         Box::new(plan)
-    }
-
-    fn judge_external(&self, _: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
-        Ok(ExternalResult::default())
     }
 
     fn finish(self: Box<Self>) -> Result<CaseResult, ParameterError> {

@@ -3,7 +3,7 @@
 use super::Study;
 use crate::case::ParameterError;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier, twice_given};
-use crate::control::{Answer, Control, ControlKind};
+use crate::control::{Answer, Control};
 use crate::input::{FieldError, check_name, check_text};
 use crate::metric::{Limit, Metric, Variant};
 use schemars::JsonSchema;
@@ -30,10 +30,9 @@ impl ControlText {
     /// As a case has it.
     pub(super) fn control(&self) -> Control {
         let set = self.set.iter().map(|(path, value)| format!("{path}={value}")).collect();
-        let kind = ControlKind::Input { set, only: Vec::new(), stands_for: Variant::default(), in_table: false };
         let error = if self.error.is_empty() { self.name.replace(['-', '_'], " ") } else { self.error.clone() };
         let rejected_by = self.rejects.clone();
-        Control { name: self.name.clone(), error, kind, rejected_by, accepted_by: Vec::new() }
+        Control { name: self.name.clone(), error, set, rejected_by, ..Control::default() }
     }
 }
 
@@ -86,7 +85,7 @@ impl Study {
     ) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
         let mut all = Vec::new();
         for (place, control) in self.controls().into_iter().enumerate() {
-            let ControlKind::Input { set, .. } = control.kind else { continue };
+            let set = control.set;
             for (setting, (path, _)) in set.iter().zip(&self.text.controls[place].set) {
                 let remedy = "set a parameter that no variant sets".into();
                 let of_control = |error: FieldError| {

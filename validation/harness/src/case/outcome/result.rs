@@ -6,8 +6,9 @@ use crate::figure::{Animation, Figure};
 use crate::metric::{FlowRegime, Metric, Variant, Verdict};
 use crate::observation::{Frame, Outcome};
 use crate::output::Table;
-use crate::store::CodeOrigin;
+use crate::store::{CodeOrigin, hexadecimal};
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
 /// One run of a case in brief.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -49,7 +50,7 @@ impl RunSummary {
 }
 
 /// A finished case.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct CaseResult {
     /// Name on the command line.
     pub name: String,
@@ -162,6 +163,18 @@ impl CaseResult {
     pub fn unexpected_divergences(&self) -> impl Iterator<Item = &RunSummary> {
         self.runs.iter().filter(|run| run.diverged_unexpectedly())
     }
+}
+
+/// Hash over those of several states.
+#[must_use]
+pub fn hash_of_states<'a>(states: impl Iterator<Item = &'a String>) -> String {
+    let mut hash = Sha256::new();
+    for state in states {
+        hash.update(state.as_bytes());
+        // A separator, so that no two lists of hashes run together to the same bytes.
+        hash.update([0]);
+    }
+    hexadecimal(&hash.finalize())
 }
 
 /// Wall time over the number of things done in it `[µs]`.

@@ -6,7 +6,7 @@ use crate::case::given::error::ParameterError;
 use crate::case::outcome::causes::explained;
 use crate::case::outcome::finite::{fail_broken_profiles, fail_diverged};
 use crate::case::outcome::foreign::ExternalResult;
-use crate::case::outcome::result::{CaseResult, RunSummary, microseconds_each};
+use crate::case::outcome::result::{CaseResult, RunSummary, hash_of_states, microseconds_each};
 use crate::case::shown::{notes::notes, schema};
 use crate::case::{
     Case, CaseFile, Conditions, Estimate, ExternalData, ExternalSchema, Flow, Progress, RecordOf, RunList, RunScales,
@@ -22,7 +22,6 @@ use crate::observation::Recorded;
 use crate::output::Table;
 use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
-use sha2::{Digest, Sha256};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
@@ -35,7 +34,9 @@ pub trait AnyCase: Sync {
     /// Setup, and what is judged, in prose.
     fn description(&self) -> &str;
     /// Quantities from which the metrics of the case are built; empty if the case does not declare them.
-    fn quantities(&self) -> &'static [Quantity];
+    fn quantities(&self) -> &'static [Quantity] {
+        &[]
+    }
     /// Origin of the code of the case: these packages or another crate.
     fn origin(&self) -> CodeOrigin;
     /// Whether it is a canonical study: runs of other cases under checks of its own.
@@ -53,7 +54,9 @@ pub trait AnyCase: Sync {
     /// The schema of its parameters, as their type has it.
     fn parameter_schema(&self) -> &'static serde_json::Value;
     /// Columns that the case accepts from an external code for a run, besides single numbers.
-    fn form(&self) -> &'static ExternalSchema;
+    fn form(&self) -> &'static ExternalSchema {
+        &ExternalSchema::NUMBERS
+    }
     /// Types and checks a tier's parameters with the user's changes.
     ///
     /// # Errors
@@ -104,7 +107,9 @@ pub trait PreparedCase: Send + Sync {
     ///
     /// # Errors
     /// Columns that are missing beside others, of the run of that number.
-    fn judge_external(&self, given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)>;
+    fn judge_external(&self, _given: &[ExternalData]) -> Result<ExternalResult, (usize, FieldError)> {
+        Ok(ExternalResult::default())
+    }
     /// Limits and references of runs of which another code gives nothing yet; empty where the case takes single numbers only.
     fn asked(&self) -> ExternalResult {
         ExternalResult::default()
@@ -363,13 +368,11 @@ impl<C: Case> PreparedCase for CasePlan<C> {
 
     fn asked(&self) -> ExternalResult {
         let nothing = ExternalData::default();
-        let seen = |run| C::from_external(run, &nothing).ok().flatten();
-        let records: Vec<RecordOf<C::Flow>> = self
-            .slots
-            .iter()
-            .filter_map(|(run, _)| Some((run.clone(), nothing.record(seen(run)?.observation))))
-            .collect();
-        ExternalResult { tables: Vec::new(), ..self.said(records) }
+        let record = |(run, _): &Slot<C::Flow>| {
+            let seen = C::from_external(run, &nothing).ok().flatten()?;
+            Some((run.clone(), nothing.record(seen.observation)))
+        };
+        ExternalResult { tables: Vec::new(), ..self.said(self.slots.iter().filter_map(record).collect()) }
     }
 
     fn conditions(&self, run: usize) -> Option<Conditions> {
@@ -403,7 +406,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             .into_iter()
             .map(|(label, slots)| self.result(slots).labelled(&label, |variant| named(variant, &label)));
         let whole = parts.reduce(CaseResult::and).unwrap_or_else(|| self.result(Vec::new()));
-        Ok(CaseResult { state_hash: hash_of_states(&whole.runs), ..whole })
+        Ok(CaseResult { state_hash: hash_of_states(whole.runs.iter().map(|run| &run.state_hash)), ..whole })
     }
 }
 
@@ -438,14 +441,4 @@ fn summary<R: Flow>(run: &R, record: &Recorded<R::Observation>, from_store: bool
         state_hash: record.state_hash.clone(),
         from_store,
     }
-}
-
-fn hash_of_states(runs: &[RunSummary]) -> String {
-    let mut hash = Sha256::new();
-    for run in runs {
-        hash.update(run.state_hash.as_bytes());
-        // A separator, so that no two lists of hashes run together to the same bytes.
-        hash.update([0]);
-    }
-    crate::store::hexadecimal(&hash.finalize())
 }
