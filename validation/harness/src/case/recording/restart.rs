@@ -1,11 +1,11 @@
 //! Runs that can be interrupted between two steps and continued by another program: simulation, where it stands between
 //! its observations, and what its observer keeps are one checkpoint.
 
-use crate::case::{Conditions, ParameterError, Progress, StateOutput};
+use crate::case::{Conditions, ParameterError, Progress};
 use crate::checkpoint::{Checkpoints, StoredState, count_stopped, is_interrupted};
 use crate::observation::Frame;
 use bagnold_solver::run::{ContinueError, Observer, RunProgress, SceneError, StopReason};
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Display;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
@@ -66,7 +66,6 @@ pub trait Restartable: Sized {
 }
 
 /// One simulation of a run.
-#[derive(Clone, Copy)]
 pub struct SimulationStage<'a, C> {
     /// Progress of the run, with its checkpoints.
     pub progress: &'a Progress<'a>,
@@ -115,25 +114,8 @@ pub struct RestartableRun<S, O> {
     pub started: Instant,
 }
 
-/// A checkpoint. What it reads is what [`CheckpointContents`] has written.
-#[derive(Deserialize)]
-struct RestoredCheckpoint<C, O, S> {
-    _context: C,
-    seconds: f64,
-    course: RunProgress,
-    kept: O,
-    simulation: S,
-}
-
-/// The context comes first, so that it can be read alone.
-#[derive(Serialize)]
-struct CheckpointContents<'a, C, O, S> {
-    context: &'a C,
-    seconds: f64,
-    course: &'a RunProgress,
-    kept: &'a O,
-    simulation: S,
-}
+/// Contents of a checkpoint: the context, which can be read alone, seconds spent, the course, what the observer keeps, the simulation.
+type Contents<C, O, S> = (C, f64, RunProgress, O, S);
 
 /// Results of an interrupted run before the simulation in which it was interrupted.
 pub fn resumed<C: DeserializeOwned>(progress: &Progress) -> Option<C> {
@@ -183,18 +165,18 @@ where
     for<'scene> Conditions: From<&'scene S::Scene>,
 {
     let now = Instant::now();
-    let SimulationStage { progress, end, interval, window, context } = stage;
+    let SimulationStage { progress, end, interval, .. } = stage;
     if let Some(conditions) = progress.conditions {
         let described = scene(StartState::Described).map_err(Into::into)?;
         conditions.get_or_init(|| Conditions::from(&described));
         return Err(ParameterError::Interrupted);
     }
     let restore = |bytes: &[u8]| {
-        let read: RestoredCheckpoint<C, O, S::Saved> =
+        let (_, seconds, course, kept, saved): Contents<C, O, S::Saved> =
             postcard::from_bytes(bytes).map_err(|error| error.to_string())?;
         let scene = scene(StartState::Continued).map_err(|error| error.to_string())?;
-        let simulation = S::continued(scene, read.simulation).map_err(|error| error.to_string())?;
-        Ok((simulation, read.course, read.kept, read.seconds))
+        let simulation = S::continued(scene, saved).map_err(|error| error.to_string())?;
+        Ok((simulation, course, kept, seconds))
     };
     let mut refused = None;
     let shorter = |bytes: &[u8]| {
@@ -243,20 +225,10 @@ where
             (simulation, RunProgress::new(end, interval), kept, now)
         }
     };
-    let output = progress.output();
-    let mut watching = CheckpointingObserver {
-        checkpoints: progress.checkpoints,
-        ends: progress.ends,
-        before: end - window,
-        output,
-        context,
-        started,
-        kept,
-        observe,
-        simulation: PhantomData,
-    };
+    let mut watching =
+        CheckpointingObserver { stage, ends: progress.ends, started, kept, observe, simulation: PhantomData };
     let stop = simulation.follow(&mut course, &mut watching)?;
-    if let Some(output) = output {
+    if let Some(output) = progress.output() {
         output.take(simulation.picture(), simulation.walls());
     }
     Ok(RestartableRun { simulation, stop, kept: watching.kept, started })
@@ -264,12 +236,9 @@ where
 
 /// Shows a simulation to the observer of a case and to who wants states on its way, and keeps checkpoints.
 struct CheckpointingObserver<'a, S, O, C, F> {
-    checkpoints: Option<&'a Checkpoints>,
-    /// Place of a state near the end, until it is written, and the time before which it is taken `[s]`.
+    stage: SimulationStage<'a, C>,
+    /// Place of a state near the end, until it is written.
     ends: Option<&'a Checkpoints>,
-    before: f64,
-    output: Option<&'a dyn StateOutput>,
-    context: &'a C,
     started: Instant,
     kept: O,
     observe: F,
@@ -288,23 +257,19 @@ where
     }
 
     fn pause(&mut self, simulation: &S, course: &RunProgress) -> ControlFlow<()> {
-        if let Some(output) = self.output.filter(|output| output.is_due(simulation.time())) {
+        let SimulationStage { progress, end, window, .. } = self.stage;
+        if let Some(output) = progress.output().filter(|output| output.is_due(simulation.time())) {
             output.take(simulation.picture(), simulation.walls());
         }
         let interrupted = is_interrupted();
-        let wanted = self.checkpoints.filter(|checkpoints| interrupted || checkpoints.is_due());
+        let wanted = progress.checkpoints.filter(|checkpoints| interrupted || checkpoints.is_due());
         let write = |checkpoints: &Checkpoints| {
-            let written = CheckpointContents {
-                context: self.context,
-                seconds: self.started.elapsed().as_secs_f64(),
-                course,
-                kept: &self.kept,
-                simulation: simulation.saved(),
-            };
+            let seconds = self.started.elapsed().as_secs_f64();
+            let written = (self.stage.context, seconds, course, &self.kept, simulation.saved());
             checkpoints.keep(|| postcard::to_stdvec(&written))
         };
         let is_kept = wanted.is_some_and(write);
-        if course.nears(simulation.time(), self.before)
+        if course.nears(simulation.time(), end - window)
             && let Some(ends) = self.ends.take()
         {
             write(ends);
