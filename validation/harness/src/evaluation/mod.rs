@@ -31,7 +31,7 @@ pub struct CaseRequest {
     /// Name that distinguishes it from other requests of the same case
     pub name: Option<String>,
     /// Tier whose parameters fill what `with` leaves out
-    #[serde(default = "quick")]
+    #[serde(default)]
     pub tier: Tier,
     /// Parameters, as in a case file
     #[serde(default)]
@@ -47,10 +47,6 @@ pub struct CaseRequest {
 #[must_use]
 pub fn toml_number(value: f64) -> String {
     toml::Value::Float(value).to_string()
-}
-
-fn quick() -> Tier {
-    Tier::Quick
 }
 
 impl CaseRequest {

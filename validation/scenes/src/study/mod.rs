@@ -40,7 +40,9 @@ pub use schema::schema;
 pub use suite::{Suite, is_study};
 
 use crate::case::list::ListedChange;
-use crate::case::{CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, twice_given};
+use crate::case::{
+    CaseFile, CaseResult, Changes, Limits, ParameterError, PreparedCase, Registry, Tier, hash_of_states, twice_given,
+};
 use crate::evaluation::parse_plan;
 use crate::figure::Figure;
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
@@ -50,7 +52,6 @@ use crate::output::FileError;
 use check::{CheckedQuantity, StudyCheck};
 use file::StudyText;
 use reading::{Reading, joined};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -317,13 +318,11 @@ impl Study {
             figures::add(&mut judged.figures, check, &readings).map_err(wrong)?;
         }
         let own: Vec<Figure> = self.text.figures.iter().map(|figure| figure.draw(&judged.metrics)).collect();
-        let mut hash = Sha256::new();
+        let state_hash = hash_of_states(results.iter().map(|result| &result.state_hash));
         for (changed, result) in self.changes.iter().zip(results) {
-            hash.update(result.state_hash.as_bytes());
-            hash.update([0]);
             judged = judged.and(result.labelled(&changed.variant, |variant| joined(&changed.variant, variant)));
         }
-        judged.state_hash = crate::store::hexadecimal(&hash.finalize());
+        judged.state_hash = state_hash;
         for (place, figure) in own.iter().enumerate() {
             if judged.figures.iter().any(|other| other.name == figure.name) {
                 let rule = "unlike the names of the figures of the checks' columns and of the case";
@@ -339,22 +338,13 @@ impl Study {
     fn without_runs(&self, tier: Tier, results: &[CaseResult]) -> CaseResult {
         CaseResult {
             name: self.text.study.clone(),
-            origin: results.first().map_or(crate::store::CodeOrigin::PACKAGE, |result| result.origin),
+            origin: results.first().map(|result| result.origin).unwrap_or_default(),
             summary: self.text.summary.clone(),
             description: self.text.description.trim().to_owned(),
             tier,
             parameters_toml: self.complete(tier),
             command: "bagnold run case.toml".to_owned(),
-            metrics: Vec::new(),
-            figures: Vec::new(),
-            animations: Vec::new(),
-            tables: Vec::new(),
-            runs: Vec::new(),
-            run_parameters: Vec::new(),
-            regimes: Vec::new(),
-            frames: Vec::new(),
-            first_bad: Vec::new(),
-            state_hash: String::new(),
+            ..CaseResult::default()
         }
     }
 

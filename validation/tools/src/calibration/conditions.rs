@@ -6,8 +6,8 @@
 
 use super::error::CalibrationError;
 use super::plan::{CalibrationPlan, DataBlock};
-use crate::case::ListOfRuns;
 use crate::case::list::ListedChange;
+use crate::case::{ListOfRuns, leaves};
 use crate::input::{FieldError, did_you_mean, nearest, number_in};
 use toml::Value;
 
@@ -31,8 +31,7 @@ impl BlockParameters<'_> {
             change.values.iter().rev().find_map(given).or_else(|| value_at(&base, path).cloned())
         };
         let Some(values) = list.changes().into_iter().map(of_run).collect::<Option<Vec<Value>>>() else {
-            let mut paths = Vec::new();
-            collect(&self.parameters, "", &mut paths);
+            let paths = leaves(&self.parameters);
             let guess = did_you_mean(&nearest(path, paths.iter().map(String::as_str)));
             let remedy = format!("{guess}`bagnold show {}` prints all fields", self.block.request.case);
             return Err(FieldError::finding(path, "unknown field", &remedy).in_file(&plan.file).into());
@@ -54,17 +53,6 @@ impl BlockParameters<'_> {
 /// The value at a dotted path.
 fn value_at<'a>(value: &'a Value, path: &str) -> Option<&'a Value> {
     path.split('.').try_fold(value, |value, key| value.get(key))
-}
-
-/// All dotted paths of a table.
-fn collect(table: &toml::Table, head: &str, paths: &mut Vec<String>) {
-    for (key, value) in table {
-        let path = if head.is_empty() { key.clone() } else { format!("{head}.{key}") };
-        match value.as_table() {
-            Some(inner) => collect(inner, &path, paths),
-            None => paths.push(path),
-        }
-    }
 }
 
 /// Refuses a block that is held out if its conditions are those of a fitted one.

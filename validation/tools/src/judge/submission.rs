@@ -19,7 +19,7 @@ pub struct Submission {
     /// Name of the case.
     pub case: String,
     /// Tier whose runs are meant.
-    #[serde(default = "quick")]
+    #[serde(default)]
     pub tier: Tier,
     /// A case file with the parameters, beside this one: a scene of one's own.
     pub base: Option<PathBuf>,
@@ -41,10 +41,6 @@ pub struct Submission {
     /// Its runs.
     #[serde(rename = "run", default)]
     pub runs: Vec<ForeignRun>,
-}
-
-fn quick() -> Tier {
-    Tier::Quick
 }
 
 /// The law of a code's runs. Against exact solutions and other codes of one law only the same law is judged.

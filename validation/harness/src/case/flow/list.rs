@@ -15,6 +15,7 @@
 //! ```
 
 use crate::case::Tier;
+use crate::case::given::changes::is_same_or_within;
 use crate::input::{FieldError, check_name};
 use crate::metric::{Value as VariantValue, Variant};
 use schemars::JsonSchema;
@@ -140,24 +141,14 @@ impl ListOfRuns {
     /// # Errors
     /// The first key that names a tier.
     pub fn check_single_tier(&self) -> Result<(), FieldError> {
-        let wrong = |field: String| {
-            let rule = "absent: the list is of one tier";
-            Err(FieldError::new(
-                &field,
-                "given",
-                rule,
-                "give the values of this tier, and another file for another one",
-            ))
-        };
-        for (place, varied) in self.varied() {
-            if varied.paper.is_some() || varied.fine.is_some() {
-                return wrong(format!("{place}.{}", if varied.paper.is_some() { "paper" } else { "fine" }));
-            }
-        }
-        match self.variants.iter().position(|named| named.tier.is_some()) {
-            Some(place) => wrong(format!("variants[{place}].tier")),
-            None => Ok(()),
-        }
+        let varied = self.varied().find_map(|(place, varied)| {
+            let key = varied.paper.as_ref().map(|_| "paper").or(varied.fine.as_ref().map(|_| "fine"))?;
+            Some(format!("{place}.{key}"))
+        });
+        let lowest = self.variants.iter().position(|named| named.tier.is_some());
+        let Some(field) = varied.or(lowest.map(|place| format!("variants[{place}].tier"))) else { return Ok(()) };
+        let remedy = "give the values of this tier, and another file for another one";
+        Err(FieldError::new(&field, "given", "absent: the list is of one tier", remedy))
     }
 
     /// All varied parameters with their places.
@@ -237,12 +228,7 @@ impl ListOfRuns {
 
     /// Leaves out what the list says of a parameter: every run has another value of it.
     pub fn forget(&mut self, path: &str) {
-        let is_it = |other: &str| {
-            let within = |inner: &str, outer: &str| {
-                inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-            };
-            within(path, other) || within(other, path)
-        };
+        let is_it = |other: &str| is_same_or_within(path, other);
         self.vary.retain(|varied| !is_it(&varied.path));
         for named in &mut self.variants {
             named.vary.retain(|varied| !is_it(&varied.path));

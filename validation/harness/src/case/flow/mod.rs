@@ -283,15 +283,6 @@ impl<F: Flow> RunList<F> {
         Self { base, list, listed: OnceLock::new() }
     }
 
-    /// Whether all of its flows hold.
-    ///
-    /// # Errors
-    /// The first field that breaks a rule, by its dotted TOML path.
-    pub fn check_all(&self) -> Result<(), ParameterError> {
-        self.list.check_single_tier()?;
-        self.flows().iter().try_for_each(Flow::check)
-    }
-
     /// Doubts of all of its flows, each once.
     pub(in crate::case) fn doubts(&self) -> Vec<String> {
         let mut doubts: Vec<String> = Vec::new();

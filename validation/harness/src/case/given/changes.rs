@@ -115,10 +115,7 @@ pub(in crate::case) fn checked(
     let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
     for (file, fields) in file.into_iter().chain([(None, &settings)]) {
         if let Some(error) = friction_angle::wrong(fields, "") {
-            return Err(match file {
-                Some(file) => error.in_file(file),
-                None => error,
-            });
+            return Err(error.given_in(file));
         }
     }
     // Together, so that a law and its parameters may come in any order.
@@ -143,24 +140,18 @@ pub(in crate::case) fn refuse_former(
     former: &BTreeMap<String, String>,
     changes: &Changes<'_>,
 ) -> Result<(), ParameterError> {
-    let refused = |old: &str, value: &str, file: Option<&Path>| {
-        let now = former.get(old).or_else(|| former.get(old.split('.').next()?))?;
-        let rule = format!("absent: a run has one value, `{now}`");
-        let remedy = format!("give several by `--vary {now}=A,B,C`, in a file by [[vary]] with path = \"{now}\"");
-        let error = ParameterError::field(old, value, &rule, &remedy);
-        Some(match file {
-            Some(file) => error.in_file(file),
-            None => error,
-        })
-    };
-    let of_file = changes.file.iter().flat_map(|(file, fields)| fields.iter().map(|field| (*file, field)));
-    let of_file = of_file.map(|(file, (path, value))| refused(path, &value.to_string(), Some(file)));
-    let set =
-        changes.settings.iter().filter_map(|setting| parts(setting)).map(|(path, value)| refused(path, value, None));
-    match of_file.chain(set).flatten().next() {
-        Some(error) => Err(error),
-        None => Ok(()),
+    let of_file = changes.file.iter().flat_map(|(file, fields)| fields.iter().map(|field| (Some(*file), field)));
+    let of_file = of_file.map(|(file, (path, value))| (file, path.as_str(), value.to_string()));
+    let set = changes.settings.iter().filter_map(|setting| parts(setting));
+    for (file, old, value) in of_file.chain(set.map(|(path, value)| (None, path, value.to_owned()))) {
+        let now = former.get(old).or_else(|| former.get(old.split('.').next()?));
+        if let Some(now) = now {
+            let rule = format!("absent: a run has one value, `{now}`");
+            let remedy = format!("give several by `--vary {now}=A,B,C`, in a file by [[vary]] with path = \"{now}\"");
+            return Err(ParameterError::field(old, value, &rule, &remedy).given_in(file));
+        }
     }
+    Ok(())
 }
 
 /// Field, value, rule and remedy of what the maker of a law says of a parameter, where it says all four.
@@ -220,12 +211,8 @@ fn blame(fault: Fault, case: &str, defaults: &Table, changes: &Changes<'_>) -> P
             FieldError::new(path, value, &rule, &remedy).set_by(format!("{path}={value}")).into()
         }
         (fault, _) => {
-            let set = is_set(changes.settings, fault.path());
-            let error = fault::in_parameters(fault, case, &known);
-            match &changes.file {
-                Some((file, _)) if !set => error.in_file(file).into(),
-                _ => error.into(),
-            }
+            let file = changes.file.as_ref().filter(|_| !is_set(changes.settings, fault.path()));
+            ParameterError::from(fault::in_parameters(fault, case, &known)).given_in(file.map(|(file, _)| *file))
         }
     }
 }
@@ -237,10 +224,17 @@ fn unknown_path(case: &str, known: &[&[String]], path: &str, value: &str) -> Par
 
 /// Whether one of the `--set` arguments gives `field`, so that the file is not to blame for its value.
 pub(in crate::case) fn is_set(settings: &[String], field: &str) -> bool {
-    settings
-        .iter()
-        .filter_map(|argument| parts(argument))
-        .any(|(path, _)| field == path || field.strip_prefix(path).is_some_and(|rest| rest.starts_with(['.', '['])))
+    settings.iter().filter_map(|argument| parts(argument)).any(|(path, _)| is_within(field, path))
+}
+
+/// Whether a field is another, or lies within it.
+fn is_within(field: &str, other: &str) -> bool {
+    field.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+}
+
+/// Whether a field is another, or lies within it, or holds it.
+pub(in crate::case) fn is_same_or_within(field: &str, other: &str) -> bool {
+    is_within(field, other) || is_within(other, field)
 }
 
 /// Path and value of a `--set` argument.
@@ -410,7 +404,8 @@ fn value_of(text: &str) -> Value {
 }
 
 /// The dotted paths of all values that are no tables.
-pub(in crate::case) fn leaves(table: &Table) -> Vec<String> {
+#[must_use]
+pub fn leaves(table: &Table) -> Vec<String> {
     paths(table).into_iter().filter(|path| find(table, path).is_some_and(|value| !value.is_table())).collect()
 }
 

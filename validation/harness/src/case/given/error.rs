@@ -94,6 +94,12 @@ impl ParameterError {
         self
     }
 
+    /// The same, where a file may give the parameter.
+    #[must_use]
+    pub(in crate::case) fn given_in(self, file: Option<&Path>) -> Self {
+        if let Some(file) = file { self.in_file(file) } else { self }
+    }
+
     /// Says in which plan it stands, the settings of which are values of the plan.
     #[must_use]
     pub fn in_plan(mut self, plan: &Path) -> Self {

@@ -66,20 +66,12 @@ pub(in crate::case) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str
         .map_or_else(|| format!("`bagnold show {case}` prints a valid value"), |name| format!("did you mean `{name}`?"))
 }
 
-/// Parameters that had another name before: the old one and what it is called now.
-const RENAMED: [(&str, &str); 1] = [("joining_room", "bed_roughness_fade_length")];
-
 /// Most tables with a field of the same name that a message lists.
 const MOST_NAMESAKES: usize = 4;
 
-/// The path that is most like one that does not exist, from the first list that has any; of a parameter that had this name before, that
-/// parameter; of one behind a prefix that does not exist, the one without.
+/// The path that is most like one that does not exist, from the first list that has any; of one behind a prefix that does not exist, the one without.
 pub(in crate::case) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
-    let (above, name) = path.rsplit_once('.').map_or(("", path), |(above, name)| (above, name));
-    let now = RENAMED
-        .iter()
-        .find(|(old, _)| *old == name)
-        .map(|(_, now)| if above.is_empty() { (*now).to_owned() } else { format!("{above}.{now}") });
+    let name = path.rsplit('.').next().unwrap_or(path);
     // the angle stands for the coefficient, which is the one that the schema has
     let angle = path == "friction_angle";
     if let Some(coefficient) =
@@ -88,8 +80,8 @@ pub(in crate::case) fn nearest_path(path: &str, known: &[&[String]]) -> Option<S
         return Some(coefficient.replace("static_friction", path));
     }
     let bare = path.split_once('.').map(|(_, bare)| bare.to_owned());
-    if let Some(now) = now.or(bare).filter(|now| known.iter().any(|paths| paths.contains(now))) {
-        return Some(now);
+    if let Some(bare) = bare.filter(|bare| known.iter().any(|paths| paths.contains(bare))) {
+        return Some(bare);
     }
     // the same name in other tables
     let leaf = format!(".{name}");

@@ -2,7 +2,7 @@
 //! run is known by them, whatever becomes of their file.
 
 use super::error::ParameterError;
-use crate::input::{MOST_TRIANGLES, Triangle, number_in, packed, read_mesh};
+use crate::input::{FieldError, MOST_TRIANGLES, Triangle, number_in, packed, read_mesh};
 use crate::number::four_digits;
 use crate::output::caution;
 use bagnold_solver::parameter::LARGEST_LENGTH;
@@ -40,9 +40,7 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
         if mesh.left_out > 0 {
             caution(&format!("{name}: {} triangles without an area are left out", mesh.left_out));
         }
-        let placed = Placement::of(wall).map_err(|(key, value, rule, remedy)| {
-            ParameterError::field(&format!("walls[{index}].{key}"), value, rule, remedy).in_file(path)
-        })?;
+        let placed = Placement::of(wall).map_err(|error| error.within(&format!("walls[{index}]")).in_file(path))?;
         let triangles: Vec<Triangle> =
             mesh.triangles.iter().map(|corners| corners.map(|at| placed.place(at))).collect();
         let farthest = triangles.iter().flatten().flatten().fold(0.0_f64, |most, at| most.max(at.abs()));
@@ -74,10 +72,11 @@ struct Placement {
 
 impl Placement {
     /// Placement that a wall gives. A number of another type is refused with the other fields.
-    fn of(wall: &Table) -> Result<Self, (&'static str, String, &'static str, &'static str)> {
+    fn of(wall: &Table) -> Result<Self, FieldError> {
         let unit = wall.get("unit").and_then(Value::as_str).unwrap_or("m");
         let length = UNITS.iter().find(|(name, _)| *name == unit).map(|(_, length)| *length).ok_or_else(|| {
-            ("unit", format!("\"{unit}\""), "one of \"m\", \"cm\", \"mm\" or \"in\"", "use `scale` for other units")
+            let rule = "one of \"m\", \"cm\", \"mm\" or \"in\"";
+            FieldError::new("unit", format!("\"{unit}\""), rule, "use `scale` for other units")
         })?;
         let vector = |key: &str| {
             let parts: Vec<f64> =

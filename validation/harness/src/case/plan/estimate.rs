@@ -83,27 +83,16 @@ impl Estimate {
         if self.excess(limits) <= 1.0 {
             return None;
         }
-        let hours = self.core_seconds / 3600.0;
-        Some(if self.memory(1) > limits.memory || !self.memory(1).is_finite() {
-            let most = limits.memory / GIBIBYTE;
-            (
-                format!("less demanding (limit {} GiB of memory)", rounded(most)),
-                format!(
-                    "{} particles need {} GiB: reduce it or raise --most-memory",
-                    rounded(self.all_particles),
-                    rounded(self.memory(1) / GIBIBYTE)
-                ),
-            )
+        let (most, needed) = if self.memory(1) > limits.memory || !self.memory(1).is_finite() {
+            let (particles, memory) = (rounded(self.all_particles), rounded(self.memory(1) / GIBIBYTE));
+            let needed = format!("{particles} particles need {memory} GiB: reduce it or raise --most-memory");
+            (format!("{} GiB of memory", rounded(limits.memory / GIBIBYTE)), needed)
         } else {
-            (
-                format!("less demanding (limit {} core hours)", rounded(limits.core_hours)),
-                format!(
-                    "{} particle-steps need {} core hours: reduce it or raise --most-hours",
-                    rounded(self.particle_steps),
-                    rounded(hours)
-                ),
-            )
-        })
+            let (steps, hours) = (rounded(self.particle_steps), rounded(self.core_seconds / 3600.0));
+            let needed = format!("{steps} particle-steps need {hours} core hours: reduce it or raise --most-hours");
+            (format!("{} core hours", rounded(limits.core_hours)), needed)
+        };
+        Some((format!("less demanding (limit {most})"), needed))
     }
 }
 

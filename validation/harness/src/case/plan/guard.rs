@@ -1,7 +1,7 @@
 //! Checks of the parameters of a case as a whole, before anything is allocated: the rules between fields, runs that can
 //! be distinguished, and a size that this machine can take. Every refusal names a field that the user has changed.
 
-use crate::case::given::changes::{Changes, find, is_set, leaves, table_of};
+use crate::case::given::changes::{Changes, find, is_same_or_within, is_set, leaves, table_of};
 use crate::case::given::error::ParameterError;
 use crate::case::{Estimate, Flow, RunList, Tier};
 use crate::output::caution;
@@ -101,14 +101,6 @@ impl<'a, F: Flow> Guard<'a, F> {
 /// Estimated resources of the runs together.
 fn of_runs<F: Flow>(runs: &[&F]) -> Estimate {
     runs.iter().map(|run| Estimate::of(run.cost())).fold(Estimate::default(), Estimate::and)
-}
-
-/// Whether a field is another, or lies within it, or holds it.
-fn is_same_or_within(field: &str, other: &str) -> bool {
-    let within = |inner: &str, outer: &str| {
-        inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-    };
-    within(field, other) || within(other, field)
 }
 
 /// An error that names no field of the user's says which ones he has changed.
