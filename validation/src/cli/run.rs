@@ -72,7 +72,7 @@ pub(super) fn run(
     };
     let Requested { prepared, tier, overlay, output: wanted, changed, has_own_parameters } =
         request.prepare(registry).map_err(|error| match (error, &command.from) {
-            (error, Some(file)) if error.field_path() == Some("from") => {
+            (error, Some(file)) if error.is_of_setting() && error.field_path() == Some("from") => {
                 let rule = "left out for this case: only scenes start from a state";
                 ParameterError::field("--from", file.display(), rule, "change the parameters of the case instead")
             }
