@@ -70,7 +70,7 @@ fn grains_that_do_not_settle() {
     refused(
         &place,
         &["settling", "--vary", "law=di-felice,ergun", "--set", "solid_fraction=0.1"],
-        "`law` is ergun, but must be a law for this `solid_fraction`; \"ergun\" begins at 0.2; what differs from the tier: `solid_fraction` is 0.1",
+        "`law` is ergun, but must be a law for this `solid_fraction`; \"ergun\" begins at 0.2; what differs from the tier: `solid_fraction` is 0.1, `vary` is [{ path = \"law\", values = [\"di-felice\", \"ergun\"] }]",
     );
 }
 
