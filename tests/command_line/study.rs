@@ -380,7 +380,7 @@ fn a_suite_is_one_report_with_a_baseline_of_its_own() {
     std::fs::write(place.path("balances.toml"), b"\xff\xfes\0").expect("writable");
     refused("balances.toml: cannot be read (text in UTF-16, not in UTF-8); save it as plain text");
     place.file("balances.toml", "stduy == \"balances\"\n");
-    refused("balances.toml: line 1, column 8");
+    refused("balances.toml: `line 1, column 8`");
     std::fs::remove_file(place.path("balances.toml")).expect("there");
     refused("balances.snap: `study` is balances, but must be the name of a study of the suite; restore the study");
     std::fs::create_dir(place.path("more")).expect("writable");

@@ -33,7 +33,6 @@ impl<'a, F: Flow> Guard<'a, F> {
     /// The runs that the parameters ask for.
     pub(in crate::case) fn runs(&self) -> Result<Vec<F>, ParameterError> {
         self.check().map_err(|error| self.changes.source().placed(error))?;
-        self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
         Ok(self.parameters.flows().to_vec())
     }
 
@@ -41,6 +40,7 @@ impl<'a, F: Flow> Guard<'a, F> {
         self.parameters.list.check_single_tier()?;
         let chosen = self.chosen(self.parameters);
         chosen.iter().try_for_each(|flow| flow.check()).map_err(|error| with_changed(error, &self.changed()))?;
+        self.parameters.doubts().iter().for_each(|doubt| caution(doubt));
         self.check_cost(&of_runs(&chosen))
     }
 
