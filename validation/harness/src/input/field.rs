@@ -6,7 +6,7 @@ use crate::sampling::BoundsError;
 use bagnold_solver::parameter::shortened;
 use std::path::{Path, PathBuf};
 
-/// Where a value is given.
+/// Origin of a value: a file, or an argument of the command line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Origin {
     /// In a file.
@@ -20,7 +20,7 @@ pub enum Origin {
 #[error("{}`{field}`{}; {remedy}", before(origin), defect(value, rule))]
 #[must_use]
 pub struct FieldError {
-    /// Where it is given, if that is known; whoever reads a file adds it.
+    /// Origin of the value, if it is known; whoever reads a file adds it.
     pub origin: Option<Origin>,
     /// Dotted TOML path.
     pub field: String,

@@ -94,7 +94,7 @@ impl ParameterError {
         self
     }
 
-    /// The same, where a file may give the parameter.
+    /// Says in which file the parameter at fault stands, if one gives it.
     #[must_use]
     pub(in crate::case) fn given_in(self, file: Option<&Path>) -> Self {
         if let Some(file) = file { self.in_file(file) } else { self }

@@ -69,7 +69,8 @@ pub(in crate::case) fn remedy(choice: Option<&(String, Vec<String>)>, case: &str
 /// Most tables with a field of the same name that a message lists.
 const MOST_NAMESAKES: usize = 4;
 
-/// The path that is most like one that does not exist, from the first list that has any; of one behind a prefix that does not exist, the one without.
+/// The path that is most like one that does not exist, from the first list that has any; of one behind a prefix that does not
+/// exist, the one without.
 pub(in crate::case) fn nearest_path(path: &str, known: &[&[String]]) -> Option<String> {
     let name = path.rsplit('.').next().unwrap_or(path);
     // the angle stands for the coefficient, which is the one that the schema has

@@ -46,7 +46,7 @@ pub struct Progress<'a> {
 }
 
 impl<'a> Progress<'a> {
-    /// Progress that nobody watches.
+    /// Progress without a monitor.
     pub const SILENT: Progress<'static> = Progress::of(&Silent, 0);
 
     const fn of(monitor: &'a dyn Monitor, run: usize) -> Self {
@@ -82,8 +82,8 @@ struct Queue<J, R, E> {
     error: Option<E>,
 }
 
-/// The results of jobs, in the order of the jobs, done the first first on the current rayon pool's number of threads: one thread each
-/// while there are more jobs than threads, a fair share for the last few. Every job finds a pool of its own as the current one.
+/// The results of jobs, in the order of the jobs, begun in that order on the current rayon pool's number of threads: one thread
+/// each while there are more jobs than threads, a fair share for the last few. Every job finds a pool of its own as the current one.
 ///
 /// # Errors
 /// The first job that fails; jobs that have not begun are then left.
