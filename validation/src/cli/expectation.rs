@@ -1,7 +1,7 @@
 //! Expected time of a command: from its earlier runs on this machine, else from runs on another machine.
 
 use super::machine;
-use crate::case::{CaseResult, Estimate, PreparedCase, speed_up, wall_time};
+use crate::case::{CaseResult, PreparedCase, speed_up, wall_time};
 use crate::metric::Variant;
 use crate::store::{AllSpeeds, Speeds, instruction_set, profile};
 use bagnold_solver::material::rheology::open::registered;
@@ -49,9 +49,8 @@ impl Expectation {
     }
 
     /// Expected time, in words.
-    pub(super) fn in_words(&self, estimate: &Estimate, root: &Path, threads: usize) -> String {
-        let seconds = self.seconds(AllSpeeds::read(root).of(&build()), threads);
-        in_words(estimate.runs, seconds, threads)
+    pub(super) fn in_words(&self, root: &Path, threads: usize) -> String {
+        in_words(self.runs.len(), self.seconds(AllSpeeds::read(root).of(&build()), threads), threads)
     }
 
     /// Wall time `[s]` by what is known of this machine; what was never measured here is taken over from the shipped times, by
@@ -140,10 +139,9 @@ impl Expectation {
 
 /// Number of runs and their time `[s]` on so many threads.
 fn in_words(runs: usize, seconds: f64, threads: usize) -> String {
-    let counted = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-    let (runs, threads) = (counted(runs, "run"), counted(threads, "thread"));
+    let count = |number: usize, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
     let time = HumanDuration(Duration::from_secs_f64(seconds.clamp(1.0, 1e12)));
-    format!("{runs}, about {time} on {threads} of this machine if nothing is stored")
+    format!("{}, about {time} on {} of this machine if nothing is stored", count(runs, "run"), count(threads, "thread"))
 }
 
 /// Properties of the build that distinguish speeds in one store. User-defined laws are slower than built-in ones.

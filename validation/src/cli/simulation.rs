@@ -4,7 +4,7 @@ use super::error::ProgramError;
 use super::expectation::Expectation;
 use super::progress::RunsBar;
 use super::tell;
-use crate::case::{CaseResult, Estimate, ParameterError, PreparedCase, execute};
+use crate::case::{CaseResult, ParameterError, PreparedCase, execute};
 use crate::output::{caution, cautions};
 use crate::result::States;
 use crate::store::{Store, provenance};
@@ -38,8 +38,7 @@ pub(super) fn announce(
     }
     let expectation = Expectation::of(command, cases);
     if !quiet {
-        let estimate = cases.iter().map(|case| case.estimate_of_all()).fold(Estimate::default(), Estimate::and);
-        tell(&expectation.in_words(&estimate, store.root(), rayon::current_num_threads()));
+        tell(&expectation.in_words(store.root(), rayon::current_num_threads()));
     }
     expectation
 }
