@@ -27,10 +27,11 @@ pub use outcome::result::{CaseResult, RunSummary, hash_of_states};
 pub use plan::erased::{AnyCase, PreparedCase};
 pub use plan::estimate::{Estimate, Limits};
 pub use plan::expectation::{speed_up, wall_time};
+pub use plan::progress::{Monitor, Progress, Silent};
 pub use plan::registry::Registry;
 pub(crate) use plan::request::only;
 pub use plan::request::{Request, Requested};
-pub use plan::schedule::{Monitor, Progress, Silent, execute, share_out};
+pub use plan::schedule::{execute, share_out};
 pub use shown::features::{FeatureOption, Features};
 pub use shown::tables::tables_to_add;
 

@@ -4,6 +4,7 @@ pub(super) mod erased;
 pub(super) mod estimate;
 pub(super) mod expectation;
 pub(super) mod guard;
+pub(super) mod progress;
 pub(super) mod registry;
 pub(super) mod request;
 pub(super) mod schedule;
