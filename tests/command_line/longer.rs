@@ -46,7 +46,7 @@ fn assert_continues(place: &Place, arguments: &[String], name: &str) {
 #[test]
 fn a_longer_run_continues_a_finished_one_bit_for_bit() {
     // an inlet, a wall that moves, a mesh in space
-    for (name, duration) in [("fed-slope.toml", 0.06), ("gate.toml", 0.04), ("funnel.toml", 0.02)] {
+    for (name, duration) in [("fed-slope.toml", 0.04), ("gate.toml", 0.03), ("funnel.toml", 0.01)] {
         let lasting = |times: f64| {
             let settings = [format!("duration={}", times * duration), format!("interval={}", duration / 10.0)];
             set(&example(name), &[&settings[0], &settings[1], "measured=[]", "pictures=2"])
@@ -94,7 +94,7 @@ fn longer_runs_of_cases_of_both_models_continue_finished_ones() {
     };
     let still = |duration: f64| {
         let duration = format!("duration={duration}");
-        set("still-water", &[&duration, "averaging_time=0.2", "vary=[]", "variants=[]"])
+        set("still-water", &[&duration, "averaging_time=0.1", "vary=[]", "variants=[]"])
     };
     let bed_load = |duration: f64| {
         let runs = r#"variants=[{name="stabilised"},{name="dilating",set={formulation="dilating"}}]"#;
@@ -102,10 +102,10 @@ fn longer_runs_of_cases_of_both_models_continue_finished_ones() {
         set("bed-load", &[runs, &duration, "averaging_time=0.05", "continuum.numerics.time_step=4e-4"])
     };
     let cases = [
-        (column(0.5), column(0.7)),
+        (column(0.2), column(0.26)),
         (incline(0.1), incline(0.17)),
         (bed_load(0.1), bed_load(0.13)),
-        (still(0.5), still(0.6)),
+        (still(0.24), still(0.3)),
     ];
     for (short, long) in cases {
         let place = Place::new();
@@ -238,7 +238,7 @@ fn a_state_that_does_not_fit_is_refused_by_field_and_rule() {
     std::fs::write(place.path("cut"), &whole[..whole.len() / 2]).expect("writable");
     place.file("text", "no state");
     let channel = Place::new();
-    let still = ["duration=0.5", "averaging_time=0.2", "vary=[]", "variants=[]"];
+    let still = ["duration=0.5", "averaging_time=0.1", "vary=[]", "variants=[]"];
     outcome(&channel, &set("still-water", &still));
     let of_model_b =
         walk(&channel.path("store")).into_iter().find(|file| file.ends_with("0.checkpoint")).expect("a state");

@@ -20,7 +20,7 @@ fn every_shipped_scene_runs_and_closes_its_balances() {
         let place = Place::new();
         let path = file.display().to_string();
         // a few steps; what is measured later cannot be compared with them
-        let short = ["--set", "duration=0.1", "--set", "interval=0.02", "--set", "measured=[]", "--quiet"];
+        let short = ["--set", "duration=0.03", "--set", "interval=0.006", "--set", "measured=[]", "--quiet"];
         let finished = place.run(&[&[path.as_str()][..], &short].concat()).code(0);
         let told = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
         let force =

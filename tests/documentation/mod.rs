@@ -47,8 +47,8 @@ fn program() -> PathBuf {
     folder.join(format!("bagnold{}", std::env::consts::EXE_SUFFIX))
 }
 
-/// Writes the files of a page and does its commands, in order, in a folder of its own.
-fn follow(page: &Path) -> usize {
+/// Writes the files of a page and does its commands, in order, in a folder of its own; pages share what they have simulated.
+fn follow(page: &Path, store: &Path) -> usize {
     let text = std::fs::read_to_string(page).expect("readable");
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut commands = 0;
@@ -67,7 +67,7 @@ fn follow(page: &Path) -> usize {
                         .args(["-c", &script])
                         .current_dir(folder.path())
                         .env("BAGNOLD", program())
-                        .env("BAGNOLD_STORE", folder.path().join("store"))
+                        .env("BAGNOLD_STORE", store)
                         .output()
                         .expect("a shell");
                     // a verdict may be red in a tutorial; bad input and divergence may not
@@ -85,7 +85,8 @@ fn follow(page: &Path) -> usize {
 
 #[test]
 fn the_commands_of_every_tutorial_work() {
-    let done: usize = pages().iter().map(|page| follow(page)).sum();
+    let store = tempfile::tempdir().expect("a temporary folder");
+    let done: usize = pages().iter().map(|page| follow(page, store.path())).sum();
     assert!(done >= 12, "{done} commands");
 }
 

@@ -24,7 +24,7 @@ const LONGEST_RUN: Duration = Duration::from_secs(120);
 const LONGEST_MESSAGE: usize = 1500;
 
 /// Number of inputs that are tried, unless `BAGNOLD_INPUTS` sets another.
-const USUAL: u32 = 300;
+const USUAL: u32 = 120;
 
 #[derive(Debug, Default)]
 struct Tally {

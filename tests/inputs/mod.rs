@@ -1,7 +1,7 @@
 //! Generated inputs: whatever a file or `--set` holds, the program refuses it by the name of its field or takes it, within
 //! five seconds and without a panic; and what it takes and computes never passes a gate without a number.
 //!
-//! `cargo test` tries a few hundred; `tests/inputs/study.sh` tries thousands.
+//! `cargo test` tries some hundred; `tests/inputs/study.sh` tries thousands.
 
 mod bounds;
 mod changes;
