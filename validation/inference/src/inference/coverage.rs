@@ -80,11 +80,11 @@ fn held(experiments: u64) -> [usize; 4] {
     held
 }
 
-/// 95 of 100, give or take three standard deviations of a binomial count (2.18 each), and never all.
+/// 95 %, or 57 of 60, less three standard deviations of a binomial count (1.7 each), and never all.
 #[test]
 fn the_joint_region_has_its_nominal_coverage() {
-    let held = held(100);
-    assert!(held.iter().all(|count| (89..=99).contains(count)), "{held:?} of 100");
+    let held = held(60);
+    assert!(held.iter().all(|count| (52..=59).contains(count)), "{held:?} of 60");
 }
 
 mod long {
@@ -158,7 +158,7 @@ fn a_rough_model_is_fitted_all_the_same() {
     let truth = Slopes::truth();
     for wobble in [0.02, 0.05] {
         let (mut contained, mut worst, mut evaluations, mut converged) = (0, [0.0_f64; 3], 0, 0);
-        for seed in 0..100 {
+        for seed in 0..40 {
             let mut model = Rough { slopes: Slopes::new(seed), wobble };
             let found = search(&mut model, &STARTS[seed as usize % 3], Method::TrustRegion, BUDGET).unwrap();
             let emulator = Emulator::fit(&found.history, BUDGET.difference).unwrap();
@@ -171,9 +171,9 @@ fn a_rough_model_is_fitted_all_the_same() {
             converged += usize::from(found.stopped == Termination::Converged);
         }
         println!(
-            "wobble {wobble}: {contained} of 100 contain the truth, {converged} converged, {evaluations} evaluations, \
+            "wobble {wobble}: {contained} of 40 contain the truth, {converged} converged, {evaluations} evaluations, \
              worst {worst:.3?}"
         );
-        assert!(contained >= 80 && worst.iter().all(|error| *error < 0.02), "{contained} {worst:?}");
+        assert!(contained >= 32 && worst.iter().all(|error| *error < 0.02), "{contained} {worst:?}");
     }
 }

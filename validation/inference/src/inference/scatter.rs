@@ -104,7 +104,8 @@ mod tests {
     use crate::sampling::Random;
     use std::convert::Infallible;
 
-    const EXPERIMENTS: u64 = 40;
+    /// A region that holds the truth in 95 of 100 does so in 13 of them at least, by three standard deviations.
+    const EXPERIMENTS: u64 = 16;
 
     /// Twelve data on a bent curve of two parameters, and predictions that scatter by themselves.
     struct Scattering {
@@ -184,12 +185,12 @@ mod tests {
     fn regions_of_a_model_that_scatters_hold_the_truth() {
         for variance in [0.3, 1.0] {
             let held = held(variance, Repeatability::Scattering);
-            assert!(held.iter().all(|count| *count >= 36), "{variance}: {held:?}");
+            assert!(held.iter().all(|count| *count >= 13), "{variance}: {held:?}");
         }
     }
 
     #[test]
     fn as_if_it_did_not_scatter_they_would_not() {
-        assert!(held(1.0, Repeatability::Smooth).iter().any(|count| *count < 30));
+        assert!(held(1.0, Repeatability::Smooth).iter().any(|count| *count < 13));
     }
 }

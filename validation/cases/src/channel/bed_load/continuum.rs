@@ -217,16 +217,17 @@ mod tests {
     use crate::reference::one_dimension::bed_load::Stream;
     use bagnold_solver::incompressible::DrivenGrains;
 
-    /// q* of the grains over the layer's where the water is the layer's own, a mean over the last half second, for each physics of
+    /// q* of the grains over the layer's where the water is the layer's own, a mean over the last half of a duration `[s]`, for each physics of
     /// the grains, which may differ from the layer's.
     fn transport_ratios<const N: usize>(
         flow: &BedLoadFlow,
-        (slope, spacing, start): (f64, f64, f64),
+        (slope, spacing, start, duration): (f64, f64, f64, f64),
         physics: [&dyn Fn(&mut Continuum); N],
     ) -> [f64; N] {
         let formulation = BedLoadFormulation::Dilating;
         let continuum = Continuum { spacing, start, ..flow.continuum.clone() };
-        let run = BedLoadFlow { formulation, slope, duration: 1.0, averaging_time: 0.5, continuum, ..flow.clone() };
+        let run =
+            BedLoadFlow { formulation, slope, duration, averaging_time: 0.5 * duration, continuum, ..flow.clone() };
         let layer = run.layer().expect("a steady layer");
         let water = |z: f64| layer.at(z).fluid_velocity;
         physics.map(|change| {
@@ -269,7 +270,7 @@ mod tests {
     #[test]
     fn grains_alone_carry_what_the_layer_carries_in_the_layers_water() {
         for (slope, spacing, start) in [(0.02, 7e-4, 1.0), (0.03, 1e-3, 1.0), (0.03, 1e-3, 1.4), (0.05, 1e-3, 1.0)] {
-            let [ratio] = transport_ratios(&BedLoadFlow::default(), (slope, spacing, start), [&|_| {}]);
+            let [ratio] = transport_ratios(&BedLoadFlow::default(), (slope, spacing, start, 1.0), [&|_| {}]);
             assert!((ratio - 1.0).abs() < 0.02, "slope {slope}, {spacing} m, start {start}: {ratio}");
         }
     }
@@ -285,7 +286,7 @@ mod tests {
         (continuum.drag_diameter, continuum.closures.turbulent_schmidt) = (0.5, 0.7);
         let [right, wrong @ ..] = transport_ratios(
             &flow,
-            (slope, 3e-3, 1.0),
+            (slope, 3e-3, 1.0, 0.4),
             [
                 &|_| {},
                 &|without_eddies| without_eddies.closures.turbulent_schmidt = 0.0,
