@@ -5,8 +5,11 @@
 mod commit;
 #[path = "build/texts/embed.rs"]
 mod embed;
+#[path = "build/rooms.rs"]
+mod rooms;
 
 use embed::{embed, sorted_files, texts};
+use rooms::Rooms;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -43,7 +46,8 @@ fn is_of_deck(name: &str) -> bool {
 fn main() {
     let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let workspace = package.parent().map(Path::to_path_buf).unwrap_or_default();
-    let (mut hash, mut of_solver) = (Sha256::new(), Sha256::new());
+    let (mut hash, mut of_solver, mut build) = (Sha256::new(), Sha256::new(), Sha256::new());
+    let mut rooms = Rooms::default();
 
     for name in CODE {
         let folder = workspace.join(name);
@@ -53,15 +57,17 @@ fn main() {
                 "cargo::error=`{name}` is no folder, but results depend on it; correct `CODE` in validation/build.rs"
             );
         }
-        for file in sorted_files(&folder) {
-            add_file(&mut hash, &workspace, &file);
+        for file in sorted_files(&folder).into_iter().filter(|file| !is_of_tests(file)) {
+            let (path, contents) = source(&workspace, &file);
+            add(&mut hash, &path, contents.as_bytes());
             if name == CODE[0] {
-                add_file(&mut of_solver, &workspace, &file);
+                add(&mut of_solver, &path, contents.as_bytes());
             }
+            rooms.sort_in(&path, &contents);
         }
     }
     for (name, file) in &texts(&package.join("harness"), &["reference-data"], &["csv"]) {
-        add(&mut hash, &format!("reference-data/{name}"), &std::fs::read(file).unwrap_or_default());
+        add(&mut build, &format!("reference-data/{name}"), &std::fs::read(file).unwrap_or_default());
     }
     // no result depends on the plans
     embed("studies", &texts(&package, &["studies"], &["toml"]));
@@ -71,16 +77,18 @@ fn main() {
     for name in ["Cargo.lock", "Cargo.toml"] {
         let file = workspace.join(name);
         println!("cargo::rerun-if-changed={}", file.display());
-        add_file(&mut hash, &workspace, &file);
+        add(&mut build, name, &std::fs::read(file).unwrap_or_default());
     }
     // Another compiler, profile or instruction set is another program, even if its results ought to be the same.
-    add(&mut hash, "rustc", &compiler());
+    add(&mut build, "rustc", &compiler());
     let variables =
         ["PROFILE", "OPT_LEVEL", SOLVER_OPT_LEVEL, "TARGET", "CARGO_CFG_TARGET_FEATURE", "CARGO_ENCODED_RUSTFLAGS"];
     for variable in variables {
-        add(&mut hash, variable, self::variable(variable).as_bytes());
+        add(&mut build, variable, self::variable(variable).as_bytes());
     }
 
+    write_rooms(&rooms.hashes(&build));
+    hash.update(build.finalize());
     println!("cargo::rustc-env=BAGNOLD_SOURCE_HASH={}", digits(hash));
     println!("cargo::rustc-env=BAGNOLD_SOLVER_HASH={}", digits(of_solver));
     let commit = commit::commit(&workspace, &[&CODE[..], &REST[..]].concat());
@@ -121,9 +129,31 @@ fn profile() -> String {
     name.unwrap_or_else(|| variable("PROFILE"))
 }
 
-fn add_file(hash: &mut Sha256, workspace: &Path, file: &Path) {
-    let name = file.strip_prefix(workspace).unwrap_or(file).to_string_lossy().replace('\\', "/");
-    add(hash, &name, &std::fs::read(file).unwrap_or_default());
+/// Path of a source in the workspace, and its code.
+fn source(workspace: &Path, file: &Path) -> (String, String) {
+    let path = file.strip_prefix(workspace).unwrap_or(file).to_string_lossy().replace('\\', "/");
+    (path, code(&std::fs::read_to_string(file).unwrap_or_default()))
+}
+
+/// Writes cases and hashes as an array for `include!`.
+fn write_rooms(hashes: &[(String, String)]) {
+    let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default()).join("rooms.rs");
+    if let Err(error) = std::fs::write(&out, format!("&{hashes:?}")) {
+        println!("cargo::error=failed to write {}: {error}", out.display());
+    }
+}
+
+/// The code of a file without its comments and the unit tests at its end: no result depends on them.
+fn code(text: &str) -> String {
+    let (code, _) = text.split_once("#[cfg(test)]\nmod tests {").unwrap_or((text, ""));
+    let is_code = |line: &&str| !line.trim_start().starts_with("//");
+    code.lines().filter(is_code).collect::<Vec<_>>().join("\n")
+}
+
+/// Whether a file is compiled for tests alone.
+fn is_of_tests(file: &Path) -> bool {
+    let folder = file.components().any(|part| part.as_os_str() == "tests");
+    folder || file.file_stem().is_some_and(|stem| stem == "tests" || stem.to_string_lossy().ends_with("_tests"))
 }
 
 /// Names and contents with their lengths, so that nothing can move from one to the other unnoticed.

@@ -18,5 +18,6 @@ mod printing;
 mod python;
 mod readme;
 mod references;
+mod simulations;
 mod source;
 mod words;

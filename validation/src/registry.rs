@@ -20,6 +20,7 @@ mod studies {
 const BUILD: Build = Build {
     source_hash: env!("BAGNOLD_SOURCE_HASH"),
     solver_hash: env!("BAGNOLD_SOLVER_HASH"),
+    simulation_hashes: include!(concat!(env!("OUT_DIR"), "/rooms.rs")),
     commit: env!("BAGNOLD_COMMIT"),
     profile: env!("BAGNOLD_PROFILE"),
     solver_opt_level: env!("BAGNOLD_SOLVER_OPT_LEVEL"),

@@ -1,6 +1,7 @@
 //! Drawn figures on disk: what this program has drawn once from the same data is not drawn again.
 
-use super::{DRAWN, Store, StorePolicy, entry, hexadecimal, source_hash};
+use super::provenance::simulation_hash;
+use super::{DRAWN, Store, StorePolicy, adopt, entry, hexadecimal};
 use crate::figure::FigureFormat;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -18,7 +19,7 @@ pub struct Drawings {
     format: FigureFormat,
 }
 
-/// Identifies what is drawn, by all of its data and the program's sources.
+/// Identifies what is drawn, by all of its data and the sources of what draws.
 #[derive(Debug, Clone)]
 pub struct DrawingKey(Option<String>);
 
@@ -49,7 +50,7 @@ impl Drawings {
     pub fn key(&self, data: &impl Serialize) -> DrawingKey {
         let of = |bytes: Vec<u8>| {
             let mut hash = Sha256::new();
-            hash.update(source_hash());
+            hash.update(simulation_hash("drawing"));
             hash.update(bytes);
             hexadecimal(&hash.finalize())
         };
@@ -76,6 +77,9 @@ impl Drawings {
             (folder.join(&name), name)
         });
         if let Some((path, name)) = place.as_ref().filter(|_| !self.anew) {
+            if let Some(version) = self.folder.as_ref().and_then(|folder| folder.parent()) {
+                adopt(version, path);
+            }
             match entry::read_bytes(path, name) {
                 Ok(Some(bytes)) => return Ok(bytes),
                 Ok(None) => {}

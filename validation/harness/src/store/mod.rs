@@ -159,6 +159,7 @@ impl Store {
             return None;
         }
         let program = identity(origin)?;
+        let program = if program == source_hash() { provenance::simulation_hash(case) } else { program };
         let description = serde_json::to_vec(run)
             .inspect_err(|error| {
                 tracing::warn!("{case}: a run cannot be stored, its description does not serialise: {error}")
@@ -178,6 +179,7 @@ impl Store {
         if self.policy != StorePolicy::Use {
             return None;
         }
+        adopt(&self.folder, &self.path(key));
         match entry::read(&self.path(key), &key.0) {
             Ok(record) => record,
             Err(damage) => {
@@ -190,7 +192,7 @@ impl Store {
     /// Keeps a record, whose run then needs no checkpoint. A store that cannot be written costs time later, but is no reason
     /// to fail now.
     pub fn keep<O: Serialize>(&self, key: &StoreKey, record: &Recorded<O>) {
-        let new = !self.folder.is_dir();
+        begin(&self.folder);
         if let Err(error) = entry::write(&self.path(key), &key.0, record) {
             static FULL: Once = Once::new();
             let (path, reason) = (self.path(key), reason(&error));
@@ -204,15 +206,32 @@ impl Store {
             return;
         }
         Checkpoints::at(&self.checkpoint_folder(key), &key.0, None).discard();
-        if new {
-            let mut others = inventory::folders(self.root()).unwrap_or_default();
-            others.retain(|folder| *folder != self.folder);
-            inventory::keep_newest(others, KEPT_VERSIONS - 1);
-        }
     }
 
     fn path(&self, key: &StoreKey) -> PathBuf {
         self.folder.join(format!("{}.postcard", key.0))
+    }
+}
+
+/// Links a file below the folder of a version of the sources from an earlier version that has it: its key says that it depends on
+/// nothing that differs. What cannot be linked is made again.
+fn adopt(version: &Path, file: &Path) {
+    let (Some(root), Ok(name)) = (version.parent(), file.strip_prefix(version)) else { return };
+    let versions = if file.exists() { Vec::new() } else { inventory::folders(root).unwrap_or_default() };
+    if let Some(earlier) = versions.iter().map(|version| version.join(name)).find(|path| path.is_file()) {
+        begin(version);
+        let folder = file.parent().unwrap_or(version);
+        let _ = std::fs::create_dir_all(folder).and_then(|()| std::fs::hard_link(earlier, file));
+    }
+}
+
+/// Makes the folder of a version of the sources, in place of the oldest of several.
+fn begin(version: &Path) {
+    let Some(root) = version.parent().filter(|_| !version.is_dir()) else { return };
+    if std::fs::create_dir_all(version).is_ok() {
+        let mut others = inventory::folders(root).unwrap_or_default();
+        others.retain(|folder| folder != version);
+        inventory::keep_newest(others, KEPT_VERSIONS - 1);
     }
 }
 
@@ -319,6 +338,18 @@ mod tests {
         left.sort();
         let expected = ["2", "3", "4"].map(|digit| format!("{FOLDER_PREFIX}{}", digit.repeat(16)));
         assert_eq!(left, [&expected[..], &["sources-of-mine".to_owned()]].concat());
+    }
+
+    #[test]
+    fn a_record_of_an_earlier_version_that_depends_on_nothing_new_is_taken() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let [earlier, later] =
+            ["1", "2"].map(|digit| Store::for_sources(folder.path(), &digit.repeat(64), StorePolicy::Use));
+        earlier.keep(&key(&earlier, 1), &record(1.0));
+        assert_eq!(later.fetch(&key(&later, 1)), Some(record(1.0)));
+        assert_eq!(later.fetch::<f64>(&key(&later, 2)), None, "another run");
+        std::fs::remove_dir_all(&earlier.folder).expect("removable");
+        assert_eq!(later.fetch(&key(&later, 1)), Some(record(1.0)), "it stays without the earlier version");
     }
 
     #[test]

@@ -12,6 +12,8 @@ pub struct Build {
     pub source_hash: &'static str,
     /// SHA-256 of the solver's sources alone.
     pub solver_hash: &'static str,
+    /// Cases with SHA-256 of what their simulations depend on.
+    pub simulation_hashes: &'static [(&'static str, &'static str)],
     /// Commit, with `+changes` after it if the sources differ from it; `unknown` without a repository.
     pub commit: &'static str,
     /// Cargo's profile.
@@ -28,6 +30,7 @@ static BUILD: OnceLock<Build> = OnceLock::new();
 const UNDECLARED: Build = Build {
     source_hash: "",
     solver_hash: "",
+    simulation_hashes: &[],
     commit: "unknown",
     profile: "unknown",
     solver_opt_level: "",
@@ -53,6 +56,13 @@ pub(super) fn is_declared() -> bool {
 #[must_use]
 pub fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
+}
+
+/// SHA-256 of what the simulations of a case depend on: its own sources, its model and all that is common, but neither what
+/// judges and draws nor other cases.
+pub(super) fn simulation_hash(case: &str) -> &'static str {
+    let own = build().simulation_hashes.iter().find(|(name, _)| *name == case);
+    own.map_or_else(source_hash, |(_, hash)| hash)
 }
 
 /// SHA-256 of everything that a result depends on; empty where nothing was declared. Laws and cases of another crate are no part
