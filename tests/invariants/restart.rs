@@ -21,8 +21,8 @@ use rayon::ThreadPoolBuilder;
 use std::ops::ControlFlow;
 
 /// Steps before a simulation is saved, of all; in between the neighbours are searched anew.
-const SAVED: [usize; 3] = [0, 1, 33];
-const STEPS: usize = 70;
+const SAVED: [usize; 3] = [0, 1, 57];
+const STEPS: usize = 120;
 
 fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool").install(work)

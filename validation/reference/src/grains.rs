@@ -156,9 +156,7 @@ mod tests {
         let table = shipped_table("column-planar/grains.csv").expect("readable");
         let error = PublishedGrains::read(&table, "gravel").expect_err("absent").to_string();
         assert!(
-            error.contains(
-                "no row has `gravel` in the column `material`; there are sand, Lagrée et al., aluminium bars"
-            ),
+            error.contains("`material`: no row `gravel`; the rows are sand, Lagrée et al., aluminium bars"),
             "{error}"
         );
     }

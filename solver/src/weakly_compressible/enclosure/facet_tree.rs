@@ -296,7 +296,7 @@ mod tests {
 
     #[test]
     fn around_a_fan_of_slivers_few_are_looked_at() {
-        let (count, range) = (4000_u32, 0.12);
+        let (count, range) = (20_000_u32, 0.12);
         let at = |k: u32| {
             let angle = f64::from(k % count) * std::f64::consts::TAU / f64::from(count);
             Vector::<3>::new(libm::cos(angle), libm::sin(angle), 0.1)
@@ -304,12 +304,12 @@ mod tests {
         let fan: Vec<_> = (0..count).filter_map(|k| Facet::triangle([Vector::zeros(), at(k), at(k + 1)])).collect();
         let tree = FacetTree::new(&fan, range);
         let mut looked_at = 0;
-        for k in 0..200 {
-            let (radius, angle) = (0.05 + 0.9 * f64::from(k) / 200.0, 2.4 * f64::from(k));
+        for k in 0..50 {
+            let (radius, angle) = (0.05 + 0.9 * f64::from(k) / 50.0, 2.4 * f64::from(k));
             let place = Vector::<3>::new(radius * libm::cos(angle), radius * libm::sin(angle), 0.1 * radius - 0.05);
             let found = tree.side_within(&fan, &place, range, |number| looked_at += number);
             assert!(found.is_some_and(|side| (side.distance + 0.05 / 1.01_f64.sqrt()).abs() < 1e-6), "{found:?}");
         }
-        assert!(looked_at < 200 * 300, "{looked_at} of {count} slivers for 200 places");
+        assert!(looked_at < 50 * 300, "{looked_at} of {count} slivers for 50 places");
     }
 }

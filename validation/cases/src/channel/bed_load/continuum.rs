@@ -286,7 +286,7 @@ mod tests {
         (continuum.drag_diameter, continuum.closures.turbulent_schmidt) = (0.5, 0.7);
         let [right, wrong @ ..] = transport_ratios(
             &flow,
-            (slope, 3e-3, 1.0, 0.4),
+            (slope, 3e-3, 1.0, 1.0),
             [
                 &|_| {},
                 &|without_eddies| without_eddies.closures.turbulent_schmidt = 0.0,

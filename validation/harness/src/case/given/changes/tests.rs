@@ -171,7 +171,7 @@ fn settings_of_a_wrong_form_path_or_type_are_refused() {
     );
     assert_eq!(
         message("", &["rows=1\ndepth=3"]),
-        "`--set rows=1\ndepth=3`: `rows` is 1\ndepth=3, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
+        "`--set rows=1\\ndepth=3`: `rows` is 1\\ndepth=3, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
     );
 }
 
