@@ -1,9 +1,11 @@
 //! Dependencies run one way: what a folder may import, by its floor.
 
 use crate::structure::imports::imports;
-use crate::structure::source::{Source, sources};
+use crate::structure::source::{Source, blanked, sources, workspace};
+use crate::structure::words::files;
 use bagnold_validation::REGISTRY;
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 
 /// Rooms from the ground up; those of one floor do not know each other, so that no circle arises.
 type Floors = &'static [&'static [&'static str]];
@@ -101,10 +103,23 @@ fn the_inference_depends_downwards_only() {
     assert_none(&offences("validation/inference/src", INFERENCE));
 }
 
+/// They are reachable for the package's tests, and no part of its interface.
+#[test]
+fn internals_of_the_inference_are_named_by_its_tests_alone() {
+    let name = |path: &PathBuf| {
+        let code = blanked(&std::fs::read_to_string(path).expect("readable"));
+        ["bagnold_inference", "internals"].iter().all(|word| code.contains(word))
+    };
+    let all = ["solver", "validation", "tests", "python"].into_iter().flat_map(|folder| files(folder, "rs"));
+    let (own, others): (Vec<PathBuf>, Vec<PathBuf>) =
+        all.filter(name).partition(|path| path.starts_with(workspace().join("validation/inference/tests")));
+    assert!(!own.is_empty() && others.is_empty(), "{others:?} name internals of `bagnold_inference`");
+}
+
 #[test]
 fn packages_know_only_what_they_need() {
     for (package, known) in PACKAGES {
-        let path = crate::structure::source::workspace().join("validation").join(package).join("Cargo.toml");
+        let path = workspace().join("validation").join(package).join("Cargo.toml");
         let manifest: toml::Table = toml::from_str(&std::fs::read_to_string(&path).expect("a manifest")).expect("TOML");
         let needs =
             manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(toml::Table::keys);

@@ -77,7 +77,7 @@ fn test_modules(paths: &[PathBuf]) -> BTreeSet<String> {
 const TEST: &str = "#[cfg(test)]";
 
 /// The text with comments and the insides of texts and characters blanked.
-fn blanked(text: &str) -> String {
+pub(crate) fn blanked(text: &str) -> String {
     let bytes = text.as_bytes();
     let mut out = bytes.to_vec();
     let mut at = 0;

@@ -24,7 +24,7 @@ fn text(path: &Path) -> String {
 }
 
 /// Files of a folder and below with an ending.
-fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let (mut found, mut open) = (Vec::new(), vec![workspace().join(folder)]);
     while let Some(path) = open.pop() {
         if path.is_dir() {

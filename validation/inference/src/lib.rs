@@ -50,3 +50,16 @@
 pub mod inference;
 pub mod sampling;
 pub mod statistics;
+
+/// For the tests of this package alone: parts of private modules.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::inference::box_least_squares::box_least_squares;
+    pub use crate::inference::descent::{Smooth, descend};
+    pub use crate::inference::emulator::correction::KrigingCorrection;
+    pub use crate::inference::loss::CORNER;
+    pub use crate::inference::percentile::{middles, percentile};
+    pub use crate::inference::search::differences::{Iterate, differences};
+    pub use crate::inference::search::recorder::{Halt, Recorder};
+    pub use crate::inference::serial_correlation::Fit;
+}

@@ -128,6 +128,7 @@ impl TestTarget {
         let (package, name, is_library) = match (folders.next()?, folders.next()?) {
             ("solver", "src") => ("bagnold-solver-tests".to_owned(), "solver".to_owned(), false),
             ("tests", _) => ("bagnold-tests".to_owned(), SUITE.to_owned(), false),
+            ("validation", "inference") => ("bagnold-inference-tests".to_owned(), "inference".to_owned(), false),
             ("validation", part) => (format!("bagnold-{part}"), format!("bagnold_{part}"), true),
             _ => return None,
         };

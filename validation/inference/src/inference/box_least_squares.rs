@@ -16,12 +16,7 @@ enum BoundStatus {
 }
 
 /// x with lower ≤ x ≤ upper that minimises |A x − b|²; where A does not determine it, a small one. `lower` ≤ `upper`.
-pub(super) fn box_least_squares(
-    matrix: &DMatrix<f64>,
-    right: &DVector<f64>,
-    lower: &[f64],
-    upper: &[f64],
-) -> DVector<f64> {
+pub fn box_least_squares(matrix: &DMatrix<f64>, right: &DVector<f64>, lower: &[f64], upper: &[f64]) -> DVector<f64> {
     let count = matrix.ncols();
     let (matrix, right) = reduced(matrix, right);
     let mut place = vec![BoundStatus::Free; count];
@@ -122,54 +117,4 @@ pub(super) fn least_squares(matrix: DMatrix<f64>, right: &DMatrix<f64>) -> DMatr
         projected.row_mut(row).scale_mut(inverse);
     }
     vt.tr_mul(&projected)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sampling::Random;
-
-    #[test]
-    fn without_active_bounds_it_is_least_squares() {
-        let matrix = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 1.0, 1.0, 1.0, 2.0]);
-        let right = DVector::from_row_slice(&[1.0, 3.0, 5.0]);
-        let x = box_least_squares(&matrix, &right, &[-9.0, -9.0], &[9.0, 9.0]);
-        assert!((x[0] - 1.0).abs() < 1e-12 && (x[1] - 2.0).abs() < 1e-12);
-    }
-
-    /// The conditions of Karush, Kuhn and Tucker are necessary and sufficient.
-    #[test]
-    fn random_problems_meet_the_conditions_of_a_minimum() {
-        let mut random = Random::new(11);
-        for _ in 0..300 {
-            let (rows, columns) = (1 + random.index(8), 1 + random.index(5));
-            let matrix = DMatrix::from_fn(rows, columns, |_, _| random.normal());
-            let right = DVector::from_fn(rows, |_, _| 3.0 * random.normal());
-            let lower: Vec<f64> = (0..columns).map(|_| -random.uniform()).collect();
-            let upper: Vec<f64> = (0..columns).map(|_| random.uniform()).collect();
-            let x = box_least_squares(&matrix, &right, &lower, &upper);
-            let force = matrix.tr_mul(&(&right - &matrix * &x));
-            for k in 0..columns {
-                assert!((lower[k]..=upper[k]).contains(&x[k]));
-                let tolerance = 1e-9;
-                assert!(x[k] == lower[k] || force[k] > -tolerance, "{force}");
-                assert!(x[k] == upper[k] || force[k] < tolerance, "{force}");
-            }
-        }
-    }
-
-    #[test]
-    fn an_undetermined_variable_stays_where_it_is() {
-        let matrix = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 2.0, 0.0]);
-        let right = DVector::from_row_slice(&[1.0, 2.0]);
-        let x = box_least_squares(&matrix, &right, &[-0.5, -0.5], &[0.25, 0.5]);
-        assert!(x[0] == 0.25 && x[1] == 0.0, "{x}");
-    }
-
-    #[test]
-    fn a_variable_without_room_is_left_alone() {
-        let matrix = DMatrix::from_row_slice(1, 2, &[1.0, 1.0]);
-        let x = box_least_squares(&matrix, &DVector::from_element(1, 1.0), &[0.25, -1.0], &[0.25, 1.0]);
-        assert!(x[0] == 0.25 && (x[1] - 0.75).abs() < 1e-14);
-    }
 }

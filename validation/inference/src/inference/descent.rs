@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 /// A cheap smooth vector function of the unit cube.
-pub(super) trait Smooth {
+pub trait Smooth {
     /// Residuals `[-]` at a point.
     fn residuals(&self, point: &[f64]) -> DVector<f64>;
     /// Their derivatives, one column a coordinate.
@@ -45,7 +45,7 @@ const MOST_STEPS: usize = 60;
 const FIRST_RADIUS: f64 = 0.25;
 
 /// The minimum of Σ r² that lies downhill of `start` between the bounds.
-pub(super) fn descend(function: &impl Smooth, start: &[f64], lower: &[f64], upper: &[f64]) -> LocalMinimum {
+pub fn descend(function: &impl Smooth, start: &[f64], lower: &[f64], upper: &[f64]) -> LocalMinimum {
     let mut point: Vec<f64> = start.iter().enumerate().map(|(k, u)| u.clamp(lower[k], upper[k])).collect();
     let mut residuals = function.residuals(&point);
     let mut chi_squared = residuals.norm_squared();
@@ -84,36 +84,4 @@ pub(super) fn descend_held(function: &impl Smooth, start: &[f64], which: usize, 
     let (mut lower, mut upper) = (vec![0.0; start.len()], vec![1.0; start.len()]);
     (lower[which], upper[which]) = (value, value);
     descend(function, start, &lower, &upper)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Rosenbrock's valley in the unit cube, minimum at (0.6, 0.36).
-    struct RosenbrockFunction;
-
-    impl Smooth for RosenbrockFunction {
-        fn residuals(&self, u: &[f64]) -> DVector<f64> {
-            DVector::from_row_slice(&[30.0 * (u[1] - u[0] * u[0]), 3.0 * (0.6 - u[0])])
-        }
-        fn jacobian(&self, u: &[f64]) -> DMatrix<f64> {
-            DMatrix::from_row_slice(2, 2, &[-60.0 * u[0], 30.0, -3.0, 0.0])
-        }
-    }
-
-    #[test]
-    fn the_bottom_of_a_valley_is_found() {
-        let bottom = descend(&RosenbrockFunction, &[0.0, 1.0], &[0.0, 0.0], &[1.0, 1.0]);
-        assert!((bottom.point[0] - 0.6).abs() < 1e-8 && (bottom.point[1] - 0.36).abs() < 1e-8);
-        assert!(bottom.chi_squared < 1e-14);
-    }
-
-    #[test]
-    fn a_bound_is_kept() {
-        // with x ≤ 0.5 the best y is 0.25
-        let bottom = descend(&RosenbrockFunction, &[0.0, 1.0], &[0.0, 0.0], &[0.5, 1.0]);
-        assert_eq!(bottom.point[0], 0.5);
-        assert!((bottom.point[1] - 0.25).abs() < 1e-8 && (bottom.chi_squared - 0.09).abs() < 1e-10);
-    }
 }

@@ -298,6 +298,3 @@ pub(super) fn extent(region: &Region) -> f64 {
     let ends = region.profiles.iter().flat_map(|profile| &profile.ends);
     ends.map(|end| distance(end, &region.minimum.point)).fold(0.0, f64::max)
 }
-
-#[cfg(test)]
-mod tests;

@@ -4,18 +4,15 @@
 //! r = (model − datum)/σ with the datum's standard uncertainty σ, and χ² = Σ r². Nothing here runs on a clock or an
 //! unseeded generator, so a search that is begun anew asks for the same points in the same order.
 
-#[cfg(test)]
-mod bootstrap;
-mod box_least_squares;
-#[cfg(test)]
-mod coverage;
-mod descent;
+pub(crate) mod box_least_squares;
+pub(crate) mod descent;
 pub mod diagnosis;
 pub mod emulator;
 pub mod ends;
 pub mod explore;
 pub mod identifiability;
-mod loss;
+pub(crate) mod loss;
+pub(crate) mod percentile;
 pub mod posterior;
 mod profile;
 pub mod region;
@@ -23,10 +20,8 @@ mod scatter;
 pub mod scores;
 pub mod search;
 pub mod sensitivity;
-mod serial_correlation;
+pub(crate) mod serial_correlation;
 pub mod solve;
-#[cfg(test)]
-mod stand_in;
 
 pub use descent::LocalMinimum;
 pub use emulator::Emulator;

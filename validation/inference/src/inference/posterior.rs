@@ -8,7 +8,8 @@
 //! Source: Goodman & Weare, Communications in Applied Mathematics and Computational Science 5 (2010) 65.
 
 use super::emulator::Emulator;
-use super::region::{CENTRAL, Region};
+use super::percentile::middles;
+use super::region::Region;
 use crate::sampling::Random;
 use nalgebra::DVector;
 
@@ -122,62 +123,4 @@ pub fn predictive(emulator: &Emulator, posterior: &Posterior) -> Vec<[f64; 2]> {
     let thinned = posterior.samples.iter().step_by((posterior.samples.len() / 400).max(1));
     let predicted: Vec<Vec<f64>> = thinned.map(|sample| emulator.predict(sample)).collect();
     middles(&predicted, emulator.data())
-}
-
-/// Intervals that hold 95 % of each coordinate of some points, as many left out below as above.
-pub(super) fn middles(points: &[Vec<f64>], coordinates: usize) -> Vec<[f64; 2]> {
-    let middle = |k: usize| {
-        let mut values: Vec<f64> = points.iter().map(|point| point[k]).collect();
-        values.sort_by(f64::total_cmp);
-        CENTRAL.map(|share| percentile(&values, share))
-    };
-    (0..coordinates).map(middle).collect()
-}
-
-/// The value below which a share of a sorted list lies, between neighbours in proportion; not a number in an empty
-/// list.
-pub(super) fn percentile(sorted: &[f64], share: f64) -> f64 {
-    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
-    let place = share * last as f64;
-    let below = (place as usize).min(last);
-    let above = (below + 1).min(last);
-    sorted[below] + (place - below as f64) * (sorted[above] - sorted[below])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::region::Uncertainties;
-    use super::super::stand_in::emulator;
-    use super::*;
-
-    #[test]
-    fn a_linear_model_has_a_normal_posterior() {
-        let emulator = emulator(|u| vec![20.0 * (u[0] - 0.5), 10.0 * (u[0] + u[1] - 1.0)]);
-        let region = Region::new(&emulator, Uncertainties::AsStated);
-        let posterior = sample(&region, 1);
-        for (interval, variance) in posterior.intervals.iter().zip([0.0025, 0.0125_f64]) {
-            let half = 1.96 * variance.sqrt();
-            assert!((interval[0] - 0.5 + half).abs() < 0.1 * half, "{interval:?} {half}");
-            assert!((interval[1] - 0.5 - half).abs() < 0.1 * half, "{interval:?} {half}");
-        }
-        assert!((0.5..0.9).contains(&posterior.acceptance) && posterior.correlation_moves < 60.0, "{posterior:?}");
-        let band = predictive(&emulator, &posterior)[0];
-        assert!((band[0] + 1.96).abs() < 0.3 && (band[1] - 1.96).abs() < 0.3, "{band:?}");
-        assert_eq!(posterior, sample(&region, 1));
-    }
-
-    #[test]
-    fn samples_stay_within_the_bounds() {
-        let emulator = emulator(|u| vec![2.0 * (u[0] - 0.9), 20.0 * (u[1] - 0.4)]);
-        let posterior = sample(&Region::new(&emulator, Uncertainties::AsStated), 3);
-        assert!(posterior.samples.iter().flatten().all(|u| (0.0..=1.0).contains(u)));
-        assert!(posterior.intervals[0][0] < 0.1 && posterior.intervals[0][1] > 0.9);
-    }
-
-    #[test]
-    fn percentiles_lie_between_neighbours() {
-        let list = [1.0, 2.0, 4.0];
-        assert_eq!([0.0, 0.25, 0.75, 1.0].map(|share| percentile(&list, share)), [1.0, 1.5, 3.0, 4.0]);
-        assert!(percentile(&[], 0.5).is_nan());
-    }
 }

@@ -186,7 +186,3 @@ fn best_order(points: &[[f64; 3]], fits: &[PowerLawFit]) -> Option<PowerLawFit> 
     }
     Some(best)
 }
-
-#[cfg(test)]
-#[path = "grid_convergence_tests.rs"]
-mod tests;

@@ -23,10 +23,11 @@ pub(super) const MOST_POINTS: usize = 100;
 
 /// The random functions of all residuals: one row per point, one column per residual.
 #[derive(Debug, Clone)]
-pub(super) struct KrigingCorrection {
+pub struct KrigingCorrection {
     points: Vec<Vec<f64>>,
     length: f64,
-    pub(super) coefficients: DMatrix<f64>,
+    /// Coefficients of the correlations with each point.
+    pub coefficients: DMatrix<f64>,
     /// Mean square of what a point that is left out is missed by, weighted, summed over the residuals.
     error: f64,
 }
@@ -34,7 +35,7 @@ pub(super) struct KrigingCorrection {
 impl KrigingCorrection {
     /// The correction for what is left over (one row per point, the best first); none where it would not predict a point
     /// better than the polynomial alone, whose error is `error`.
-    pub(super) fn fit(points: &[&[f64]], left: &DMatrix<f64>, weights: &[f64], error: f64) -> Option<Self> {
+    pub fn fit(points: &[&[f64]], left: &DMatrix<f64>, weights: &[f64], error: f64) -> Option<Self> {
         let count = points.len().min(MOST_POINTS);
         let points: Vec<Vec<f64>> = points[..count].iter().map(|point| point.to_vec()).collect();
         let left = left.rows(0, count).into_owned();
@@ -77,13 +78,13 @@ impl KrigingCorrection {
     }
 
     /// Correlation with each point.
-    pub(super) fn basis(&self, place: &[f64]) -> DVector<f64> {
+    pub fn basis(&self, place: &[f64]) -> DVector<f64> {
         let of = |point: &Vec<f64>| correlation(squared_distance(point, place).sqrt() / self.length);
         DVector::from_iterator(self.len(), self.points.iter().map(of))
     }
 
     /// Derivatives of the basis (rows) by the coordinates (columns).
-    pub(super) fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
+    pub fn slopes(&self, place: &[f64]) -> DMatrix<f64> {
         let mut slopes = DMatrix::zeros(self.len(), place.len());
         for (row, point) in self.points.iter().enumerate() {
             let s = (5.0 * squared_distance(point, place)).sqrt() / self.length;
@@ -105,65 +106,4 @@ fn correlation(distance: f64) -> f64 {
 
 fn squared_distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sampling::Random;
-    use crate::sampling::design::latin_hypercube;
-
-    fn left(points: &[Vec<f64>], value: impl FnMut(&Vec<f64>) -> f64) -> DMatrix<f64> {
-        DMatrix::from_iterator(points.len(), 1, points.iter().map(value))
-    }
-
-    fn fitted(points: &[Vec<f64>], left: &DMatrix<f64>) -> Option<KrigingCorrection> {
-        let borrowed: Vec<&[f64]> = points.iter().map(Vec::as_slice).collect();
-        let error = left.norm_squared() / points.len() as f64;
-        KrigingCorrection::fit(&borrowed, left, &vec![1.0; points.len()], error)
-    }
-
-    #[test]
-    fn a_smooth_left_over_is_carried_between_its_points() {
-        let points = latin_hypercube(40, 2, 3);
-        let smooth = |u: &Vec<f64>| libm::sin(5.0 * u[0]) * libm::cos(4.0 * u[1]);
-        let correction = fitted(&points, &left(&points, smooth)).expect("it predicts");
-        let value = |u: &[f64]| correction.basis(u).dot(&correction.coefficients.column(0));
-        for u in latin_hypercube(20, 2, 8).iter().filter(|u| u.iter().all(|x| (0.15..0.85).contains(x))) {
-            assert!((value(u) - smooth(u)).abs() < 0.05, "{u:?}: {} is not {}", value(u), smooth(u));
-        }
-        for u in &points {
-            assert!((value(u) - smooth(u)).abs() < 0.01);
-        }
-    }
-
-    #[test]
-    fn mere_scatter_is_not_carried() {
-        let points = latin_hypercube(60, 2, 3);
-        let mut random = Random::new(5);
-        let scatter = left(&points, |_| random.normal());
-        let correction = fitted(&points, &scatter);
-        let largest = correction.map_or(0.0, |correction| {
-            let values = points.iter().map(|u| correction.basis(u).dot(&correction.coefficients.column(0)).abs());
-            values.fold(0.0, f64::max)
-        });
-        assert!(largest < 1.0, "{largest} of a scatter of 1");
-    }
-
-    #[test]
-    fn the_slopes_are_those_of_differences() {
-        let points = latin_hypercube(10, 2, 3);
-        let correction = fitted(&points, &left(&points, |u| u[0] * u[1])).expect("it predicts");
-        let (u, h) = ([0.3, 0.6], 1e-6);
-        let slopes = correction.slopes(&u);
-        for k in 0..2 {
-            let at = |step: f64| {
-                let mut place = u;
-                place[k] += step;
-                correction.basis(&place)
-            };
-            let difference = (at(h) - at(-h)) / (2.0 * h);
-            assert!((slopes.column(k) - difference).norm() < 1e-8);
-        }
-    }
 }

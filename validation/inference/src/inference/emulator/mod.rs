@@ -7,7 +7,7 @@
 //! all; large residuals need to be right in proportion only. What is left over at the points is carried between them by a
 //! correction, where that predicts them better.
 
-mod correction;
+pub(crate) mod correction;
 mod polynomial;
 
 use super::box_least_squares::least_squares;
@@ -276,6 +276,3 @@ fn leave_one_out(matrix: &DMatrix<f64>, right: &DMatrix<f64>, solution: &DMatrix
     }
     (weight > 0.0).then(|| (sum / weight / right.ncols() as f64).sqrt())
 }
-
-#[cfg(test)]
-mod tests;

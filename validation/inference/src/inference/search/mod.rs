@@ -2,9 +2,9 @@
 
 mod barrier;
 mod design;
-mod differences;
+pub(crate) mod differences;
 mod evaluated;
-mod recorder;
+pub(crate) mod recorder;
 mod starts;
 mod trust_region;
 
@@ -314,6 +314,3 @@ fn check<E>(start: &[f64], budget: &Budget) -> Result<(), SearchError<E>> {
     }
     Ok(())
 }
-
-#[cfg(test)]
-mod tests;

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// Reason for the halt of a method.
 #[derive(Debug)]
-pub(in crate::inference) enum Halt<E> {
+pub enum Halt<E> {
     /// A new point would exceed the budget.
     BudgetSpent,
     /// No point tried so far works, and none else is to be tried.
@@ -19,7 +19,7 @@ pub(in crate::inference) enum Halt<E> {
 }
 
 /// The model with a memory and a budget.
-pub(in crate::inference) struct Recorder<'a, M> {
+pub struct Recorder<'a, M> {
     model: &'a mut M,
     budget: usize,
     history: Vec<Evaluated>,
@@ -36,7 +36,8 @@ type EvaluatedStart = (Vec<f64>, Vec<f64>);
 const RESCUE_BATCH: usize = 4;
 
 impl<'a, M: Evaluate> Recorder<'a, M> {
-    pub(in crate::inference) fn new(model: &'a mut M, budget: usize) -> Self {
+    /// One that knows no point yet.
+    pub fn new(model: &'a mut M, budget: usize) -> Self {
         Self::with(model, Vec::new(), budget)
     }
 
@@ -53,12 +54,12 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
     }
 
     /// Every distinct point so far.
-    pub(in crate::inference) fn history(&self) -> &[Evaluated] {
+    pub fn history(&self) -> &[Evaluated] {
         &self.history
     }
 
     /// The evaluated point of least χ².
-    pub(in crate::inference) fn best(&self) -> Option<(&Evaluated, f64)> {
+    pub fn best(&self) -> Option<(&Evaluated, f64)> {
         self.history
             .iter()
             .filter_map(|evaluated| evaluated.chi_squared.map(|chi_squared| (evaluated, chi_squared)))
@@ -67,10 +68,7 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
 
     /// The residuals at each point, new ones in one batch. Of points beyond the budget none is evaluated, those before
     /// them are.
-    pub(in crate::inference) fn residuals(
-        &mut self,
-        points: &[Vec<f64>],
-    ) -> Result<Vec<Option<Vec<f64>>>, Halt<M::Error>> {
+    pub fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, Halt<M::Error>> {
         let mut fresh: Vec<Vec<f64>> = Vec::new();
         for point in points {
             let next = self.history.len() + fresh.len();
@@ -104,16 +102,12 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
     }
 
     /// The residuals at one point.
-    pub(in crate::inference) fn residuals_at(&mut self, point: &[f64]) -> Result<Option<Vec<f64>>, Halt<M::Error>> {
+    pub fn residuals_at(&mut self, point: &[f64]) -> Result<Option<Vec<f64>>, Halt<M::Error>> {
         Ok(self.residuals(&[point.to_vec()])?.pop().flatten())
     }
 
     /// The start, or where the model fails there, the best of the first few points spread over the cube that work.
-    pub(in crate::inference) fn working_start(
-        &mut self,
-        start: &[f64],
-        seed: u64,
-    ) -> Result<EvaluatedStart, Halt<M::Error>> {
+    pub fn working_start(&mut self, start: &[f64], seed: u64) -> Result<EvaluatedStart, Halt<M::Error>> {
         if let Some(residuals) = self.residuals_at(start)? {
             return Ok((start.to_vec(), residuals));
         }
@@ -154,52 +148,4 @@ impl<'a, M: Evaluate> Recorder<'a, M> {
 /// The coordinates as bits; both zeros are one.
 fn bits(point: &[f64]) -> Vec<u64> {
     point.iter().map(|u| (u + 0.0).to_bits()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::super::stand_in::RosenbrockModel;
-    use super::*;
-
-    struct Counting(usize);
-
-    impl Evaluate for Counting {
-        type Error = String;
-        fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, String> {
-            self.0 += points.len();
-            Ok(points.iter().map(|u| (u[0] < 0.9).then(|| vec![u[0]])).collect())
-        }
-    }
-
-    #[test]
-    fn a_point_is_evaluated_once() {
-        let mut model = Counting(0);
-        let mut recorder = Recorder::new(&mut model, 3);
-        let points = [vec![0.5], vec![0.0], vec![0.5], vec![-0.0]];
-        let residuals = recorder.residuals(&points).unwrap();
-        assert_eq!(residuals, [Some(vec![0.5]), Some(vec![0.0]), Some(vec![0.5]), Some(vec![0.0])]);
-        assert_eq!(recorder.residuals_at(&[0.95]).unwrap(), None);
-        assert_eq!(recorder.history().len(), 3);
-        assert_eq!(model.0, 3);
-    }
-
-    #[test]
-    fn a_batch_is_cut_at_the_budget() {
-        let mut model = Counting(0);
-        let mut recorder = Recorder::new(&mut model, 2);
-        let points = [vec![0.5], vec![0.25], vec![0.125]];
-        assert!(matches!(recorder.residuals(&points), Err(Halt::BudgetSpent)));
-        assert_eq!(recorder.history().len(), 2);
-        assert!(matches!(recorder.residuals(&points[..2]), Ok(list) if list.len() == 2));
-        assert_eq!(recorder.best().unwrap().1, 0.0625);
-    }
-
-    #[test]
-    fn a_start_that_fails_is_replaced() {
-        let mut model = Counting(0);
-        let (start, residuals) = Recorder::new(&mut model, 9).working_start(&[1.0], 1).unwrap();
-        assert!(start[0] < 0.9 && residuals == start);
-        let (start, _) = Recorder::new(&mut RosenbrockModel, 9).working_start(&[1.0, 0.5], 1).unwrap();
-        assert_eq!(start, [1.0, 0.5]);
-    }
 }

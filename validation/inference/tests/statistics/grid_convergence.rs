@@ -1,6 +1,6 @@
 //! Tests of the index: series of known order, and how often its band holds the limit when runs scatter.
 
-use super::*;
+use bagnold_inference::statistics::{Mean, grid_convergence};
 use rand::{RngExt, SeedableRng};
 
 fn means(value: impl Fn(f64) -> f64, error: f64) -> [Mean; 3] {

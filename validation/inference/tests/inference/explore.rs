@@ -1,10 +1,10 @@
 //! Ends against the model's own profile, found by brute force.
 
-use super::*;
-use crate::inference::chi_squared;
-use crate::inference::descent::{Smooth, descend};
-use crate::inference::search::{Method, search};
-use crate::inference::stand_in::ExponentialDecay;
+use crate::stand_in::ExponentialDecay;
+use bagnold_inference::inference::{
+    Budget, Emulator, Evaluate, Method, Region, Uncertainties, chi_squared, explore, search,
+};
+use bagnold_inference::internals::{Smooth, descend};
 use nalgebra::{DMatrix, DVector};
 use std::convert::Infallible;
 

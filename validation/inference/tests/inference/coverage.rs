@@ -1,12 +1,11 @@
 //! Repeated synthetic experiments: do the regions contain the truth as often as they claim?
 
-use super::bootstrap::bootstrap;
-use super::explore::explore;
-use super::region::{Region, Uncertainties};
-use super::search::{Budget, Method, SearchResult, Termination, search};
-use super::stand_in::{RANGES, Slopes, TRUTH};
-use super::{Emulator, Evaluate};
-use crate::sampling::Random;
+use crate::inference::bootstrap::bootstrap;
+use crate::stand_in::{RANGES, Slopes, TRUTH};
+use bagnold_inference::inference::{
+    Budget, Emulator, Evaluate, Method, Region, SearchResult, Termination, Uncertainties, explore, search,
+};
+use bagnold_inference::sampling::Random;
 use rayon::prelude::*;
 use std::convert::Infallible;
 

@@ -1,7 +1,13 @@
 //! Requirements on all methods.
 
-use super::*;
-use crate::inference::stand_in::{ExponentialDecay, Failing, RosenbrockModel};
+mod design;
+mod differences;
+mod recorder;
+mod starts;
+mod trust_region;
+
+use crate::stand_in::{ExponentialDecay, Failing, RosenbrockModel};
+use bagnold_inference::inference::{Budget, Method, SearchError, SearchResult, search};
 
 const METHODS: [Method; 2] = [Method::TrustRegion, Method::Design];
 

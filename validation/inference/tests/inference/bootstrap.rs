@@ -1,9 +1,9 @@
 //! Intervals from data drawn anew about the fitted model (parametric bootstrap), on the emulator: another way to the intervals by profile.
 
-use super::descent::{Smooth, descend};
-use super::emulator::Emulator;
-use super::posterior::middles;
-use crate::sampling::Random;
+use crate::stand_in::emulator;
+use bagnold_inference::inference::Emulator;
+use bagnold_inference::internals::{Smooth, descend, middles};
+use bagnold_inference::sampling::Random;
 use nalgebra::{DMatrix, DVector};
 
 /// The parameters of repeated experiments.
@@ -49,27 +49,21 @@ pub(super) fn bootstrap(emulator: &Emulator, repeats: usize, seed: u64) -> Boots
     Bootstrap { intervals: middles(&samples, minimum.len()), samples }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::super::stand_in::emulator;
-    use super::*;
-
-    #[test]
-    fn a_linear_model_gives_normal_intervals() {
-        let emulator = emulator(|u| vec![20.0 * (u[0] - 0.5), 10.0 * (u[0] + u[1] - 1.0), 2.0]);
-        let repeated = bootstrap(&emulator, 4000, 1);
-        for (interval, variance) in repeated.intervals.iter().zip([0.0025, 0.0125f64]) {
-            let half = 1.96 * variance.sqrt();
-            assert!((interval[0] - 0.5 + half).abs() < 0.05 * half, "{interval:?}");
-            assert!((interval[1] - 0.5 - half).abs() < 0.05 * half, "{interval:?}");
-        }
-        assert_eq!(repeated.samples[..10], bootstrap(&emulator, 10, 1).samples);
+#[test]
+fn a_linear_model_gives_normal_intervals() {
+    let emulator = emulator(|u| vec![20.0 * (u[0] - 0.5), 10.0 * (u[0] + u[1] - 1.0), 2.0]);
+    let repeated = bootstrap(&emulator, 4000, 1);
+    for (interval, variance) in repeated.intervals.iter().zip([0.0025, 0.0125f64]) {
+        let half = 1.96 * variance.sqrt();
+        assert!((interval[0] - 0.5 + half).abs() < 0.05 * half, "{interval:?}");
+        assert!((interval[1] - 0.5 - half).abs() < 0.05 * half, "{interval:?}");
     }
+    assert_eq!(repeated.samples[..10], bootstrap(&emulator, 10, 1).samples);
+}
 
-    #[test]
-    fn samples_stay_in_the_cube() {
-        let repeated = bootstrap(&emulator(|u| vec![u[0] - 0.95, 9.0 * (u[1] - 0.5)]), 200, 1);
-        assert!(repeated.samples.iter().flatten().all(|u| (0.0..=1.0).contains(u)));
-        assert_eq!(repeated.intervals[0], [0.0, 1.0]);
-    }
+#[test]
+fn samples_stay_in_the_cube() {
+    let repeated = bootstrap(&emulator(|u| vec![u[0] - 0.95, 9.0 * (u[1] - 0.5)]), 200, 1);
+    assert!(repeated.samples.iter().flatten().all(|u| (0.0..=1.0).contains(u)));
+    assert_eq!(repeated.intervals[0], [0.0, 1.0]);
 }

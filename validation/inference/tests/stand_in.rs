@@ -1,13 +1,13 @@
 //! Cheap models with known minima, for tests.
 
-use super::{Emulator, Evaluate, Evaluated};
-use crate::sampling::Random;
-use crate::sampling::design::full_grid;
+use bagnold_inference::inference::{Emulator, Evaluate, Evaluated};
+use bagnold_inference::sampling::Random;
+use bagnold_inference::sampling::design::full_grid;
 use nalgebra::DMatrix;
 use std::convert::Infallible;
 
 /// The emulator of a model of two parameters on a grid of four by four.
-pub(super) fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
+pub(crate) fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
     let one = |point: Vec<f64>| {
         let residuals = residuals(&point);
         Evaluated::new(point, Some(residuals))
@@ -17,7 +17,7 @@ pub(super) fn emulator(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Emulator {
 }
 
 /// Rosenbrock's valley; the minimum, χ² = 0, lies at (0.6, 0.36).
-pub(super) struct RosenbrockModel;
+pub(crate) struct RosenbrockModel;
 
 impl Evaluate for RosenbrockModel {
     type Error = Infallible;
@@ -28,13 +28,13 @@ impl Evaluate for RosenbrockModel {
 
 /// A decay to a plateau, y = a exp(−b t) + c at twelve times, without noise, standard uncertainty 0.02.
 #[derive(Clone)]
-pub(super) struct ExponentialDecay {
+pub(crate) struct ExponentialDecay {
     /// Parameters of the synthetic data, in the unit cube.
-    pub(super) truth: [f64; 3],
+    pub(crate) truth: [f64; 3],
 }
 
 impl ExponentialDecay {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { truth: [0.6, 0.45, 0.4] }
     }
 
@@ -43,12 +43,12 @@ impl ExponentialDecay {
     }
 
     /// Weighted residuals at a point.
-    pub(super) fn at(&self, u: &[f64]) -> Vec<f64> {
+    pub(crate) fn at(&self, u: &[f64]) -> Vec<f64> {
         (0..12).map(|k| 0.25 * f64::from(k)).map(|t| (Self::value(u, t) - Self::value(&self.truth, t)) / 0.02).collect()
     }
 
     /// The exact derivatives of the residuals.
-    pub(super) fn jacobian(&self, u: &[f64]) -> DMatrix<f64> {
+    pub(crate) fn jacobian(&self, u: &[f64]) -> DMatrix<f64> {
         DMatrix::from_fn(12, 3, |row, column| {
             let time = 0.25 * row as f64;
             let decay = libm::exp(-(0.5 + 2.0 * u[1]) * time);
@@ -65,9 +65,9 @@ impl Evaluate for ExponentialDecay {
 }
 
 /// The curve, where the first coordinate is at most `beyond`; a model that diverges elsewhere.
-pub(super) struct Failing {
-    pub(super) curve: ExponentialDecay,
-    pub(super) beyond: f64,
+pub(crate) struct Failing {
+    pub(crate) curve: ExponentialDecay,
+    pub(crate) beyond: f64,
 }
 
 impl Evaluate for Failing {
@@ -79,16 +79,16 @@ impl Evaluate for Failing {
 
 /// Bagnold's profile under the μ(I) law at five slopes: parameters μ_s, μ_2 and I_0, one per cent of noise.
 #[derive(Clone)]
-pub(super) struct Slopes {
+pub(crate) struct Slopes {
     /// Velocity with noise over that without.
     noise: Vec<f64>,
 }
 
 /// Ranges of μ_s, μ_2 and I_0 `[-]`; the last is logarithmic.
-pub(super) const RANGES: [(f64, f64); 3] = [(0.30, 0.40), (0.57, 0.80), (0.1, 0.6)];
+pub(crate) const RANGES: [(f64, f64); 3] = [(0.30, 0.40), (0.57, 0.80), (0.1, 0.6)];
 
 /// True μ_s, μ_2 and I_0 `[-]`.
-pub(super) const TRUTH: [f64; 3] = [0.38, 0.64, 0.279];
+pub(crate) const TRUTH: [f64; 3] = [0.38, 0.64, 0.279];
 
 /// Depth bins of a slope.
 const BINS: usize = 20;
@@ -98,19 +98,19 @@ const NOISE: f64 = 0.01;
 
 impl Slopes {
     /// Data of a seed.
-    pub(super) fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         let mut random = Random::new(seed);
         Self { noise: (0..5 * BINS).map(|_| 1.0 + NOISE * random.normal()).collect() }
     }
 
     /// μ_s, μ_2 and I_0 of a point.
-    pub(super) fn physical(k: usize, u: f64) -> f64 {
+    pub(crate) fn physical(k: usize, u: f64) -> f64 {
         let (lower, upper) = RANGES[k];
         if k < 2 { lower + u * (upper - lower) } else { lower * libm::exp(u * libm::log(upper / lower)) }
     }
 
     /// The truth in the unit cube.
-    pub(super) fn truth() -> Vec<f64> {
+    pub(crate) fn truth() -> Vec<f64> {
         let linear = |k: usize| (TRUTH[k] - RANGES[k].0) / (RANGES[k].1 - RANGES[k].0);
         vec![linear(0), linear(1), libm::log(TRUTH[2] / RANGES[2].0) / libm::log(RANGES[2].1 / RANGES[2].0)]
     }
@@ -134,7 +134,7 @@ impl Slopes {
     }
 
     /// Weighted residuals at a point.
-    pub(super) fn at(&self, u: &[f64]) -> Vec<f64> {
+    pub(crate) fn at(&self, u: &[f64]) -> Vec<f64> {
         let model = Self::velocities([Self::physical(0, u[0]), Self::physical(1, u[1]), Self::physical(2, u[2])]);
         let exact = Self::velocities(TRUTH);
         (0..exact.len()).map(|k| (model[k] - exact[k] * self.noise[k]) / (NOISE * exact[k])).collect()

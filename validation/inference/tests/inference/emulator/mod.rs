@@ -1,9 +1,11 @@
 //! Polynomials are reproduced, and what they miss is corrected.
 
-use super::*;
-use crate::inference::stand_in::ExponentialDecay;
-use crate::inference::{Evaluate, chi_squared};
-use crate::sampling::design::{full_grid, latin_hypercube};
+mod correction;
+
+use crate::stand_in::ExponentialDecay;
+use bagnold_inference::inference::emulator::Degree;
+use bagnold_inference::inference::{Emulator, Evaluate, Evaluated, chi_squared};
+use bagnold_inference::sampling::design::{full_grid, latin_hypercube};
 
 fn evaluated(points: &[Vec<f64>], residuals: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Vec<Evaluated> {
     let one = |point: &Vec<f64>| {

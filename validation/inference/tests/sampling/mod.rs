@@ -1,0 +1,5 @@
+//! Random numbers, bounds and designs.
+
+mod design;
+mod parameter;
+mod random;
