@@ -110,10 +110,10 @@ fn softening(cohesion: f64) -> Rheology {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {
         let make = |parameters: &Parameters| Ok(OpenLaw::with_field(parameters.read::<Softening>()?));
-        register("softening", make).expect("a new name");
+        register("softens", make).expect("a new name");
     });
     let text = format!(
-        "law = \"softening\"\npeak_friction = 0.6\nresidual_friction = 0.4\nsoftening_strain = 0.2\ncohesion = {cohesion}"
+        "law = \"softens\"\npeak_friction = 0.6\nresidual_friction = 0.4\nsoftening_strain = 0.2\ncohesion = {cohesion}"
     );
     toml::from_str(&text).expect("found by its name")
 }
