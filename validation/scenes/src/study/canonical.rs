@@ -221,7 +221,7 @@ impl PreparedCase for StudyPlan {
     fn finish(self: Box<Self>) -> Result<CaseResult, ParameterError> {
         let Self { tier, study, parameters_toml, parts, .. } = *self;
         let results = parts.into_iter().map(PreparedCase::finish).collect::<Result<_, _>>()?;
-        let judged = study.judge(results).map_err(ParameterError::from)?;
+        let judged = study.judge(results)?;
         Ok(CaseResult { tier, parameters_toml, command: format!("bagnold run {} --tier {tier}", self.name), ..judged })
     }
 }

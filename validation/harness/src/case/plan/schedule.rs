@@ -81,8 +81,7 @@ pub fn execute(
     store: &Store,
     monitor: &dyn Monitor,
 ) -> Result<Vec<CaseResult>, ParameterError> {
-    let places = |(case, own): (usize, &Box<dyn PreparedCase>)| (0..own.run_count()).map(move |run| (case, run));
-    let runs = cases.iter().enumerate().flat_map(places);
+    let runs = cases.iter().enumerate().flat_map(|(case, own)| (0..own.run_count()).map(move |run| (case, run)));
     // each with its position over all cases, which the monitor knows it by
     let mut jobs: Vec<(usize, (usize, usize))> = runs.enumerate().collect();
     let cost = |&(_, (case, run)): &(usize, (usize, usize))| cases[case].estimate(run).particle_steps;
