@@ -128,7 +128,7 @@ def test_a_study_is_run_and_judged_from_its_file(folder):
 
 
 def test_what_the_program_refuses_is_an_exception_with_its_text():
-    with pytest.raises(bagnold.Refused, match="unknown case `flim`; did you mean `film`?"):
+    with pytest.raises(bagnold.Refused, match="`flim`: unknown case; did you mean `film`?"):
         bagnold.run("flim")
     with pytest.raises(ValueError, match="resolution.*must be"):
         bagnold.run("film", resolution=-3)
