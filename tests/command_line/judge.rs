@@ -207,7 +207,7 @@ fn two_runs_are_compared_number_by_number() {
     std::fs::write(place.path("water/metrics.json"), renamed).expect("written");
     let apart = place.bagnold(&["compare", "first", "water", "--out", "none"]).assert().code(2);
     let message = String::from_utf8_lossy(&apart.get_output().stderr).into_owned();
-    assert!(message.contains("first and water have no variant of a case in common"), "{message}");
+    assert!(message.contains("first: has no variant of a case in common with water"), "{message}");
     let wrong = place.bagnold(&["compare", "first", "store", "--out", "none"]).assert().code(2);
     let message = String::from_utf8_lossy(&wrong.get_output().stderr).into_owned();
     assert!(message.contains("holds neither a run's metrics.json nor a report's"), "{message}");

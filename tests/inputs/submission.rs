@@ -4,7 +4,8 @@ use bagnold_cases::collapse::{ColumnFlow, SlopeFlow};
 use bagnold_harness::case::{
     Changes, ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame, RunList, Tier,
 };
-use bagnold_tools::judge::{CaseSubmissions, JudgeError};
+use bagnold_tools::ToolError;
+use bagnold_tools::judge::CaseSubmissions;
 use bagnold_validation::REGISTRY;
 
 const ROWS: u32 = 30;
@@ -79,7 +80,7 @@ fn every_part_alone_gives_numbers_and_none_for_what_is_missing() {
     assert!(cases >= 6, "{cases} cases take files");
 }
 
-fn read(text: &str) -> Result<CaseSubmissions, JudgeError> {
+fn read(text: &str) -> Result<CaseSubmissions, ToolError> {
     let folder = tempfile::tempdir().expect("temporary folder");
     let file = folder.path().join("mine.toml");
     std::fs::write(&file, text).expect("writable");

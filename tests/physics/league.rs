@@ -3,7 +3,8 @@
 use bagnold_harness::case::{Silent, execute};
 use bagnold_harness::metric::Verdict;
 use bagnold_harness::store::{Store, StorePolicy};
-use bagnold_tools::judge::{self, CodeComparison, JudgeError};
+use bagnold_tools::ToolError;
+use bagnold_tools::judge::{self, CodeComparison};
 use bagnold_tools::league::{self, WRONG, blind};
 use bagnold_validation::REGISTRY;
 use sha2::{Digest, Sha256};
@@ -13,7 +14,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../validation/league")
 }
 
-fn judged(files: &[PathBuf]) -> Result<Vec<CodeComparison>, JudgeError> {
+fn judged(files: &[PathBuf]) -> Result<Vec<CodeComparison>, ToolError> {
     let (prepared, entries) = league::split(league::read(files, *REGISTRY)?);
     let own = execute(prepared, &Store::open(StorePolicy::Use), &Silent).unwrap_or_else(|error| panic!("{error}"));
     own.into_iter().zip(&entries).map(|(own, entries)| judge::judge(own, entries)).collect()

@@ -1,12 +1,9 @@
 //! Errors that end the program with exit code 2.
 
-use crate::calibration::CalibrationError;
+use crate::ToolError;
 use crate::case::ParameterError;
-use crate::compare::CompareError;
-use crate::judge::JudgeError;
 use crate::output::{FileError, FolderError, reason};
 use crate::report::{ProcessError, ReportError};
-use crate::sweep::SweepError;
 
 /// Input that is refused, or output that cannot be written: each message names file, field, value, rule and remedy.
 #[derive(Debug, thiserror::Error)]
@@ -20,18 +17,9 @@ pub enum ProgramError {
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] FileError),
-    /// A sweep is refused.
+    /// A sweep, a calibration, a judgement or a comparison is refused.
     #[error(transparent)]
-    Sweep(#[from] SweepError),
-    /// A calibration is refused.
-    #[error(transparent)]
-    Calibration(#[from] CalibrationError),
-    /// A submission of another code is refused.
-    #[error(transparent)]
-    Judge(#[from] JudgeError),
-    /// Results that cannot be compared.
-    #[error(transparent)]
-    Compare(#[from] CompareError),
+    Tool(#[from] ToolError),
     /// Standard output cannot be written.
     #[error(
         "standard output: cannot be written ({reason}); free space, or send it elsewhere: what goes into folders was written"

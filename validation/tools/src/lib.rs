@@ -2,9 +2,12 @@
 
 pub mod calibration;
 pub mod compare;
+mod error;
 pub mod judge;
 pub mod league;
 pub mod sweep;
+
+pub use error::ToolError;
 
 use bagnold_figure as figure;
 use bagnold_harness::{case, evaluation, evidence, input, measured, metric, observation, output, page, result, store};

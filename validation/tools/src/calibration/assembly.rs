@@ -1,6 +1,5 @@
 //! From the answer of a search to a result in physical units, with the data beside the model.
 
-use super::error::CalibrationError;
 use super::findings;
 use super::objective::Objective;
 use super::plan::{CalibratedParameter, CalibrationPlan};
@@ -9,6 +8,7 @@ use super::result::{
     CalibrationResult, DatumComparison, ElementaryEffect, Evaluation, FoundMinimum, ParameterEstimate,
 };
 use super::target::{Datum, Target};
+use crate::ToolError;
 use crate::inference::posterior::Posterior;
 use crate::inference::{Answer, Evaluated, LocalMinimum};
 use crate::sampling::Spacing;
@@ -22,7 +22,7 @@ pub(super) fn compared<'r>(
     held_out: bool,
     answer: impl Fn(usize) -> Option<&'r Repeated>,
     named: impl Fn(&Target) -> Target,
-) -> Result<Vec<DatumComparison>, CalibrationError> {
+) -> Result<Vec<DatumComparison>, ToolError> {
     let data: Vec<Datum> =
         objective.data_of(held_out).map(|datum| Datum { target: named(&datum.target), ..datum.clone() }).collect();
     let owned: Vec<Option<Repeated>> = (0..objective.plan.blocks.len()).map(|k| answer(k).cloned()).collect();
@@ -45,7 +45,7 @@ pub(super) fn compared<'r>(
 }
 
 /// The fitted cases as complete files, each once.
-pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Vec<String>, CalibrationError> {
+pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Vec<String>, ToolError> {
     let plan = objective.plan;
     let fitted = plan.blocks.iter().filter(|block| !block.held_out);
     fitted

@@ -4,8 +4,8 @@
 //! A block that is held out names the parameters that make its conditions (`conditions`). It is refused where all of them
 //! have a value that a fitted block of the same case has too, within a tolerance (`same_within`).
 
-use super::error::CalibrationError;
 use super::plan::{CalibrationPlan, DataBlock};
+use crate::ToolError;
 use crate::case::list::ListedChange;
 use crate::case::{ListOfRuns, leaves};
 use crate::input::{FieldError, did_you_mean, nearest, number_in};
@@ -19,7 +19,7 @@ pub(super) struct BlockParameters<'a> {
 
 impl BlockParameters<'_> {
     /// The numbers that the runs have at a dotted path.
-    fn numbers(&self, path: &str, plan: &CalibrationPlan) -> Result<Vec<f64>, CalibrationError> {
+    fn numbers(&self, path: &str, plan: &CalibrationPlan) -> Result<Vec<f64>, ToolError> {
         let base = Value::Table(self.parameters.clone());
         // a case without a list of runs has one change, of nothing
         let list: ListOfRuns = base.clone().try_into().unwrap_or_default();
@@ -56,7 +56,7 @@ fn value_at<'a>(value: &'a Value, path: &str) -> Option<&'a Value> {
 }
 
 /// Refuses a block that is held out if its conditions are those of a fitted one.
-pub(super) fn check(plan: &CalibrationPlan, known: &[BlockParameters<'_>]) -> Result<(), CalibrationError> {
+pub(super) fn check(plan: &CalibrationPlan, known: &[BlockParameters<'_>]) -> Result<(), ToolError> {
     for held_out in known.iter().filter(|known| known.block.held_out) {
         let case = &held_out.block.request.case;
         for fitted in known.iter().filter(|known| !known.block.held_out && known.block.request.case == *case) {
@@ -74,13 +74,12 @@ pub(super) fn check(plan: &CalibrationPlan, known: &[BlockParameters<'_>]) -> Re
                 same.extend(pair.clone().find(close).map(|(a, b)| format!("{path} {a} and {b}")));
             }
             if same.len() == conditions.paths.len() {
-                return Err(CalibrationError::SameConditions {
-                    file: plan.file.clone(),
-                    hold_out: held_out.block.field.clone(),
-                    fit: fitted.block.field.clone(),
-                    same: same.join(", "),
-                    percent: 100.0 * conditions.same_within,
-                });
+                let (here, there, percent) =
+                    (&held_out.block.field, &fitted.block.field, 100.0 * conditions.same_within);
+                let same = format!("{}: the same within {percent} %", same.join(", "));
+                let remedy = "what is predicted must differ in its physics, so hold out other conditions";
+                let reason = format!("`{here}` has the conditions of `{there}` ({same}); {remedy}");
+                return Err(ToolError::at(&plan.file, reason));
             }
         }
     }

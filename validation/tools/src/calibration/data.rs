@@ -1,7 +1,7 @@
 //! Data of a calibration: single numbers, profiles from a CSV file, or synthetic data.
 
-use super::error::CalibrationError;
 use super::target::{Datum, DatumUncertainty, ProfileLocation, Target, parted};
+use crate::ToolError;
 use crate::evidence::{MeasuredData, ReferenceColumn};
 use crate::input::{DOCUMENT, FieldError, read_text};
 use crate::output::FileError;
@@ -197,7 +197,7 @@ impl DatumText {
     }
 
     /// Reads the data; `plan` is the file that names a CSV file relative to itself.
-    pub(super) fn read(&self, block: usize, plan: &Path) -> Result<Group, CalibrationError> {
+    pub(super) fn read(&self, block: usize, plan: &Path) -> Result<Group, ToolError> {
         if let Some(noise) = self.noise {
             let bins = self.bins.unwrap_or(20).max(1);
             return Ok(Group::Synthetic(Synthetic { block, target: self.target(0.0), noise, bins }));
@@ -217,7 +217,7 @@ impl DatumText {
         }]))
     }
 
-    fn of_file(&self, block: usize, path: &Path) -> Result<Vec<Datum>, CalibrationError> {
+    fn of_file(&self, block: usize, path: &Path) -> Result<Vec<Datum>, ToolError> {
         let text = read_text(path, DOCUMENT).map_err(|error| FileError::unreadable(path, &error))?;
         let data = MeasuredData::parse(path, &text)?;
         let source = data.metadata.source.clone();
@@ -270,7 +270,7 @@ fn numbers(
     path: &Path,
     wanted: &str,
     expected: Option<&str>,
-) -> Result<(Vec<f64>, String), CalibrationError> {
+) -> Result<(Vec<f64>, String), ToolError> {
     let values = data.numbers(wanted)?.to_vec();
     let unit = data.columns.iter().find_map(|column| match column {
         ReferenceColumn::Numbers { name, unit, .. } if name == wanted => Some(unit.clone()),

@@ -1,6 +1,6 @@
 //! The folder of a calibration: which plan it belongs to.
 
-use super::error::CalibrationError;
+use crate::ToolError;
 use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, FolderLock, Owner, claim, owner_of};
 use crate::store::{CodeOrigin, identity_or_unique, is_of_this_program};
@@ -36,7 +36,7 @@ impl CalibrationFolder {
     /// # Errors
     /// A folder with another calibration, foreign files, or a calibration that is not to be resumed or that another
     /// command works on; files that cannot be read or written.
-    pub fn begin(folder: &Path, plan: &Path, origin: CodeOrigin, resume: bool) -> Result<Self, CalibrationError> {
+    pub fn begin(folder: &Path, plan: &Path, origin: CodeOrigin, resume: bool) -> Result<Self, ToolError> {
         let plan = read_text(plan, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(plan, &error))?;
         // what is unfinished is resumed; the result is written last
         let own = Belongs { source_hash: identity_or_unique(origin).to_owned(), plan };

@@ -15,7 +15,6 @@ mod assembly;
 mod conditions;
 mod cost;
 mod data;
-mod error;
 mod figures;
 mod findings;
 mod folder;
@@ -34,7 +33,6 @@ mod text;
 mod trials;
 
 pub use cost::EvaluationCost;
-pub use error::CalibrationError;
 pub use folder::CalibrationFolder;
 pub use objective::CalibrationMonitor;
 pub use page::write;
@@ -45,6 +43,7 @@ pub use result::{
 };
 pub use target::ProfileLocation;
 
+use crate::ToolError;
 use crate::case::Registry;
 use crate::inference::{self, Answer, Evaluate, Method, Repeatability, SearchError, chi_squared};
 use crate::sampling::design;
@@ -63,7 +62,7 @@ pub fn calibrate(
     registry: Registry,
     store: &Store,
     watch: &dyn CalibrationMonitor,
-) -> Result<CalibrationResult, CalibrationError> {
+) -> Result<CalibrationResult, ToolError> {
     let mut objective = Objective::begin(plan, folder, (registry, store), watch)?;
     if !plan.choices.is_empty() {
         return trials::try_all(&objective);
@@ -80,7 +79,7 @@ pub fn calibrate(
     let truth_inside = truth_inside(plan, &mut objective, &answer)?;
     let sensitivity = screening::screen(&mut objective, plan.trajectories)?;
     let values = plan.values(&answer.search.best);
-    let failed = |reason: String| CalibrationError::Search { file: plan.file.clone(), reason };
+    let failed = |reason| ToolError::at(&plan.file, reason);
     let mut fit = compare_at(&objective, &values, false)?.map_err(failed)?;
     let mut hold_out = compare_at(&objective, &values, true)?;
     let posterior = prediction::posterior(&objective, &answer);
@@ -106,14 +105,13 @@ pub fn predict(
     store: &Store,
     watch: &dyn CalibrationMonitor,
     values: &[f64],
-) -> Result<Vec<DatumComparison>, CalibrationError> {
+) -> Result<Vec<DatumComparison>, ToolError> {
     let objective = Objective::begin(plan, folder, (registry, store), watch)?;
-    let failed = |reason: String| CalibrationError::Search { file: plan.file.clone(), reason };
-    compare_at(&objective, values, true)?.map_err(failed)
+    compare_at(&objective, values, true)?.map_err(|reason| ToolError::at(&plan.file, reason))
 }
 
 /// The search and its region; where evaluations are repeated, once more with the scatter that was seen about the minimum.
-fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, CalibrationError> {
+fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, ToolError> {
     let plan = objective.plan;
     let runs = if plan.repeats.count > 1 { Repeatability::Scattering } else { Repeatability::Smooth };
     let mut steps = inference::SolvePlan {
@@ -135,13 +133,13 @@ fn answer(objective: &mut Objective<'_>, start: Vec<f64>) -> Result<Answer, Cali
 }
 
 /// Error of a search without a result, with the last message of the model.
-fn unsolved(error: SearchError<CalibrationError>, objective: &Objective<'_>) -> CalibrationError {
+fn unsolved(error: SearchError<ToolError>, objective: &Objective<'_>) -> ToolError {
     match error {
         SearchError::Model(error) => error,
         other => {
             let cause =
                 objective.last_failure().map_or_else(String::new, |reason| format!("; the last said: {reason}"));
-            CalibrationError::Search { file: objective.plan.file.clone(), reason: format!("{other}{cause}") }
+            ToolError::at(&objective.plan.file, format!("{other}{cause}"))
         }
     }
 }
@@ -152,7 +150,7 @@ fn truth_inside(
     plan: &CalibrationPlan,
     objective: &mut Objective<'_>,
     answer: &Answer,
-) -> Result<Option<bool>, CalibrationError> {
+) -> Result<Option<bool>, ToolError> {
     let truth: Option<Vec<f64>> =
         plan.parameters.iter().map(|p| p.truth.map(|truth| p.bounds.coordinate(truth))).collect();
     let Some((truth, explored)) = truth.zip(answer.explored.as_ref()) else { return Ok(None) };
@@ -170,7 +168,7 @@ fn compare_at(
     objective: &Objective<'_>,
     values: &[f64],
     held_out: bool,
-) -> Result<Result<Vec<DatumComparison>, String>, CalibrationError> {
+) -> Result<Result<Vec<DatumComparison>, String>, ToolError> {
     let blocks: Vec<usize> =
         (0..objective.plan.blocks.len()).filter(|&k| objective.plan.blocks[k].held_out == held_out).collect();
     let questions: Vec<_> = blocks.iter().map(|&block| objective.question(block, values)).collect();

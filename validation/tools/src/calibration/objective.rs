@@ -1,11 +1,11 @@
 //! From points of the unit cube to weighted residuals: evaluations in parallel, each a file, none done twice.
 
 use super::data::{Group, Synthetic};
-use super::error::CalibrationError;
 use super::folder::CalibrationFolder;
 use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
 use super::target::{Datum, DatumUncertainty, ProfileLocation, Target};
+use crate::ToolError;
 use crate::case::{PreparedCase, Registry, Silent, share_out};
 use crate::evaluation::{self, EvaluationRecord};
 use crate::inference::Evaluate;
@@ -57,7 +57,7 @@ impl<'a> Objective<'a> {
         folder: &CalibrationFolder,
         (registry, store): (Registry, &'a Store),
         watch: &'a dyn CalibrationMonitor,
-    ) -> Result<Self, CalibrationError> {
+    ) -> Result<Self, ToolError> {
         let (folder, failure) = (folder.evaluations(), Mutex::default());
         let mut begun = Self { plan, registry, store, folder, watch, data: Vec::new(), failure, variances: Vec::new() };
         begun.read_data()?;
@@ -67,7 +67,7 @@ impl<'a> Objective<'a> {
 
 impl Objective<'_> {
     /// The answers to questions, in their order, each with every seed where evaluations are repeated.
-    pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Repeated>, CalibrationError> {
+    pub(super) fn ask(&self, questions: &[Question]) -> Result<Vec<Repeated>, ToolError> {
         let repeated: Vec<Vec<Question>> = questions.iter().map(|question| self.with_seeds(question)).collect();
         let mut records = self.ask_each(&repeated.concat())?.into_iter();
         Ok(repeated.iter().map(|seeds| Repeated::new(records.by_ref().take(seeds.len()).collect())).collect())
@@ -89,7 +89,7 @@ impl Objective<'_> {
     }
 
     /// Records of questions, in their order; what has a file is read, the rest simulated on the current pool's threads.
-    fn ask_each(&self, questions: &[Question]) -> Result<Vec<EvaluationRecord>, CalibrationError> {
+    fn ask_each(&self, questions: &[Question]) -> Result<Vec<EvaluationRecord>, ToolError> {
         // the key of an answer, or why there is none
         let mut answers: Vec<Result<String, EvaluationRecord>> = Vec::with_capacity(questions.len());
         let mut records: BTreeMap<String, EvaluationRecord> = BTreeMap::new();
@@ -116,7 +116,7 @@ impl Objective<'_> {
         self.watch.expected(waiting.len());
         let cost = |prepared: &dyn PreparedCase| prepared.estimate_of_all().particle_steps;
         waiting.sort_by(|a, b| cost(b.2.as_ref()).total_cmp(&cost(a.2.as_ref())).then(a.0.cmp(&b.0)));
-        records.extend(share_out(waiting, |(_, key, prepared)| -> Result<_, CalibrationError> {
+        records.extend(share_out(waiting, |(_, key, prepared)| -> Result<_, ToolError> {
             let record = evaluation::evaluate(prepared, self.store, &Silent)?;
             self.watch.evaluated(&record.case, record.failure.as_deref());
             let file = self.file(&key);
@@ -182,7 +182,7 @@ impl Objective<'_> {
         &self,
         data: impl Iterator<Item = &'d Datum>,
         answer: impl Fn(usize) -> Option<&'d Repeated>,
-    ) -> Result<Vec<f64>, CalibrationError> {
+    ) -> Result<Vec<f64>, ToolError> {
         data.map(|datum| {
             let block = &self.plan.blocks[datum.block];
             let wrong = |reason: String| self.counterpart(block, reason);
@@ -206,12 +206,12 @@ impl Objective<'_> {
         .collect()
     }
 
-    pub(super) fn counterpart(&self, block: &DataBlock, reason: String) -> CalibrationError {
-        CalibrationError::Counterpart { file: self.plan.file.clone(), field: block.field.clone(), reason }
+    pub(super) fn counterpart(&self, block: &DataBlock, reason: String) -> ToolError {
+        ToolError::at(&self.plan.file, format!("`{}`: the case gives {reason}", block.field))
     }
 
     /// Reads the data of the plan; synthetic ones are simulated with the parameters' truth.
-    pub(super) fn read_data(&mut self) -> Result<(), CalibrationError> {
+    pub(super) fn read_data(&mut self) -> Result<(), ToolError> {
         let mut groups = Vec::new();
         for (block, texts) in self.plan.data.iter().enumerate() {
             for text in texts {
@@ -253,9 +253,9 @@ impl Objective<'_> {
 }
 
 impl Evaluate for Objective<'_> {
-    type Error = CalibrationError;
+    type Error = ToolError;
 
-    fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, CalibrationError> {
+    fn residuals(&mut self, points: &[Vec<f64>]) -> Result<Vec<Option<Vec<f64>>>, ToolError> {
         let fitted: Vec<usize> = (0..self.plan.blocks.len()).filter(|&k| !self.plan.blocks[k].held_out).collect();
         let values: Vec<Vec<f64>> = points.iter().map(|point| self.plan.values(point)).collect();
         let questions: Vec<Question> =

@@ -4,10 +4,10 @@
 //! the best point and the ends of the intervals.
 
 use super::assembly::compared;
-use super::error::CalibrationError;
 use super::objective::{Objective, Question};
 use super::repeated::Repeated;
 use super::result::DatumComparison;
+use crate::ToolError;
 use crate::inference::posterior::sample;
 use crate::inference::posterior::{Posterior, predictive};
 use crate::inference::{Answer, Emulator, Evaluated, Explored};
@@ -48,7 +48,7 @@ pub(super) fn of_hold_out(
     answer: &Answer,
     posterior: &Posterior,
     hold_out: &mut [DatumComparison],
-) -> Result<(), CalibrationError> {
+) -> Result<(), ToolError> {
     let plan = objective.plan;
     let (Some(explored), false) = (&answer.explored, hold_out.is_empty()) else { return Ok(()) };
     let mut points: Vec<Vec<f64>> = vec![answer.search.best.clone()];

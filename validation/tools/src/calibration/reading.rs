@@ -1,9 +1,9 @@
 //! Reading a calibration: its text, then its cases and data.
 
 use super::conditions::{self, BlockParameters};
-use super::error::CalibrationError;
 use super::plan::CalibrationPlan;
 use super::text::CalibrationText;
+use crate::ToolError;
 use crate::case::{Limits, Registry};
 use crate::evaluation::read_plan;
 use crate::input::FieldError;
@@ -17,7 +17,7 @@ impl CalibrationPlan {
     /// # Errors
     /// A file that cannot be read or typed, ranges that break a rule, a case or a path that does not exist, a run that is
     /// in both fit and hold-out.
-    pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, CalibrationError> {
+    pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, ToolError> {
         let text: CalibrationText = read_plan(file, "bagnold calibrate")?;
         let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
         plan.check_cases(registry)?;
@@ -26,13 +26,13 @@ impl CalibrationPlan {
     }
 
     /// The data's files are read before the folder of the calibration is touched, so that a bad one leaves nothing behind.
-    fn check_data(&self) -> Result<(), CalibrationError> {
+    fn check_data(&self) -> Result<(), ToolError> {
         let mut texts =
             self.data.iter().enumerate().flat_map(|(block, texts)| texts.iter().map(move |text| (block, text)));
         texts.try_for_each(|(block, text)| text.read(block, &self.file).map(drop))
     }
 
-    fn check_cases(&self, registry: Registry) -> Result<(), CalibrationError> {
+    fn check_cases(&self, registry: Registry) -> Result<(), ToolError> {
         self.check_names().map_err(|error| error.in_file(&self.file))?;
         let start: Vec<f64> = self.parameters.iter().map(|parameter| parameter.start).collect();
         let store = Store::open(crate::store::StorePolicy::Use);
@@ -66,12 +66,10 @@ impl CalibrationPlan {
                 if !block.held_out {
                     fitted.insert(identity, block.field.clone());
                 } else if let Some(field) = fitted.get(&identity) {
-                    return Err(CalibrationError::InBoth {
-                        file: self.file.clone(),
-                        run: format!("{} {}", prepared.name(), prepared.variant(run)).trim_end().to_owned(),
-                        fit: field.clone(),
-                        hold_out: block.field.clone(),
-                    });
+                    let run = format!("{} {}", prepared.name(), prepared.variant(run));
+                    let both = format!("the run `{}` is in both `{field}` and `{}`", run.trim_end(), block.field);
+                    let remedy = "what is predicted must not be fitted, so take it out of one";
+                    return Err(ToolError::at(&self.file, format!("{both}; {remedy}")));
                 }
             }
             // what the program itself wrote can be read

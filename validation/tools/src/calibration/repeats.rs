@@ -5,9 +5,9 @@
 //! first search uses the mean over all data at the start, the second the mean over all points about the region, datum by
 //! datum. Between the two nothing is simulated twice.
 
-use super::error::CalibrationError;
 use super::objective::{Objective, Question};
 use super::target::Datum;
+use crate::ToolError;
 use crate::inference::Answer;
 
 /// Points about the minimum whose scatter is averaged: those whose χ² rises by no more than this many times the threshold.
@@ -16,7 +16,7 @@ const ABOUT: f64 = 25.0;
 impl Objective<'_> {
     /// Variance of every fitted prediction's mean over that of its datum `[-]`, averaged over points of physical values at
     /// which all runs succeed; zeros without repeats.
-    fn variances(&self, points: &[Vec<f64>]) -> Result<Vec<f64>, CalibrationError> {
+    fn variances(&self, points: &[Vec<f64>]) -> Result<Vec<f64>, ToolError> {
         let count = self.plan.repeats.count;
         let data: Vec<_> = self.data_of(false).collect();
         let (mut sums, mut used) = (vec![0.0; data.len()], 0.0);
@@ -33,7 +33,7 @@ impl Objective<'_> {
     }
 
     /// Weighted residuals of all fitted data with every seed; none where a run fails or lacks a datum's counterpart.
-    fn of_every_seed(&self, values: &[f64]) -> Result<Option<Vec<Vec<f64>>>, CalibrationError> {
+    fn of_every_seed(&self, values: &[f64]) -> Result<Option<Vec<Vec<f64>>>, ToolError> {
         let fitted: Vec<usize> = (0..self.plan.blocks.len()).filter(|&k| !self.plan.blocks[k].held_out).collect();
         let questions: Vec<Question> = fitted.iter().map(|&block| self.question(block, values)).collect();
         let answers = self.ask(&questions)?;
@@ -52,14 +52,14 @@ impl Objective<'_> {
     }
 
     /// Variances from the scatter at the start, before the first search: one value for all data.
-    pub(super) fn first_variances(&self) -> Result<Vec<f64>, CalibrationError> {
+    pub(super) fn first_variances(&self) -> Result<Vec<f64>, ToolError> {
         let own = self.variances(&[self.plan.values(&self.plan.start())])?;
         let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
         Ok(vec![mean; own.len()])
     }
 
     /// Variances about the minimum, datum by datum.
-    pub(super) fn variances_about(&self, answer: &Answer) -> Result<Vec<f64>, CalibrationError> {
+    pub(super) fn variances_about(&self, answer: &Answer) -> Result<Vec<f64>, ToolError> {
         let threshold = answer.explored.as_ref().map_or(0.0, |explored| explored.region.threshold);
         let limit = answer.search.chi_squared + ABOUT * threshold;
         let near =

@@ -1,15 +1,12 @@
 //! Morris screening with the model itself: which parameters the data feel at all, over the whole ranges.
 
-use super::error::CalibrationError;
 use super::objective::Objective;
 use super::result::ElementaryEffect;
+use crate::ToolError;
 use crate::inference::sensitivity;
 
 /// Effects of every parameter; empty without trajectories.
-pub(super) fn screen(
-    objective: &mut Objective<'_>,
-    trajectories: usize,
-) -> Result<Vec<ElementaryEffect>, CalibrationError> {
+pub(super) fn screen(objective: &mut Objective<'_>, trajectories: usize) -> Result<Vec<ElementaryEffect>, ToolError> {
     if trajectories == 0 {
         return Ok(Vec::new());
     }

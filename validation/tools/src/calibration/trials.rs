@@ -1,11 +1,11 @@
 //! A bake-off: every choice of a setting is tried, and ranked by how well it explains the same data.
 
 use super::assembly::compared;
-use super::error::CalibrationError;
 use super::objective::{Objective, Question};
 use super::plan::{CalibrationPlan, Choice};
 use super::result::{CalibrationResult, ChoiceResult, DatumComparison, weighted_error};
 use super::target::Target;
+use crate::ToolError;
 use crate::inference::scores;
 
 /// Resamplings of the data for the ranks.
@@ -18,7 +18,7 @@ const RIVAL: f64 = 0.05;
 const FEW_DATA: usize = 10;
 
 /// Evaluates and ranks all choices. One that fails stays in the table with its reason.
-pub(super) fn try_all(objective: &Objective<'_>) -> Result<CalibrationResult, CalibrationError> {
+pub(super) fn try_all(objective: &Objective<'_>) -> Result<CalibrationResult, ToolError> {
     let plan = objective.plan;
     let blocks = plan.blocks.len();
     let setting = |choice: &Choice, block: usize| choice.in_case(&plan.blocks[block].request.case);
@@ -56,8 +56,8 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<CalibrationResult, Ca
         .map(|trial| scores::FittedChoice { name: trial.name.clone(), residuals: residuals(&trial.fit), parameters: 0 })
         .collect();
     let Some(ranked) = scores::rank(&choices, REPEATS, plan.budget.seed) else {
-        let nothing = CalibrationError::Search { file: plan.file.clone(), reason: "no choice gave numbers".to_owned() };
-        return Err(first_error.unwrap_or(nothing));
+        let nothing = || ToolError::at(&plan.file, "no choice gave numbers".to_owned());
+        return Err(first_error.unwrap_or_else(nothing));
     };
     for trial in &mut trials {
         let score = ranked.iter().find(|score| score.name == trial.name);

@@ -10,5 +10,5 @@ mod roles;
 pub use difference::{Difference, differences};
 pub use page::write;
 pub use parameters::{ChangedParameter, changed};
-pub use reading::{CompareError, Results};
+pub use reading::Results;
 pub use roles::PairedKey;

@@ -1,46 +1,13 @@
 //! Reads folders of `bagnold run` and `bagnold report`.
 
 use super::roles::{self, PairedKey};
+use crate::ToolError;
 use crate::input::{STORED, read_text, shown, text_fault};
 use crate::metric::Limit;
 use crate::output::{FileError, Table};
 use crate::result::{MetricEntry, MetricsDocument};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-
-/// Errors that prevent a comparison.
-#[derive(Debug, thiserror::Error)]
-pub enum CompareError {
-    /// A folder without results.
-    #[error("{}: holds neither a run's metrics.json nor a report's cases/CASE/metrics.json; name a folder that `bagnold run` or `bagnold report` has written", shown(.folder))]
-    NoResults {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// Folders that have nothing in common.
-    #[error("{} and {} have no variant of a case in common, so nothing can be compared; compare runs of the same variants", shown(.first), shown(.other))]
-    NothingInCommon {
-        /// The first.
-        first: PathBuf,
-        /// The other.
-        other: PathBuf,
-    },
-    /// Results of one case and its parameters, judged by other limits.
-    #[error("{}: the gates of {case} were {} and are {} in {}: limits of {moved} gates moved; read what moved in both metrics.json, then compare the values with --across-gates", shown(&.folders[0]), .gates[0], .gates[1], shown(&.folders[1]))]
-    OtherGates {
-        /// The case.
-        case: String,
-        /// Both folders.
-        folders: Box<[PathBuf; 2]>,
-        /// Digests of their gates.
-        gates: Box<[String; 2]>,
-        /// Number of gates with another limit.
-        moved: usize,
-    },
-    /// A file that cannot be read or understood.
-    #[error(transparent)]
-    File(#[from] FileError),
-}
 
 /// Contents of a folder.
 #[derive(Debug, Clone)]
@@ -71,7 +38,7 @@ impl Results {
     ///
     /// # Errors
     /// A folder without results, a damaged file, folders without a variant in common.
-    pub fn read(folders: &[PathBuf]) -> Result<Vec<Self>, CompareError> {
+    pub fn read(folders: &[PathBuf]) -> Result<Vec<Self>, ToolError> {
         let mut all: Vec<Self> = folders.iter().map(|folder| Self::of(folder)).collect::<Result<_, _>>()?;
         for (place, label) in labels(folders).into_iter().enumerate() {
             all[place].label = label;
@@ -89,8 +56,9 @@ impl Results {
             let keys: BTreeSet<String> = first.entries().map(key).collect();
             let is_apart = |other: &&Self| !other.entries().any(|entry| keys.contains(&key(entry)));
             if let Some(other) = others.iter().find(is_apart) {
-                let (first, other) = (first.folder.clone(), other.folder.clone());
-                return Err(CompareError::NothingInCommon { first, other });
+                let apart = format!("has no variant of a case in common with {}", shown(&other.folder));
+                let remedy = "so nothing can be compared; compare runs of the same variants";
+                return Err(ToolError::at(&first.folder, format!("{apart}, {remedy}")));
             }
         }
         Ok(all)
@@ -106,17 +74,15 @@ impl Results {
     ///
     /// # Errors
     /// The first case of which limits moved.
-    pub fn same_gates(&self, other: &Self) -> Result<(), CompareError> {
+    pub fn same_gates(&self, other: &Self) -> Result<(), ToolError> {
         let is_version = |(own, theirs, moved): &(&CaseResults, &CaseResults, usize)| {
             *moved > 0 && own.parameters == theirs.parameters
         };
         self.moved_by_case(other).find(is_version).map_or(Ok(()), |(own, theirs, moved)| {
-            Err(CompareError::OtherGates {
-                case: own.document.case.clone(),
-                folders: Box::new([self.folder.clone(), other.folder.clone()]),
-                gates: Box::new([own.document.gates.clone(), theirs.document.gates.clone()]),
-                moved,
-            })
+            let (own, theirs, other) = (&own.document, &theirs.document, shown(&other.folder));
+            let gates = format!("the gates of {} were {} and are {} in {other}", own.case, own.gates, theirs.gates);
+            let remedy = "read what moved in both metrics.json, then compare the values with --across-gates";
+            Err(ToolError::at(&self.folder, format!("{gates}: limits of {moved} gates moved; {remedy}")))
         })
     }
 
@@ -132,7 +98,7 @@ impl Results {
         )
     }
 
-    fn of(folder: &Path) -> Result<Self, CompareError> {
+    fn of(folder: &Path) -> Result<Self, ToolError> {
         let mut cases = BTreeMap::new();
         let of_report = folder.join("cases");
         let is_report = of_report.is_dir();
@@ -148,7 +114,9 @@ impl Results {
             cases.insert(document.case.clone(), CaseResults { document, parameters, tables });
         }
         if cases.is_empty() {
-            return Err(CompareError::NoResults { folder: folder.to_owned() });
+            let nothing = "holds neither a run's metrics.json nor a report's cases/CASE/metrics.json";
+            let remedy = "name a folder that `bagnold run` or `bagnold report` has written";
+            return Err(ToolError::at(folder, format!("{nothing}; {remedy}")));
         }
         Ok(Self { folder: folder.to_owned(), label: String::new(), paired: Vec::new(), cases })
     }

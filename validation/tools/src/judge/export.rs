@@ -1,9 +1,9 @@
 //! Export of a case for external codes: geometry, material, initial particles, references and definitions.
 
 use super::blank::{blank, of_case, wrapped};
-use super::error::JudgeError;
 use super::inputs::digest;
 use super::laws;
+use crate::ToolError;
 use crate::case::{AnyCase, CaseResult, Condition, PreparedCase, Tier};
 use crate::evidence::shipped_tables;
 use crate::figure::{Mark, Series};
@@ -27,15 +27,14 @@ pub fn export(
     tier: Tier,
     own: Option<&CaseResult>,
     folder: &Path,
-) -> Result<(), JudgeError> {
+) -> Result<(), ToolError> {
+    let submission = blank(case, tier).map_err(|error| error.in_plan(folder))?;
     let put = || -> io::Result<()> {
         inputs(case, prepared, folder)?;
-        own.map_or(Ok(()), |own| results(own, folder))
+        own.map_or(Ok(()), |own| results(own, folder))?;
+        std::fs::write(folder.join("submission.toml"), submission)
     };
-    put().map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))?;
-    let submission = blank(case, tier).map_err(|error| error.in_plan(folder))?;
-    std::fs::write(folder.join("submission.toml"), submission)
-        .map_err(|error| JudgeError::Folder(FileError::unwritable(folder, &error).into()))
+    Ok(put().map_err(|error| FileError::unwritable(folder, &error))?)
 }
 
 /// Writes the inputs, which follow from the case alone.

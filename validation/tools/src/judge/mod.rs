@@ -2,7 +2,6 @@
 
 mod blank;
 mod document;
-mod error;
 mod export;
 mod gates;
 mod inputs;
@@ -16,7 +15,6 @@ mod verdicts;
 mod vtk;
 
 pub use blank::blank;
-pub use error::JudgeError;
 pub use export::export;
 pub use inputs::inputs_of;
 pub use page::write;
@@ -24,9 +22,10 @@ pub(crate) use page::{mark, other_limit};
 pub use submission::{CoarseRun, Code, ForeignRun, LawOrigin, ParticleFiles, Submission, TableFile};
 pub use verdicts::MetricComparison;
 
+use crate::ToolError;
 use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCase, Registry};
 use crate::figure::Figure;
-use crate::input::FieldError;
+use crate::input::{FieldError, shown};
 use crate::metric::{Metric, Variant, Verdict};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -125,13 +124,18 @@ impl CaseSubmissions {
     /// # Errors
     /// Submissions of different cases, tiers or parameters, runs that the case does not have or that are meant twice, files
     /// that cannot be understood.
-    pub fn read(files: &[PathBuf], registry: Registry) -> Result<Self, JudgeError> {
+    pub fn read(files: &[PathBuf], registry: Registry) -> Result<Self, ToolError> {
         let submissions: Vec<Submission> = files.iter().map(|file| Submission::read(file)).collect::<Result<_, _>>()?;
-        let Some(first) = submissions.first() else { return Err(JudgeError::Nothing) };
+        let Some(first) = submissions.first() else {
+            let remedy = "name a file, or print one to fill with `bagnold judge --template CASE`";
+            return Err(FieldError::finding("FILES", "nothing to judge", remedy).into());
+        };
         for (place, other) in submissions.iter().enumerate().skip(1) {
             let same = (&other.case, other.tier, &other.with) == (&first.case, first.tier, &first.with);
             if !same {
-                return Err(JudgeError::Different { first: first.path.clone(), other: other.path.clone() });
+                let first = shown(&first.path);
+                let reason = format!("has another case, tier or `with` than {first}; judge them apart");
+                return Err(ToolError::at(&other.path, reason));
             }
             if let Some(twin) = submissions[..place].iter().find(|twin| twin.code == other.code) {
                 let value = format!("\"{} {}\"", other.code.name, other.code.version);
@@ -164,7 +168,7 @@ impl CaseSubmissions {
                 let moved = gates::notice(&submission, &gates);
                 Ok(CodeResults { moved, ..entry(submission, &own, case.form(), prepared.as_ref())? })
             })
-            .collect::<Result<_, JudgeError>>()?;
+            .collect::<Result<_, ToolError>>()?;
         Ok(Self { prepared, entries })
     }
 }
@@ -175,9 +179,9 @@ fn entry(
     places: &[usize],
     form: &crate::case::ExternalSchema,
     prepared: &dyn PreparedCase,
-) -> Result<CodeResults, JudgeError> {
+) -> Result<CodeResults, ToolError> {
     let folder = submission.path.parent().unwrap_or_else(|| Path::new("")).to_owned();
-    let judged = |runs: &[ForeignRun]| -> Result<ExternalResult, JudgeError> {
+    let judged = |runs: &[ForeignRun]| -> Result<ExternalResult, ToolError> {
         let mut given = vec![ExternalData::default(); prepared.run_count()];
         for (number, (run, &place)) in runs.iter().zip(places).enumerate() {
             let field = format!("run {}", number + 1);
@@ -212,14 +216,14 @@ pub(crate) const NUMERICS: [&str; 7] = ["particles", "resolution", "seed", "nume
 
 /// Our run that each of a submission's is: of those that have all its keys the one with the fewest keys, the first of those that
 /// differ in numerics alone.
-fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<usize>, JudgeError> {
+fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<usize>, ToolError> {
     let variants: Vec<Variant> = (0..prepared.run_count()).map(|run| prepared.variant(run)).collect();
     let mut places: Vec<usize> = Vec::new();
     for (number, run) in submission.runs.iter().enumerate() {
         let wrong = |rule: &str, remedy: &str| {
             let field = format!("run {}.variant", number + 1);
             let value = format!("\"{}\"", run.variant);
-            JudgeError::from(FieldError::new(&field, value, rule, remedy).in_file(&submission.path))
+            ToolError::from(FieldError::new(&field, value, rule, remedy).in_file(&submission.path))
         };
         let matching: Vec<usize> =
             (0..variants.len()).filter(|&place| variants[place].includes(&run.variant)).collect();
@@ -259,7 +263,7 @@ fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<us
 ///
 /// # Errors
 /// A single number that no metric of its run has.
-pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison, JudgeError> {
+pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison, ToolError> {
     let codes: Vec<JudgedCode> = entries
         .iter()
         .map(|entry| {
@@ -281,7 +285,7 @@ pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison,
             let (code, file, moved) = (code.clone(), path.clone(), entry.moved.clone());
             Ok(JudgedCode { code, file, law: *law, has_parameters, moved, metrics, orders: entry.orders.clone() })
         })
-        .collect::<Result<_, JudgeError>>()?;
+        .collect::<Result<_, ToolError>>()?;
     let theirs: Vec<(&str, &[Figure])> =
         entries.iter().map(|entry| (entry.submission.code.name.as_str(), entry.result.figures.as_slice())).collect();
     let figures = overlay::overlay(&own.figures, &theirs);

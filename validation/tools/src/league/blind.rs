@@ -3,8 +3,7 @@
 //! Errors and uncertainties are those of ASME V&V 20. The seeds of the grains follow from the digest of the prediction, so nobody
 //! can have known the collapses when it was made.
 
-use crate::case::ParameterError;
-use crate::judge::JudgeError;
+use crate::ToolError;
 use crate::number::{four_digits, two_digits};
 use crate::output::FileError;
 use serde::Deserialize;
@@ -58,16 +57,16 @@ struct Measured {
     value: f64,
 }
 
-fn rows<Row: DeserializeOwned>(path: &Path) -> Result<Vec<Row>, JudgeError> {
-    let unreadable = |error: csv::Error| ParameterError::from(FileError::unreadable(path, &error.into())).into();
-    csv::Reader::from_path(path).and_then(|reader| reader.into_deserialize().collect()).map_err(unreadable)
+fn rows<Row: DeserializeOwned>(path: &Path) -> Result<Vec<Row>, ToolError> {
+    let rows = csv::Reader::from_path(path).and_then(|reader| reader.into_deserialize().collect());
+    Ok(rows.map_err(|error| FileError::unreadable(path, &error.into()))?)
 }
 
 /// Reads the study of a league, if it has one.
 ///
 /// # Errors
 /// Tables that cannot be read.
-pub fn read(league: &Path) -> Result<Vec<BlindComparison>, JudgeError> {
+pub fn read(league: &Path) -> Result<Vec<BlindComparison>, ToolError> {
     let folder = league.join(FOLDER);
     if !folder.is_dir() {
         return Ok(Vec::new());
@@ -87,11 +86,11 @@ pub fn read(league: &Path) -> Result<Vec<BlindComparison>, JudgeError> {
 ///
 /// # Errors
 /// Tables that cannot be read.
-pub fn seeds(league: &Path) -> Result<(Vec<u64>, Vec<u64>), JudgeError> {
+pub fn seeds(league: &Path) -> Result<(Vec<u64>, Vec<u64>), ToolError> {
     let folder = league.join(FOLDER);
     let mut hash = Sha256::new();
     for path in PREDICTED_FROM.map(|name| folder.join(name)) {
-        hash.update(std::fs::read(&path).map_err(|error| ParameterError::from(FileError::unreadable(&path, &error)))?);
+        hash.update(std::fs::read(&path).map_err(|error| FileError::unreadable(&path, &error))?);
     }
     let digits = crate::store::hexadecimal(&hash.finalize());
     let seed = |k: usize| u64::from_str_radix(&digits[k * SEEDS.0..(k + 1) * SEEDS.0], 16).unwrap_or_default();

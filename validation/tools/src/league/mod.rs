@@ -11,9 +11,10 @@ mod widths;
 pub use page::{ORDER_HEADINGS, orders, write};
 pub use widths::{HEADINGS as WIDTH_HEADINGS, widths};
 
+use crate::ToolError;
 use crate::case::{PreparedCase, Registry, Tier};
 use crate::judge::{
-    CaseSubmissions, CodeComparison, JudgeError, JudgedCode, LawOrigin, MetricComparison, ObservedOrder, Submission,
+    CaseSubmissions, CodeComparison, JudgedCode, LawOrigin, MetricComparison, ObservedOrder, Submission,
 };
 use crate::metric::{Metric, MetricKind, Variant};
 use crate::output::FileError;
@@ -58,10 +59,8 @@ pub struct League {
 ///
 /// # Errors
 /// A folder that cannot be read or holds no submission.
-pub fn submissions(folder: &Path) -> Result<Vec<PathBuf>, JudgeError> {
-    let unreadable = |error: std::io::Error| {
-        JudgeError::from(crate::case::ParameterError::from(FileError::unreadable(folder, &error)))
-    };
+pub fn submissions(folder: &Path) -> Result<Vec<PathBuf>, ToolError> {
+    let unreadable = |error: std::io::Error| FileError::unreadable(folder, &error);
     let folders = |of: &Path| -> std::io::Result<Vec<PathBuf>> {
         let entries = std::fs::read_dir(of)?.map(|entry| entry.map(|entry| entry.path()));
         Ok(entries.collect::<std::io::Result<Vec<_>>>()?.into_iter().filter(|path| path.is_dir()).collect())
@@ -75,14 +74,18 @@ pub fn submissions(folder: &Path) -> Result<Vec<PathBuf>, JudgeError> {
         files.extend(cases.into_iter().map(|case| case.join(SUBMISSION)).filter(|file| file.is_file()));
     }
     files.sort();
-    if files.is_empty() { Err(JudgeError::Nothing) } else { Ok(files) }
+    if files.is_empty() {
+        let reason = "holds no CODE/CASE/submission.toml; print one to fill with `bagnold judge --template CASE`";
+        return Err(ToolError::at(folder, reason.to_owned()));
+    }
+    Ok(files)
 }
 
 /// Groups submissions of the same runs of ours, so that each is simulated once.
 ///
 /// # Errors
 /// Submissions that [`CaseSubmissions::read`] refuses.
-pub fn read(files: &[PathBuf], registry: Registry) -> Result<Vec<CaseSubmissions>, JudgeError> {
+pub fn read(files: &[PathBuf], registry: Registry) -> Result<Vec<CaseSubmissions>, ToolError> {
     let mut groups: Vec<((String, Tier, toml::Table), Vec<PathBuf>)> = Vec::new();
     for file in files {
         let Submission { case, tier, with, .. } = Submission::read(file)?;

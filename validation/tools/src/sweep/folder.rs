@@ -1,7 +1,7 @@
 //! The folder of a sweep: who is done, who failed, who is missing.
 
-use super::error::SweepError;
 use super::manifest::{Manifest, SweepRun};
+use crate::ToolError;
 use crate::evaluation::EvaluationRecord;
 use crate::output::{FolderError, Owner, claim, owner_of};
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ impl SweepFolder {
     ///
     /// # Errors
     /// A folder with another sweep or foreign files; files that cannot be written.
-    pub fn begin(folder: &Path, manifest: &Manifest) -> Result<Self, SweepError> {
+    pub fn begin(folder: &Path, manifest: &Manifest) -> Result<Self, ToolError> {
         let begun = Instant::now();
         loop {
             match claim(folder, manifest, true) {
@@ -54,8 +54,9 @@ impl SweepFolder {
     ///
     /// # Errors
     /// A folder without a manifest, or a manifest of another version of the program.
-    pub fn open(folder: &Path) -> Result<Self, SweepError> {
-        let manifest: Manifest = owner_of(folder)?.ok_or_else(|| SweepError::NoSweep { folder: folder.to_owned() })?;
+    pub fn open(folder: &Path) -> Result<Self, ToolError> {
+        let nothing = "holds no sweep (no manifest.json); name the folder that `bagnold sweep` wrote";
+        let manifest: Manifest = owner_of(folder)?.ok_or_else(|| ToolError::at(folder, nothing.to_owned()))?;
         if manifest.is_foreign() {
             return Err(FolderError::OtherPlan { what: "sweep", folder: folder.to_owned(), by_program: true }.into());
         }

@@ -1,9 +1,9 @@
 //! From the runs' records to one tidy table, the list of failures and pair plots.
 
-use super::error::SweepError;
 use super::folder::{SweepFolder, SweepProgress};
 use super::manifest::{Manifest, SweepRun};
 use super::map::{self, MetricMap};
+use crate::ToolError;
 use crate::case::Registry;
 use crate::evaluation::{EvaluationRecord, MetricValue};
 use crate::figure::{Axis, Figure, FigureError, Mark, Panel, Series};
@@ -19,7 +19,7 @@ const DRAWN: usize = 4;
 ///
 /// # Errors
 /// Files that cannot be written.
-pub fn gather(sweep: &SweepFolder, registry: Registry) -> Result<SweepProgress, SweepError> {
+pub fn gather(sweep: &SweepFolder, registry: Registry) -> Result<SweepProgress, ToolError> {
     let unwritable = |error: std::io::Error| FileError::unwritable(sweep.path(), &error);
     let records: Vec<(&SweepRun, EvaluationRecord)> =
         sweep.manifest().entries.iter().filter_map(|entry| sweep.record(entry).map(|record| (entry, record))).collect();

@@ -1,8 +1,8 @@
 //! The embedded engine: runs of the manifest on this machine's threads.
 
-use super::error::SweepError;
 use super::folder::SweepFolder;
 use super::manifest::{Manifest, SweepRun};
+use crate::ToolError;
 use crate::case::{CaseFile, Changes, Limits, Registry, Silent, share_out};
 use crate::evaluation::{self, EvaluationRecord};
 use crate::output::{FileError, Owner, write_whole};
@@ -26,7 +26,7 @@ pub fn run_entry(
     entry: &SweepRun,
     registry: Registry,
     store: &Store,
-) -> Result<EvaluationRecord, SweepError> {
+) -> Result<EvaluationRecord, ToolError> {
     if let Some(record) = sweep.record(entry) {
         return Ok(record);
     }
@@ -62,7 +62,7 @@ pub fn run_locally(
     registry: Registry,
     store: &Store,
     watch: &dyn SweepMonitor,
-) -> Result<(), SweepError> {
+) -> Result<(), ToolError> {
     share_out(sweep.missing(), |entry| {
         watch.begun(entry);
         let record = run_entry(sweep, entry, registry, store)?;

@@ -1,6 +1,6 @@
 //! Manifest of a sweep: its runs, fixed once; every engine works from it.
 
-use super::error::SweepError;
+use crate::ToolError;
 use crate::case::Tier;
 use crate::input::FieldError;
 use crate::metric::Variant;
@@ -53,7 +53,7 @@ impl Manifest {
     ///
     /// # Errors
     /// A number that the manifest does not have.
-    pub fn entry(&self, number: usize) -> Result<&SweepRun, SweepError> {
+    pub fn entry(&self, number: usize) -> Result<&SweepRun, ToolError> {
         self.entries.iter().find(|entry| entry.number == number).ok_or_else(|| {
             let rule = format!("between 1 and {}", self.entries.len());
             FieldError::new("--entry", number, &rule, "manifest.json lists the runs").into()

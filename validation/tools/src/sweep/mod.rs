@@ -10,7 +10,6 @@
 //! A run is done when its record is there, so a sweep that was killed resumes where it was, and Slurm's tasks, one per entry,
 //! need nothing but the folder.
 
-mod error;
 mod folder;
 mod gather;
 mod local;
@@ -19,7 +18,6 @@ mod map;
 mod plan;
 pub mod slurm;
 
-pub use error::SweepError;
 pub use folder::{SweepFolder, SweepProgress};
 pub use gather::gather;
 pub use local::{SweepMonitor, run_entry, run_locally};

@@ -1,7 +1,7 @@
 //! A sweep as a TOML file.
 
-use super::error::SweepError;
 use super::manifest::{Manifest, SweepRun};
+use crate::ToolError;
 use crate::case::list::ListedChange;
 use crate::case::{Limits, ListOfRuns, PreparedCase, Registry, VariedParameter};
 use crate::evaluation::{self, CaseRequest, Paths, read_plan};
@@ -113,7 +113,7 @@ impl SweepPlan {
     ///
     /// # Errors
     /// A file that cannot be read or typed, or ranges that break a rule.
-    pub fn read(file: &Path) -> Result<Self, SweepError> {
+    pub fn read(file: &Path) -> Result<Self, ToolError> {
         let plan = Self { file: file.to_owned(), text: read_plan(file, "bagnold sweep")? };
         plan.check().map_err(|error| error.in_file(file))?;
         Ok(plan)
@@ -208,7 +208,7 @@ impl SweepPlan {
     ///
     /// # Errors
     /// A case's fields or a path that do not exist, or values that no run accepts or that all ask for more than `limits`.
-    pub fn manifest(&self, registry: Registry, limits: Limits) -> Result<Manifest, SweepError> {
+    pub fn manifest(&self, registry: Registry, limits: Limits) -> Result<Manifest, ToolError> {
         let points: Vec<Vec<ListedChange>> = self.text.cases.iter().map(|request| self.points(&request.case)).collect();
         let runs: usize = points.iter().map(Vec::len).sum();
         if runs > MOST_RUNS {

@@ -1,8 +1,8 @@
 //! The engine `slurm`: the manifest as job arrays, one task per entry. Slurm checks what is asked for and schedules; the shared
 //! folder tells what is done.
 
-use super::error::SweepError;
 use super::folder::SweepFolder;
+use crate::ToolError;
 use crate::input::{WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, write_whole};
 use serde::{Deserialize, Serialize};
@@ -45,7 +45,7 @@ impl SlurmRequest {
     ///
     /// # Errors
     /// No Slurm on this machine; options or a script that it rejects.
-    pub fn test(&self) -> Result<(), SweepError> {
+    pub fn test(&self) -> Result<(), ToolError> {
         let mut command = self.sbatch();
         command.arg("--test-only");
         match &self.template {
@@ -61,7 +61,7 @@ impl SlurmRequest {
 ///
 /// # Errors
 /// No Slurm on this machine, a request that it rejects, files that cannot be read or written.
-pub fn submit(sweep: &SweepFolder, request: &SlurmRequest) -> Result<Vec<(String, usize)>, SweepError> {
+pub fn submit(sweep: &SweepFolder, request: &SlurmRequest) -> Result<Vec<(String, usize)>, ToolError> {
     let folder = sweep.path().canonicalize().map_err(|error| FileError::unreadable(sweep.path(), &error))?;
     let mut all = last_request(sweep)?;
     let queued = queued(&all.arrays)?;
@@ -107,7 +107,7 @@ pub fn submit(sweep: &SweepFolder, request: &SlurmRequest) -> Result<Vec<(String
 }
 
 /// Numbers of the entries that wait or run in Slurm's queue.
-fn queued(arrays: &BTreeMap<String, usize>) -> Result<BTreeSet<usize>, SweepError> {
+fn queued(arrays: &BTreeMap<String, usize>) -> Result<BTreeSet<usize>, ToolError> {
     if arrays.is_empty() {
         return Ok(BTreeSet::new());
     }
@@ -138,7 +138,7 @@ pub fn last_request(sweep: &SweepFolder) -> Result<SlurmRequest, FileError> {
 }
 
 /// Runs one of Slurm's commands and returns what it prints.
-fn printed(command: &mut Command) -> Result<String, SweepError> {
+fn printed(command: &mut Command) -> Result<String, ToolError> {
     let (reason, remedy) = match command.output() {
         Ok(output) if output.status.success() => return Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
         Ok(output) => {
@@ -150,5 +150,6 @@ fn printed(command: &mut Command) -> Result<String, SweepError> {
         }
         Err(error) => (format!("cannot be started ({error})"), "check the installation of Slurm"),
     };
-    Err(SweepError::Slurm { command: command.get_program().display().to_string(), reason, remedy })
+    let program = command.get_program().display();
+    Err(ToolError::at(Path::new("slurm"), format!("`{program}` {reason}; {remedy}")))
 }
