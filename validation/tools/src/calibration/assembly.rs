@@ -4,9 +4,7 @@ use super::findings;
 use super::objective::Objective;
 use super::plan::{CalibratedParameter, CalibrationPlan};
 use super::repeated::Repeated;
-use super::result::{
-    CalibrationResult, DatumComparison, ElementaryEffect, Evaluation, FoundMinimum, ParameterEstimate,
-};
+use super::result::{CalibrationResult, DatumComparison, ElementaryEffect, Evaluation, ParameterEstimate};
 use super::target::{Datum, Target};
 use crate::ToolError;
 use crate::inference::posterior::Posterior;
@@ -81,8 +79,10 @@ pub(super) fn assemble(
         values: plan.values(&evaluated.point),
         chi_squared: evaluated.chi_squared,
     };
-    let minimum =
-        |minimum: &LocalMinimum| FoundMinimum { values: plan.values(&minimum.point), chi_squared: minimum.chi_squared };
+    let minimum = |minimum: &LocalMinimum| Evaluation {
+        values: plan.values(&minimum.point),
+        chi_squared: Some(minimum.chi_squared),
+    };
     CalibrationResult {
         title: plan.title.clone(),
         note: plan.note.clone(),

@@ -66,16 +66,15 @@ pub(super) fn check(plan: &CalibrationPlan, known: &[BlockParameters<'_>]) -> Re
                 let rule = format!("given where `{}` has the same case", fitted.block.field);
                 return Err(FieldError::new(&field, "missing", &rule, remedy).in_file(&plan.file).into());
             };
-            let mut same = Vec::new();
-            for path in &conditions.paths {
+            let (mut same, same_within) = (Vec::new(), held_out.block.same_within);
+            for path in conditions {
                 let (here, there) = (held_out.numbers(path, plan)?, fitted.numbers(path, plan)?);
                 let pair = here.iter().flat_map(|a| there.iter().map(move |b| (*a, *b)));
-                let close = |(a, b): &(f64, f64)| (a - b).abs() <= conditions.same_within * a.abs().max(b.abs());
+                let close = |(a, b): &(f64, f64)| (a - b).abs() <= same_within * a.abs().max(b.abs());
                 same.extend(pair.clone().find(close).map(|(a, b)| format!("{path} {a} and {b}")));
             }
-            if same.len() == conditions.paths.len() {
-                let (here, there, percent) =
-                    (&held_out.block.field, &fitted.block.field, 100.0 * conditions.same_within);
+            if same.len() == conditions.len() {
+                let (here, there, percent) = (&held_out.block.field, &fitted.block.field, 100.0 * same_within);
                 let same = format!("{}: the same within {percent} %", same.join(", "));
                 let remedy = "what is predicted must differ in its physics, so hold out other conditions";
                 let reason = format!("`{here}` has the conditions of `{there}` ({same}); {remedy}");

@@ -1,10 +1,12 @@
 //! Data of a calibration: single numbers, profiles from a CSV file, or synthetic data.
 
+use super::repeated::Repeated;
 use super::target::{Datum, DatumUncertainty, ProfileLocation, Target, parted};
 use crate::ToolError;
 use crate::evidence::{MeasuredData, ReferenceColumn};
 use crate::input::{DOCUMENT, FieldError, read_text};
 use crate::output::FileError;
+use crate::sampling::Random;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -42,28 +44,6 @@ pub(super) struct DatumText {
     noise: Option<f64>,
     /// Points of a synthetic profile
     bins: Option<usize>,
-}
-
-/// Synthetic data that are still to be made from the model itself.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Synthetic {
-    /// The block.
-    pub(super) block: usize,
-    /// Table or metric; the abscissa is set when the data are made.
-    pub(super) target: Target,
-    /// Relative standard deviation of the noise `[-]`.
-    pub(super) noise: f64,
-    /// Points of a profile.
-    pub(super) bins: usize,
-}
-
-/// A group of data that was read.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Group {
-    /// Given data.
-    Given(Vec<Datum>),
-    /// Data to be made.
-    Synthetic(Synthetic),
 }
 
 impl DatumText {
@@ -196,25 +176,70 @@ impl DatumText {
         }
     }
 
-    /// Reads the data; `plan` is the file that names a CSV file relative to itself.
-    pub(super) fn read(&self, block: usize, plan: &Path) -> Result<Group, ToolError> {
-        if let Some(noise) = self.noise {
-            let bins = self.bins.unwrap_or(20).max(1);
-            return Ok(Group::Synthetic(Synthetic { block, target: self.target(0.0), noise, bins }));
-        }
+    /// Reads the data, unless they are synthetic; `plan` is the file that names a CSV file relative to itself.
+    pub(super) fn read(&self, block: usize, plan: &Path) -> Result<Vec<Datum>, ToolError> {
         if let Some(file) = &self.file {
-            let path = plan.parent().unwrap_or_else(|| Path::new("")).join(file);
-            return Ok(Group::Given(self.of_file(block, &path)?));
+            return self.of_file(block, &plan.parent().unwrap_or_else(|| Path::new("")).join(file));
         }
-        let value = self.value.unwrap_or(f64::NAN);
-        Ok(Group::Given(vec![Datum {
+        let datum = |value: f64| Datum {
             block,
             target: self.target(0.0),
             value,
             unit: self.unit.clone().unwrap_or_default(),
             uncertainty: self.uncertainty(value).unwrap_or(DatumUncertainty::Absolute(f64::NAN)),
             source: self.source.clone().unwrap_or_default(),
-        }]))
+        };
+        Ok(self.value.map(datum).into_iter().collect())
+    }
+
+    /// Relative standard deviation of the noise of synthetic data `[-]`; none of data that are given.
+    pub(super) const fn noise(&self) -> Option<f64> {
+        self.noise
+    }
+
+    /// Synthetic data from the truth's answer: equidistant abscissas over the table of the first seed, or a metric, with noise.
+    pub(super) fn make(
+        &self,
+        block: usize,
+        share: f64,
+        truth: &Repeated,
+        noise: &mut Random,
+    ) -> Result<Vec<Datum>, String> {
+        if let Some(failure) = truth.failure() {
+            return Err(format!("no numbers for the truth: {failure}"));
+        }
+        let places = match self.target(0.0) {
+            Target::Profile(ProfileLocation { table, x, .. }) => {
+                let tables = truth.with_seed(0).map_or(&[][..], |record| &record.tables);
+                let range = tables.iter().find(|other| other.name == table).and_then(|found| {
+                    let column = found.columns.iter().position(|column| *column == x)?;
+                    Some((found.rows.first()?[column], found.rows.last()?[column]))
+                });
+                // a table or column that does not exist is named by the first prediction
+                let (first, last) = range.unwrap_or_default();
+                let bins = self.bins.unwrap_or(20);
+                let step = (last - first) / (bins.max(2) - 1) as f64;
+                (0..bins).map(|k| first + k as f64 * step).collect()
+            }
+            Target::Metric { .. } => vec![0.0],
+        };
+        let datum = |place: f64| {
+            let target = self.target(place);
+            let (value, unit) = truth.predicted(&target)?;
+            let sigma = share * value.abs();
+            if sigma == 0.0 {
+                return Err(format!("zero for `{}`, so a relative noise means nothing", target.label()));
+            }
+            Ok(Datum {
+                block,
+                target,
+                value: value + sigma * noise.normal(),
+                unit,
+                uncertainty: DatumUncertainty::Absolute(sigma),
+                source: format!("made by Bagnold itself, with {} % of noise", 100.0 * share),
+            })
+        };
+        places.into_iter().map(datum).collect()
     }
 
     fn of_file(&self, block: usize, path: &Path) -> Result<Vec<Datum>, ToolError> {

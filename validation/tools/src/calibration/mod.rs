@@ -36,10 +36,9 @@ pub use cost::EvaluationCost;
 pub use folder::CalibrationFolder;
 pub use objective::CalibrationMonitor;
 pub use page::write;
-pub use plan::{CalibratedParameter, CalibrationPlan, Choice, Conditions, DataBlock, Repeats, usual_search};
+pub use plan::{CalibratedParameter, CalibrationPlan, Choice, DataBlock, Repeats, usual_search};
 pub use result::{
-    CalibrationResult, ChoiceResult, DatumComparison, ElementaryEffect, Evaluation, FoundMinimum, ParameterEstimate,
-    weighted_error,
+    CalibrationResult, ChoiceResult, DatumComparison, ElementaryEffect, Evaluation, ParameterEstimate, weighted_error,
 };
 pub use target::ProfileLocation;
 

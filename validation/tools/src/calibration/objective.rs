@@ -1,10 +1,9 @@
 //! From points of the unit cube to weighted residuals: evaluations in parallel, each a file, none done twice.
 
-use super::data::{Group, Synthetic};
 use super::folder::CalibrationFolder;
 use super::plan::{CalibrationPlan, DataBlock};
 use super::repeated::Repeated;
-use super::target::{Datum, DatumUncertainty, ProfileLocation, Target};
+use super::target::{Datum, ProfileLocation};
 use crate::ToolError;
 use crate::case::{PreparedCase, Registry, Silent, share_out};
 use crate::evaluation::{self, EvaluationRecord};
@@ -212,40 +211,28 @@ impl Objective<'_> {
 
     /// Reads the data of the plan; synthetic ones are simulated with the parameters' truth.
     pub(super) fn read_data(&mut self) -> Result<(), ToolError> {
-        let mut groups = Vec::new();
-        for (block, texts) in self.plan.data.iter().enumerate() {
-            for text in texts {
-                groups.push(text.read(block, &self.plan.file)?);
-            }
-        }
-        let mut noise = Random::new(self.plan.budget.seed);
-        let mut truths: Vec<Option<Repeated>> = vec![None; self.plan.blocks.len()];
-        if groups.iter().any(|group| matches!(group, Group::Synthetic(_))) {
+        let blocks = &self.plan.blocks;
+        let is_made = |block: &usize| blocks[*block].data.iter().any(|text| text.noise().is_some());
+        let made: Vec<usize> = (0..blocks.len()).filter(is_made).collect();
+        let mut truths = BTreeMap::new();
+        if !made.is_empty() {
             let values = self.plan.parameters.iter().map(|parameter| parameter.truth).collect::<Option<Vec<f64>>>();
             let values = values.ok_or_else(|| {
                 let remedy = "give every parameter's `truth`, with which the synthetic data are made";
                 FieldError::new("parameters.truth", "missing", "given with a `noise`", remedy).in_file(&self.plan.file)
             })?;
-            let wanted: Vec<usize> = (0..self.plan.blocks.len())
-                .filter(|&block| groups.iter().any(|group| matches!(group, Group::Synthetic(s) if s.block == block)))
-                .collect();
-            let questions: Vec<Question> = wanted.iter().map(|&block| self.question(block, &values)).collect();
-            for (block, answer) in wanted.into_iter().zip(self.ask(&questions)?) {
-                truths[block] = Some(answer);
-            }
+            let questions: Vec<Question> = made.iter().map(|&block| self.question(block, &values)).collect();
+            truths.extend(made.into_iter().zip(self.ask(&questions)?));
         }
-        for group in groups {
-            match group {
-                Group::Given(data) => self.data.extend(data),
-                Group::Synthetic(synthetic) => {
-                    let block = &self.plan.blocks[synthetic.block];
-                    let made = truths[synthetic.block]
-                        .as_ref()
-                        .ok_or_else(|| "no truth".to_owned())
-                        .and_then(|truth| synthetic.make(truth, &mut noise))
-                        .map_err(|reason| self.counterpart(block, reason))?;
-                    self.data.extend(made);
-                }
+        let mut noise = Random::new(self.plan.budget.seed);
+        for (place, block) in blocks.iter().enumerate() {
+            for text in &block.data {
+                self.data.extend(match text.noise().zip(truths.get(&place)) {
+                    Some((share, truth)) => {
+                        text.make(place, share, truth, &mut noise).map_err(|reason| self.counterpart(block, reason))?
+                    }
+                    None => text.read(place, &self.plan.file)?,
+                });
             }
         }
         Ok(())
@@ -272,46 +259,5 @@ impl Evaluate for Objective<'_> {
             self.data_of(false).enumerate().map(residual).collect::<Option<Vec<f64>>>()
         };
         Ok(answers.chunks(fitted.len()).map(of_point).collect())
-    }
-}
-
-impl Synthetic {
-    /// Data from the truth's answer: equidistant abscissas over the table of the first seed, or a metric, with noise.
-    fn make(&self, truth: &Repeated, noise: &mut Random) -> Result<Vec<Datum>, String> {
-        if let Some(failure) = truth.failure() {
-            return Err(format!("no numbers for the truth: {failure}"));
-        }
-        let places: Vec<Target> = match &self.target {
-            Target::Metric { .. } => vec![self.target.clone()],
-            Target::Profile(ProfileLocation { table, x, .. }) => {
-                let tables = truth.with_seed(0).map_or(&[][..], |record| &record.tables);
-                let range = tables.iter().find(|other| other.name == *table).and_then(|found| {
-                    let column = found.columns.iter().position(|column| column == x)?;
-                    Some((found.rows.first()?[column], found.rows.last()?[column]))
-                });
-                // a table or column that does not exist is named by the first prediction
-                let (first, last) = range.unwrap_or_default();
-                let step = (last - first) / (self.bins.max(2) - 1) as f64;
-                (0..self.bins).map(|k| self.target.at_abscissa(first + k as f64 * step)).collect()
-            }
-        };
-        places
-            .into_iter()
-            .map(|target| {
-                let (value, unit) = truth.predicted(&target)?;
-                let sigma = self.noise * value.abs();
-                if sigma == 0.0 {
-                    return Err(format!("zero for `{}`, so a relative noise means nothing", target.label()));
-                }
-                Ok(Datum {
-                    block: self.block,
-                    target,
-                    value: value + sigma * noise.normal(),
-                    unit,
-                    uncertainty: DatumUncertainty::Absolute(sigma),
-                    source: format!("made by Bagnold itself, with {} % of noise", 100.0 * self.noise),
-                })
-            })
-            .collect()
     }
 }

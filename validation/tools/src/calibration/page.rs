@@ -4,7 +4,7 @@ use super::figures;
 use super::held_out;
 use super::plan::CalibrationPlan;
 use super::result::{
-    CalibrationResult, DatumComparison, FoundMinimum, ParameterEstimate, relative_error, weighted_error,
+    CalibrationResult, DatumComparison, Evaluation, ParameterEstimate, relative_error, weighted_error,
 };
 use crate::evidence::HeldOutJudgement;
 use crate::figure::FigureError;
@@ -130,9 +130,9 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
             ));
         }
         if outcome.minima.len() > 1 {
-            let minimum = |minimum: &FoundMinimum| {
+            let minimum = |minimum: &Evaluation| {
                 let values: Vec<String> = minimum.values.iter().map(|value| four_digits(*value)).collect();
-                format!("χ² {} at ({})", four_digits(minimum.chi_squared), values.join(", "))
+                format!("χ² {} at ({})", optional(minimum.chi_squared), values.join(", "))
             };
             let minima: Vec<String> = outcome.minima.iter().map(minimum).collect();
             lines.push(format!("Descents ended in {} minima: {}.", minima.len(), minima.join("; ")));

@@ -41,15 +41,6 @@ pub struct Choice {
     pub set: BTreeMap<String, Vec<String>>,
 }
 
-/// Conditions of a block that is held out.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Conditions {
-    /// Dotted paths of the case's parameters, numbers or lists of numbers.
-    pub(super) paths: Vec<String>,
-    /// Relative difference up to which two values are the same `[-]`.
-    pub(super) same_within: f64,
-}
-
 /// Repetition of every evaluation with several seeds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Repeats {
@@ -101,10 +92,14 @@ pub struct DataBlock {
     pub request: CaseRequest,
     /// Whether its data are held out.
     pub held_out: bool,
-    /// Conditions of the block, if it is held out.
-    pub conditions: Option<Conditions>,
+    /// Dotted paths of the parameters that make the conditions of a block that is held out, numbers or lists of numbers.
+    pub conditions: Option<Vec<String>>,
+    /// Relative difference up to which two conditions are the same `[-]`.
+    pub same_within: f64,
     /// Field of the block in the file, such as `fit[0]`.
     pub field: String,
+    /// The data.
+    pub(super) data: Vec<DatumText>,
 }
 
 /// A calibration that was read.
@@ -138,8 +133,6 @@ pub struct CalibrationPlan {
     pub choices: Vec<Choice>,
     /// Fitted blocks first.
     pub blocks: Vec<DataBlock>,
-    /// The data of each block.
-    pub(super) data: Vec<Vec<DatumText>>,
 }
 
 /// Points that a search and its region usually need, from the studies of exact films of one to three parameters.

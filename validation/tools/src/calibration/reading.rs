@@ -27,9 +27,8 @@ impl CalibrationPlan {
 
     /// The data's files are read before the folder of the calibration is touched, so that a bad one leaves nothing behind.
     fn check_data(&self) -> Result<(), ToolError> {
-        let mut texts =
-            self.data.iter().enumerate().flat_map(|(block, texts)| texts.iter().map(move |text| (block, text)));
-        texts.try_for_each(|(block, text)| text.read(block, &self.file).map(drop))
+        let mut texts = self.blocks.iter().flat_map(|block| &block.data);
+        texts.try_for_each(|text| text.read(0, &self.file).map(drop))
     }
 
     fn check_cases(&self, registry: Registry) -> Result<(), ToolError> {

@@ -110,15 +110,6 @@ pub struct Evaluation {
     pub chi_squared: Option<f64>,
 }
 
-/// A minimum that a descent has ended in.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FoundMinimum {
-    /// Parameters, in their units.
-    pub values: Vec<f64>,
-    /// χ² `[-]`.
-    pub chi_squared: f64,
-}
-
 /// Effect of one parameter on the data over its whole range.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ElementaryEffect {
@@ -173,7 +164,7 @@ pub struct CalibrationResult {
     /// The parameters.
     pub parameters: Vec<ParameterEstimate>,
     /// Minima in which descents ended, the lowest first.
-    pub minima: Vec<FoundMinimum>,
+    pub minima: Vec<Evaluation>,
     /// χ² at the best point, which was evaluated, or the sum of another loss `[-]`.
     pub chi_squared: Option<f64>,
     /// The same χ² over the degrees of freedom `[-]`; none unless there are more data than parameters.

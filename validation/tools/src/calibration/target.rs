@@ -125,16 +125,6 @@ impl Target {
         }
     }
 
-    /// The same target of a profile at another abscissa.
-    #[must_use]
-    pub(super) fn at_abscissa(&self, place: f64) -> Self {
-        let mut moved = self.clone();
-        if let Self::Profile(location) = &mut moved {
-            location.at = place;
-        }
-        moved
-    }
-
     /// The same metric of another variant.
     #[must_use]
     pub(super) fn with_variant(&self, change: impl FnOnce(&str) -> String) -> Self {
@@ -148,20 +138,15 @@ impl Target {
     /// Location of the datum in a profile.
     #[must_use]
     pub(super) fn place(&self) -> Option<ProfileLocation> {
-        match self {
-            Self::Metric { .. } => None,
-            Self::Profile(location) => Some(location.clone()),
-        }
+        if let Self::Profile(location) = self { Some(location.clone()) } else { None }
     }
 
     /// Name for tables and figures.
     #[must_use]
     pub(super) fn label(&self) -> String {
         match self {
-            Self::Metric { name, variant } => match variant {
-                Some(variant) if !variant.is_empty() => format!("{name} {variant}"),
-                _ => name.clone(),
-            },
+            Self::Metric { name, variant: Some(variant) } if !variant.is_empty() => format!("{name} {variant}"),
+            Self::Metric { name, .. } => name.clone(),
             Self::Profile(ProfileLocation { table, y, at, .. }) => format!("{table}: {y} at {at:.4e}"),
         }
     }

@@ -1,7 +1,7 @@
 //! A calibration as it is written: what its numbers and lists must satisfy before any case is looked at.
 
 use super::data::DatumText;
-use super::plan::{CalibratedParameter, CalibrationPlan, Choice, Conditions, DataBlock, Repeats};
+use super::plan::{CalibratedParameter, CalibrationPlan, Choice, DataBlock, Repeats};
 use crate::case::{Limits, Tier};
 use crate::evaluation::{CaseRequest, Paths};
 use crate::inference::{Budget, Loss, Method};
@@ -57,7 +57,8 @@ struct BlockText {
     /// Case that is run
     case: String,
     /// Tier whose parameters fill what `with` leaves out
-    tier: Option<Tier>,
+    #[serde(default)]
+    tier: Tier,
     /// Parameters, as in a case file
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Value>")]
@@ -147,7 +148,6 @@ impl CalibrationText {
         let local = matches!(method, Method::TrustRegion | Method::Posterior);
         let usual_starts = if local && !parameters.is_empty() { 2 * parameters.len() + 2 } else { 0 };
         budget.starts = self.starts.unwrap_or(usual_starts);
-        let (blocks, data) = blocks(self.fit, self.hold_out)?;
         Ok(CalibrationPlan {
             file: file.to_owned(),
             title: self.title,
@@ -162,8 +162,7 @@ impl CalibrationText {
             parameters,
             levels,
             choices: self.choices,
-            blocks,
-            data,
+            blocks: blocks(self.fit, self.hold_out)?,
         })
     }
 
@@ -251,9 +250,8 @@ impl CalibrationText {
 }
 
 /// Blocks and their data, fitted ones first.
-fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<DataBlock>, Vec<Vec<DatumText>>), FieldError> {
-    let mut blocks = Vec::new();
-    let mut data: Vec<Vec<DatumText>> = Vec::new();
+fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<Vec<DataBlock>, FieldError> {
+    let mut blocks: Vec<DataBlock> = Vec::new();
     for (kind, held_out, texts) in [("fit", false, fit), ("hold_out", true, hold_out)] {
         for (index, block) in texts.into_iter().enumerate() {
             let field = format!("{kind}[{index}]");
@@ -264,35 +262,31 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<(Vec<DataBloc
             for (place, datum) in block.data.iter().enumerate() {
                 let field = format!("{field}.data[{place}]");
                 datum.check(&field)?;
-                if held_out && data.iter().flatten().any(|fitted| datum.is_same(fitted)) {
+                let mut fitted = blocks.iter().filter(|block| !block.held_out).flat_map(|block| &block.data);
+                if held_out && fitted.any(|fitted| datum.is_same(fitted)) {
                     let remedy = "what is predicted must not be fitted, so take it out of one";
                     return Err(FieldError::new(&field, "fitted too", "held out only", remedy));
                 }
             }
-            let conditions = block.conditions(&field, held_out)?;
-            let tier = block.tier.unwrap_or(Tier::Quick);
-            let request = CaseRequest { case: block.case, name: None, tier, with: block.with, only: block.only };
-            blocks.push(DataBlock { request, held_out, conditions, field });
-            data.push(block.data);
+            block.check_conditions(&field, held_out)?;
+            let (conditions, same_within) = (block.conditions, block.same_within.unwrap_or(SAME_WITHIN));
+            let request =
+                CaseRequest { case: block.case, name: None, tier: block.tier, with: block.with, only: block.only };
+            blocks.push(DataBlock { request, held_out, conditions, same_within, field, data: block.data });
         }
     }
-    Ok((blocks, data))
+    Ok(blocks)
 }
 
 impl BlockText {
-    /// Conditions of a block that is held out.
-    fn conditions(&self, field: &str, held_out: bool) -> Result<Option<Conditions>, FieldError> {
+    /// Refuses conditions that do not belong to the block, or name nothing.
+    fn check_conditions(&self, field: &str, held_out: bool) -> Result<(), FieldError> {
         let given = [("conditions", self.conditions.is_some()), ("same_within", self.same_within.is_some())];
         if let Some((name, _)) = given.iter().find(|(_, given)| *given && !held_out) {
-            return Err(FieldError::new(
-                &format!("{field}.{name}"),
-                "given",
-                "absent where data are fitted",
-                "drop it",
-            ));
+            let field = format!("{field}.{name}");
+            return Err(FieldError::new(&field, "given", "absent where data are fitted", "drop it"));
         }
-        let same_within = self.same_within.unwrap_or(SAME_WITHIN);
-        if !(0.0..1.0).contains(&same_within) {
+        if let Some(same_within) = self.same_within.filter(|within| !(0.0..1.0).contains(within)) {
             let remedy = "0.01 is one per cent";
             return Err(FieldError::new(&format!("{field}.same_within"), same_within, "from 0 to below 1", remedy));
         }
@@ -300,7 +294,7 @@ impl BlockText {
             let remedy = "name the parameters that make its conditions, such as [\"slope_angle\"]";
             return Err(FieldError::new(&format!("{field}.conditions"), "[]", "at least one path", remedy));
         }
-        Ok(self.conditions.clone().map(|paths| Conditions { paths, same_within }))
+        Ok(())
     }
 }
 
