@@ -76,7 +76,7 @@ pub(super) fn league(command: &LeagueArguments, session: &mut Session<'_>) -> Re
 fn verdicts(judgement: &CodeComparison) -> String {
     let line = |judged: &judge::JudgedCode| {
         let (passing, failing, not_judged) = judged.counts();
-        let name = format!("{} {}", judged.code.name, judged.code.version);
+        let name = format!("{} {}", judged.submission.code.name, judged.submission.code.version);
         let failed =
             judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
         let table = report::of_metrics(failed);

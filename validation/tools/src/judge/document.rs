@@ -39,9 +39,9 @@ pub(super) fn document(judgement: &CodeComparison) -> Value {
             })
         };
         json!({
-            "name": judged.code.name,
-            "version": judged.code.version,
-            "law": judged.law,
+            "name": judged.submission.code.name,
+            "version": judged.submission.code.version,
+            "law": judged.submission.law,
             // null where it was made for today's gates, or does not say
             "moved": judged.moved,
             "passing": passing,
@@ -89,7 +89,7 @@ fn entry(one: &MetricComparison) -> Value {
 pub(super) fn junit(judgement: &CodeComparison) -> String {
     let mut document = quick_junit::Report::new(format!("bagnold judge {}", judgement.own.name));
     for judged in &judgement.codes {
-        let name = format!("{} {}", judged.code.name, judged.code.version);
+        let name = format!("{} {}", judged.submission.code.name, judged.submission.code.version);
         let mut suite = TestSuite::new(name.trim());
         suite.add_test_cases(judged.metrics.iter().filter_map(|one| {
             let gate = one.foreign.as_ref().unwrap_or(&one.own).gate.as_ref()?;

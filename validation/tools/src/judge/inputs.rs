@@ -1,7 +1,6 @@
 //! Digest of the inputs that another code shares with a case.
 
 use crate::case::{AnyCase, Changes, ParameterError, Tier};
-use crate::input::FieldError;
 use sha2::{Digest, Sha256};
 use toml::Table;
 
@@ -26,22 +25,6 @@ pub fn inputs_of(case: &'static dyn AnyCase, tier: Tier) -> Result<String, Param
     Ok(digest(case.prepare(tier, &Changes::default())?.parameters_toml()))
 }
 
-/// Refuses a submission that was made from other inputs.
-pub(super) fn check(given: Option<&str>, own: &str) -> Result<(), FieldError> {
-    match given {
-        Some(given) if given != own => {
-            let remedy = "export the case again and compare both `case.toml`";
-            Err(FieldError::new(
-                "inputs",
-                format!("\"{given}\""),
-                &format!("\"{own}\", the digest of these inputs"),
-                remedy,
-            ))
-        }
-        _ => Ok(()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -52,8 +35,5 @@ mod tests {
         let own = of("slope_angle = 10.0  # [°]\nresolution = 20\n[numerics]\nkernel = \"a\"\n");
         assert_eq!(own, of("slope_angle = 10.0\nresolution = 40\n[numerics]\nkernel = \"b\"\n"));
         assert_ne!(own, of("slope_angle = 11.0\nresolution = 20\n"));
-        assert!(check(None, &own).is_ok() && check(Some(&own), &own).is_ok());
-        let error = check(Some("00000000"), &own).expect_err("others").to_string();
-        assert!(error.starts_with("`inputs` is \"00000000\", but must be \""), "{error}");
     }
 }

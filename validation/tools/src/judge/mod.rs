@@ -76,14 +76,8 @@ impl ObservedOrder {
 /// A code's verdicts.
 #[derive(Debug, Clone)]
 pub struct JudgedCode {
-    /// The code.
-    pub code: Code,
-    /// Its file.
-    pub file: PathBuf,
-    /// The law of its runs.
-    pub law: LawOrigin,
-    /// Whether it lays parameters over those of the case.
-    pub has_parameters: bool,
+    /// The submission.
+    pub submission: Submission,
     /// Notice of other gates than today's, for which the submission was made.
     pub moved: Option<String>,
     /// Metrics in our order.
@@ -150,8 +144,11 @@ impl CaseSubmissions {
         let exported = case.prepare(first.tier, &Changes::default()).map_err(|error| error.in_plan(&first.path))?;
         let inputs = inputs::digest(exported.parameters_toml());
         let gates = gates::digests(&exported.asked().metrics);
-        for submission in &submissions {
-            inputs::check(submission.inputs.as_deref(), &inputs).map_err(|error| error.in_file(&submission.path))?;
+        let is_other = |submission: &&Submission| submission.inputs.as_ref().is_some_and(|given| *given != inputs);
+        if let Some(Submission { inputs: Some(given), path, .. }) = submissions.iter().find(is_other) {
+            let (value, rule) = (format!("\"{given}\""), format!("\"{inputs}\", the digest of these inputs"));
+            let remedy = "export the case again and compare both `case.toml`";
+            return Err(FieldError::new("inputs", value, &rule, remedy).in_file(path).into());
         }
         // the runs of ours that any code gives something of, in our order
         let places: Vec<Vec<usize>> =
@@ -274,16 +271,14 @@ pub fn judge(own: CaseResult, entries: &[CodeResults]) -> Result<CodeComparison,
                 .enumerate()
                 .map(|(number, (variant, run))| (variant.clone(), run, format!("run {}", number + 1)))
                 .collect();
-            let Submission { code, path, law, with, .. } = &entry.submission;
+            let CodeResults { submission, moved, orders, .. } = entry.clone();
             // a gate of a run that only another code has lacks no data of this one
             let is_of = |of: &CodeResults, metric: &Metric| of.variants.iter().any(|run| metric.variant.includes(run));
             let is_others = |metric: &&Metric| !is_of(entry, metric) && entries.iter().any(|of| is_of(of, metric));
             let asked: Vec<Metric> = own.metrics.iter().filter(|metric| !is_others(metric)).cloned().collect();
-            let metrics =
-                verdicts::compare(&asked, &entry.result, &numbers, *law).map_err(|error| error.in_file(path))?;
-            let has_parameters = !with.is_empty();
-            let (code, file, moved) = (code.clone(), path.clone(), entry.moved.clone());
-            Ok(JudgedCode { code, file, law: *law, has_parameters, moved, metrics, orders: entry.orders.clone() })
+            let metrics = verdicts::compare(&asked, &entry.result, &numbers, submission.law)
+                .map_err(|error| error.in_file(&submission.path))?;
+            Ok(JudgedCode { submission, moved, metrics, orders })
         })
         .collect::<Result<_, ToolError>>()?;
     let theirs: Vec<(&str, &[Figure])> =

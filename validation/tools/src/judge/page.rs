@@ -41,7 +41,7 @@ fn render(judgement: &CodeComparison, pictures: Vec<PageFigure>) -> Result<Strin
         "description": own.description,
         "version": env!("CARGO_PKG_VERSION"),
         "codes": judgement.codes.iter().map(code_row).collect::<Vec<_>>(),
-        "heads": judgement.codes.iter().map(|judged| &judged.code.name).collect::<Vec<_>>(),
+        "heads": judgement.codes.iter().map(|judged| &judged.submission.code.name).collect::<Vec<_>>(),
         "rows": rows(judgement),
         "quantities": quantities(judgement),
         "pictures": pictures,
@@ -52,10 +52,10 @@ fn render(judgement: &CodeComparison, pictures: Vec<PageFigure>) -> Result<Strin
 fn code_row(judged: &JudgedCode) -> Value {
     let (passing, failing, not_judged) = judged.counts();
     json!({
-        "name": judged.code.name,
-        "version": judged.code.version,
-        "law": judged.law,
-        "file": judged.file.display().to_string(),
+        "name": judged.submission.code.name,
+        "version": judged.submission.code.version,
+        "law": judged.submission.law,
+        "file": judged.submission.path.display().to_string(),
         "moved": judged.moved,
         "passing": passing,
         "failing": failing,

@@ -1,7 +1,7 @@
 //! Reads what a submission names: files of particles, series and profiles → columns in SI units.
 
 use super::lammps;
-use super::submission::{ForeignRun, ParticleFiles, TableFile, rising, sources};
+use super::submission::{ForeignRun, ParticleFiles, TableFile, rising};
 use super::vtk::{self, NamedArrays, PLACES, PointArrays};
 use crate::case::ParameterError;
 use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame, RunScales};
@@ -80,15 +80,16 @@ fn plan(
     scales: Option<RunScales>,
     field: &str,
 ) -> Result<ColumnAssignments, FieldError> {
-    let sources = sources(texts, field)?;
-    if sources.is_empty() {
-        return Err(FieldError::new(&format!("{field}.columns"), "empty", "given", "say which column is what"));
+    let group = format!("{field}.columns");
+    if texts.is_empty() {
+        return Err(FieldError::new(&group, "empty", "given", "say which column is what"));
     }
-    sources
-        .into_iter()
-        .map(|(name, source)| {
-            let item = ExternalSchema::find(items, &format!("{field}.columns"), &name)?;
-            let field = format!("{field}.columns.{name}");
+    texts
+        .iter()
+        .map(|(name, value)| {
+            let field = format!("{group}.{name}");
+            let source = ColumnSource::parse(value, &field)?;
+            let item = ExternalSchema::find(items, &group, name)?;
             let factor = source.factor(item, &field, scales)?;
             Ok((item, source, factor, field))
         })

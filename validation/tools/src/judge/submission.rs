@@ -3,7 +3,6 @@
 use crate::case::{CaseFile, ParameterError, Tier};
 use crate::evaluation::read_plan;
 use crate::input::{FieldError, check_name};
-use crate::measured::ColumnSource;
 use crate::metric::Variant;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -263,18 +262,4 @@ pub(super) fn rising(numbers: &[f64]) -> Option<f64> {
         before = number;
         is_wrong
     })
-}
-
-/// Sources of the columns of a part.
-///
-/// # Errors
-/// A column that is neither a heading with its unit nor a constant; `field` is where it stands.
-pub(super) fn sources(
-    columns: &BTreeMap<String, toml::Value>,
-    field: &str,
-) -> Result<BTreeMap<String, ColumnSource>, FieldError> {
-    columns
-        .iter()
-        .map(|(name, value)| Ok((name.clone(), ColumnSource::parse(value, &format!("{field}.columns.{name}"))?)))
-        .collect()
 }

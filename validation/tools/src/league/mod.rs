@@ -13,9 +13,7 @@ pub use widths::{HEADINGS as WIDTH_HEADINGS, widths};
 
 use crate::ToolError;
 use crate::case::{PreparedCase, Registry, Tier};
-use crate::judge::{
-    CaseSubmissions, CodeComparison, JudgedCode, LawOrigin, MetricComparison, ObservedOrder, Submission,
-};
+use crate::judge::{CaseSubmissions, CodeComparison, JudgedCode, LawOrigin, MetricComparison, Submission};
 use crate::metric::{Metric, MetricKind, Variant};
 use crate::output::FileError;
 use std::path::{Path, PathBuf};
@@ -45,14 +43,10 @@ pub struct League {
     pub codes: Vec<String>,
     /// The cases.
     pub cases: Vec<String>,
-    /// Gates that pass, that fail, and that lack data, of a code (first) and a case (second).
-    pub counts: Vec<(usize, usize, (usize, usize, usize))>,
     /// The quantities in the order of the cases.
     pub rows: Vec<LeagueRow>,
-    /// Observed orders of convergence, of a code (first) and a case (second).
-    pub orders: Vec<(usize, usize, ObservedOrder)>,
-    /// Files of the submissions, of a code (first) and a case (second).
-    pub submissions: Vec<(usize, usize, PathBuf)>,
+    /// Verdicts on the submissions, of a code (first) and a case (second).
+    pub judged: Vec<(usize, usize, JudgedCode)>,
 }
 
 /// The submissions of a league, in the order of their paths.
@@ -112,19 +106,18 @@ pub fn split(groups: Vec<CaseSubmissions>) -> Groups {
 pub fn league(groups: &[CodeComparison]) -> League {
     let mut league = League::default();
     // rows of the case's own parameters come first, and name the others'
-    let has_parameters = |group: &&CodeComparison| group.codes.iter().any(|code| code.has_parameters);
+    let has_parameters = |group: &&CodeComparison| group.codes.iter().any(|code| !code.submission.with.is_empty());
     let (with, without): (Vec<_>, Vec<_>) = groups.iter().partition(has_parameters);
     for group in without.into_iter().chain(with) {
         let case = place(&mut league.cases, &group.own.name);
         for judged in &group.codes {
-            let name = format!("{} {}", judged.code.name, judged.code.version);
+            let own = &judged.submission.code;
+            let name = format!("{} {}", own.name, own.version);
             let code = place(&mut league.codes, name.trim_end());
-            league.counts.push((code, case, judged.counts()));
-            league.submissions.push((code, case, judged.file.clone()));
-            league.orders.extend(judged.orders.iter().map(|order| (code, case, order.clone())));
-            for one in judged.metrics.iter().filter(|one| one.foreign.is_some()) {
-                enter(&mut league.rows, &group.own.name, code, judged, one);
+            for one in &judged.metrics {
+                enter(&mut league.rows, &group.own.name, code, &judged.submission, one);
             }
+            league.judged.push((code, case, judged.clone()));
         }
     }
     league
@@ -138,16 +131,16 @@ fn place(names: &mut Vec<String>, name: &str) -> usize {
 }
 
 /// Enters a value. A run of ours with parameters of a submission has a row of its own.
-fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, judged: &JudgedCode, one: &MetricComparison) {
+fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, submission: &Submission, one: &MetricComparison) {
     let Some(foreign) = one.foreign.clone() else { return };
-    let entry = (code, judged.law, foreign);
+    let entry = (code, submission.law, foreign);
     let mut own = one.own.clone();
     let named = |row: &LeagueRow, own: &Metric| {
         row.case == case && (&row.own.name, &row.own.variant) == (&own.name, &own.variant)
     };
     let same = |row: &LeagueRow, own: &Metric| named(row, own) && row.own.value.to_bits() == own.value.to_bits();
     if rows.iter().any(|row| named(row, &own) && !same(row, &own)) {
-        own.variant = own.variant.and("parameters", judged.code.name.as_str());
+        own.variant = own.variant.and("parameters", submission.code.name.as_str());
     }
     match rows.iter_mut().find(|row| same(row, &own)) {
         Some(row) => row.values.push(entry),
@@ -159,8 +152,8 @@ impl League {
     /// Gates of a code and a case that pass, that fail, and that lack data; none without a submission.
     #[must_use]
     pub fn count(&self, code: usize, case: usize) -> Option<(usize, usize, usize)> {
-        let own = self.counts.iter().filter(|(own, of, _)| (*own, *of) == (code, case));
-        own.map(|(_, _, counts)| *counts).reduce(|sum, more| (sum.0 + more.0, sum.1 + more.1, sum.2 + more.2))
+        let own = self.judged.iter().filter(|(own, of, _)| (*own, *of) == (code, case));
+        own.map(|(_, _, judged)| judged.counts()).reduce(|sum, more| (sum.0 + more.0, sum.1 + more.1, sum.2 + more.2))
     }
 }
 
@@ -212,6 +205,7 @@ fn physics(variant: &Variant) -> Variant {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::ObservedOrder;
     use crate::metric::Limit;
 
     fn row(values: &[(LawOrigin, f64)]) -> LeagueRow {

@@ -3,7 +3,7 @@
 use super::archive::archive;
 use super::blind::{self, BlindComparison};
 use super::{League, LeagueRow};
-use crate::judge::{ObservedOrder, Submission, mark, other_limit};
+use crate::judge::{JudgedCode, mark, other_limit};
 use crate::metric::Metric;
 use crate::number::{four_digits, two_digits};
 use crate::page;
@@ -22,11 +22,10 @@ pub fn write(league: &League, blind: &[BlindComparison], folder: &Path) -> Resul
         let path = folder.join(name);
         std::fs::write(&path, bytes).map_err(|source| ReportError::Write { path, source })
     };
-    for (_, _, file) in &league.submissions {
-        let (name, cell) = (archive_name(file), file.parent().unwrap_or(Path::new("")));
+    for (_, _, JudgedCode { submission, .. }) in &league.judged {
+        let (name, cell) = (archive_name(&submission.path), submission.path.parent().unwrap_or(Path::new("")));
         let read = |source| ReportError::Write { path: cell.to_owned(), source };
-        let named = Submission::read(file).map(|submission| submission.files()).unwrap_or_default();
-        put(&format!("{name}.tar"), &archive(cell, &named, &name).map_err(read)?)?;
+        put(&format!("{name}.tar"), &archive(cell, &submission.files(), &name).map_err(read)?)?;
     }
     put("league.json", pretty(&document).as_bytes())?;
     put("index.html", page::fill(&[("league.html", include_str!("league.html"))], "league.html", &document)?.as_bytes())
@@ -46,19 +45,22 @@ pub const ORDER_HEADINGS: [&str; 8] =
 /// Errors of codes on two meshes with the observed order, a row each.
 #[must_use]
 pub fn orders(league: &League) -> Vec<[String; 8]> {
-    let row = |(code, case, order): &(usize, usize, ObservedOrder)| {
-        [
-            league.codes[*code].clone(),
-            league.cases[*case].clone(),
-            format!("{} [{}]", order.fine.name, order.fine.unit),
-            super::physics(&order.fine.variant).to_string(),
-            two_digits(order.coarse),
-            two_digits(order.fine.value),
-            two_digits(order.ratio),
-            order.order().map_or_else(|| "–".to_owned(), two_digits),
-        ]
-    };
-    league.orders.iter().map(row).collect()
+    let mut rows = Vec::new();
+    for (code, case, judged) in &league.judged {
+        rows.extend(judged.orders.iter().map(|order| {
+            [
+                league.codes[*code].clone(),
+                league.cases[*case].clone(),
+                format!("{} [{}]", order.fine.name, order.fine.unit),
+                super::physics(&order.fine.variant).to_string(),
+                two_digits(order.coarse),
+                two_digits(order.fine.value),
+                two_digits(order.ratio),
+                order.order().map_or_else(|| "–".to_owned(), two_digits),
+            ]
+        }));
+    }
+    rows
 }
 
 fn document(league: &League, blind: &[BlindComparison]) -> Value {
@@ -84,7 +86,8 @@ fn document(league: &League, blind: &[BlindComparison]) -> Value {
         "tables": league.cases.iter().map(of_case).collect::<Vec<_>>(),
         "orders": { "headings": ORDER_HEADINGS, "rows": orders(league) },
         "widths": { "headings": super::WIDTH_HEADINGS, "rows": super::widths(league) },
-        "archives": league.submissions.iter().map(|(code, case, file)| {
+        "archives": league.judged.iter().map(|(code, case, judged)| {
+            let file = &judged.submission.path;
             json!({ "code": league.codes[*code], "case": league.cases[*case], "file": format!("{}.tar", archive_name(file)) })
         }).collect::<Vec<_>>(),
         "blind": { "headings": blind::HEADINGS, "rows": blind::table(blind) },

@@ -42,16 +42,15 @@ pub(super) const ENDINGS: [&str; 8] = ["vtu", "vtp", "vtk", "pvtu", "pvtp", "vtm
 
 /// Reason for the rejection of a file; completes "`file` is …".
 #[derive(Debug, Clone, PartialEq)]
-struct Refusal {
-    value: String,
-    rule: &'static str,
-    remedy: &'static str,
-}
+struct Refusal(FieldError);
+
+/// Rule for a file without a fault of its own.
+const GRID: &str = "an unstructured grid or polygonal data of VTK";
 
 impl From<String> for Refusal {
     fn from(value: String) -> Self {
         let remedy = "write points with arrays at points or at cells, as ParaView reads them";
-        Self { value, rule: "an unstructured grid or polygonal data of VTK", remedy }
+        Self(FieldError::new("file", value, GRID, remedy))
     }
 }
 
@@ -70,17 +69,13 @@ impl PointArrays {
         let is_legacy = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtk"));
         let read = if bytes.starts_with(HDF5) {
             let remedy = "write it as .vtu or .vtp, in ParaView by Save Data";
-            let rule = "an unstructured grid or polygonal data of VTK";
-            Err(Refusal { value: "in HDF5".to_owned(), rule, remedy })
+            Err(Refusal(FieldError::new("file", "in HDF5", GRID, remedy)))
         } else if is_legacy {
             legacy::read(bytes)
         } else {
             xml::read(bytes)
         };
-        read.and_then(Self::checked).map_err(|refusal| {
-            let Refusal { value, rule, remedy } = refusal;
-            FieldError::new("file", value, rule, remedy).in_file(file)
-        })
+        read.and_then(Self::checked).map_err(|Refusal(error)| error.in_file(file))
     }
 
     /// Arrays at points or at cells.

@@ -3,6 +3,7 @@
 use super::array::{ByteOrder, Scalar};
 use super::stored::{EncodedArray, Encoding};
 use super::{NamedArrays, PLACES, PointArrays, Refusal, centres, nesting, part};
+use crate::input::FieldError;
 use roxmltree::Node;
 
 /// The section behind the document to which arrays point by offsets.
@@ -107,7 +108,7 @@ fn encoding(root: Node<'_, '_>) -> Result<Encoding, Refusal> {
             let remedy = "write it with SetCompressorTypeToZLib() or SetCompressorTypeToNone(), in ParaView with the \
                           compressor ZLib or None";
             let rule = "uncompressed or compressed by vtkZLibDataCompressor";
-            return Err(Refusal { value: format!("compressed by {other}"), rule, remedy });
+            return Err(Refusal(FieldError::new("file", format!("compressed by {other}"), rule, remedy)));
         }
     };
     Ok(Encoding { order, header, is_compressed })
