@@ -369,6 +369,10 @@ fn make(folder: &Path) -> Result<(), ReportError> {
     std::fs::create_dir_all(folder).map_err(|source| ReportError::Write { path: folder.to_owned(), source })
 }
 
-fn put(path: PathBuf, text: &str) -> Result<(), ReportError> {
-    std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source })
+/// Writes a file of a page.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn put(path: PathBuf, contents: impl AsRef<[u8]>) -> Result<(), ReportError> {
+    std::fs::write(&path, contents).map_err(|source| ReportError::Write { path, source })
 }

@@ -4,6 +4,7 @@
 use super::reading::text;
 use super::{Control, ControlTrial, Found};
 use crate::metric::{Variant, Verdict};
+use crate::output::csv_text;
 use crate::store::provenance;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -83,7 +84,7 @@ impl TriedControls {
     /// # Errors
     /// None that a row of numbers and names can bring about.
     pub fn text(&self) -> Result<String, csv::Error> {
-        let mut rows = csv::Writer::from_writer(Vec::new());
+        let mut rows = Vec::new();
         for (control, (found, diverged)) in &self.tried {
             let row = |metric: &str, variant: &Variant, value: f64, verdict: &str| Row {
                 control: control.clone(),
@@ -93,14 +94,13 @@ impl TriedControls {
                 verdict: verdict.to_owned(),
             };
             if *diverged {
-                rows.serialize(row("", &Variant::default(), f64::NAN, DIVERGED))?;
+                rows.push(row("", &Variant::default(), f64::NAN, DIVERGED));
             }
             for Found { metric, variant, value, verdict } in found {
-                rows.serialize(row(metric, variant, *value, verdict.map_or(MISSING, Verdict::word)))?;
+                rows.push(row(metric, variant, *value, verdict.map_or(MISSING, Verdict::word)));
             }
         }
-        let rows = rows.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-        Ok(format!("# solver {} commit {}\n{}", self.solver_hash, self.commit, String::from_utf8_lossy(&rows)))
+        Ok(format!("# solver {} commit {}\n{}", self.solver_hash, self.commit, csv_text(rows)?))
     }
 
     /// Whether another table has the same numbers, whichever solver gave them.

@@ -3,6 +3,7 @@
 
 use super::shipped::carried;
 use crate::metric::Variant;
+use crate::output::csv_text;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -67,10 +68,7 @@ pub fn sensitivity_text(case: &str, rows: &[SensitivityRow]) -> Result<String, c
         "# Comparisons of {case} with each input at both ends of its range (reference-data/{case}/uncertainty.toml), quick tier.\n\
          # cargo run -p bagnold-dev -- sensitivities {case} --out validation/harness/sensitivities/{case}.csv\n"
     );
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    rows.iter().try_for_each(|row| writer.serialize(row))?;
-    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-    Ok(head + &String::from_utf8_lossy(&bytes))
+    Ok(head + &csv_text(rows)?)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 use super::StatedUncertainty;
 use crate::metric::{ComparisonPart, FlowRegime, Metric, PredictionInterval, REGIME_NUMBERS, Variant};
 use crate::number::two_digits;
+use crate::output::csv_text;
 use crate::statistics::{Comparison, ModelBias, model_bias};
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
@@ -137,10 +138,7 @@ impl ValidationSet {
     /// # Errors
     /// A row that cannot be written.
     pub fn text(&self) -> Result<String, csv::Error> {
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        self.comparisons.iter().try_for_each(|row| writer.serialize(row))?;
-        let bytes = writer.into_inner().map_err(|error| error.into_error())?;
-        Ok(String::from_utf8_lossy(&bytes).into_owned())
+        csv_text(&self.comparisons)
     }
 
     /// Replaces the comparisons of a case; cases stand in alphabetical order.

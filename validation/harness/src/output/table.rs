@@ -15,6 +15,17 @@ pub struct Table {
     pub rows: Vec<Vec<f64>>,
 }
 
+/// Rows as CSV: lists of cells, or structs, which get a heading.
+///
+/// # Errors
+/// Lists of different lengths.
+pub fn csv_text<Row: Serialize>(rows: impl IntoIterator<Item = Row>) -> Result<String, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    rows.into_iter().try_for_each(|row| writer.serialize(row))?;
+    let bytes = writer.into_inner().map_err(|error| error.into_error())?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
 impl Table {
     /// A table from its rows.
     #[must_use]

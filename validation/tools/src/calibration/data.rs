@@ -68,45 +68,29 @@ impl DatumText {
         }
         for (name, column) in [("x", &self.x), ("y", &self.y)] {
             if let Some(column) = column.as_ref().filter(|column| !column.contains('[') || !column.ends_with(']')) {
-                return wrong(
-                    name,
-                    column,
-                    "a column with its unit, as the table's heading has it",
-                    "such as \"y [m]\"",
-                );
+                let rule = "a column with its unit, as the table's heading has it";
+                return wrong(name, column, rule, "such as \"y [m]\"");
             }
         }
-        let given = [
-            ("value", self.value.is_some()),
-            ("unit", self.unit.is_some()),
-            ("uncertainty", self.uncertainty.is_some()),
-            ("factor", self.factor.is_some()),
-            ("source", self.source.is_some()),
-        ];
-        let spare = given.iter().find(|(_, given)| *given).map(|(name, _)| *name);
+        let numbers = [("value", self.value), ("uncertainty", self.uncertainty), ("factor", self.factor)];
+        let words = [("unit", &self.unit), ("source", &self.source)];
+        let spare = numbers.iter().find(|(_, number)| number.is_some()).map(|(name, _)| *name);
+        let spare = spare.or_else(|| words.iter().find(|(_, text)| text.is_some()).map(|(name, _)| *name));
         if self.metric.is_some() && (self.x.is_some() || self.y.is_some()) {
             return wrong("x", "given", "absent with a metric", "x and y are columns of a table");
         }
         if self.bins.is_some_and(|bins| !(1..=10_000).contains(&bins)) || (self.bins.is_some() && self.noise.is_none())
         {
-            return wrong(
-                "bins",
-                "given",
-                "between 1 and 10000, and only with `noise`",
-                "bins are points of synthetic data",
-            );
+            let rule = "between 1 and 10000, and only with `noise`";
+            return wrong("bins", "given", rule, "bins are points of synthetic data");
         }
         if let Some(noise) = self.noise {
             if !(noise > 0.0 && noise.is_finite()) {
                 return wrong("noise", &noise.to_string(), "positive", "0.01 is one per cent");
             }
             if let Some(name) = spare.or_else(|| self.file.is_some().then_some("file")) {
-                return wrong(
-                    name,
-                    "given",
-                    "absent with `noise`",
-                    "synthetic data need no measurement: keep one of the two",
-                );
+                let remedy = "synthetic data need no measurement: keep one of the two";
+                return wrong(name, "given", "absent with `noise`", remedy);
             }
             return Ok(());
         }
@@ -123,12 +107,8 @@ impl DatumText {
             return wrong("file", "missing", "given with a table", "a profile needs a CSV file, or a `noise`");
         }
         if value.abs() > LARGEST || value.is_nan() {
-            return wrong(
-                "value",
-                &value.to_string(),
-                "a number of a size up to 1e30",
-                "check the exponent and the unit",
-            );
+            let remedy = "check the exponent and the unit";
+            return wrong("value", &value.to_string(), "a number of a size up to 1e30", remedy);
         }
         if self.unit.is_none() {
             return wrong("unit", "missing", "the unit of the value", "such as unit = \"m\"; \"-\" for none");
@@ -136,14 +116,12 @@ impl DatumText {
         if self.source.is_none() {
             return wrong("source", "missing", "the origin of the value", "such as source = \"own experiment, May\"");
         }
-        self.uncertainty(value).map_or_else(
-            || {
-                let remedy = "give the standard deviation in the value's unit, or `factor` for one in logarithms; \
-                              Bagnold does not invent one";
-                wrong("uncertainty", "missing or not positive", "positive", remedy)
-            },
-            |_| Ok(()),
-        )
+        if self.uncertainty(value).is_none() {
+            let remedy = "give the standard deviation in the value's unit, or `factor` for one in logarithms; \
+                          Bagnold does not invent one";
+            return wrong("uncertainty", "missing or not positive", "positive", remedy);
+        }
+        Ok(())
     }
 
     /// Whether both mean the same measurement.

@@ -10,7 +10,7 @@ use crate::evidence::HeldOutJudgement;
 use crate::figure::FigureError;
 use crate::inference::UNLIKELY;
 use crate::number::{four_digits, short_digits};
-use crate::output::{FileError, write_whole};
+use crate::output::{FileError, csv_text, write_whole};
 use crate::page::{self, PageFigure};
 use crate::result::pretty;
 use serde_json::{Value, json};
@@ -29,8 +29,10 @@ pub fn write(outcome: &CalibrationResult, plan: &CalibrationPlan, folder: &Path)
         let name = if place == 0 { "calibrated.toml".to_owned() } else { format!("calibrated-{}.toml", place + 1) };
         write_whole(&folder.join(name), text.as_bytes()).map_err(unwritable)?;
     }
-    write_whole(&folder.join("evaluations.csv"), &evaluations(outcome).map_err(unwritable)?).map_err(unwritable)?;
-    write_whole(&folder.join("data.csv"), &data(outcome).map_err(unwritable)?).map_err(unwritable)?;
+    for (name, rows) in [("evaluations.csv", evaluations(outcome)), ("data.csv", data(outcome))] {
+        let text = csv_text(rows).map_err(|error| unwritable(error.into()))?;
+        write_whole(&folder.join(name), text.as_bytes()).map_err(unwritable)?;
+    }
     let judged = held_out::judged(outcome, plan.digest()?);
     if let Some(judged) = &judged {
         write_whole(&folder.join("held-out.json"), pretty(judged).as_bytes()).map_err(unwritable)?;
@@ -41,16 +43,15 @@ pub fn write(outcome: &CalibrationResult, plan: &CalibrationPlan, folder: &Path)
     write_whole(&folder.join("result.json"), pretty(outcome).as_bytes()).map_err(unwritable)
 }
 
-fn evaluations(outcome: &CalibrationResult) -> io::Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
+fn evaluations(outcome: &CalibrationResult) -> Vec<Vec<String>> {
     let heads = outcome.parameters.iter().map(|parameter| format!("{} [{}]", parameter.name, parameter.unit));
-    writer.write_record(["evaluation".to_owned()].into_iter().chain(heads).chain(["chi squared [-]".to_owned()]))?;
+    let mut rows = vec![[vec!["evaluation".to_owned()], heads.collect(), vec!["chi squared [-]".to_owned()]].concat()];
     for (k, evaluation) in outcome.evaluations.iter().enumerate() {
         let chi = evaluation.chi_squared.map_or_else(|| "failed".to_owned(), |chi| chi.to_string());
         let values = evaluation.values.iter().map(f64::to_string);
-        writer.write_record([(k + 1).to_string()].into_iter().chain(values).chain([chi]))?;
+        rows.push([vec![(k + 1).to_string()], values.collect(), vec![chi]].concat());
     }
-    writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
+    rows
 }
 
 /// Every datum with its use: `fit`, `hold-out`, or those of a choice.
@@ -65,9 +66,8 @@ fn all_data(outcome: &CalibrationResult) -> Vec<(String, &DatumComparison)> {
     list
 }
 
-fn data(outcome: &CalibrationResult) -> io::Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record([
+fn data(outcome: &CalibrationResult) -> Vec<Vec<String>> {
+    let head = [
         "use",
         "block",
         "quantity",
@@ -81,16 +81,17 @@ fn data(outcome: &CalibrationResult) -> io::Result<Vec<u8>> {
         "predicted lower",
         "predicted upper",
         "source",
-    ])?;
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
     for (name, datum) in all_data(outcome) {
         let numbers = [datum.datum, datum.band.0, datum.band.1, datum.model, datum.residual, datum.scatter]
             .map(|value| value.to_string());
         let predicted =
             datum.predicted.map_or_else(Default::default, |(low, high)| [low.to_string(), high.to_string()]);
         let head = [name, datum.block.clone(), datum.label.clone(), datum.unit.clone()];
-        writer.write_record(head.into_iter().chain(numbers).chain(predicted).chain([datum.source.clone()]))?;
+        rows.push(head.into_iter().chain(numbers).chain(predicted).chain([datum.source.clone()]).collect());
     }
-    writer.into_inner().map_err(|error| io::Error::other(error.to_string()))
+    rows
 }
 
 fn optional(value: Option<f64>) -> String {

@@ -231,12 +231,8 @@ impl CalibrationPlan {
             choice.set.keys().try_for_each(|case| known(format!("{field}.set"), case))?;
             if let Some(case) = cases.iter().find(|case| choice.in_case(case).is_empty()) {
                 let remedy = format!("say what {} sets there", choice.name);
-                return Err(FieldError::new(
-                    &format!("{field}.set"),
-                    "incomplete",
-                    &format!("given for `{case}`"),
-                    &remedy,
-                ));
+                let (field, rule) = (format!("{field}.set"), format!("given for `{case}`"));
+                return Err(FieldError::new(&field, "incomplete", &rule, &remedy));
             }
             if self.choices[..index].iter().any(|other| other.name == choice.name) {
                 return Err(FieldError::new(&format!("{field}.name"), &choice.name, "unique", "rename it"));

@@ -8,12 +8,12 @@ use crate::figure::Figure;
 use crate::judge::mark;
 use crate::number::{four_digits, two_digits};
 use crate::page::{self, PageFigure};
-use crate::report::ReportError;
+use crate::report::{ReportError, put};
 use crate::result::{MetricEntry, pretty};
 use crate::store::provenance::short_commit;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Writes `index.html`, `differences.json`, `parameters.json` and `figures/` into a folder; returns the numbers that differ by more
 /// than their tolerance, the largest difference first.
@@ -21,17 +21,15 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// Files that cannot be written.
 pub fn write(all: &[Results], folder: &Path) -> Result<Vec<Difference>, ReportError> {
-    let put =
-        |path: PathBuf, text: &str| std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source });
     let found = differences(all);
     let cases: BTreeSet<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
     let figures: Vec<Figure> = cases.into_iter().flat_map(|case| figures::all(all, case)).collect();
     let pictures = page::draw(&figures, &folder.join("figures"))?;
-    put(folder.join("differences.json"), &pretty(&found.iter().map(line).collect::<Vec<_>>()))?;
+    put(folder.join("differences.json"), pretty(&found.iter().map(line).collect::<Vec<_>>()))?;
     let parameters = changed(all);
-    put(folder.join("parameters.json"), &pretty(&parameters))?;
+    put(folder.join("parameters.json"), pretty(&parameters))?;
     let moved = found.iter().filter(|one| is_moved(one)).count();
-    put(folder.join("index.html"), &render(all, &found, moved, parameters, pictures)?)?;
+    put(folder.join("index.html"), render(all, &found, moved, parameters, pictures)?)?;
     Ok(found.into_iter().filter(is_moved).collect())
 }
 

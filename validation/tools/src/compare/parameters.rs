@@ -26,12 +26,9 @@ pub struct ChangedParameter {
 #[must_use]
 pub fn changed(all: &[Results]) -> Vec<ChangedParameter> {
     let cases: BTreeSet<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
-    cases.into_iter().flat_map(|case| of_case(all, case)).collect()
-}
-
-fn of_case(all: &[Results], case: &str) -> Vec<ChangedParameter> {
-    let own = |results: &Results| Some(leaves(results.cases.get(case)?.parameters.as_ref()?));
-    differing(case, &all.iter().map(own).collect::<Vec<_>>())
+    let own = |results: &Results, case: &str| Some(leaves(results.cases.get(case)?.parameters.as_ref()?));
+    let of_case = |case: &String| differing(case, &all.iter().map(|results| own(results, case)).collect::<Vec<_>>());
+    cases.into_iter().flat_map(of_case).collect()
 }
 
 /// Parameters that differ among the folders that state parameters.
@@ -39,16 +36,11 @@ fn differing(case: &str, all: &[Option<Leaves>]) -> Vec<ChangedParameter> {
     let given: Vec<&Leaves> = all.iter().flatten().collect();
     let paths: BTreeSet<&String> = given.iter().flat_map(|leaves| leaves.keys()).collect();
     let differs = |path: &&String| given.iter().any(|other| other.get(*path) != given[0].get(*path));
-    let value = |leaves: &Option<Leaves>, path: &String| Some(shown(leaves.as_ref()?.get(path)?));
-    paths
-        .into_iter()
-        .filter(differs)
-        .map(|path| ChangedParameter {
-            case: case.to_owned(),
-            path: path.clone(),
-            values: all.iter().map(|leaves| value(leaves, path)).collect(),
-        })
-        .collect()
+    let changed = |path: &String| {
+        let value = |leaves: &Option<Leaves>| Some(shown(leaves.as_ref()?.get(path)?));
+        ChangedParameter { case: case.to_owned(), path: path.clone(), values: all.iter().map(value).collect() }
+    };
+    paths.into_iter().filter(differs).map(changed).collect()
 }
 
 /// Every value that is neither a table nor a list of tables, by its path.

@@ -38,13 +38,8 @@ pub(super) fn pictures(text: &str, step: Option<f64>, file: &Path) -> Result<Vec
                 let heading: Vec<&str> = item.split_whitespace().skip(1).collect();
                 let rows: Vec<&str> = lines.by_ref().take(count).collect();
                 if rows.len() < count {
-                    let value = format!("{} atoms at step {place}", rows.len());
-                    return Err(wrong(
-                        "ITEM: ATOMS",
-                        &value,
-                        &format!("{count} atoms"),
-                        "the file was cut short: write it again",
-                    ));
+                    let (value, rule) = (format!("{} atoms at step {place}", rows.len()), format!("{count} atoms"));
+                    return Err(wrong("ITEM: ATOMS", &value, &rule, "the file was cut short: write it again"));
                 }
                 let mut table = TextTable::parse(&format!("{}\n{}\n", heading.join(" "), rows.join("\n")), file)?;
                 sort_by_identity(&mut table);

@@ -239,21 +239,22 @@ fn places(submission: &Submission, prepared: &dyn PreparedCase) -> Result<Vec<us
             }
             [place] => places.push(place),
             [] => {
-                let listed: Vec<String> = variants.iter().take(6).map(|variant| format!("\"{variant}\"")).collect();
-                let rule = format!("keys of a run of this case and tier, such as {}", listed.join(", "));
+                let listed = quoted(variants.iter().take(6), ", ");
+                let rule = format!("keys of a run of this case and tier, such as {listed}");
                 return Err(wrong(&rule, "`bagnold judge --template` lists the runs"));
             }
             _ => {
-                let listed: Vec<String> =
-                    least.iter().take(4).map(|&place| format!("\"{}\"", variants[place])).collect();
-                return Err(wrong(
-                    &format!("one run, but is {}", listed.join(" and ")),
-                    "add a key that tells them apart",
-                ));
+                let listed = quoted(least.iter().take(4).map(|&place| &variants[place]), " and ");
+                let rule = format!("one run, but is {listed}");
+                return Err(wrong(&rule, "add a key that tells them apart"));
             }
         }
     }
     Ok(places)
+}
+
+fn quoted<'v>(variants: impl Iterator<Item = &'v Variant>, between: &str) -> String {
+    variants.map(|variant| format!("\"{variant}\"")).collect::<Vec<_>>().join(between)
 }
 
 /// Puts the codes beside our own results.

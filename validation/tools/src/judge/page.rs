@@ -5,19 +5,17 @@ use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
 use crate::page::{self, PageFigure};
-use crate::report::{ReportError, Severity};
+use crate::report::{ReportError, Severity, put};
 use crate::result::pretty;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Writes `index.html`, `metrics.json` and `figures/` into a folder, and JUnit's XML into a file where one is named.
 ///
 /// # Errors
 /// Files that cannot be written.
 pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path>) -> Result<(), ReportError> {
-    let put =
-        |path: PathBuf, text: &str| std::fs::write(&path, text).map_err(|source| ReportError::Write { path, source });
     let pictures = page::draw(&judgement.figures, &folder.join("figures"))?;
     for table in &judgement.own.tables {
         let tables = folder.join("tables");
@@ -25,12 +23,12 @@ pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path
         std::fs::create_dir_all(&tables).map_err(failed)?;
         table.write(&tables).map_err(failed)?;
     }
-    put(folder.join("metrics.json"), &pretty(&document(judgement)))?;
+    put(folder.join("metrics.json"), pretty(&document(judgement)))?;
     put(folder.join("case.toml"), &judgement.own.parameters_toml)?;
     if let Some(path) = junit_file {
-        put(path.to_owned(), &junit(judgement))?;
+        put(path.to_owned(), junit(judgement))?;
     }
-    put(folder.join("index.html"), &render(judgement, pictures)?)
+    put(folder.join("index.html"), render(judgement, pictures)?)
 }
 
 fn render(judgement: &CodeComparison, pictures: Vec<PageFigure>) -> Result<String, minijinja::Error> {

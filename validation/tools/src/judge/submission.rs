@@ -235,12 +235,8 @@ impl ParticleFiles {
             return wrong("times", value, "one per file", "give the time of each file [s]");
         }
         rising(&self.times).map_or(Ok(()), |time| {
-            wrong(
-                "times",
-                time.to_string(),
-                "finite and larger than the one before",
-                "list the files in the order of time",
-            )
+            let remedy = "list the files in the order of time";
+            wrong("times", time.to_string(), "finite and larger than the one before", remedy)
         })
     }
 

@@ -7,7 +7,7 @@ use crate::judge::{JudgedCode, mark, other_limit};
 use crate::metric::Metric;
 use crate::number::{four_digits, two_digits};
 use crate::page;
-use crate::report::ReportError;
+use crate::report::{ReportError, put};
 use crate::result::pretty;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -18,17 +18,14 @@ use std::path::Path;
 /// Files that cannot be read or written.
 pub fn write(league: &League, blind: &[BlindComparison], folder: &Path) -> Result<(), ReportError> {
     let document = document(league, blind);
-    let put = |name: &str, bytes: &[u8]| {
-        let path = folder.join(name);
-        std::fs::write(&path, bytes).map_err(|source| ReportError::Write { path, source })
-    };
     for (_, _, JudgedCode { submission, .. }) in &league.judged {
         let (name, cell) = (archive_name(&submission.path), submission.path.parent().unwrap_or(Path::new("")));
         let read = |source| ReportError::Write { path: cell.to_owned(), source };
-        put(&format!("{name}.tar"), &archive(cell, &submission.files(), &name).map_err(read)?)?;
+        put(folder.join(format!("{name}.tar")), archive(cell, &submission.files(), &name).map_err(read)?)?;
     }
-    put("league.json", pretty(&document).as_bytes())?;
-    put("index.html", page::fill(&[("league.html", include_str!("league.html"))], "league.html", &document)?.as_bytes())
+    put(folder.join("league.json"), pretty(&document))?;
+    let html = page::fill(&[("league.html", include_str!("league.html"))], "league.html", &document)?;
+    put(folder.join("index.html"), html)
 }
 
 /// Name of the archive of a submission: its code and case.

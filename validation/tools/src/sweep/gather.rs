@@ -8,7 +8,7 @@ use crate::case::Registry;
 use crate::evaluation::{EvaluationRecord, MetricValue};
 use crate::figure::{Axis, Figure, FigureError, Mark, Panel, Series};
 use crate::metric::{Variant, Verdict};
-use crate::output::{FileError, write_whole};
+use crate::output::{FileError, csv_text, write_whole};
 use crate::page;
 use std::collections::BTreeSet;
 
@@ -24,10 +24,11 @@ pub fn gather(sweep: &SweepFolder, registry: Registry) -> Result<SweepProgress, 
     let records: Vec<(&SweepRun, EvaluationRecord)> =
         sweep.manifest().entries.iter().filter_map(|entry| sweep.record(entry).map(|record| (entry, record))).collect();
     let names = &sweep.manifest().parameters;
-    let results = results(names, &records, registry).map_err(unwritable)?;
-    write_whole(&sweep.path().join("results.csv"), &results).map_err(unwritable)?;
-    let failures = failures(names, &records).map_err(unwritable)?;
-    write_whole(&sweep.path().join("failures.csv"), &failures).map_err(unwritable)?;
+    let tables = [("results.csv", results(names, &records, registry)), ("failures.csv", failures(names, &records))];
+    for (name, rows) in tables {
+        let text = csv_text(rows).map_err(|error| unwritable(error.into()))?;
+        write_whole(&sweep.path().join(name), text.as_bytes()).map_err(unwritable)?;
+    }
     for name in unknown_metrics(sweep.manifest(), &records) {
         tracing::warn!("no run gives the metric `{name}` that the plan wants drawn; results.csv names those there are");
     }
@@ -50,27 +51,28 @@ fn unknown_metrics<'a>(manifest: &'a Manifest, records: &[(&SweepRun, Evaluation
 }
 
 /// One line per metric: run, case, tier, parameters, metric, variant, value, unit, verdict, and the reason of a value that is not a number.
-fn results(
-    names: &[String],
-    records: &[(&SweepRun, EvaluationRecord)],
-    registry: Registry,
-) -> std::io::Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let (head, tail) = (["run", "case", "tier"], ["metric", "variant", "value", "unit", "verdict", "reason"]);
-    writer.write_record(head.into_iter().chain(names.iter().map(String::as_str)).chain(tail))?;
+fn results(names: &[String], records: &[(&SweepRun, EvaluationRecord)], registry: Registry) -> Vec<Vec<String>> {
+    let mut rows = vec![heading(names, &["metric", "variant", "value", "unit", "verdict", "reason"])];
     for (entry, record) in records.iter().filter(|(_, record)| record.failure.is_none()) {
-        for metric in &record.metrics {
-            writer.write_record(first(entry).into_iter().chain([
+        rows.extend(record.metrics.iter().map(|metric| {
+            let tail = [
                 metric.name.clone(),
                 metric.variant.to_string(),
                 metric.value.to_string(),
                 metric.unit.clone(),
                 metric.verdict.word().to_owned(),
                 reason(metric, &record.case, registry),
-            ]))?;
-        }
+            ];
+            [first(entry), tail.to_vec()].concat()
+        }));
     }
-    writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
+    rows
+}
+
+/// Headings of the first cells, and those of what a table is about.
+fn heading(names: &[String], tail: &[&str]) -> Vec<String> {
+    let names = names.iter().map(String::as_str);
+    ["run", "case", "tier"].into_iter().chain(names).chain(tail.iter().copied()).map(str::to_owned).collect()
 }
 
 /// Reason of a value that is not a number: the one that the case states, else what the run did not give; empty beside a number.
@@ -86,16 +88,10 @@ fn reason(metric: &MetricValue, case: &str, registry: Registry) -> String {
 }
 
 /// One line per run that failed: run, case, tier, parameters, reason.
-fn failures(names: &[String], records: &[(&SweepRun, EvaluationRecord)]) -> std::io::Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let head = ["run", "case", "tier"];
-    writer.write_record(head.into_iter().chain(names.iter().map(String::as_str)).chain(["reason"]))?;
-    for (entry, record) in records {
-        if let Some(reason) = &record.failure {
-            writer.write_record(first(entry).into_iter().chain([reason.clone()]))?;
-        }
-    }
-    writer.into_inner().map_err(|error| std::io::Error::other(error.to_string()))
+fn failures(names: &[String], records: &[(&SweepRun, EvaluationRecord)]) -> Vec<Vec<String>> {
+    let row =
+        |(entry, record): &(&SweepRun, EvaluationRecord)| Some([first(entry), vec![record.failure.clone()?]].concat());
+    std::iter::once(heading(names, &["reason"])).chain(records.iter().filter_map(row)).collect()
 }
 
 /// First cells of every line: number, label, tier and parameters. Words lose TOML's quotes.
