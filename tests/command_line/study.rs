@@ -375,7 +375,7 @@ fn a_suite_is_one_report_with_a_baseline_of_its_own() {
         assert!(message.contains(said), "{message}");
     };
     place.file("snapshots/known_failures.toml", "");
-    refused("known_failures.toml: its name is expected_failures.toml from now on; rename it");
+    refused("known_failures.toml`: its name is expected_failures.toml from now on; rename it");
     std::fs::remove_file(place.path("snapshots/known_failures.toml")).expect("there");
     std::fs::write(place.path("balances.toml"), b"\xff\xfes\0").expect("writable");
     refused("balances.toml: cannot be read (text in UTF-16, not in UTF-8); save it as plain text");

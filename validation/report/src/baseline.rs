@@ -1,11 +1,10 @@
 //! The baseline, `tests/snapshots/TIER/CASE.snap`: what every metric was, and whether it has moved since. The report and
 //! the snapshot test read the same files and compare in the same way.
 
-use super::error::{BaselineError, read_if_there};
-use super::shipped;
+use super::error::{check_case_name, damaged, read_if_there};
+use super::{put, shipped};
 use super::snapshot_text::{self, SnapshotLine};
-use crate::case::Tier;
-use crate::figure::is_file_name;
+use crate::case::{ParameterError, Tier};
 use crate::input::DOCUMENT;
 use crate::metric::{Metric, Variant, Verdict};
 use crate::number::with_unit;
@@ -170,29 +169,27 @@ impl Baseline {
     ///
     /// # Errors
     /// If the file is there but cannot be read, is malformed, or belongs to another case or tier.
-    pub fn read(folder: &Path, case: &str, tier: Tier) -> Result<Self, BaselineError> {
-        if !is_file_name(case) {
-            return Err(BaselineError::Name { name: case.to_owned() });
-        }
+    pub fn read(folder: &Path, case: &str, tier: Tier) -> Result<Self, ParameterError> {
+        check_case_name(case)?;
         let path = Self::path(folder, case, tier);
         let Some(text) = read_if_there(&path, DOCUMENT)? else { return Ok(Self::default()) };
-        Self::parse(path, &text, case, tier)
+        Self::parse(&path, &text, case, tier)
     }
 
     /// The values of `case` that the program carries; none where there are none.
     ///
     /// # Errors
     /// If they are malformed, which a test excludes.
-    pub fn shipped(case: &str, tier: Tier) -> Result<Self, BaselineError> {
+    pub fn shipped(case: &str, tier: Tier) -> Result<Self, ParameterError> {
         let path = Self::path(Path::new(""), case, tier);
         match shipped::text(&path) {
-            Some(text) => Self::parse(path, text, case, tier),
+            Some(text) => Self::parse(&path, text, case, tier),
             None => Ok(Self::default()),
         }
     }
 
-    fn parse(path: PathBuf, text: &str, case: &str, tier: Tier) -> Result<Self, BaselineError> {
-        let refuse = |message: String| BaselineError::Content { path: path.clone(), message };
+    fn parse(path: &Path, text: &str, case: &str, tier: Tier) -> Result<Self, ParameterError> {
+        let refuse = |reason: String| damaged(path, reason);
         let (commit, lines) = snapshot_text::parse(text, case, tier.name()).map_err(refuse)?;
         let mut read = Self::default();
         read.made_at(case, commit);
@@ -230,21 +227,15 @@ impl Baseline {
     ///
     /// # Errors
     /// If the folder or file cannot be written.
-    pub fn write(&self, folder: &Path, case: &str, tier: Tier, commit: &str) -> Result<PathBuf, BaselineError> {
-        if !is_file_name(case) {
-            return Err(BaselineError::Name { name: case.to_owned() });
-        }
+    pub fn write(&self, folder: &Path, case: &str, tier: Tier, commit: &str) -> Result<PathBuf, ParameterError> {
+        check_case_name(case)?;
         let path = Self::path(folder, case, tier);
         let content = self.content(case);
         if path.exists() && Self::read(folder, case, tier)?.content(case) == content {
             return Ok(path);
         }
         let text = snapshot_text::text(case, tier.name(), commit, &content);
-        let write_error = |path: &Path, source| BaselineError::Write { path: path.to_owned(), source };
-        if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent).map_err(|source| write_error(parent, source))?;
-        }
-        std::fs::write(&path, text).map_err(|source| write_error(&path, source))?;
+        put(&path, text)?;
         Ok(path)
     }
 

@@ -2,10 +2,8 @@
 //! program carries. Those of a suite of studies lie in its folder.
 
 use super::baseline::{Baseline, MetricKey};
-use super::error::BaselineError;
 use super::expected_failures::{ExpectedFailure, ExpectedFailures};
-use crate::case::ParameterError;
-use crate::case::Tier;
+use crate::case::{ParameterError, Tier};
 use crate::input::{FieldError, shown};
 use crate::store::provenance::workspace;
 use std::path::{Path, PathBuf};
@@ -41,7 +39,7 @@ impl CommittedValues {
     ///
     /// # Errors
     /// Values that are malformed.
-    pub fn baseline(&self, case: &str, tier: Tier) -> Result<Baseline, BaselineError> {
+    pub fn baseline(&self, case: &str, tier: Tier) -> Result<Baseline, ParameterError> {
         let folder = self.folder();
         let own = self.is_own(&Baseline::path(&folder, case, tier));
         if own { Baseline::read(&folder, case, tier) } else { Baseline::shipped(case, tier) }
@@ -89,12 +87,12 @@ impl CommittedValues {
     ///
     /// # Errors
     /// A list that is malformed, or has the name of earlier versions.
-    pub fn expected_failures(&self) -> Result<ExpectedFailures, BaselineError> {
+    pub fn expected_failures(&self) -> Result<ExpectedFailures, ParameterError> {
         let path = self.folder().join(EXPECTED_FAILURES);
         let former = self.folder().join(KNOWN_FAILURES);
         if former.exists() {
-            let message = format!("its name is {EXPECTED_FAILURES} from now on; rename it");
-            return Err(BaselineError::Content { path: former, message });
+            let defect = format!("its name is {EXPECTED_FAILURES} from now on");
+            return Err(FieldError::finding(&shown(&former), defect, "rename it").into());
         }
         if self.is_own(&path) { ExpectedFailures::read(&path) } else { ExpectedFailures::shipped() }
     }

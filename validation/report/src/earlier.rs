@@ -1,10 +1,10 @@
 //! An earlier report's folder as the baseline of a new one.
 
 use super::baseline::{Baseline, MetricKey};
-use super::error::EarlierError;
-use crate::case::Tier;
+use super::error::read_if_there;
+use crate::case::{ParameterError, Tier};
 use crate::figure::is_file_name;
-use crate::input::{DOCUMENT, read_text};
+use crate::input::{DOCUMENT, FieldError, shown};
 use crate::result::MetricsDocument;
 use std::path::Path;
 
@@ -14,21 +14,21 @@ impl Baseline {
     ///
     /// # Errors
     /// If it holds none of them, one cannot be read, or one is of another tier.
-    pub fn of_report(folder: &Path, cases: &[String], tier: Tier) -> Result<Self, EarlierError> {
+    pub fn of_report(folder: &Path, cases: &[String], tier: Tier) -> Result<Self, ParameterError> {
         let mut baseline = Self::default();
+        let refused = |path: &Path, defect: &str| {
+            let remedy = "give the folder of an earlier report of the same tier and cases";
+            FieldError::finding("--against", format!("{}: {defect}", shown(path)), remedy)
+        };
         let mut found = false;
         for case in cases.iter().filter(|case| is_file_name(case)) {
             let path = folder.join("cases").join(case).join("metrics.json");
-            let text = match read_text(&path, DOCUMENT) {
-                Ok(text) => text,
-                Err(error) if error.kind() == std::io::ErrorKind::NotFound => continue,
-                Err(source) => return Err(EarlierError::Read { path, source }),
-            };
-            let refuse = |message: String| EarlierError::Content { path: path.clone(), message };
-            let document: MetricsDocument = serde_json::from_str(&text).map_err(|error| refuse(error.to_string()))?;
+            let Some(text) = read_if_there(&path, DOCUMENT)? else { continue };
+            let document: MetricsDocument =
+                serde_json::from_str(&text).map_err(|error| refused(&path, &error.to_string()))?;
             if document.tier != tier {
                 let (its, own) = (document.tier.name(), tier.name());
-                return Err(refuse(format!("it is of the {its} tier, not of the {own} tier")));
+                return Err(refused(&path, &format!("it is of the {its} tier, not of the {own} tier")).into());
             }
             found = true;
             baseline.made_at(case, &document.provenance.commit);
@@ -38,11 +38,9 @@ impl Baseline {
                 baseline.add(key, entry.value.unwrap_or(f64::NAN), &entry.unit, entry.verdict);
             }
         }
-        if found {
-            Ok(baseline)
-        } else {
-            let message = "it holds none of the cases".to_owned();
-            Err(EarlierError::Content { path: folder.join("cases"), message })
+        if !found {
+            return Err(refused(&folder.join("cases"), "it holds none of the cases").into());
         }
+        Ok(baseline)
     }
 }

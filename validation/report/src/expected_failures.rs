@@ -1,8 +1,9 @@
 //! Gates that honest attempts did not reach. They stay red on the page, but only a change of them is an error.
 
 use super::baseline::{MetricKey, snapshot_tolerance};
-use super::error::{BaselineError, read_if_there};
+use super::error::{damaged, read_if_there};
 use super::shipped;
+use crate::case::ParameterError;
 use crate::input::WRITTEN_BY_HAND;
 use crate::metric::{Metric, Variant, Verdict};
 use serde::{Deserialize, Serialize};
@@ -75,7 +76,7 @@ impl ExpectedFailures {
     /// # Errors
     /// If the file cannot be read, has an unknown or missing field, an empty reason or date, a best value that is not
     /// finite, or names a gate twice.
-    pub fn read(path: &Path) -> Result<Self, BaselineError> {
+    pub fn read(path: &Path) -> Result<Self, ParameterError> {
         let Some(text) = read_if_there(path, WRITTEN_BY_HAND)? else { return Ok(Self::default()) };
         Self::parse(path, &text)
     }
@@ -84,13 +85,13 @@ impl ExpectedFailures {
     ///
     /// # Errors
     /// If it is malformed, which a test excludes.
-    pub fn shipped() -> Result<Self, BaselineError> {
+    pub fn shipped() -> Result<Self, ParameterError> {
         let path = Path::new("expected_failures.toml");
         shipped::text(path).map_or_else(|| Ok(Self::default()), |text| Self::parse(path, text))
     }
 
-    fn parse(path: &Path, text: &str) -> Result<Self, BaselineError> {
-        let refuse = |message: String| BaselineError::Content { path: path.to_owned(), message };
+    fn parse(path: &Path, text: &str) -> Result<Self, ParameterError> {
+        let refuse = |reason: String| damaged(path, reason);
         let list: Self = toml::from_str(text).map_err(|error| refuse(error.to_string().trim_end().to_owned()))?;
         for (index, failure) in list.failures.iter().enumerate() {
             let name = format!("failure {} ({} {} {})", index + 1, failure.case, failure.metric, failure.variant);
@@ -165,7 +166,7 @@ date = "2025-01-31"
 reason = "slip at the wall"
 "#;
 
-    fn read(text: &str) -> Result<ExpectedFailures, BaselineError> {
+    fn read(text: &str) -> Result<ExpectedFailures, ParameterError> {
         let folder = tempfile::tempdir().expect("folder");
         let path = folder.path().join("expected_failures.toml");
         std::fs::write(&path, text).expect("file");

@@ -2,8 +2,9 @@
 //! judged stays in the list, and `gates_removed.toml` has to say why it went: a limit cannot be lost in a change of something else.
 
 use super::baseline::{Baseline, MetricKey};
-use super::error::{BaselineError, read_if_there};
-use crate::case::Tier;
+use super::error::{damaged, read_if_there};
+use super::put;
+use crate::case::{ParameterError, Tier};
 use crate::input::{DOCUMENT, WRITTEN_BY_HAND};
 use crate::metric::Variant;
 use serde::Deserialize;
@@ -33,14 +34,13 @@ impl GateList {
     ///
     /// # Errors
     /// If the file is there but cannot be read, or a line of it is no gate.
-    pub fn read(folder: &Path, tier: Tier) -> Result<Self, BaselineError> {
+    pub fn read(folder: &Path, tier: Tier) -> Result<Self, ParameterError> {
         let path = Self::path(folder, tier);
         let Some(text) = read_if_there(&path, DOCUMENT)? else { return Ok(Self::default()) };
         let mut list = Self::default();
         for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')) {
-            let message = || format!("line {} is {line:?} instead of `case | metric | variant`", index + 1);
-            let gate = gate(line).ok_or_else(|| BaselineError::Content { path: path.clone(), message: message() })?;
-            list.gates.insert(gate);
+            let reason = || format!("line {} is {line:?} instead of `case | metric | variant`", index + 1);
+            list.gates.insert(gate(line).ok_or_else(|| damaged(&path, reason()))?);
         }
         Ok(list)
     }
@@ -54,16 +54,11 @@ impl GateList {
     ///
     /// # Errors
     /// If the folder or file cannot be written.
-    pub fn write(&self, folder: &Path, tier: Tier) -> Result<(), BaselineError> {
-        let path = Self::path(folder, tier);
+    pub fn write(&self, folder: &Path, tier: Tier) -> Result<(), ParameterError> {
         let text = self.gates.iter().fold(HEAD.to_owned(), |text, MetricKey { case, metric, variant }| {
             text + &format!("{case} | {metric} | {variant}\n")
         });
-        let write = || {
-            std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
-            std::fs::write(&path, text)
-        };
-        write().map_err(|source| BaselineError::Write { path: path.clone(), source })
+        Ok(put(&Self::path(folder, tier), text)?)
     }
 
     /// Contradictions between the list, the gates among all baseline values of the tier and the gates that went, a line each:
@@ -116,10 +111,10 @@ impl RemovedGates {
     ///
     /// # Errors
     /// If the file cannot be read, or an entry has an unknown or a missing field.
-    pub fn read(folder: &Path) -> Result<Self, BaselineError> {
+    pub fn read(folder: &Path) -> Result<Self, ParameterError> {
         let path = folder.join(REMOVED);
         let Some(text) = read_if_there(&path, WRITTEN_BY_HAND)? else { return Ok(Self::default()) };
-        toml::from_str(&text).map_err(|error| BaselineError::Content { path, message: error.to_string() })
+        toml::from_str(&text).map_err(|error| damaged(&path, error.to_string()))
     }
 }
 

@@ -48,7 +48,7 @@ use print::Chapter;
 
 pub use baseline::{Baseline, Change, MetricKey};
 pub use committed::CommittedValues;
-pub use error::{BaselineError, EarlierError, ProcessError, ReportError};
+pub use error::ReportError;
 pub use exit::Exit;
 pub use expected_failures::{ExpectedFailure, ExpectedFailures, ListStatus};
 pub use gate_list::{GateList, RemovedGates};
@@ -70,8 +70,10 @@ use case::{CaseResult, Features, Registry, Tier};
 use control::ControlTrial;
 use evidence::Paper;
 use figure::{Figure, FigureError};
+use input::FieldError;
 use measured::Measurements;
 use metric::Quantity;
+use output::FileError;
 use rayon::prelude::*;
 use result::MetricsDocument;
 use serde::Serialize;
@@ -213,10 +215,7 @@ struct DrawnFigure {
 /// If a case name is no folder name, or a file cannot be written.
 fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
     let report = judgement.report;
-    if let Some(case) = report.cases.iter().find(|case| !figure::is_file_name(&case.name)) {
-        return Err(ReportError::Name { name: case.name.clone() });
-    }
-    make(folder)?;
+    report.cases.iter().try_for_each(|case| error::check_case_name(&case.name))?;
     let drawn: Vec<Vec<DrawnFigure>> = report
         .cases
         .par_iter()
@@ -230,15 +229,15 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
         let pictures = page::pictures(report, &drawn, judged.case);
         let text = case_page::render(report, judged, pictures, Some(neighbours(report, name)))?;
         chapters.push(Chapter::of(format!("case-{name}"), &text));
-        put(place.join("index.html"), &text)?;
+        put(&place.join("index.html"), &text)?;
     }
     let mut add = |name: &str, text: String| {
         chapters.push(Chapter::of(name, &text));
-        put(folder.join(format!("{name}.html")), &text)
+        put(&folder.join(format!("{name}.html")), &text)
     };
     if !judgement.papers.is_empty() {
         add("papers", papers_page::render(report, &judgement.papers)?)?;
-        put(folder.join("papers.json"), &papers_page::json(report.tier, &judgement.papers))?;
+        put(&folder.join("papers.json"), papers_page::json(report.tier, &judgement.papers))?;
     }
     if let Some(features) = &report.features {
         add("coverage", coverage_page::render(report, features)?)?;
@@ -257,13 +256,13 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
     let quantities = scatter::quantities(report);
     let compared =
         draw_figures(&scatter::figures(&quantities), &folder.join("figures").join(scatter::FOLDER), drawings)?;
-    put(folder.join("metrics.json"), &scatter::json(&quantities))?;
+    put(&folder.join("metrics.json"), scatter::json(&quantities))?;
     let comparisons = scatter::rows(&quantities, &compared);
     let small = draw_small(report, &folder.join("figures").join(overview::FOLDER), drawings)?;
     let overview = page::render(judgement, (&drawn, &small), comparisons)?;
     chapters.insert(0, Chapter::of("index", &overview));
-    put(folder.join("print.html"), &print::render(&report.title, &chapters)?)?;
-    put(folder.join("index.html"), &overview)
+    put(&folder.join("print.html"), print::render(&report.title, &chapters)?)?;
+    Ok(put(&folder.join("index.html"), overview)?)
 }
 
 /// Writes the page of each case, which is one as a rule, straight into `folder`: what [`write()`] puts into
@@ -272,31 +271,28 @@ fn write_alone(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) ->
     for judged in &judgement.cases {
         let drawn = draw(judged.case, &folder.join("figures"), drawings)?;
         put_case(judged.case, folder)?;
-        put(folder.join("index.html"), &case_page::render(judgement.report, judged, &drawn, None)?)?;
+        put(&folder.join("index.html"), case_page::render(judgement.report, judged, &drawn, None)?)?;
     }
     Ok(())
 }
 
 /// Writes the verdicts as JUnit's XML, for programs that show tests: one per gate.
 fn write_junit(judgement: &Judgement<'_>, path: &Path) -> Result<(), ReportError> {
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        make(folder)?;
-    }
-    put(path.to_owned(), &junit::text(judgement))
+    put(path, junit::text(judgement)).map_err(|_| {
+        let rule = "a file that can be written";
+        FieldError::new("--junit", path.display(), rule, "check the folder and its permissions").into()
+    })
 }
 
 /// A case's numbers, parameters and measurements, and the tables of reference data that it has.
 fn put_case(case: &CaseReport, folder: &Path) -> Result<(), ReportError> {
-    make(folder)?;
-    put(folder.join("metrics.json"), &MetricsDocument::of(case, rayon::current_num_threads()).text())?;
-    put(folder.join("case.toml"), &case.parameters_toml)?;
+    put(&folder.join("metrics.json"), MetricsDocument::of(case, rayon::current_num_threads()).text())?;
+    put(&folder.join("case.toml"), &case.parameters_toml)?;
     for (name, text) in case_page::tables(&case.name) {
-        let path = folder.join("reference").join(name);
-        make(path.parent().unwrap_or(folder))?;
-        put(path, text)?;
+        put(&folder.join("reference").join(name), text)?;
     }
     let kept = case.measured.iter().try_for_each(|own| own.keep(folder));
-    kept.map_err(|source| ReportError::Write { path: folder.to_owned(), source })
+    Ok(kept.map_err(|error| FileError::unwritable(folder, &error))?)
 }
 
 /// The cases before and after one, in the report's order.
@@ -365,14 +361,15 @@ fn as_drawn(
     Ok(DrawnFigure { caption: caption.to_owned(), name: name.to_owned(), moves, size, failure })
 }
 
-fn make(folder: &Path) -> Result<(), ReportError> {
-    std::fs::create_dir_all(folder).map_err(|source| ReportError::Write { path: folder.to_owned(), source })
+fn make(folder: &Path) -> Result<(), FileError> {
+    std::fs::create_dir_all(folder).map_err(|error| FileError::unwritable(folder, &error))
 }
 
-/// Writes a file of a page.
+/// Writes a file, and before it the folder that it lies in.
 ///
 /// # Errors
-/// A file that cannot be written.
-pub fn put(path: PathBuf, contents: impl AsRef<[u8]>) -> Result<(), ReportError> {
-    std::fs::write(&path, contents).map_err(|source| ReportError::Write { path, source })
+/// A file or folder that cannot be written.
+pub fn put(path: &Path, text: impl AsRef<[u8]>) -> Result<(), FileError> {
+    make(path.parent().unwrap_or(path))?;
+    std::fs::write(path, text).map_err(|error| FileError::unwritable(path, &error))
 }

@@ -2,7 +2,7 @@
 //! written, and the exit code follows.
 
 use super::baseline::Baseline;
-use super::error::ProcessError;
+use super::error::ReportError;
 use super::judgement::{Judgement, judge};
 use super::moved::{MovedValue, moved};
 use super::{
@@ -71,7 +71,7 @@ impl ReportRequest {
     ///
     /// # Errors
     /// Committed values or an earlier report that are malformed, a folder that cannot be written.
-    pub fn begin(self) -> Result<Result<ReportProcess, ReportOutcome>, ProcessError> {
+    pub fn begin(self) -> Result<Result<ReportProcess, ReportOutcome>, ReportError> {
         let baseline = self.baseline()?;
         let inputs = self.options.as_ref().and_then(|options| unchanged::inputs(options, &self.committed));
         if let Some((exit, text)) = inputs.as_ref().and_then(|inputs| unchanged::said(&self.folder, inputs)) {
@@ -84,7 +84,7 @@ impl ReportRequest {
     }
 
     /// Values of an earlier report, or the committed ones.
-    fn baseline(&self) -> Result<Baseline, ProcessError> {
+    fn baseline(&self) -> Result<Baseline, ReportError> {
         if let Some(folder) = &self.against {
             let names: Vec<String> = self.named.iter().map(|(name, _)| name.clone()).collect();
             let tier = self.named.first().map_or(Tier::Quick, |(_, tier)| *tier);
@@ -103,7 +103,7 @@ impl ReportProcess {
     ///
     /// # Errors
     /// Files that cannot be written.
-    pub fn finish(mut self, cases: Vec<CaseReport>, drawings: &Drawings) -> Result<ReportOutcome, ProcessError> {
+    pub fn finish(mut self, cases: Vec<CaseReport>, drawings: &Drawings) -> Result<ReportOutcome, ReportError> {
         if self.request.accept {
             self.baseline = accept(&self.request.committed, &cases)?;
         }
@@ -172,7 +172,7 @@ impl ReportProcess {
 }
 
 /// Makes the values of these cases the baseline.
-fn accept(committed: &CommittedValues, cases: &[CaseReport]) -> Result<Baseline, ProcessError> {
+fn accept(committed: &CommittedValues, cases: &[CaseReport]) -> Result<Baseline, ReportError> {
     let mut baseline = Baseline::default();
     let folder = committed.folder();
     for case in cases {

@@ -1,7 +1,7 @@
 //! The end of `bagnold run`: one case or study, judged and written into its folder.
 
 use super::baseline::{Baseline, MetricKey};
-use super::error::ProcessError;
+use super::error::ReportError;
 use super::judgement::judge;
 use super::{CaseReport, Exit, ExpectedFailures, Report, ReportProvenance, summary};
 use crate::metric::{Metric, Variant, Verdict};
@@ -57,7 +57,7 @@ impl SingleRun {
         mut case: CaseReport,
         claimed: OutputFolder,
         drawings: &Drawings,
-    ) -> Result<SingleOutcome, ProcessError> {
+    ) -> Result<SingleOutcome, ReportError> {
         if self.has_own_parameters {
             let fails = |key: &MetricKey| metric(&case, key).is_some_and(|own| own.verdict() == Verdict::Fail);
             self.expected_failures.failures.retain(|failure| fails(&failure.key()));

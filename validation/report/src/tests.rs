@@ -285,7 +285,7 @@ fn empty_reports_and_escaping_names() {
     assert!(page.contains("Nothing was judged") && page.contains("no metrics"));
     assert!(matches!(
         write(&report(vec![case("../film", Vec::new())]), folder.path(), &Drawings::default()),
-        Err(ReportError::Name { .. })
+        Err(ReportError::Field(_))
     ));
 }
 

@@ -3,7 +3,7 @@
 use crate::ToolError;
 use crate::case::ParameterError;
 use crate::output::{FileError, FolderError, reason};
-use crate::report::{ProcessError, ReportError};
+use crate::report::ReportError;
 
 /// Input that is refused, or output that cannot be written: each message names file, field, value, rule and remedy.
 #[derive(Debug, thiserror::Error)]
@@ -38,9 +38,6 @@ pub enum ProgramError {
     },
     /// A report or a run that is not finished.
     #[error(transparent)]
-    Process(#[from] ProcessError),
-    /// A report cannot be written.
-    #[error("failed to {0}; check the folder and its permissions")]
     Report(#[from] ReportError),
 }
 

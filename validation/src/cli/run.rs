@@ -11,7 +11,7 @@ use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Reques
 use crate::checkpoint::{Checkpoints, StoredState};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
-use crate::report::{Baseline, CommittedValues, ProcessError, SingleRun};
+use crate::report::{Baseline, CommittedValues, SingleRun};
 use crate::result::States;
 use crate::store::StorePolicy;
 use std::io::Write;
@@ -121,11 +121,11 @@ fn judged_by(
     registry: Registry,
 ) -> Result<SingleRun, ProgramError> {
     let committed = CommittedValues::OfCases;
-    let expected_failures = committed.expected_failures().map_err(ProcessError::from)?;
+    let expected_failures = committed.expected_failures()?;
     let own = registry.find(name).ok().filter(|case| !case.is_study() || case.name() == command.target);
     let as_it_comes = own.map(|case| case.prepare(tier, &Changes::default())).transpose()?;
     let gates = as_it_comes.as_ref().map(|case| committed.baseline(case.name(), tier)).transpose();
-    let gates = gates.map_err(ProcessError::from)?.unwrap_or_default();
+    let gates = gates?.unwrap_or_default();
     Ok(SingleRun {
         started: Instant::now(),
         baseline: if changed { Baseline::default() } else { gates.clone() },

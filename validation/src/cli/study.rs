@@ -8,7 +8,7 @@ use super::publication::Publication;
 use super::simulation::{announce, introduce, reject_fast, simulate};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
-use crate::report::{Baseline, CommittedValues, ProcessError, SingleRun};
+use crate::report::{Baseline, CommittedValues, SingleRun};
 use crate::study::{Study, is_study};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -43,8 +43,8 @@ pub(super) fn run(
         if command.settings.is_empty() { committed.baseline(study.name(), tier) } else { Ok(Baseline::default()) };
     let judged_by = SingleRun {
         started: Instant::now(),
-        baseline: own.map_err(ProcessError::from)?,
-        expected_failures: committed.expected_failures().map_err(ProcessError::from)?,
+        baseline: own?,
+        expected_failures: committed.expected_failures()?,
         gates: Baseline::default(),
         all_runs: Vec::new(),
         is_whole: true,

@@ -25,11 +25,11 @@ pub fn write(all: &[Results], folder: &Path) -> Result<Vec<Difference>, ReportEr
     let cases: BTreeSet<&String> = all.iter().flat_map(|results| results.cases.keys()).collect();
     let figures: Vec<Figure> = cases.into_iter().flat_map(|case| figures::all(all, case)).collect();
     let pictures = page::draw(&figures, &folder.join("figures"))?;
-    put(folder.join("differences.json"), pretty(&found.iter().map(line).collect::<Vec<_>>()))?;
+    put(&folder.join("differences.json"), pretty(&found.iter().map(line).collect::<Vec<_>>()))?;
     let parameters = changed(all);
-    put(folder.join("parameters.json"), pretty(&parameters))?;
+    put(&folder.join("parameters.json"), pretty(&parameters))?;
     let moved = found.iter().filter(|one| is_moved(one)).count();
-    put(folder.join("index.html"), render(all, &found, moved, parameters, pictures)?)?;
+    put(&folder.join("index.html"), render(all, &found, moved, parameters, pictures)?)?;
     Ok(found.into_iter().filter(is_moved).collect())
 }
 

@@ -4,6 +4,7 @@ use super::document::{biases, document, given, junit};
 use super::{CodeComparison, JudgedCode, MetricComparison};
 use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
+use crate::output::FileError;
 use crate::page::{self, PageFigure};
 use crate::report::{ReportError, Severity, put};
 use crate::result::pretty;
@@ -19,16 +20,16 @@ pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path
     let pictures = page::draw(&judgement.figures, &folder.join("figures"))?;
     for table in &judgement.own.tables {
         let tables = folder.join("tables");
-        let failed = |source| ReportError::Write { path: tables.clone(), source };
+        let failed = |error| FileError::unwritable(&tables, &error);
         std::fs::create_dir_all(&tables).map_err(failed)?;
         table.write(&tables).map_err(failed)?;
     }
-    put(folder.join("metrics.json"), pretty(&document(judgement)))?;
-    put(folder.join("case.toml"), &judgement.own.parameters_toml)?;
+    put(&folder.join("metrics.json"), pretty(&document(judgement)))?;
+    put(&folder.join("case.toml"), &judgement.own.parameters_toml)?;
     if let Some(path) = junit_file {
-        put(path.to_owned(), junit(judgement))?;
+        put(path, junit(judgement))?;
     }
-    put(folder.join("index.html"), render(judgement, pictures)?)
+    Ok(put(&folder.join("index.html"), render(judgement, pictures)?)?)
 }
 
 fn render(judgement: &CodeComparison, pictures: Vec<PageFigure>) -> Result<String, minijinja::Error> {

@@ -6,6 +6,7 @@ use super::{League, LeagueRow};
 use crate::judge::{JudgedCode, mark, other_limit};
 use crate::metric::Metric;
 use crate::number::{four_digits, two_digits};
+use crate::output::FileError;
 use crate::page;
 use crate::report::{ReportError, put};
 use crate::result::pretty;
@@ -20,12 +21,12 @@ pub fn write(league: &League, blind: &[BlindComparison], folder: &Path) -> Resul
     let document = document(league, blind);
     for (_, _, JudgedCode { submission, .. }) in &league.judged {
         let (name, cell) = (archive_name(&submission.path), submission.path.parent().unwrap_or(Path::new("")));
-        let read = |source| ReportError::Write { path: cell.to_owned(), source };
-        put(folder.join(format!("{name}.tar")), archive(cell, &submission.files(), &name).map_err(read)?)?;
+        let read = |error| FileError::unreadable(cell, &error);
+        put(&folder.join(format!("{name}.tar")), archive(cell, &submission.files(), &name).map_err(read)?)?;
     }
-    put(folder.join("league.json"), pretty(&document))?;
+    put(&folder.join("league.json"), pretty(&document))?;
     let html = page::fill(&[("league.html", include_str!("league.html"))], "league.html", &document)?;
-    put(folder.join("index.html"), html)
+    Ok(put(&folder.join("index.html"), html)?)
 }
 
 /// Name of the archive of a submission: its code and case.
