@@ -29,11 +29,6 @@ struct CanonicalStudy {
 }
 
 impl CanonicalStudy {
-    /// The study of a file `NAME.toml` with this text, whose runs are of these cases.
-    fn new(name: &'static str, text: &'static str, cases: Registry) -> Self {
-        Self { name, text, cases, read: OnceLock::new() }
-    }
-
     /// The study.
     ///
     /// # Panics
@@ -230,5 +225,6 @@ impl PreparedCase for StudyPlan {
 #[must_use]
 pub fn canonical(files: &'static [(&'static str, &'static str)], cases: Registry) -> Vec<&'static dyn AnyCase> {
     let studies = files.iter().filter_map(|(name, text)| Some((name.strip_suffix(".toml")?, *text)));
-    studies.map(|(name, text)| &*Box::leak(Box::new(CanonicalStudy::new(name, text, cases))) as &dyn AnyCase).collect()
+    let study = |(name, text)| CanonicalStudy { name, text, cases, read: OnceLock::new() };
+    studies.map(|file| &*Box::leak(Box::new(study(file))) as &dyn AnyCase).collect()
 }

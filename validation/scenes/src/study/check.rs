@@ -49,21 +49,21 @@ pub(super) struct StudyCheck {
     scatter: Option<f64>,
 }
 
+impl CheckedQuantity {
+    /// The measured series that a column is compared with.
+    pub(super) fn measured(&self) -> Option<&Measurements> {
+        if let Self::Distance(_, measured, _) = self { Some(measured) } else { None }
+    }
+}
+
 impl StudyCheck {
     /// Types a check; files that it names stand beside the study.
     pub(super) fn of(text: &CheckText, beside: &Path) -> Result<Self, FieldError> {
         check_metric_name(&text.name)?;
         let read = read(text, beside)?;
-        let measured_source = match &read {
-            CheckedQuantity::Distance(_, measured, _) => Some(measured.source()),
-            _ => None,
-        };
-        let confidence = match &read {
-            CheckedQuantity::Distance(_, measured, _) => {
-                text.confidence.or(measured.confidence()).unwrap_or(Confidence::Low)
-            }
-            _ => text.confidence.unwrap_or(Confidence::Low),
-        };
+        let measured = read.measured();
+        let source = text.source.clone().or_else(|| measured.map(Measurements::source));
+        let confidence = text.confidence.or(measured.and_then(Measurements::confidence)).unwrap_or(Confidence::Low);
         for (field, value) in [("source", &text.source), ("reason", &text.reason)] {
             value.as_ref().map_or(Ok(()), |value| check_text(field, value))?;
         }
@@ -82,7 +82,7 @@ impl StudyCheck {
             read,
             reference: text.reference,
             standard_uncertainty: text.standard_uncertainty,
-            source: text.source.clone().or(measured_source),
+            source,
             confidence,
             limit,
             reason,
@@ -150,14 +150,9 @@ fn check_metric_name(name: &str) -> Result<(), FieldError> {
 
 /// Quantity of a check: exactly one of the ways.
 fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> {
-    let ways = [
-        ("metric", text.metric.is_some()),
-        ("value", text.value.is_some()),
-        ("compare", text.compare.is_some()),
-        ("order_of", text.order_of.is_some()),
-        ("difference_of", text.difference_of.is_some()),
-    ];
-    let given: Vec<&str> = ways.iter().filter(|(_, given)| *given).map(|(name, _)| *name).collect();
+    let fields = toml::Table::try_from(text).unwrap_or_default();
+    let ways = ["metric", "value", "compare", "order_of", "difference_of"];
+    let given: Vec<&str> = ways.into_iter().filter(|way| fields.contains_key(*way)).collect();
     let [way] = given[..] else {
         let value = if given.is_empty() { "none of them".to_owned() } else { given.join(" and ") };
         let rule = "exactly one of `metric`, `value`, `compare`, `order_of` and `difference_of`";
@@ -165,20 +160,16 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
         return Err(FieldError::new("value", value, rule, remedy));
     };
     let belongs = [
-        ("table", text.table.is_some(), "value and compare"),
-        ("column", text.column.is_some(), "value and compare"),
-        ("plus", text.plus.is_some(), "value and compare"),
-        ("minus", text.minus.is_some(), "value and compare"),
-        ("over", text.over.is_some(), "value and compare"),
-        ("from", text.from.is_some(), "value and compare"),
-        ("to", text.to.is_some(), "value and compare"),
-        ("distance", text.distance.is_some(), "compare"),
-        ("order_in", text.order_in.is_some(), "order_of"),
-        ("between", text.between.is_some(), "difference_of"),
+        (&["table", "column", "plus", "minus", "over", "from", "to"][..], "value and compare"),
+        (&["distance"], "compare"),
+        (&["order_in"], "order_of"),
+        (&["between"], "difference_of"),
     ];
-    if let Some((field, _, with)) = belongs.iter().find(|(_, given, with)| *given && !with.contains(way)) {
-        let rule = format!("absent beside `{way}`: it belongs to {with}");
-        return Err(FieldError::new(field, "given", &rule, "leave it out"));
+    for (names, with) in belongs.into_iter().filter(|(_, with)| !with.contains(way)) {
+        if let Some(field) = names.iter().find(|field| fields.contains_key(**field)) {
+            let rule = format!("absent beside `{way}`: it belongs to {with}");
+            return Err(FieldError::new(field, "given", &rule, "leave it out"));
+        }
     }
     match way {
         "metric" => Ok(CheckedQuantity::Metric(text.metric.clone().unwrap_or_default())),

@@ -120,9 +120,8 @@ impl Study {
                     |varied: &crate::case::VariedParameter| varied.label() == in_parameter && varied.values.len() > 1;
                 if !text.vary.iter().any(is_varied) {
                     let rule = "the name of a parameter that [[vary]] gives several values";
-                    return Err(
-                        within(FieldError::new("order_in", in_parameter, rule, "vary it, or name another")).into()
-                    );
+                    let error = FieldError::new("order_in", in_parameter, rule, "vary it, or name another");
+                    return Err(within(error).into());
                 }
             }
             checks.push(check);
@@ -259,10 +258,7 @@ impl Study {
 
     /// The files with measurements that its checks compare with.
     pub fn measurements(&self) -> impl Iterator<Item = &Measurements> {
-        self.checks.iter().filter_map(|check| match &check.read {
-            CheckedQuantity::Distance(_, measured, _) => Some(&**measured),
-            _ => None,
-        })
+        self.checks.iter().filter_map(|check| check.read.measured())
     }
 
     /// Number of cases that [`Self::prepare`] gives.
@@ -291,7 +287,16 @@ impl Study {
 
     fn judge_variants(&self, results: Vec<CaseResult>) -> Result<CaseResult, ParameterError> {
         let tier = results.first().map_or(Tier::Quick, |result| result.tier);
-        let mut judged = self.without_runs(tier, &results);
+        let mut judged = CaseResult {
+            name: self.text.study.clone(),
+            origin: results.first().map(|result| result.origin).unwrap_or_default(),
+            summary: self.text.summary.clone(),
+            description: self.text.description.trim().to_owned(),
+            tier,
+            parameters_toml: self.complete(tier),
+            command: "bagnold run case.toml".to_owned(),
+            ..CaseResult::default()
+        };
         for (place, check) in self.checks.iter().enumerate() {
             let wrong = |error: FieldError| error.within(&format!("checks[{place}]")).in_file(&self.file);
             let readings = self.readings(check, &results, &judged.metrics).map_err(wrong)?;
@@ -303,13 +308,8 @@ impl Study {
                 return Err(wrong(FieldError::new("only", format!("\"{}\"", check.only), &rule, remedy)).into());
             }
             for reading in readings.iter().filter(|reading| reading.value.is_nan()) {
-                tracing::warn!(
-                    "{}: {}, {}: {}",
-                    self.text.study,
-                    check.name,
-                    reading.variant,
-                    reading.reason_of_absence()
-                );
+                let (study, variant, reason) = (&self.text.study, &reading.variant, reading.reason_of_absence());
+                tracing::warn!("{study}: {}, {variant}: {reason}", check.name);
             }
             let metric = |reading: &Reading| {
                 check.metric(&reading.variant, reading.value, &reading.unit).known_as(&reading.uncertainty)
@@ -335,19 +335,6 @@ impl Study {
         Ok(judged)
     }
 
-    fn without_runs(&self, tier: Tier, results: &[CaseResult]) -> CaseResult {
-        CaseResult {
-            name: self.text.study.clone(),
-            origin: results.first().map(|result| result.origin).unwrap_or_default(),
-            summary: self.text.summary.clone(),
-            description: self.text.description.trim().to_owned(),
-            tier,
-            parameters_toml: self.complete(tier),
-            command: "bagnold run case.toml".to_owned(),
-            ..CaseResult::default()
-        }
-    }
-
     /// The study as a file that needs no other but the copies of its measurements.
     fn complete(&self, tier: Tier) -> String {
         let mut text = StudyText {
@@ -358,7 +345,7 @@ impl Study {
             ..self.text.clone()
         };
         for (own, check) in text.checks.iter_mut().zip(&self.checks) {
-            if let CheckedQuantity::Distance(_, measured, _) = &check.read {
+            if let Some(measured) = check.read.measured() {
                 own.compare = Some(PathBuf::from(measured.kept()));
             }
         }

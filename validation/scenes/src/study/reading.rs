@@ -22,6 +22,10 @@ pub(super) struct Reading {
 }
 
 impl Reading {
+    fn new(variant: Variant, value: f64, unit: impl Into<String>, curve: Option<RunCurve>) -> Self {
+        Self { variant, value, unit: unit.into(), curve, uncertainty: Uncertainty::default() }
+    }
+
     /// Reason for a value that is not a number.
     pub(super) fn reason_of_absence(&self) -> String {
         let ends = |curve: &RunCurve| Some((curve.over.clone(), curve.points.first()?.0, curve.points.last()?.0));
@@ -51,19 +55,13 @@ impl Study {
         }
         let mut readings = Vec::new();
         for (changed, result) in self.changes.iter().zip(results) {
-            let new = |run: &Variant, value: f64, unit: &str, curve: Option<RunCurve>| Reading {
-                variant: joined(&changed.variant, run),
-                value,
-                unit: unit.to_owned(),
-                curve,
-                uncertainty: Uncertainty::default(),
-            };
+            let of_run = |run: &Variant| joined(&changed.variant, run);
             match &check.read {
                 CheckedQuantity::Metric(name) => {
                     let metrics = probe::metrics(result, name)?;
                     readings.extend(metrics.into_iter().map(|metric| Reading {
                         uncertainty: metric.uncertainty.clone(),
-                        ..new(&metric.variant, metric.value, &metric.unit, None)
+                        ..Reading::new(of_run(&metric.variant), metric.value, &metric.unit, None)
                     }));
                 }
                 CheckedQuantity::Value(column, reduction) => {
@@ -75,7 +73,7 @@ impl Study {
                             Reduction::Slope => format!("{own}/{over}"),
                             _ => own.to_owned(),
                         };
-                        readings.push(new(&curve.run.clone(), value, &unit, Some(curve)));
+                        readings.push(Reading::new(of_run(&curve.run), value, unit, Some(curve)));
                     }
                 }
                 CheckedQuantity::Distance(column, measured, distance) => {
@@ -87,7 +85,7 @@ impl Study {
                             file::Distance::RelativeL2 => "%",
                             file::Distance::Largest | file::Distance::Mean => probe::unit_of(&column.column),
                         };
-                        readings.push(new(&curve.run.clone(), value, unit, Some(curve)));
+                        readings.push(Reading::new(of_run(&curve.run), value, unit, Some(curve)));
                     }
                 }
                 CheckedQuantity::Order { .. } | CheckedQuantity::Difference { .. } => {}
@@ -110,12 +108,9 @@ fn orders(earlier: &[Metric], of: &str, in_parameter: &str, only: &Variant) -> V
             None => groups.push((others, vec![point])),
         }
     }
-    let order = |(others, points): (Variant, Vec<(f64, f64)>)| Reading {
-        variant: others.and(in_parameter, Value::list(points.iter().map(|point| point.0))),
-        value: log_log_slope(&points).unwrap_or(f64::NAN),
-        unit: "-".to_owned(),
-        curve: None,
-        uncertainty: Uncertainty::default(),
+    let order = |(others, points): (Variant, Vec<(f64, f64)>)| {
+        let variant = others.and(in_parameter, Value::list(points.iter().map(|point| point.0)));
+        Reading::new(variant, log_log_slope(&points).unwrap_or(f64::NAN), "-", None)
     };
     groups.into_iter().map(order).collect()
 }
@@ -137,13 +132,8 @@ fn differences(
             Some(other) => variant.and(key, Value::list([value.clone(), other.clone()])),
             None => variant,
         });
-        readings.push(Reading {
-            variant: both,
-            value: 100.0 * (metric.value - partner.value) / partner.value.abs(),
-            unit: "%".to_owned(),
-            curve: None,
-            uncertainty: Uncertainty::default(),
-        });
+        let share = 100.0 * (metric.value - partner.value) / partner.value.abs();
+        readings.push(Reading::new(both, share, "%", None));
     }
     if readings.is_empty() {
         let variants: Vec<String> = own().take(5).map(|metric| format!("\"{}\"", metric.variant)).collect();

@@ -5,6 +5,7 @@ use crate::case::ParameterError;
 use crate::case::{CaseResult, Limits, PreparedCase, Registry, Tier};
 use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::{FileError, OutputFolder};
+use std::fs::ReadDir;
 use std::path::{Path, PathBuf};
 use toml::Table;
 
@@ -38,16 +39,13 @@ impl Suite {
     /// A folder that cannot be read or holds no study, a TOML file that cannot be read, a study in a folder below, two of
     /// the same name.
     pub fn read(folder: &Path, registry: Registry) -> Result<Self, ParameterError> {
-        let unreadable = |error: &std::io::Error| ParameterError::File(FileError::unreadable(folder, error));
         let mut files: Vec<PathBuf> = Vec::new();
-        for path in entries(folder).map_err(|error| unreadable(&error))? {
+        for path in entries(folder)? {
             if path.is_dir() && !OutputFolder::is_one(&path) {
-                let inner = entries(&path).map_err(|error| FileError::unreadable(&path, &error))?;
-                if let Some(study) = inner.iter().find(|inner| is_toml(inner) && is_study(inner)) {
+                if let Some(study) = entries(&path)?.iter().find(|inner| is_toml(inner) && is_study(inner)) {
                     let remedy = "move it up, or report its folder by itself from a place beside";
-                    return Err(FieldError::finding("study", "in a folder below the suite", remedy)
-                        .in_file(study)
-                        .into());
+                    let error = FieldError::finding("study", "in a folder below the suite", remedy);
+                    return Err(error.in_file(study).into());
                 }
             } else if is_toml(&path) && !path.is_dir() {
                 // a file that cannot be read or parsed may be a study
@@ -108,8 +106,9 @@ impl Suite {
     }
 }
 
-fn entries(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
-    std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, FileError> {
+    let read = |all: ReadDir| all.map(|entry| entry.map(|entry| entry.path())).collect();
+    std::fs::read_dir(folder).and_then(read).map_err(|error| FileError::unreadable(folder, &error))
 }
 
 fn is_toml(path: &Path) -> bool {
