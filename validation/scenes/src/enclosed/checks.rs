@@ -16,9 +16,10 @@ use bagnold_solver::weakly_compressible::walls::Surface;
 impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Everything that is refused beyond the ranges of single fields.
     pub(super) fn checked(&self) -> Result<(), ParameterError> {
-        let walls = self.walls.iter().map(SceneWall::name);
-        let inlets = self.inlets.iter().map(SceneInlet::name);
-        names::check(&self.name, walls, inlets, self.gauges.iter().map(SceneGauge::name))?;
+        let walls = self.walls.iter().map(SceneWall::name).collect();
+        let inlets = self.inlets.iter().map(SceneInlet::name).collect();
+        let gauges = self.gauges.iter().map(SceneGauge::name).collect();
+        names::check(&self.name, [("walls", walls), ("inlets", inlets), ("gauges", gauges)])?;
         if self.bodies.is_empty() && self.inlets.is_empty() {
             return Err(ParameterError::field("bodies", "[]", "at least one body", S::ADD_A_BODY));
         }
@@ -81,11 +82,11 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     fn check_gauges(&self) -> Result<(), ParameterError> {
         let down = self.down();
         for (k, gauge) in self.gauges.iter().enumerate() {
+            let within = |error: ParameterError| error.within(&format!("gauges[{k}]"));
             if let Measurand::Force { wall } = gauge.measure(&down) {
-                names::check_wall(&format!("gauges[{k}].wall"), wall, self.barriers().map(|(name, _)| name))?;
+                names::check_wall("wall", wall, self.barriers().map(|(name, _)| name)).map_err(within)?;
             }
-            gauge.check(self.spacing, &down).map_err(|error| error.within(&format!("gauges[{k}]")))?;
-            self.check_direction(k, gauge)?;
+            gauge.check(self.spacing, &down).and_then(|()| self.check_direction(gauge)).map_err(within)?;
             self.check_place(k, gauge)?;
         }
         names::check_measured(&self.measured, |name| self.gauges.iter().any(|gauge| gauge.name() == name))
@@ -119,34 +120,27 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     }
 
     /// Check of the direction of a thickness: one direction only, which leaves the material somewhere.
-    fn check_direction(&self, k: usize, gauge: &S::Gauge) -> Result<(), ParameterError> {
-        let within = |error: ParameterError| Err(error.within(&format!("gauges[{k}]")));
+    fn check_direction(&self, gauge: &S::Gauge) -> Result<(), ParameterError> {
+        let refused = |direction: &Vector<D>, rule, remedy| {
+            Err(ParameterError::field("direction", shown(direction.iter()), rule, remedy))
+        };
         let (given, wall) = gauge.along();
         if let Some(wall) = wall {
-            names::check_wall(&format!("gauges[{k}].normal_to"), wall, self.walls.iter().map(SceneWall::name))?;
+            names::check_wall("normal_to", wall, self.walls.iter().map(SceneWall::name))?;
         }
         if let Some(given) = given {
-            let shown = shown(given.iter());
             if wall.is_some() {
-                let rule = "absent beside `normal_to`";
-                return within(ParameterError::field("direction", shown, rule, "one of the two says it"));
+                return refused(&given, "absent beside `normal_to`", "one of the two says it");
             }
             if !(given.norm() > 0.0 && given.norm().is_finite()) {
-                let rule = "a direction of some length";
-                return within(ParameterError::field(
-                    "direction",
-                    shown,
-                    rule,
-                    "leave it out to measure along gravity",
-                ));
+                return refused(&given, "a direction of some length", "leave it out to measure along gravity");
             }
         }
         let direction = self.direction_of(gauge);
         let is_depth = matches!(gauge.measure(&direction), Measurand::Depth(_));
         if is_depth && !Periods::of(&self.sides.axes()).are_crossed_by(&direction) {
-            let rule = "one that crosses the layer";
             let remedy = "along periodic sides the material has no end: give another direction, or `normal_to` a wall";
-            return within(ParameterError::field("direction", shown(direction.iter()), rule, remedy));
+            return refused(&direction, "one that crosses the layer", remedy);
         }
         Ok(())
     }

@@ -278,17 +278,12 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// `[m]`; bodies count by their boxes.
     pub(super) fn height(&self) -> f64 {
         let up = -self.down();
-        let ends = |body: &S::Body| {
-            let (lower, upper) = body.extent();
-            let (one, other) = (up.component_mul(&lower), up.component_mul(&upper));
-            (one.inf(&other).sum(), one.sup(&other).sum())
-        };
         let of_inlets: Vec<f64> =
             self.inlets.iter().flat_map(SceneInlet::corners).map(|place| up.dot(&place)).collect();
-        let highest = self.bodies.iter().map(|body| ends(body).1).chain(of_inlets.iter().copied());
+        let highest = self.bodies.iter().map(|body| body.span(&up).1).chain(of_inlets.iter().copied());
         let highest = highest.fold(f64::NEG_INFINITY, f64::max);
         let of_walls = self.walls.iter().flat_map(SceneWall::hull).map(|place| up.dot(&place));
-        let lowest = self.bodies.iter().map(|body| ends(body).0).chain(of_walls).chain(of_inlets);
+        let lowest = self.bodies.iter().map(|body| body.span(&up).0).chain(of_walls).chain(of_inlets);
         highest - lowest.fold(f64::INFINITY, f64::min)
     }
 

@@ -99,14 +99,15 @@ fn gauge_of<S: Dimension<D>, const D: usize>(run: &SceneFlow<S, D>) -> Result<&s
 
 /// The values of all gauges, column by column, of which only those of one gauge are known.
 fn columns<S: Dimension<D>, const D: usize>(run: &SceneFlow<S, D>, gauge: &str, front: &[f64]) -> Vec<Vec<f64>> {
-    let counts = series::counts(run);
-    counts
-        .into_iter()
-        .flat_map(|(name, count)| {
-            let known = move |column: usize| if name == gauge && column == 0 { front.to_vec() } else { Vec::new() };
-            (0..count).map(known)
-        })
-        .collect()
+    let none = SceneObservation::default();
+    let of_gauge = |series: series::GaugeSeries<'_, D>| {
+        let mut columns = vec![Vec::new(); series.columns.len()];
+        if series.gauge == gauge {
+            columns[0] = front.to_vec();
+        }
+        columns
+    };
+    series::of_run(run, &none).into_iter().flat_map(of_gauge).collect()
 }
 
 /// Refuses a series that does not reach over all times at which it is compared.

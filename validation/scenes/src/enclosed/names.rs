@@ -32,19 +32,14 @@ pub(crate) fn check_line<const D: usize>(
 }
 
 /// Names that are unlike each other and may stand in files.
-pub(super) fn check<'a>(
-    own: &'a str,
-    walls: impl Iterator<Item = &'a str>,
-    inlets: impl Iterator<Item = &'a str>,
-    gauges: impl Iterator<Item = &'a str>,
-) -> Result<(), ParameterError> {
+pub(super) fn check(own: &str, lists: [(&str, Vec<&str>); 3]) -> Result<(), ParameterError> {
     let fit =
         |name: &str| !name.is_empty() && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-');
     let mut seen = BTreeSet::new();
-    let walls = walls.enumerate().map(|(k, name)| (format!("walls[{k}].name"), name));
-    let inlets = inlets.enumerate().map(|(k, name)| (format!("inlets[{k}].name"), name));
-    let gauges = gauges.enumerate().map(|(k, name)| (format!("gauges[{k}].name"), name));
-    for (field, name) in std::iter::once(("name".to_owned(), own)).chain(walls).chain(inlets).chain(gauges) {
+    let named = lists.iter().flat_map(|(list, names)| {
+        names.iter().enumerate().map(move |(k, name)| (format!("{list}[{k}].name"), *name))
+    });
+    for (field, name) in std::iter::once(("name".to_owned(), own)).chain(named) {
         // walls and inlets are called alike by gauges
         let kind = field.split('[').next().unwrap_or_default().replace("inlets", "walls");
         let refused = |rule, remedy| Err(ParameterError::field(&field, format!("\"{name}\""), rule, remedy));
@@ -99,15 +94,14 @@ pub(super) fn check_measured(
 /// Rows of the series that are neither too many nor none.
 pub(super) fn check_times(interval: f64, duration: f64) -> Result<(), ParameterError> {
     let remedy = "a hundredth of the duration is usual";
-    if interval > duration {
-        let rule = format!("at most the duration, {duration}");
-        return Err(ParameterError::field("interval", interval, &rule, remedy));
-    }
-    if interval * MOST_SAMPLES < duration {
-        let rule = format!("at least {}, a {MOST_SAMPLES}th of the duration", duration / MOST_SAMPLES);
-        return Err(ParameterError::field("interval", interval, &rule, remedy));
-    }
-    Ok(())
+    let rule = if interval > duration {
+        format!("at most the duration, {duration}")
+    } else if interval * MOST_SAMPLES < duration {
+        format!("at least {}, a {MOST_SAMPLES}th of the duration", duration / MOST_SAMPLES)
+    } else {
+        return Ok(());
+    };
+    Err(ParameterError::field("interval", interval, &rule, remedy))
 }
 
 #[cfg(test)]

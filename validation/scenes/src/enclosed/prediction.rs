@@ -7,7 +7,6 @@ use super::{SceneFlow, SceneObservation};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
 use crate::metric::{FlowRegime, PredictionInterval};
 use crate::setup::front::FrontLine;
-use bagnold_solver::vector::Vector;
 
 /// Root mean square of the speed at the end over √(g h) above which a front is still on its way `[-]`.
 const AT_REST: f64 = 0.01;
@@ -45,9 +44,9 @@ fn column<S: Dimension<D>, const D: usize>(
     let gravity = vector::<D>(&parameters.gravity).norm();
     let (along, down) = ((line.to - line.from).normalize(), parameters.down());
     let normal = -(down - along * down.dot(&along)).normalize();
-    let (low, high) = span(body, &normal);
+    let (low, high) = body.span(&normal);
     let height = high - low;
-    let back = (span(body, &along).0 - line.from.dot(&along)).max(0.0);
+    let back = (body.span(&along).0 - line.from.dot(&along)).max(0.0);
     let speed = data.rms_speed.iter().copied().fold(0.0, f64::max);
     let aspect_ratio = height / (front - back);
     let regime = FlowRegime {
@@ -110,11 +109,4 @@ pub(super) fn of_depth<S: Dimension<D>, const D: usize>(
     let mut found = ValidationSet::shipped().predict(&[FINAL_HEIGHT], column.regime, value)?;
     found.warnings.extend(unfinished(parameters, data, &column));
     Some(found)
-}
-
-/// Least and greatest place of a body's box along a direction `[m]`.
-fn span<const D: usize>(body: &impl SceneBody<D>, direction: &Vector<D>) -> (f64, f64) {
-    let (lower, upper) = body.extent();
-    let (one, other) = (direction.component_mul(&lower), direction.component_mul(&upper));
-    (one.inf(&other).sum(), one.sup(&other).sum())
 }

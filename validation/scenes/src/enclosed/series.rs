@@ -44,17 +44,6 @@ pub(super) fn of_run<'a, S: Dimension<D>, const D: usize>(
     parameters.gauges.iter().zip(parameters.measures()).map(with_values).collect()
 }
 
-/// The gauges with the number of their columns, in order.
-pub(super) fn counts<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> Vec<(&str, usize)> {
-    let count = |measure: &Measurand<'_, D>| columns::<S, D>(measure).len();
-    parameters
-        .gauges
-        .iter()
-        .zip(parameters.measures())
-        .map(|(gauge, measure)| (gauge.name(), count(&measure)))
-        .collect()
-}
-
 /// The columns of a gauge's series.
 fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<GaugeColumn> {
     let (force, mass, flux) = (S::FORCE_UNIT, S::MASS_UNIT, S::FLUX_UNIT);

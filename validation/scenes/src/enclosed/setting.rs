@@ -16,6 +16,13 @@ pub trait SceneBody<const D: usize>: PlainData {
     /// Lower and upper corner of its box `[m]`.
     fn extent(&self) -> (Vector<D>, Vector<D>);
 
+    /// Least and greatest place of its box along a direction `[m]`.
+    fn span(&self, direction: &Vector<D>) -> (f64, f64) {
+        let (lower, upper) = self.extent();
+        let (one, other) = (direction.component_mul(&lower), direction.component_mul(&upper));
+        (one.inf(&other).sum(), one.sup(&other).sum())
+    }
+
     /// Its area `[m²]` in the plane, its volume `[m³]` in space.
     fn volume(&self) -> f64;
 

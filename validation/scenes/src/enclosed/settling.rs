@@ -88,7 +88,9 @@ where
                 return Ok((scene, elapsed));
             }
             if let Err(divergence) = simulation.step() {
-                return Err(refused(&divergence.to_string()));
+                let value = format!("settled, and diverges meanwhile ({divergence})");
+                let remedy = "leave the preparation out to see what goes wrong at the start";
+                return Err(refused_for(&value, "\"none\" for this start", remedy));
             }
             let speed = rms_speed(&simulation);
             let creeps = speed <= rest.speed && simulation.time() > LONGEST_SWING * rest.crossing;
@@ -156,14 +158,8 @@ fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
         rest.longest(),
         rest.speed
     );
-    let rule = "";
     let enough = 1.1 * speed / rest.fall;
-    refused_for(&value, rule, &format!("raise `rest_speed` to {enough:.0e}, or remove `preparation`"))
-}
-
-fn refused(divergence: &str) -> ParameterError {
-    let remedy = "leave the preparation out to see what goes wrong at the start";
-    refused_for(&format!("settled, and diverges meanwhile ({divergence})"), "\"none\" for this start", remedy)
+    refused_for(&value, "", &format!("raise `rest_speed` to {enough:.0e}, or remove `preparation`"))
 }
 
 fn refused_for(value: &str, rule: &str, remedy: &str) -> ParameterError {

@@ -86,18 +86,19 @@ pub trait SceneSides<const D: usize>: PlainData + Default {
 
     /// Whether a place lies between them.
     fn hold(&self, place: &Vector<D>) -> bool {
-        self.pairs().into_iter().enumerate().all(|(axis, (lower, upper))| {
-            lower.coordinate().is_none_or(|plane| place[axis] > plane)
-                && upper.coordinate().is_none_or(|plane| place[axis] < plane)
-        })
+        self.lie_around(place, DomainSide::coordinate)
     }
 
     /// Whether a place lies between those of them beyond which the flow goes on: periods and planes of symmetry.
     fn continue_to(&self, place: &Vector<D>) -> bool {
-        let goes_on = |side: DomainSide| if matches!(side, DomainSide::Open(_)) { None } else { side.coordinate() };
+        self.lie_around(place, |side| if side.open().is_some() { None } else { side.coordinate() })
+    }
+
+    /// Whether a place lies between the planes that they have.
+    fn lie_around(&self, place: &Vector<D>, plane_of: fn(DomainSide) -> Option<f64>) -> bool {
         self.pairs().into_iter().enumerate().all(|(axis, (lower, upper))| {
-            goes_on(lower).is_none_or(|plane| place[axis] > plane)
-                && goes_on(upper).is_none_or(|plane| place[axis] < plane)
+            plane_of(lower).is_none_or(|plane| place[axis] > plane)
+                && plane_of(upper).is_none_or(|plane| place[axis] < plane)
         })
     }
 

@@ -21,12 +21,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let state = StoredState::read(Path::new(file)).map_err(refused)?;
         if state.digest != *sha256 {
             let rule = format!("{}, the digest of {file}", state.digest);
-            return Err(ParameterError::field(
-                "from.sha256",
-                sha256,
-                &rule,
-                "the file holds another state: find the first",
-            ));
+            let remedy = "the file holds another state: find the first";
+            return Err(ParameterError::field("from.sha256", sha256, &rule, remedy));
         }
         match state.difference(&self.likeness()).map_err(refused)? {
             Some([field, value, rule]) => {

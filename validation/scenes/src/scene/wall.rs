@@ -95,22 +95,17 @@ impl setting::SceneWall<2> for WallLine {
     }
 
     fn check(&self, spacing: f64, _: f64) -> Result<(), ParameterError> {
-        let least = if self.closed { 3 } else { 2 };
+        let (least, word) = if self.closed { (3, "three") } else { (2, "two") };
         if self.points.len() < least {
-            let rule =
-                format!("{} points or more, farther apart than the spacing", if self.closed { "three" } else { "two" });
+            let rule = format!("{word} points or more, farther apart than the spacing");
             let value = format!("{} points", self.points.len());
             return Err(ParameterError::field("points", value, &rule, "give the wall's corners in their order"));
         }
         let length = self.measure();
         if length <= spacing {
             let (value, rule) = (format!("{length} m long"), format!("longer than the spacing, {spacing} m"));
-            return Err(ParameterError::field(
-                "points",
-                value,
-                &rule,
-                "check the unit of `spacing` and of the corners",
-            ));
+            let remedy = "check the unit of `spacing` and of the corners";
+            return Err(ParameterError::field("points", value, &rule, remedy));
         }
         check_crossing(&self.points, self.closed)
     }

@@ -104,8 +104,8 @@ impl setting::SceneGauge<3> for SpaceGauge {
             }
             Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
             Self::Force { wall, .. } => Measurand::Force { wall },
-            Self::Flux { corners: (a, b, c), .. } => {
-                let [corner, one, other] = edges([a, b, c]);
+            Self::Flux { corners, .. } => {
+                let [corner, one, other] = edges(corners);
                 let normal = one.cross(&other);
                 let square = normal.norm_squared();
                 let edges = vec![(other.cross(&normal), square), (normal.cross(&one), square)];
@@ -117,8 +117,8 @@ impl setting::SceneGauge<3> for SpaceGauge {
     fn places(&self) -> Vec<Vector<3>> {
         match self {
             Self::Front { from, to, .. } => vec![vector(from), vector(to)],
-            Self::Flux { corners: (a, b, c), .. } => {
-                let [corner, one, other] = edges([a, b, c]);
+            Self::Flux { corners, .. } => {
+                let [corner, one, other] = edges(corners);
                 vec![corner, corner + one, corner + other, corner + one + other]
             }
             Self::Depth { at, .. } | Self::Probe { at, .. } => vec![vector(at)],
@@ -135,8 +135,8 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 let length = if down.cross(&line).norm() > spacing { line.norm() } else { 0.0 };
                 check_line(&to, length, spacing, ", across gravity")
             }
-            Self::Flux { corners: (a, b, c), .. } => {
-                let [corner, one, other] = edges([a, b, c]);
+            Self::Flux { corners, .. } => {
+                let [corner, one, other] = edges(corners);
                 if one.cross(&other).norm() > spacing * spacing {
                     return Ok(());
                 }
@@ -149,8 +149,8 @@ impl setting::SceneGauge<3> for SpaceGauge {
 }
 
 /// A corner of a parallelogram, and its edges to the two next to it `[m]`.
-fn edges(corners: [&SpaceVector; 3]) -> [Vector<3>; 3] {
-    let [corner, next, last] = corners.map(vector::<3>);
+pub(super) fn edges((corner, next, last): &(SpaceVector, SpaceVector, SpaceVector)) -> [Vector<3>; 3] {
+    let [corner, next, last] = [corner, next, last].map(vector::<3>);
     [corner, next - corner, last - corner]
 }
 

@@ -1,9 +1,10 @@
 //! Inlets of a scene in space: rectangles by which material comes in.
 
 use super::SpaceVector;
+use super::gauge::edges;
 use crate::case::ParameterError;
 use crate::enclosed::GivenRate;
-use crate::enclosed::setting::{self, vector};
+use crate::enclosed::setting;
 use bagnold_solver::parameter::not_negative;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};
@@ -34,15 +35,6 @@ pub struct SpaceInlet {
     pub table: String,
 }
 
-impl SpaceInlet {
-    /// The corner, and the ways to the two next to it `[m]`.
-    fn frame(&self) -> [Vector<3>; 3] {
-        let (corner, one, other) = &self.corners;
-        let corner: Vector<3> = vector(corner);
-        [corner, vector::<3>(one) - corner, vector::<3>(other) - corner]
-    }
-}
-
 impl setting::SceneInlet<3> for SpaceInlet {
     const GIVEN_BY: &'static str = "corners";
     const TURN: &'static str = "reverse the inlet (its last two corners)";
@@ -56,17 +48,17 @@ impl setting::SceneInlet<3> for SpaceInlet {
     }
 
     fn corners(&self) -> Vec<Vector<3>> {
-        let [corner, one, other] = self.frame();
+        let [corner, one, other] = edges(&self.corners);
         vec![corner, corner + one, corner + one + other, corner + other]
     }
 
     fn edges(&self) -> Vec<f64> {
-        let [_, one, other] = self.frame();
+        let [_, one, other] = edges(&self.corners);
         vec![one.norm(), other.norm()]
     }
 
     fn check(&self) -> Result<(), ParameterError> {
-        let [_, one, other] = self.frame();
+        let [_, one, other] = edges(&self.corners);
         let cosine = one.dot(&other) / (one.norm() * other.norm());
         if cosine.abs() <= RIGHT {
             return Ok(());
@@ -77,7 +69,7 @@ impl setting::SceneInlet<3> for SpaceInlet {
     }
 
     fn feed(&self, supply: Supply) -> Option<Inlet<3>> {
-        let [corner, one, other] = self.frame();
+        let [corner, one, other] = edges(&self.corners);
         Inlet::rectangle(&self.name, corner, [corner + one, corner + other], supply)
     }
 }
