@@ -2,8 +2,8 @@
 //! the snapshot test read the same files and compare in the same way.
 
 use super::error::{check_case_name, damaged, read_if_there};
+use super::snapshot_text;
 use super::{put, shipped};
-use super::snapshot_text::{self, SnapshotLine};
 use crate::case::{ParameterError, Tier};
 use crate::input::DOCUMENT;
 use crate::metric::{Metric, Variant, Verdict};
@@ -40,12 +40,12 @@ pub struct Baseline {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct BaselineValue {
-    value: f64,
-    unit: String,
-    verdict: Verdict,
+pub(super) struct BaselineValue {
+    pub(super) value: f64,
+    pub(super) unit: String,
+    pub(super) verdict: Verdict,
     /// Its line in the file: metrics keep the order in which their case reports them.
-    line: usize,
+    pub(super) line: usize,
 }
 
 /// Change of a metric from its baseline value.
@@ -193,11 +193,9 @@ impl Baseline {
         let (commit, lines) = snapshot_text::parse(text, case, tier.name()).map_err(refuse)?;
         let mut read = Self::default();
         read.made_at(case, commit);
-        for (line, row) in lines.into_iter().enumerate() {
-            let key = MetricKey { case: case.to_owned(), metric: row.name.to_owned(), variant: row.variant.clone() };
-            let entry = BaselineValue { value: row.value, unit: row.unit.to_owned(), verdict: row.verdict, line };
-            if read.values.insert(key, entry).is_some() {
-                return Err(refuse(format!("`{} | {}` stands there twice", row.name, row.variant)));
+        for (key, entry) in lines {
+            if read.values.insert(key.clone(), entry).is_some() {
+                return Err(refuse(format!("`{} | {}` stands there twice", key.metric, key.variant)));
             }
         }
         Ok(read)
@@ -206,20 +204,9 @@ impl Baseline {
     /// The values of `case` as a snapshot's content, a line each in the order of the case.
     #[must_use]
     pub fn content(&self, case: &str) -> String {
-        snapshot_text::content(self.lines(case))
-    }
-
-    fn lines(&self, case: &str) -> impl Iterator<Item = SnapshotLine<'_>> {
-        let mut entries: Vec<(&MetricKey, &BaselineValue)> =
-            self.values.iter().filter(|(key, _)| key.case == case).collect();
+        let mut entries: Vec<_> = self.values.iter().filter(|(key, _)| key.case == case).collect();
         entries.sort_by_key(|(_, entry)| entry.line);
-        entries.into_iter().map(|(key, entry)| SnapshotLine {
-            name: &key.metric,
-            variant: key.variant.clone(),
-            value: entry.value,
-            unit: &entry.unit,
-            verdict: entry.verdict,
-        })
+        snapshot_text::content(entries)
     }
 
     /// Writes the values of `case` into `folder`, a line each, with the commit at which they are accepted. A file that has

@@ -165,19 +165,15 @@ pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
 }
 
 fn run(run: &RunSummary) -> Value {
-    let (mark, outcome) = match &run.outcome {
-        Outcome::Finished => (VerdictMark { word: "finished", ..VerdictMark::PASS }, String::new()),
-        Outcome::Stopped { criterion } => (VerdictMark { word: "stopped", ..VerdictMark::PASS }, criterion.clone()),
-        Outcome::Diverged { message, expected: true } => {
-            (VerdictMark { word: "diverged as expected", ..VerdictMark::OBSERVED }, message.clone())
-        }
-        Outcome::Diverged { message, expected: false } => {
-            (VerdictMark { word: "diverged", ..VerdictMark::FAIL }, message.clone())
-        }
+    let (look, word, outcome) = match &run.outcome {
+        Outcome::Finished => (VerdictMark::PASS, "finished", ""),
+        Outcome::Stopped { criterion } => (VerdictMark::PASS, "stopped", criterion.as_str()),
+        Outcome::Diverged { message, expected: true } => (VerdictMark::OBSERVED, "diverged as expected", &**message),
+        Outcome::Diverged { message, expected: false } => (VerdictMark::FAIL, "diverged", &**message),
     };
     json!({
         "variant": run.variant.to_string(),
-        "mark": mark,
+        "mark": VerdictMark { word, ..look },
         "outcome": outcome,
         "particles": count(run.particles as u64),
         "steps": count(run.steps),

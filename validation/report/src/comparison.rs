@@ -39,6 +39,17 @@ pub enum ModelError {
     Unknown,
 }
 
+impl ModelError {
+    /// Its size; 0 where nothing is known.
+    #[must_use]
+    pub fn size(self) -> f64 {
+        match self {
+            Self::Within(size) | Self::AtLeast(size) | Self::BeyondKnown(size) => size,
+            Self::Unknown => 0.0,
+        }
+    }
+}
+
 impl<'r> Comparison<'r> {
     /// The comparison that a metric is; none of a metric that is not compared with a number from outside.
     fn of(case: &'r str, metric: &'r Metric) -> Option<Self> {

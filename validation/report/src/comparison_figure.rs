@@ -1,8 +1,8 @@
 //! A figure of each quantity that is compared with measurements: predictions with ± u_val beside their references, a line of text
 //! for each comparison.
 
-use super::Report;
 use super::comparison::{Comparison, ModelError, QuantityComparisons, comparisons};
+use super::{Report, with_numbers};
 use crate::figure::{Axis, Figure, Mark, Panel, Scale};
 
 /// Folder of the figures.
@@ -25,14 +25,7 @@ const VERDICTS: [(&str, usize); 4] = [
 
 /// Of each quantity, in the order of the page.
 pub(super) fn figures(report: &Report) -> Vec<Figure> {
-    let groups = comparisons(report);
-    let mut figures: Vec<Figure> = groups.iter().map(figure).collect();
-    for place in 1..figures.len() {
-        if groups[place].0.0 == groups[place - 1].0.0 {
-            figures[place].name += &format!("-{}", place + 1);
-        }
-    }
-    figures
+    with_numbers(comparisons(report).iter().map(figure).collect())
 }
 
 fn figure(((name, unit), own): &QuantityComparisons<'_>) -> Figure {
@@ -67,7 +60,7 @@ fn figure(((name, unit), own): &QuantityComparisons<'_>) -> Figure {
 }
 
 /// Place of a comparison's verdict in the list.
-fn verdict(compared: &Comparison<'_>) -> usize {
+pub(super) fn verdict(compared: &Comparison<'_>) -> usize {
     match compared.model_error() {
         ModelError::Within(_) => 0,
         ModelError::AtLeast(_) => 1,

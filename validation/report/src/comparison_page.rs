@@ -1,6 +1,8 @@
 //! The page of the comparisons with measurements: a figure and a table per quantity.
 
 use super::comparison::{self, Comparison, ModelError, QuantityComparisons};
+use super::comparison_figure::verdict;
+use super::rows::signed;
 use super::template::fill;
 use super::view::{VerdictMark, anchor};
 use super::{DrawnFigure, Report, scatter};
@@ -14,19 +16,18 @@ const NOT_KNOWN: &str = "not known";
 /// Fills the template of the page; none where nothing is compared with measurements.
 pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Option<Result<String, minijinja::Error>> {
     let groups = comparison::comparisons(report);
-    let count = |is_it: fn(ModelError) -> bool| {
-        groups.iter().flat_map(|(_, own)| own).filter(|compared| is_it(compared.model_error())).count()
-    };
+    let all = || groups.iter().flat_map(|(_, own)| own);
+    let count = |place: usize| all().filter(|compared| verdict(compared) == place).count();
     let quantities = groups.iter().enumerate().map(|(place, group)| quantity(group, drawn.get(place)));
     let page = json!({
         "title": report.title,
         "tier": report.tier.name(),
-        "within": count(|error| matches!(error, ModelError::Within(_))),
-        "beyond": count(|error| matches!(error, ModelError::AtLeast(_))),
-        "partly": count(|error| matches!(error, ModelError::BeyondKnown(_))),
-        "unknown": count(|error| error == ModelError::Unknown),
-        "without_input": groups.iter().flat_map(|(_, own)| own).filter(|compared| compared.input.is_none()).count(),
-        "levels": levels(groups.iter().flat_map(|(_, own)| own)),
+        "within": count(0),
+        "beyond": count(1),
+        "partly": count(2),
+        "unknown": count(3),
+        "without_input": all().filter(|compared| compared.input.is_none()).count(),
+        "levels": levels(all()),
         "has_scatter": !scatter::quantities(report).is_empty(),
         "quantities": quantities.collect::<Vec<_>>(),
     });
@@ -59,22 +60,13 @@ fn row(compared: &Comparison<'_>) -> Value {
         let own = metric.uncertainty.parts().iter().filter(|own| part.origins().contains(&own.origin));
         own.map(|own| format!("{}: {}", two_digits(own.standard), own.source)).collect::<Vec<_>>().join("; ")
     };
-    let (mark, statement) = match compared.model_error() {
-        ModelError::Within(level) => (
-            VerdictMark { word: "validated", ..VerdictMark::PASS },
-            format!("at the level {} and no finer", unit(level)),
-        ),
-        ModelError::AtLeast(least) => (
-            VerdictMark { word: "model error", ..VerdictMark::EXPECTED },
-            format!("model error of at least {}", unit(least)),
-        ),
-        ModelError::BeyondKnown(by) => {
-            let mark = VerdictMark { word: "beyond what is known", ..VerdictMark::OBSERVED };
-            (mark, format!("by {}", unit(by)))
+    let (look, word, statement) = match compared.model_error() {
+        ModelError::Within(own) => (VerdictMark::PASS, "validated", format!("at the level {} and no finer", unit(own))),
+        ModelError::AtLeast(own) => {
+            (VerdictMark::EXPECTED, "model error", format!("model error of at least {}", unit(own)))
         }
-        ModelError::Unknown => {
-            (VerdictMark { word: "open", ..VerdictMark::OBSERVED }, "no uncertainty is known".to_owned())
-        }
+        ModelError::BeyondKnown(own) => (VerdictMark::OBSERVED, "beyond what is known", format!("by {}", unit(own))),
+        ModelError::Unknown => (VerdictMark::OBSERVED, "open", "no uncertainty is known".to_owned()),
     };
     let unknown = compared.unknown();
     let lower_bound = if unknown.is_empty() || unknown.len() == 3 {
@@ -96,7 +88,7 @@ fn row(compared: &Comparison<'_>) -> Value {
         "source": reference.map_or("", |reference| &reference.source),
         "value": unit(metric.value),
         "reference": reference.and_then(|reference| reference.value).map(unit).unwrap_or_default(),
-        "error": format!("{}{}", if compared.error > 0.0 { "+" } else { "" }, two_digits(compared.error)),
+        "error": signed(compared.error),
         // u_num, u_input and u_D, each with where it comes from
         "parts": [
             (part(compared.numerical), words(ComparisonPart::Numerical)),
@@ -107,7 +99,7 @@ fn row(compared: &Comparison<'_>) -> Value {
         "uncertainty": part(compared.uncertainty()),
         // u_val over the reference
         "level": compared.level().map(|level| format!("{} %", two_digits(100.0 * level))),
-        "mark": mark,
+        "mark": VerdictMark { word, ..look },
         "statement": statement + &lower_bound,
         "reasons": unknown.iter().filter_map(reason).collect::<Vec<_>>(),
     })

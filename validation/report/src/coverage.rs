@@ -32,29 +32,16 @@ impl Grade {
     pub const ALL: [Self; 6] =
         [Self::Measured, Self::Converging, Self::Exact, Self::Statement, Self::Balance, Self::Baseline];
 
-    /// The letter that stands for it in a cell.
+    /// The letter that stands for it in a cell, and its meaning.
     #[must_use]
-    pub fn letter(self) -> char {
+    pub fn letter_and_meaning(self) -> (char, &'static str) {
         match self {
-            Self::Measured => 'M',
-            Self::Converging => 'C',
-            Self::Exact => 'E',
-            Self::Statement => 'S',
-            Self::Balance => 'B',
-            Self::Baseline => 'R',
-        }
-    }
-
-    /// Meaning of the letter.
-    #[must_use]
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::Measured => "gates against measurements, published fits or other people's simulations",
-            Self::Converging => "gates on an observed order of convergence",
-            Self::Exact => "gates against exact solutions",
-            Self::Statement => "gates on what a paper states",
-            Self::Balance => "gates on balances of mass, momentum and energy",
-            Self::Baseline => "regression: compared with the baseline only",
+            Self::Measured => ('M', "gates against measurements, published fits or other people's simulations"),
+            Self::Converging => ('C', "gates on an observed order of convergence"),
+            Self::Exact => ('E', "gates against exact solutions"),
+            Self::Statement => ('S', "gates on what a paper states"),
+            Self::Balance => ('B', "gates on balances of mass, momentum and energy"),
+            Self::Baseline => ('R', "regression: compared with the baseline only"),
         }
     }
 

@@ -8,26 +8,24 @@ use serde_json::{Value, json};
 
 /// Class of a cell, letters of its grades, the strongest first, and the same in words.
 fn cell(covered: Option<&CaseCoverage>) -> Value {
-    let of = |class: &str, letters: String, meaning: String| {
-        json!({
-            "class": class,
-            "letters": letters,
-            "meaning": meaning,
-        })
+    let (class, letters, meaning) = match covered {
+        None => ("", String::new(), String::new()),
+        Some(covered) if covered.gates.is_empty() => {
+            let (letter, meaning) = Grade::Baseline.letter_and_meaning();
+            ("observed", letter.to_string(), meaning.to_owned())
+        }
+        Some(covered) => {
+            let words = covered.gates.iter().map(|(grade, number)| (grade.letter_and_meaning(), number));
+            let letters: String = words.clone().map(|((letter, _), _)| letter).collect();
+            let mut parts: Vec<String> = words.map(|((_, meaning), number)| format!("{number} {meaning}")).collect();
+            if covered.failing > 0 {
+                parts.push(format!("{} fail", covered.failing));
+            }
+            let (class, failing) = if covered.failing > 0 { ("expected", "✗") } else { ("pass", "") };
+            (class, letters + failing, parts.join("; "))
+        }
     };
-    let Some(covered) = covered else { return of("", String::new(), String::new()) };
-    if covered.gates.is_empty() {
-        let grade = Grade::Baseline;
-        return of("observed", grade.letter().to_string(), grade.meaning().to_owned());
-    }
-    let letters: String = covered.gates.keys().map(|grade| grade.letter()).collect();
-    let mut parts: Vec<String> =
-        covered.gates.iter().map(|(grade, number)| format!("{number} {}", grade.meaning())).collect();
-    if covered.failing > 0 {
-        parts.push(format!("{} fail", covered.failing));
-    }
-    let (class, failing) = if covered.failing > 0 { ("expected", "✗") } else { ("pass", "") };
-    of(class, letters + failing, parts.join("; "))
+    json!({ "class": class, "letters": letters, "meaning": meaning })
 }
 
 /// Fills the template of the page.
@@ -37,7 +35,7 @@ pub(super) fn render(report: &Report, features: &Features) -> Result<String, min
     let page = json!({
         "title": report.title,
         "tier": report.tier.name(),
-        "grades": Grade::ALL.map(|grade| (grade.letter(), grade.meaning())),
+        "grades": Grade::ALL.map(Grade::letter_and_meaning),
         "cases": report.cases.iter().map(|case| &case.name).collect::<Vec<_>>(),
         "unused": rows.iter().filter(|row| row.is_unused()).count(),
         "open": rows.iter().filter(is_open).count(),

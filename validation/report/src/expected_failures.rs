@@ -95,23 +95,19 @@ impl ExpectedFailures {
         let list: Self = toml::from_str(text).map_err(|error| refuse(error.to_string().trim_end().to_owned()))?;
         for (index, failure) in list.failures.iter().enumerate() {
             let name = format!("failure {} ({} {} {})", index + 1, failure.case, failure.metric, failure.variant);
-            if failure.reason.trim().is_empty() || failure.date.trim().is_empty() {
-                return Err(refuse(format!("{name} needs a date and a reason")));
-            }
-            if ["next entry", "entry above", "entry below", "previous entry"]
-                .iter()
-                .any(|other| failure.reason.contains(other))
-            {
-                return Err(refuse(format!(
-                    "{name} points to another entry, but is shown apart from it: say the reason again"
-                )));
-            }
-            if !failure.best_value.is_finite() {
-                return Err(refuse(format!("{name} needs a finite best_value")));
-            }
-            if list.failures[..index].iter().any(|other| other.key() == failure.key()) {
-                return Err(refuse(format!("{name} is listed twice")));
-            }
+            let others = ["next entry", "entry above", "entry below", "previous entry"];
+            let defect = if failure.reason.trim().is_empty() || failure.date.trim().is_empty() {
+                "needs a date and a reason"
+            } else if others.iter().any(|other| failure.reason.contains(other)) {
+                "points to another entry, but is shown apart from it: say the reason again"
+            } else if !failure.best_value.is_finite() {
+                "needs a finite best_value"
+            } else if list.failures[..index].iter().any(|other| other.key() == failure.key()) {
+                "is listed twice"
+            } else {
+                continue;
+            };
+            return Err(refuse(format!("{name} {defect}")));
         }
         Ok(list)
     }

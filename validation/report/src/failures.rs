@@ -3,10 +3,10 @@
 
 use super::expected_failures::ListStatus;
 use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
-use super::rows::statement;
+use super::rows::{signed, statement};
 use super::view::{VerdictMark, anchor};
 use crate::metric::{GateOwner, Limit, Metric, Quantity};
-use crate::number::{two_digits, with_unit};
+use crate::number::with_unit;
 use serde_json::{Value, json};
 
 /// Most results that the banner names.
@@ -107,8 +107,7 @@ fn off(metric: &Metric) -> String {
         return String::new();
     };
     let share = 100.0 * (metric.value / expected - 1.0);
-    let sign = if share > 0.0 { "+" } else { "" };
-    format!("{} is right ({sign}{} %)", with_unit(expected, &metric.unit), two_digits(share))
+    format!("{} is right ({} %)", with_unit(expected, &metric.unit), signed(share))
 }
 
 /// Entry of the list of expected failures in words, without its reason.

@@ -1,6 +1,7 @@
 //! The four flows that the first page opens with: a figure, its number, and how far each is validated.
 
-use super::comparison::{Comparison, ModelError, comparisons};
+use super::comparison::{Comparison, comparisons};
+use super::comparison_figure;
 use super::judgement::{Judgement, KINDS, Severity};
 use super::power::rejected_inputs;
 use super::view::VerdictMark;
@@ -180,40 +181,29 @@ fn span(values: impl Iterator<Item = f64>, digits: fn(f64) -> String) -> Option<
     Some(if least == most { most } else { format!("{least} to {most}") })
 }
 
+/// What the `{number}` of `{all}` comparisons with one verdict say of the model, which is off by a `{share}`; in the order of the verdicts.
+const STATEMENTS: [(VerdictMark, &str); 4] = [
+    (VerdictMark::PASS, "{number} of {all} comparisons with published results agree within their uncertainty, {share}"),
+    (VerdictMark::EXPECTED, "{number} miss by more than their uncertainty: the model is wrong by at least {share}"),
+    (VerdictMark::OBSERVED, "{number} are undecided: part of their uncertainty is not known"),
+    (VerdictMark::OBSERVED, "{number} have no known uncertainty"),
+];
+
 /// Verdict on the model by comparisons with published results, and the number of gates that pass.
 fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport], judgement: &Judgement<'_>) -> Vec<Value> {
     let mut lines = Vec::new();
     let mut add = |mark: VerdictMark, text: String| lines.push(json!({ "mark": mark, "text": text }));
-    // how many comparisons say something, and the part of the reference that it is about
-    let those = |part: fn(ModelError) -> Option<f64>| {
-        let own: Vec<(f64, f64)> =
-            compared.iter().filter_map(|own| Some((part(own.model_error())?, own.measured().abs()))).collect();
-        let shares = own.iter().map(|(part, reference)| part / reference).filter(|share| share.is_finite());
-        let of_reference = span(shares, |share| two_digits(100.0 * share));
-        let of_reference = of_reference.map_or_else(String::new, |span| format!("{span} % of the reference"));
-        Some((own.len(), of_reference)).filter(|(number, _)| *number > 0)
-    };
     let all = compared.len();
-    if let Some((number, level)) = those(|error| if let ModelError::Within(level) = error { Some(level) } else { None })
-    {
-        add(
-            VerdictMark::PASS,
-            format!("{number} of {all} comparisons with published results agree within their uncertainty, {level}"),
-        );
-    }
-    if let Some((number, least)) =
-        those(|error| if let ModelError::AtLeast(least) = error { Some(least) } else { None })
-    {
-        add(
-            VerdictMark::EXPECTED,
-            format!("{number} miss by more than their uncertainty: the model is wrong by at least {least}"),
-        );
-    }
-    if let Some((number, _)) = those(|error| if let ModelError::BeyondKnown(by) = error { Some(by) } else { None }) {
-        add(VerdictMark::OBSERVED, format!("{number} are undecided: part of their uncertainty is not known"));
-    }
-    if let Some((number, _)) = those(|error| (error == ModelError::Unknown).then_some(0.0)) {
-        add(VerdictMark::OBSERVED, format!("{number} have no known uncertainty"));
+    for (place, (mark, says)) in STATEMENTS.into_iter().enumerate() {
+        let own = || compared.iter().filter(|own| comparison_figure::verdict(own) == place);
+        let shares = own().map(|own| own.model_error().size() / own.measured().abs()).filter(|share| share.is_finite());
+        let share = span(shares, |share| two_digits(100.0 * share));
+        let share = share.map_or_else(String::new, |span| format!("{span} % of the reference"));
+        let number = own().count();
+        if number > 0 {
+            let says = says.replace("{number}", &number.to_string()).replace("{all}", &all.to_string());
+            add(mark, says.replace("{share}", &share));
+        }
     }
     if all == 0 {
         add(VerdictMark::OBSERVED, "no comparison whose uncertainty is known".to_owned());

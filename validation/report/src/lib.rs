@@ -139,8 +139,6 @@ pub struct ReportProvenance {
     pub wall_seconds: f64,
     /// The command that makes the report again.
     pub command: String,
-    /// Day and time, shown in the footer only; `None` where the page must be the same every time.
-    pub date: Option<String>,
 }
 
 impl ReportProvenance {
@@ -153,7 +151,6 @@ impl ReportProvenance {
             threads: rayon::current_num_threads(),
             wall_seconds: wall.as_secs_f64(),
             command,
-            date: None,
         }
     }
 }
@@ -216,11 +213,10 @@ struct DrawnFigure {
 fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
     let report = judgement.report;
     report.cases.iter().try_for_each(|case| error::check_case_name(&case.name))?;
-    let drawn: Vec<Vec<DrawnFigure>> = report
-        .cases
-        .par_iter()
-        .map(|case| draw(case, &folder.join("figures").join(&case.name), drawings))
-        .collect::<Result<_, _>>()?;
+    let figures = folder.join("figures");
+    let draw_in = |name: &str, all: &[Figure]| draw_figures(all, &figures.join(name), drawings);
+    let drawn = report.cases.par_iter().map(|case| draw(case, &figures.join(&case.name), drawings));
+    let drawn: Vec<Vec<DrawnFigure>> = drawn.collect::<Result<_, _>>()?;
     let mut chapters = Vec::new();
     for judged in &judgement.cases {
         let name = &judged.case.name;
@@ -241,24 +237,18 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
     }
     if let Some(features) = &report.features {
         add("coverage", coverage_page::render(report, features)?)?;
-        let maps = folder.join("figures").join(validated_page::FOLDER);
-        let maps = draw_figures(&validated_page::figures(), &maps, drawings)?;
+        let maps = draw_in(validated_page::FOLDER, &validated_page::figures())?;
         add("validated", validated_page::render(report, &maps)?)?;
     }
-    let beside = draw_figures(
-        &comparison_figure::figures(report),
-        &folder.join("figures").join(comparison_figure::FOLDER),
-        drawings,
-    )?;
+    let beside = draw_in(comparison_figure::FOLDER, &comparison_figure::figures(report))?;
     if let Some(text) = comparison_page::render(report, &beside) {
         add("comparisons", text?)?;
     }
     let quantities = scatter::quantities(report);
-    let compared =
-        draw_figures(&scatter::figures(&quantities), &folder.join("figures").join(scatter::FOLDER), drawings)?;
+    let compared = draw_in(scatter::FOLDER, &scatter::figures(&quantities))?;
     put(&folder.join("metrics.json"), scatter::json(&quantities))?;
     let comparisons = scatter::rows(&quantities, &compared);
-    let small = draw_small(report, &folder.join("figures").join(overview::FOLDER), drawings)?;
+    let small = draw_small(report, &figures.join(overview::FOLDER), drawings)?;
     let overview = page::render(judgement, (&drawn, &small), comparisons)?;
     chapters.insert(0, Chapter::of("index", &overview));
     put(&folder.join("print.html"), print::render(&report.title, &chapters)?)?;
@@ -308,9 +298,6 @@ fn neighbours(report: &Report, name: &str) -> serde_json::Value {
 
 fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
     let mut drawn = draw_figures(&case.figures, folder, drawings)?;
-    if !case.animations.is_empty() {
-        make(folder)?;
-    }
     let animations = case.animations.par_iter().map(|animation| {
         let written = drawing::write_animation(animation, folder, drawings);
         as_drawn(&animation.name, &animation.caption, true, written)
@@ -320,9 +307,6 @@ fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<Dra
 }
 
 fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
-    if !figures.is_empty() {
-        make(folder)?;
-    }
     let draw = |figure: &Figure| {
         let written = drawing::write_figure(figure, folder, drawings);
         as_drawn(&figure.name, &figure.caption, false, written)
@@ -330,9 +314,18 @@ fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Resul
     figures.par_iter().map(draw).collect()
 }
 
+/// A number at the names of figures whose quantities have one name and different units.
+fn with_numbers(mut figures: Vec<Figure>) -> Vec<Figure> {
+    for place in (1..figures.len()).rev() {
+        if figures[place].name == figures[place - 1].name {
+            figures[place].name += &format!("-{}", place + 1);
+        }
+    }
+    figures
+}
+
 /// The first panel of the figure that stands for each case, named like the case.
 fn draw_small(report: &Report, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
-    make(folder)?;
     let draw = |case: &CaseReport| {
         let figure = flows::figure_of(case)?;
         let panels = figure.panels.iter().take(1).cloned().collect();
@@ -361,15 +354,12 @@ fn as_drawn(
     Ok(DrawnFigure { caption: caption.to_owned(), name: name.to_owned(), moves, size, failure })
 }
 
-fn make(folder: &Path) -> Result<(), FileError> {
-    std::fs::create_dir_all(folder).map_err(|error| FileError::unwritable(folder, &error))
-}
-
 /// Writes a file, and before it the folder that it lies in.
 ///
 /// # Errors
 /// A file or folder that cannot be written.
 pub fn put(path: &Path, text: impl AsRef<[u8]>) -> Result<(), FileError> {
-    make(path.parent().unwrap_or(path))?;
-    std::fs::write(path, text).map_err(|error| FileError::unwritable(path, &error))
+    let folder = path.parent().unwrap_or(path);
+    let written = std::fs::create_dir_all(folder).and_then(|()| std::fs::write(path, text));
+    written.map_err(|error| FileError::unwritable(path, &error))
 }

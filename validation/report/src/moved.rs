@@ -98,10 +98,7 @@ pub(super) fn table(judgement: &Judgement<'_>) -> Value {
         Some(folder) => format!("the report in {folder}"),
         None => "the baseline".to_owned(),
     };
-    table_of(&moved(judgement), against)
-}
-
-fn table_of(all: &[MovedValue], against: String) -> Value {
+    let all = moved(judgement);
     let beyond = all.iter().filter(|moved| moved.is_beyond).count();
     let shown = all.len().min(ROWS.max(beyond));
     let rows: Vec<Value> = all[..shown].iter().map(row).collect();

@@ -35,7 +35,6 @@ pub(super) fn render(
         "has_comparisons": !comparison::comparisons(report).is_empty(),
         "provenance": provenance(&report.generated),
         "command": typed(&report.generated.command),
-        "date": report.generated.date,
         "script": include_str!("template/page.js"),
     });
     fill("index.html", &page)

@@ -164,19 +164,13 @@ fn figures(fate: &ElementOutcome<'_>, cases: &[CaseReport]) -> Vec<Value> {
 
 /// Counts and statuses as JSON, for programs.
 pub(super) fn json(tier: Tier, accounts: &[PaperSummary<'_>]) -> String {
-    let papers: Vec<Value> = accounts
-        .iter()
-        .map(|account| {
-            let counts: serde_json::Map<String, Value> = Status::ALL
-                .into_iter()
-                .map(|status| (status.word().to_owned(), account.count(status).into()))
-                .collect();
-            let row = |fate: &ElementOutcome<'_>| {
-                json!({ "id": fate.element.id, "status": fate.status.word(), "reason": reason(fate) })
-            };
-            let elements: Vec<Value> = account.elements.iter().map(row).collect();
-            json!({ "paper": account.paper.name, "counts": counts, "elements": elements })
-        })
-        .collect();
+    let paper = |account: &PaperSummary<'_>| {
+        let counts = Status::ALL.into_iter().map(|status| (status.word().to_owned(), account.count(status).into()));
+        let counts: serde_json::Map<String, Value> = counts.collect();
+        let row = |fate: &ElementOutcome<'_>| json!({ "id": fate.element.id, "status": fate.status.word(), "reason": reason(fate) });
+        let elements: Vec<Value> = account.elements.iter().map(row).collect();
+        json!({ "paper": account.paper.name, "counts": counts, "elements": elements })
+    };
+    let papers: Vec<Value> = accounts.iter().map(paper).collect();
     format!("{:#}\n", json!({ "tier": tier.name(), "papers": papers }))
 }

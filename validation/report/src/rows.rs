@@ -96,8 +96,7 @@ pub(super) fn statement(judged: &JudgedMetric<'_>) -> String {
 pub(super) fn value_and_baseline(metric: &Metric, baseline: f64) -> (String, String) {
     let (value, was) = distinct_digits(metric.value, baseline);
     let difference = metric.value - baseline;
-    let sign = if difference > 0.0 { "+" } else { "" };
-    let change = if difference.is_finite() { format!(" ({sign}{})", two_digits(difference)) } else { String::new() };
+    let change = if difference.is_finite() { format!(" ({})", signed(difference)) } else { String::new() };
     (in_unit(&value, &metric.unit) + &change, in_unit(&was, &metric.unit))
 }
 
@@ -112,11 +111,13 @@ pub(super) fn limit(limit: Limit, unit: &str) -> String {
 
 fn margin(metric: &Metric, limit: Limit) -> String {
     let margin = limit.margin(metric.value);
-    if margin.is_nan() {
-        return "–".to_owned();
-    }
-    let sign = if margin > 0.0 { "+" } else { "" };
-    format!("{sign}{}", two_digits(margin))
+    if margin.is_nan() { "–".to_owned() } else { signed(margin) }
+}
+
+/// Two digits with their sign.
+pub(super) fn signed(value: f64) -> String {
+    let sign = if value > 0.0 { "+" } else { "" };
+    format!("{sign}{}", two_digits(value))
 }
 
 /// The margin as a share of the limit, how near a gate is to its edge: nothing where it does not judge or its limit has
@@ -149,22 +150,16 @@ fn residual(difference: f64, expected: f64) -> String {
     if !difference.is_finite() || expected == 0.0 {
         return String::new();
     }
-    let sign = |value: f64| if value > 0.0 { "+" } else { "" };
     let share = 100.0 * difference / expected.abs();
-    let relative = if share.is_finite() { format!(" ({}{} %)", sign(share), two_digits(share)) } else { String::new() };
-    format!("{}{}{relative}", sign(difference), two_digits(difference))
+    let relative = if share.is_finite() { format!(" ({} %)", signed(share)) } else { String::new() };
+    signed(difference) + &relative
 }
 
 fn change(judged: &JudgedMetric<'_>) -> (VerdictMark, String, String) {
-    let signed = |change: f64| match change {
-        c if c.is_nan() => "not a number".to_owned(),
-        c if c > 0.0 => format!("+{}", two_digits(c)),
-        c => two_digits(c),
-    };
+    let signed = |change: f64| if change.is_nan() { "not a number".to_owned() } else { signed(change) };
     let relative = |change: f64, baseline: f64| {
         let share = 100.0 * change / baseline.abs();
-        let sign = if share > 0.0 { "+" } else { "" };
-        if share.is_finite() && change != 0.0 { format!("{sign}{} %", two_digits(share)) } else { String::new() }
+        if share.is_finite() && change != 0.0 { format!("{} %", signed(share)) } else { String::new() }
     };
     match &judged.change {
         Change::New => (VerdictMark { word: "new", ..VerdictMark::OBSERVED }, "new".to_owned(), String::new()),

@@ -1,6 +1,6 @@
 //! Bias and scatter of every quantity that is compared with experiments or published fits often enough.
 
-use super::{DrawnFigure, Report};
+use super::{DrawnFigure, Report, with_numbers};
 use crate::evidence::StatedUncertainty;
 use crate::figure::{Axis, Figure, Panel};
 use crate::metric::{ComparisonPart, Metric};
@@ -74,13 +74,7 @@ fn comparison(metric: &Metric) -> Option<Comparison> {
 
 /// A figure of each quantity; two of one name in different units are distinguished by a number.
 pub(super) fn figures(quantities: &[QuantityBias]) -> Vec<Figure> {
-    let mut figures: Vec<Figure> = quantities.iter().map(figure).collect();
-    for place in 1..figures.len() {
-        if quantities[place].quantity == quantities[place - 1].quantity {
-            figures[place].name += &format!("-{}", place + 1);
-        }
-    }
-    figures
+    with_numbers(quantities.iter().map(figure).collect())
 }
 
 /// Predictions over references in logarithms, with the lines M = E and M = δ E and, where σ_M is known, the bands

@@ -1,23 +1,14 @@
 //! A baseline as text: an insta snapshot, whose content is a line of column names and a line `name | variant | value |
 //! unit | verdict` for each metric.
 
-use crate::metric::{Variant, Verdict};
+use super::baseline::{BaselineValue, MetricKey};
+use crate::metric::Verdict;
 
 /// Significant figures of a value: far below any tolerance, and no noise of the last bits.
 const FIGURES: i32 = 9;
 
 /// First line of a snapshot, which names the columns for the reader.
 const COLUMNS: &str = "name | variant | value | unit | verdict";
-
-/// A line.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct SnapshotLine<'a> {
-    pub(super) name: &'a str,
-    pub(super) variant: Variant,
-    pub(super) value: f64,
-    pub(super) unit: &'a str,
-    pub(super) verdict: Verdict,
-}
 
 /// Source line of a snapshot, as insta writes it.
 const SOURCE: &str = "source: tests/snapshots/main.rs";
@@ -32,10 +23,10 @@ pub fn description(case: &str, tier: &str) -> String {
 }
 
 /// A snapshot's content.
-pub(super) fn content<'a>(lines: impl Iterator<Item = SnapshotLine<'a>>) -> String {
+pub(super) fn content<'a>(lines: impl IntoIterator<Item = (&'a MetricKey, &'a BaselineValue)>) -> String {
     let mut text = format!("{COLUMNS}\n");
-    for SnapshotLine { name, variant, value, unit, verdict } in lines {
-        text += &format!("{name} | {variant} | {} | {unit} | {}\n", number(value), verdict.word());
+    for (MetricKey { metric, variant, .. }, BaselineValue { value, unit, verdict, .. }) in lines {
+        text += &format!("{metric} | {variant} | {} | {unit} | {}\n", number(*value), verdict.word());
     }
     text
 }
@@ -47,7 +38,11 @@ pub(super) fn text(case: &str, tier: &str, commit: &str, content: &str) -> Strin
 }
 
 /// The commit and the lines of a file; what is wrong with it, if it is no such file or that of another case or tier.
-pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<(&'a str, Vec<SnapshotLine<'a>>), String> {
+pub(super) fn parse<'a>(
+    text: &'a str,
+    case: &str,
+    tier: &str,
+) -> Result<(&'a str, Vec<(MetricKey, BaselineValue)>), String> {
     let expected = description(case, tier);
     let (heading, content) = text
         .strip_prefix("---\n")
@@ -64,16 +59,17 @@ pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<(&'a st
         return Err(format!("its first line is {first:?} instead of {COLUMNS:?}"));
     }
     let line = |(index, text): (usize, &'a str)| {
-        parse_line(text).ok_or_else(|| format!("value {} is {text:?} instead of `{COLUMNS}`", index + 1))
+        parse_line(case, index, text).ok_or_else(|| format!("value {} is {text:?} instead of `{COLUMNS}`", index + 1))
     };
     Ok((named(COMMIT), lines.enumerate().map(line).collect::<Result<_, _>>()?))
 }
 
-fn parse_line(text: &str) -> Option<SnapshotLine<'_>> {
+fn parse_line(case: &str, line: usize, text: &str) -> Option<(MetricKey, BaselineValue)> {
     let cells: Vec<&str> = text.split('|').map(str::trim).collect();
-    let &[name, variant, value, unit, verdict] = cells.as_slice() else { return None };
-    let verdict = Verdict::of_word(verdict)?;
-    Some(SnapshotLine { name, variant: variant.parse().ok()?, value: value.parse().ok()?, unit, verdict })
+    let &[metric, variant, value, unit, verdict] = cells.as_slice() else { return None };
+    let key = MetricKey { case: case.to_owned(), metric: metric.to_owned(), variant: variant.parse().ok()? };
+    let (value, verdict) = (value.parse().ok()?, Verdict::of_word(verdict)?);
+    Some((key, BaselineValue { value, unit: unit.to_owned(), verdict, line }))
 }
 
 /// The value that a file holds.
@@ -107,15 +103,17 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::metric::Variant;
 
-    fn line(value: f64) -> SnapshotLine<'static> {
-        SnapshotLine {
-            name: "velocity_l2",
-            variant: Variant::of("resolution", 40),
-            value,
-            unit: "%",
-            verdict: Verdict::Pass,
-        }
+    fn line(value: f64) -> (MetricKey, BaselineValue) {
+        let variant = Variant::of("resolution", 40);
+        let key = MetricKey { case: "film".to_owned(), metric: "velocity_l2".to_owned(), variant };
+        (key, BaselineValue { value, unit: "%".to_owned(), verdict: Verdict::Pass, line: 0 })
+    }
+
+    /// The content of one line.
+    fn content_of((key, value): (MetricKey, BaselineValue)) -> String {
+        content([(&key, &value)])
     }
 
     #[test]
@@ -132,8 +130,8 @@ mod tests {
             (f64::INFINITY, "inf"),
         ] {
             assert_eq!(number(rounded(value)), written);
-            let file = text("film", "quick", "", &content([line(rounded(value))].into_iter()));
-            let read = parse(&file, "film", "quick").expect("readable").1[0].value;
+            let file = text("film", "quick", "", &content_of(line(rounded(value))));
+            let read = parse(&file, "film", "quick").expect("readable").1[0].1.value;
             assert!(read == rounded(value) || (read.is_nan() && value.is_nan()), "{value}: {read}");
             assert!(!value.is_finite() || (read - value).abs() <= rounding(read), "{value}: {read}");
         }
@@ -141,7 +139,7 @@ mod tests {
 
     #[test]
     fn a_file_is_a_heading_and_a_line_each() {
-        let file = text("film", "quick", "0d1e2f", &content([line(0.5)].into_iter()));
+        let file = text("film", "quick", "0d1e2f", &content_of(line(0.5)));
         assert_eq!(
             file,
             "---\nsource: tests/snapshots/main.rs\ndescription: film at the quick tier\ncommit: 0d1e2f\n---\n\

@@ -4,7 +4,7 @@ use super::template::fill;
 use super::{CaseReport, DrawnFigure, Report};
 use crate::evidence::{HeldOutDatum, HeldOutJudgement, ValidatedComparison, ValidationSet, WAY_OF_FRONT};
 use crate::figure::{Axis, Figure, Panel};
-use crate::metric::{Metric, PredictionInterval, REGIME_NUMBERS};
+use crate::metric::{Metric, REGIME_NUMBERS};
 use crate::number::{four_digits, two_digits};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -18,38 +18,16 @@ const WIDE: f64 = 10.0;
 /// Group of quantities that a page shows as one, with its name.
 struct Group {
     name: String,
-    quantities: Vec<String>,
-}
-
-impl Group {
-    fn names(&self) -> Vec<&str> {
-        self.quantities.iter().map(String::as_str).collect()
-    }
+    quantities: Vec<&'static str>,
 }
 
 /// The ways of fronts together, then every quantity by itself.
-fn groups(set: &ValidationSet) -> Vec<Group> {
-    let way = Group { name: "way of a front".to_owned(), quantities: WAY_OF_FRONT.map(str::to_owned).to_vec() };
+fn groups(set: &'static ValidationSet) -> Vec<Group> {
+    let way = Group { name: "way of a front".to_owned(), quantities: WAY_OF_FRONT.to_vec() };
     let names: BTreeSet<&str> = set.comparisons.iter().map(|row| row.quantity.as_str()).collect();
     let single = names.into_iter().filter(|name| !WAY_OF_FRONT.contains(name));
-    let single = single.map(|name| Group { name: name.replace('_', " "), quantities: vec![name.to_owned()] });
+    let single = single.map(|name| Group { name: name.replace('_', " "), quantities: vec![name] });
     std::iter::once(way).chain(single).collect()
-}
-
-/// A metric of the report's own flows that has an interval by this set.
-struct Predicted<'r> {
-    case: &'r str,
-    metric: &'r Metric,
-    found: &'r PredictionInterval,
-}
-
-fn predictions(report: &Report) -> Vec<Predicted<'_>> {
-    report.cases.iter().flat_map(predictions_of).collect()
-}
-
-fn predictions_of(case: &CaseReport) -> impl Iterator<Item = Predicted<'_>> {
-    let of = |metric| Some(Predicted { case: &case.name, metric, found: metric.prediction.as_ref()? });
-    case.metrics.iter().filter_map(of)
 }
 
 /// A figure of each quantity whose comparisons differ in a number of their regimes.
@@ -59,10 +37,10 @@ pub(super) fn figures() -> Vec<Figure> {
 }
 
 fn figure(set: &ValidationSet, group: &Group) -> Option<Figure> {
-    let names = group.names();
+    let names = &group.quantities;
     // what predicts nothing needs no figure
-    set.bias(&names)?;
-    let mut panels: Vec<Panel> = (0..REGIME_NUMBERS.len()).filter_map(|number| panel(set, &names, number)).collect();
+    set.bias(names)?;
+    let mut panels: Vec<Panel> = (0..REGIME_NUMBERS.len()).filter_map(|number| panel(set, names, number)).collect();
     // one legend for all
     for panel in panels.iter_mut().skip(1) {
         panel.series.iter_mut().for_each(|series| series.label.clear());
@@ -105,42 +83,44 @@ fn panel(set: &ValidationSet, names: &[&str], number: usize) -> Option<Panel> {
 pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Result<String, minijinja::Error> {
     let set = ValidationSet::shipped();
     let view = |group: &Group| -> Value {
-        let names = group.names();
-        let bias = set.bias(&names);
+        let names = &group.quantities;
+        let bias = set.bias(names);
         let range = |range: &Option<(f64, f64)>| match range {
             None => String::new(),
             Some((low, high)) if low == high => two_digits(*low).to_string(),
             Some((low, high)) => format!("{} … {}", two_digits(*low), two_digits(*high)),
         };
         let figure = group.name.replace(' ', "-");
-        let inputs = set.input_uncertainty(&names).map(|inputs| format!("{}\u{202f}%", two_digits(100.0 * inputs)));
-        let interval = set.next_ratio(&names);
+        let inputs = set.input_uncertainty(names).map(|inputs| format!("{}\u{202f}%", two_digits(100.0 * inputs)));
+        let interval = set.next_ratio(names);
         let interval = interval.map(|(least, most)| format!("{} … {}", two_digits(least), two_digits(most)));
         json!({
             "name": group.name,
-            "comparisons": set.number(&names),
-            "ranges": set.ranges(&names).iter().map(range).collect::<Vec<_>>(),
+            "comparisons": set.number(names),
+            "ranges": set.ranges(names).iter().map(range).collect::<Vec<_>>(),
             "bias": bias.map(|bias| four_digits(bias.bias)).unwrap_or_default(),
             "inputs": inputs.unwrap_or_default(),
             "interval": interval.unwrap_or_default(),
             "figure": drawn.iter().find(|drawn| drawn.name == figure),
         })
     };
-    let row = |Predicted { case, metric, found }: &Predicted<'_>| -> Value {
-        json!({
-            "case": case,
+    let row = |case: &CaseReport, metric: &Metric| {
+        let found = metric.prediction.as_ref()?;
+        Some(json!({
+            "case": case.name,
             "metric": metric.name,
             "variant": metric.variant.to_string(),
             "interval": format!("{} … {} {}", four_digits(found.lower), four_digits(found.upper), metric.unit),
             "warnings": found.warnings,
-        })
+        }))
     };
+    let predicted = |case: &CaseReport| case.metrics.iter().filter_map(|metric| row(case, metric)).collect::<Vec<_>>();
     let page = json!({
         "title": report.title,
         "tier": report.tier.name(),
         "numbers": REGIME_NUMBERS,
         "quantities": groups(set).iter().map(view).collect::<Vec<_>>(),
-        "predictions": predictions(report).iter().map(row).collect::<Vec<_>>(),
+        "predictions": report.cases.iter().flat_map(predicted).collect::<Vec<_>>(),
         "held_out": HeldOutJudgement::shipped().iter().map(held_out).collect::<Vec<_>>(),
     });
     fill("validated.html", &page)
