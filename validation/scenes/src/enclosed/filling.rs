@@ -77,9 +77,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         flow.velocity = free.iter().map(|(site, _)| bodies[site.body].velocity()).collect();
         Ok((flow, share))
     }
-}
 
-impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// The sites of a lattice that some bodies hold.
     fn held(&self, lattice: &SiteLattice<D>, members: &[usize], walls: &Surfaces<D>) -> Vec<Site<D>> {
         let bodies = &self.bodies;

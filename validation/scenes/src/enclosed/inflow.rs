@@ -127,7 +127,6 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 
     /// Names of what holds the flow back, walls and the rows of inlets, and whether material may stand behind it.
     pub(super) fn barriers(&self) -> impl Iterator<Item = (&str, bool)> {
-        use super::setting::SceneWall;
         let walls = self.walls.iter().map(|wall| (wall.name(), wall.may_have_two_sides()));
         walls.chain(self.inlets.iter().map(|inlet| (inlet.name(), true)))
     }

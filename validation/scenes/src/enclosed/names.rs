@@ -36,9 +36,9 @@ pub(super) fn check(own: &str, lists: [(&str, Vec<&str>); 3]) -> Result<(), Para
     let fit =
         |name: &str| !name.is_empty() && name.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '-');
     let mut seen = BTreeSet::new();
-    let named = lists.iter().flat_map(|(list, names)| {
-        names.iter().enumerate().map(move |(k, name)| (format!("{list}[{k}].name"), *name))
-    });
+    let named = lists
+        .iter()
+        .flat_map(|(list, names)| names.iter().enumerate().map(move |(k, name)| (format!("{list}[{k}].name"), *name)));
     for (field, name) in std::iter::once(("name".to_owned(), own)).chain(named) {
         // walls and inlets are called alike by gauges
         let kind = field.split('[').next().unwrap_or_default().replace("inlets", "walls");

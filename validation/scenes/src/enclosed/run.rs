@@ -111,7 +111,10 @@ where
 
     fn cost(&self) -> RunCost {
         let mean = self.flow_particles(Moment::Mean);
-        let settling = self.flow_particles(Moment::Start) * self.settling_time();
+        let settling = match self.preparation {
+            BodyPreparation::None => 0.0,
+            BodyPreparation::Settled => self.flow_particles(Moment::Start) * (settling::USUAL * self.crossing_time()),
+        };
         let all_per_flow = (mean.max(1.0) + self.wall_particles()) / mean.max(1.0);
         let step = match self.numerics.viscous_step {
             ViscousStep::Explicit => 1.0,
@@ -271,14 +274,6 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Time that sound needs across the height of the scene `[s]`.
     fn crossing_time(&self) -> f64 {
         self.height() / self.equation_of_state().sound_speed()
-    }
-
-    /// Time that settling is expected to take `[s]`.
-    fn settling_time(&self) -> f64 {
-        match self.preparation {
-            BodyPreparation::None => 0.0,
-            BodyPreparation::Settled => settling::USUAL * self.crossing_time(),
-        }
     }
 
     /// The scene as the clock finds it at the start.

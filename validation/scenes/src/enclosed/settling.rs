@@ -50,13 +50,6 @@ pub(super) struct RestCriterion {
     pub(super) crossing: f64,
 }
 
-impl RestCriterion {
-    /// Longest time of settling `[s]`.
-    fn longest(&self) -> f64 {
-        LONGEST * self.crossing
-    }
-}
-
 /// The scene with its bodies settled, each particle with the velocity of its body, and the time that it took `[s]`.
 ///
 /// # Errors
@@ -98,7 +91,7 @@ where
                 break;
             }
             peak = speed;
-            if elapsed + simulation.time() > rest.longest() {
+            if elapsed + simulation.time() > LONGEST * rest.crossing {
                 return Err(not_at_rest(peak, rest));
             }
         }
@@ -155,7 +148,7 @@ fn not_held(value: &str) -> ParameterError {
 fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
     let value = format!(
         "the bodies still move at {speed:.1e} m/s after {:.2} s (rest is {:.1e} m/s, `rest_speed` √(g H))",
-        rest.longest(),
+        LONGEST * rest.crossing,
         rest.speed
     );
     let enough = 1.1 * speed / rest.fall;

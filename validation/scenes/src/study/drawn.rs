@@ -21,7 +21,7 @@ pub(super) struct FigureText {
     /// Label of the ordinate with its unit, that of the checks.
     pub(super) y: String,
     /// Whether the ordinate is logarithmic.
-    #[serde(default, skip_serializing_if = "is_false")]
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(super) logarithmic: bool,
     /// The varied number that is the abscissa, by the name that it has in variants.
     pub(super) over: Option<String>,
@@ -60,11 +60,6 @@ pub(super) struct NamesOfStudy<'study> {
     pub(super) varied_numbers: Vec<&'study str>,
     /// The checks.
     pub(super) checks: Vec<&'study str>,
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-fn is_false(switch: &bool) -> bool {
-    !switch
 }
 
 impl FigureText {
