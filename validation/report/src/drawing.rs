@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 /// Writes `NAME.svg`, `NAME.png`, `NAME.pdf` and the data as `NAME.csv` into a folder; the path of the PNG.
 pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
+    check_name(&figure.name)?;
     let format = drawings.format();
     let key = drawings.key(&(figure, format));
     let vectors = drawings.bytes(&key, "svg", || render::svg(figure, format).map(String::into_bytes))?;
@@ -21,6 +22,7 @@ pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) 
 
 /// Writes `NAME.png` for a small place on a page into a folder; its path.
 pub(super) fn write_small(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
+    check_name(&figure.name)?;
     let format = FigureFormat::SMALL;
     let draw = || render::png(&render::svg(figure, format)?, format);
     let pixels = drawings.bytes(&drawings.key(&(figure, format)), "png", draw)?;
@@ -33,14 +35,16 @@ pub(super) fn write_animation(
     folder: &Path,
     drawings: &Drawings,
 ) -> Result<PathBuf, FigureError> {
+    check_name(&animation.name)?;
     let moving = drawings.bytes(&drawings.key(animation), "gif", || encode_gif(animation))?;
     put(folder, &animation.name, "gif", &moving)
 }
 
+fn check_name(name: &str) -> Result<(), FigureError> {
+    if figure::is_file_name(name) { Ok(()) } else { Err(FigureError::Name { name: name.to_owned() }) }
+}
+
 fn put(folder: &Path, name: &str, ending: &str, bytes: &[u8]) -> Result<PathBuf, FigureError> {
-    if !figure::is_file_name(name) {
-        return Err(FigureError::Name { name: name.to_owned() });
-    }
     let path = folder.join(format!("{name}.{ending}"));
     match std::fs::create_dir_all(folder).and_then(|()| std::fs::write(&path, bytes)) {
         Ok(()) => Ok(path),
