@@ -266,12 +266,13 @@ fn write_alone(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) ->
     Ok(())
 }
 
-/// Writes the verdicts as JUnit's XML, for programs that show tests: one per gate.
-fn write_junit(judgement: &Judgement<'_>, path: &Path) -> Result<(), ReportError> {
-    put(path, junit::text(judgement)).map_err(|_| {
-        let rule = "a file that can be written";
-        FieldError::new("--junit", path.display(), rule, "check the folder and its permissions").into()
-    })
+/// Writes verdicts as JUnit's XML, for programs that show tests: one per gate.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn put_junit(path: &Path, text: &str) -> Result<(), FieldError> {
+    let remedy = "check the folder and its permissions";
+    put(path, text).map_err(|_| FieldError::new("--junit", path.display(), "a file that can be written", remedy))
 }
 
 /// A case's numbers, parameters and measurements, and the tables of reference data that it has.

@@ -6,7 +6,8 @@ use super::error::ReportError;
 use super::judgement::{Judgement, judge};
 use super::moved::{MovedValue, moved};
 use super::{
-    CaseReport, CommittedValues, Exit, ExpectedFailures, GateList, Report, ReportProvenance, papers, summary, unchanged,
+    CaseReport, CommittedValues, Exit, ExpectedFailures, GateList, Report, ReportProvenance, junit, papers, put_junit,
+    summary, unchanged,
 };
 use crate::case::{Features, Tier};
 use crate::evidence::{ValidatedComparison, ValidationSet};
@@ -117,7 +118,7 @@ impl ReportProcess {
         }
         self.claimed.publish()?;
         if let Some(path) = &self.request.junit {
-            super::write_junit(&judgement, path)?;
+            put_junit(path, &junit::text(&judgement))?;
         }
         Ok(ReportOutcome { exit, text, cases: report.cases })
     }

@@ -3,7 +3,7 @@
 use super::baseline::{Baseline, MetricKey};
 use super::error::ReportError;
 use super::judgement::judge;
-use super::{CaseReport, Exit, ExpectedFailures, Report, ReportProvenance, summary};
+use super::{CaseReport, Exit, ExpectedFailures, Report, ReportProvenance, junit, put_junit, summary};
 use crate::metric::{Metric, Variant, Verdict};
 use crate::output::{FileError, OutputFolder};
 use crate::result::{MetricsDocument, write_case};
@@ -77,7 +77,7 @@ impl SingleRun {
         super::write_alone(&judgement, claimed.staging(), drawings)?;
         claimed.publish()?;
         if let Some(path) = &self.junit {
-            super::write_junit(&judgement, path)?;
+            put_junit(path, &junit::text(&judgement))?;
         }
         let mut text: String = judgement.cases.iter().map(summary::of_case).collect();
         if judgement.diverged() > 0 {

@@ -6,7 +6,7 @@ use crate::metric::{Metric, Verdict};
 use crate::number::{four_digits, two_digits};
 use crate::output::FileError;
 use crate::page::{self, PageFigure};
-use crate::report::{ReportError, Severity, put};
+use crate::report::{ReportError, Severity, put, put_junit};
 use crate::result::pretty;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -27,7 +27,7 @@ pub fn write(judgement: &CodeComparison, folder: &Path, junit_file: Option<&Path
     put(&folder.join("metrics.json"), pretty(&document(judgement)))?;
     put(&folder.join("case.toml"), &judgement.own.parameters_toml)?;
     if let Some(path) = junit_file {
-        put(path, junit(judgement))?;
+        put_junit(path, &junit(judgement))?;
     }
     Ok(put(&folder.join("index.html"), render(judgement, pictures)?)?)
 }
