@@ -37,12 +37,11 @@ pub(super) fn text(case: &str, tier: &str, commit: &str, content: &str) -> Strin
     format!("---\n{SOURCE}\ndescription: {}\n{commit}---\n{content}", description(case, tier))
 }
 
+/// The lines of a file.
+type BaselineLines = Vec<(MetricKey, BaselineValue)>;
+
 /// The commit and the lines of a file; what is wrong with it, if it is no such file or that of another case or tier.
-pub(super) fn parse<'a>(
-    text: &'a str,
-    case: &str,
-    tier: &str,
-) -> Result<(&'a str, Vec<(MetricKey, BaselineValue)>), String> {
+pub(super) fn parse<'a>(text: &'a str, case: &str, tier: &str) -> Result<(&'a str, BaselineLines), String> {
     let expected = description(case, tier);
     let (heading, content) = text
         .strip_prefix("---\n")
