@@ -2,34 +2,16 @@
 //! the snapshot test read the same files and compare in the same way.
 
 use super::error::{check_case_name, damaged, read_if_there};
-use super::snapshot_text;
+pub use super::snapshot_text::MetricKey;
+use super::snapshot_text::{self, BaselineValue};
 use super::{put, shipped};
 use crate::case::{ParameterError, Tier};
 use crate::input::DOCUMENT;
-use crate::metric::{Metric, Variant, Verdict};
+use crate::metric::{Metric, Verdict};
 use crate::number::with_unit;
 use crate::store::provenance::short_commit;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-
-/// Names one metric of one run of one case.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct MetricKey {
-    /// Case name.
-    pub case: String,
-    /// Metric name.
-    pub metric: String,
-    /// Variant.
-    pub variant: Variant,
-}
-
-impl MetricKey {
-    /// The key of `metric` in `case`.
-    #[must_use]
-    pub fn of(case: &str, metric: &Metric) -> Self {
-        Self { case: case.to_owned(), metric: metric.name.clone(), variant: metric.variant.clone() }
-    }
-}
 
 /// Baseline values of any number of cases at one tier.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -37,15 +19,6 @@ pub struct Baseline {
     values: BTreeMap<MetricKey, BaselineValue>,
     /// Commits at which the values of cases were made, as far as they are known.
     commits: BTreeMap<String, String>,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct BaselineValue {
-    pub(super) value: f64,
-    pub(super) unit: String,
-    pub(super) verdict: Verdict,
-    /// Its line in the file: metrics keep the order in which their case reports them.
-    pub(super) line: usize,
 }
 
 /// Change of a metric from its baseline value.

@@ -1,14 +1,42 @@
 //! A baseline as text: an insta snapshot, whose content is a line of column names and a line `name | variant | value |
 //! unit | verdict` for each metric.
 
-use super::baseline::{BaselineValue, MetricKey};
-use crate::metric::Verdict;
+use crate::metric::{Metric, Variant, Verdict};
 
 /// Significant figures of a value: far below any tolerance, and no noise of the last bits.
 const FIGURES: i32 = 9;
 
 /// First line of a snapshot, which names the columns for the reader.
 const COLUMNS: &str = "name | variant | value | unit | verdict";
+
+/// Names one metric of one run of one case.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct MetricKey {
+    /// Case name.
+    pub case: String,
+    /// Metric name.
+    pub metric: String,
+    /// Variant.
+    pub variant: Variant,
+}
+
+impl MetricKey {
+    /// The key of `metric` in `case`.
+    #[must_use]
+    pub fn of(case: &str, metric: &Metric) -> Self {
+        Self { case: case.to_owned(), metric: metric.name.clone(), variant: metric.variant.clone() }
+    }
+}
+
+/// A value of the baseline.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct BaselineValue {
+    pub(super) value: f64,
+    pub(super) unit: String,
+    pub(super) verdict: Verdict,
+    /// Its line in the file: metrics keep the order in which their case reports them.
+    pub(super) line: usize,
+}
 
 /// Source line of a snapshot, as insta writes it.
 const SOURCE: &str = "source: tests/snapshots/main.rs";
@@ -102,7 +130,6 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metric::Variant;
 
     fn line(value: f64) -> (MetricKey, BaselineValue) {
         let variant = Variant::of("resolution", 40);
