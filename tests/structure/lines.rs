@@ -12,7 +12,7 @@ use std::process::Command;
 struct Lines {
     rust: BTreeMap<String, usize>,
     toml: BTreeMap<String, usize>,
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "toml::Table::is_empty")]
     seconds: toml::Table,
 }
 

@@ -1,7 +1,7 @@
 //! Tests of the baseline: what the file keeps, what counts as moved.
 
 use super::*;
-use crate::metric::Limit;
+use crate::metric::{Limit, Variant};
 
 fn metric(name: &str, value: f64) -> Metric {
     Metric::observed(name, &Variant::of("resolution", 40), value, "%").with_snapshot_tolerance(0.01, 0.001)
