@@ -1,6 +1,8 @@
 //! Gives the program a hash of everything that a stored result depends on, the commit that it is built from, and the shipped
 //! calibrations, scenes, studies and sweeps.
 
+#[path = "build/code.rs"]
+mod code;
 #[path = "build/commit.rs"]
 mod commit;
 #[path = "build/texts/embed.rs"]
@@ -8,6 +10,7 @@ mod embed;
 #[path = "build/rooms.rs"]
 mod rooms;
 
+use code::{code, is_of_tests};
 use embed::{embed, sorted_files, texts};
 use rooms::Rooms;
 use sha2::{Digest, Sha256};
@@ -57,8 +60,8 @@ fn main() {
                 "cargo::error=`{name}` is no folder, but results depend on it; correct `CODE` in validation/build.rs"
             );
         }
-        for file in sorted_files(&folder).into_iter().filter(|file| !is_of_tests(file)) {
-            let (path, contents) = source(&workspace, &file);
+        let sources = sorted_files(&folder).into_iter().map(|file| source(&workspace, &file));
+        for (path, contents) in sources.filter(|(path, _)| !is_of_tests(path)) {
             add(&mut hash, &path, contents.as_bytes());
             if name == CODE[0] {
                 add(&mut of_solver, &path, contents.as_bytes());
@@ -141,19 +144,6 @@ fn write_rooms(hashes: &[(String, String)]) {
     if let Err(error) = std::fs::write(&out, format!("&{hashes:?}")) {
         println!("cargo::error=failed to write {}: {error}", out.display());
     }
-}
-
-/// The code of a file without its comments and the unit tests at its end: no result depends on them.
-fn code(text: &str) -> String {
-    let (code, _) = text.split_once("#[cfg(test)]\nmod tests {").unwrap_or((text, ""));
-    let is_code = |line: &&str| !line.trim_start().starts_with("//");
-    code.lines().filter(is_code).collect::<Vec<_>>().join("\n")
-}
-
-/// Whether a file is compiled for tests alone.
-fn is_of_tests(file: &Path) -> bool {
-    let folder = file.components().any(|part| part.as_os_str() == "tests");
-    folder || file.file_stem().is_some_and(|stem| stem == "tests" || stem.to_string_lossy().ends_with("_tests"))
 }
 
 /// Names and contents with their lengths, so that nothing can move from one to the other unnoticed.

@@ -1,6 +1,10 @@
 //! What judges and draws is no part of a stored run: `validation/build/rooms.rs` leaves it out of the run's key.
 
+#[path = "../../validation/build/code.rs"]
+mod built;
+
 use crate::structure::source::{Source, sources};
+use built::{code, is_of_tests};
 
 /// Parts of a case that see runs which have ended.
 const JUDGING: [&str; 2] = ["metrics", "figures"];
@@ -39,4 +43,20 @@ fn a_simulation_by_a_metrics_constant_is_found() {
     let stored = source("metrics", "#[derive(Serialize)]\nstruct Kept;");
     assert_eq!(wrong(&[flow, stored]), ["flow", "metrics"]);
     assert!(wrong(&[source("flow", "fn simulate() {}"), source("mod", "metrics::all(records)")]).is_empty());
+}
+
+#[test]
+fn comments_and_unit_tests_change_no_hash_and_all_else_does() {
+    let of = |tests: &str, after: &str| {
+        code(&format!("/// text\nfn a() {{}}\n\n#[cfg(test)]\nmod tests {{\n{tests}\n}}\n{after}"))
+    };
+    assert_eq!(of("    fn b() {}", ""), of("    // other\n    fn c() {}", "// more\n"));
+    assert_ne!(of("    fn b() {}", ""), of("    fn b() {}", "fn behind_the_tests() {}\n"));
+    assert_ne!(code("fn a() {}"), code("fn b() {}"));
+    assert!(
+        is_of_tests("solver/src/linear/tests.rs")
+            && is_of_tests("solver/src/a/tests/b.rs")
+            && is_of_tests("a/b_tests.rs")
+    );
+    assert!(!is_of_tests("solver/src/latest.rs"));
 }
