@@ -2,7 +2,7 @@
 
 use crate::results::{Figures, particles, table};
 use crate::waiting::{Refused, wait_for};
-use bagnold_harness::case::{execute, CaseResult, Limits, ParameterError, Request, Requested, Silent, Tier};
+use bagnold_harness::case::{CaseResult, Limits, ParameterError, Request, Requested, Silent, Tier, execute};
 use bagnold_harness::measured::{Measurements, draw_measured};
 use bagnold_harness::metric::Variant;
 use bagnold_harness::result::MetricsDocument;
