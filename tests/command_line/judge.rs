@@ -62,8 +62,7 @@ fn our_own_files_have_the_numbers_of_our_own_run() {
 #[test]
 fn a_code_that_is_wrong_fails_and_a_number_that_is_missing_does_not_pass() {
     let place = Place::new();
-    let text =
-        "case = \"still-water\"\n[code]\nname = \"one number\"\n[[run]]\nvariant = \"jitter=0.1\"\n[run.numbers]\n";
+    let text = "case = \"still-water\"\n[code]\nname = \"one number\"\n[[run]]\nvariant = \"stabilisation=0.5\"\n[run.numbers]\n";
     let template = place.bagnold(&["judge", "--template", "still-water"]).assert().code(0);
     let template = String::from_utf8_lossy(&template.get_output().stdout).into_owned();
     let name = template.lines().find_map(|line| line.strip_prefix("# ")?.split_once(" = 0.0")).expect("a metric").0;

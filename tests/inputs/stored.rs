@@ -128,7 +128,9 @@ fn a_list_is_read_or_refused() {
     damage(&files, &contents, |which| match which {
         0 => drop(Baseline::read(root, "film", Tier::Quick)),
         1 => drop(ExpectedFailures::read(&files[1])),
-        2 => drop(RemovedGates::read(root).map(|removed| gates.differences(&Baseline::default(), &removed))),
+        2 => {
+            drop(RemovedGates::read(root).map(|removed| gates.differences(Tier::Quick, &Baseline::default(), &removed)))
+        }
         3 => drop(GateList::read(root, Tier::Quick)),
         4 => {
             let mut all = AllSpeeds::read(root);

@@ -91,7 +91,7 @@ fn no_gate_is_lost_without_a_reason() {
             baseline.extend(own);
         }
         let list = GateList::read(&folder(), tier).unwrap_or_else(|error| panic!("failed to {error}"));
-        let differences = list.differences(&baseline, &removed);
+        let differences = list.differences(tier, &baseline, &removed);
         assert!(differences.is_empty(), "{tier} tier:\n{}", differences.join("\n"));
     }
 }

@@ -61,12 +61,12 @@ impl GateList {
         Ok(put(&Self::path(folder, tier), text)?)
     }
 
-    /// Contradictions between the list, the gates among all baseline values of the tier and the gates that went, a line each:
+    /// Contradictions between the list, the gates among all baseline values of its tier and the gates that went, a line each:
     /// gates that went without a reason, and gates that are not in the list.
     #[must_use]
-    pub fn differences(&self, baseline: &Baseline, removed: &RemovedGates) -> Vec<String> {
+    pub fn differences(&self, tier: Tier, baseline: &Baseline, removed: &RemovedGates) -> Vec<String> {
         let now: BTreeSet<&MetricKey> = baseline.gates().collect();
-        let is_explained = |gate: &MetricKey| removed.removed.iter().any(|removed| removed.names(gate));
+        let is_explained = |gate: &MetricKey| removed.removed.iter().any(|removed| removed.names(gate, tier));
         let name = |gate: &MetricKey| format!("{} {} [{}]", gate.case, gate.metric, gate.variant);
         let gone = self.gates.iter().filter(|gate| !now.contains(gate) && !is_explained(gate));
         let gone = gone.map(|gate| {
@@ -101,6 +101,8 @@ struct RemovedGate {
     metric: String,
     /// Common part of their variants; empty for all.
     variant: Variant,
+    /// The one tier that they went from.
+    tier: Option<Tier>,
     /// Reason why they went; it has to be given.
     #[serde(rename = "reason")]
     _reason: String,
@@ -119,9 +121,9 @@ impl RemovedGates {
 }
 
 impl RemovedGate {
-    fn names(&self, gate: &MetricKey) -> bool {
+    fn names(&self, gate: &MetricKey, tier: Tier) -> bool {
         let has_all = self.variant.parts().all(|(key, value)| gate.variant.get(key) == Some(value));
-        (&self.case, &self.metric) == (&gate.case, &gate.metric) && has_all
+        (&self.case, &self.metric) == (&gate.case, &gate.metric) && has_all && self.tier.is_none_or(|own| own == tier)
     }
 }
 
@@ -145,28 +147,34 @@ mod tests {
         let mut list = GateList::default();
         list.add(&baseline(&[one.clone(), other.clone()]));
         let none = RemovedGates::default();
-        assert_eq!(list.differences(&baseline(&[one.clone(), other.clone()]), &none), [""; 0]);
+        assert_eq!(list.differences(Tier::Quick, &baseline(&[one.clone(), other.clone()]), &none), [""; 0]);
 
         // a metric that vanishes, one that keeps its value and loses its limit, and one whose reference loses its confidence
         let unverified = other.clone().against(None, "a source", crate::metric::Confidence::Unverified);
         for without in
             [vec![one.clone()], vec![one.clone(), Metric { gate: None, ..other }], vec![one.clone(), unverified]]
         {
-            let lost = |case: &str, metric: &str, variant: &str| {
+            let lost = |case: &str, metric: &str, rest: &str| {
                 let text = format!(
-                    "[[removed]]\ncase = '{case}'\nmetric = '{metric}'\nvariant = '{variant}'\nreason = 'of no use'"
+                    "[[removed]]\ncase = '{case}'\nmetric = '{metric}'\nreason = 'of no use'\nvariant = {rest}"
                 );
-                list.differences(&baseline(&without), &toml::from_str(&text).expect("TOML"))
+                list.differences(Tier::Quick, &baseline(&without), &toml::from_str(&text).expect("TOML"))
             };
-            for other in [("film", "flux", ""), ("other", "velocity", ""), ("film", "velocity", "fluid=honey")] {
+            for other in [
+                ("film", "flux", "''"),
+                ("other", "velocity", "''"),
+                ("film", "velocity", "'fluid=honey'"),
+                ("film", "velocity", "''\ntier = 'paper'"),
+            ] {
                 let said = lost(other.0, other.1, other.2);
                 let expected = "film velocity [fluid=water,resolution=20] is no longer judged";
                 assert!(said.len() == 1 && said[0].starts_with(expected), "{said:?}");
             }
-            assert_eq!(lost("film", "velocity", "resolution=20"), [""; 0]);
-            assert_eq!(lost("film", "velocity", ""), [""; 0]);
+            assert_eq!(lost("film", "velocity", "'resolution=20'\ntier = 'quick'"), [""; 0]);
+            assert_eq!(lost("film", "velocity", "''"), [""; 0]);
         }
         let new = list.differences(
+            Tier::Quick,
             &baseline(&[one, metric("velocity", "fluid=water,resolution=20"), metric("shift", "")]),
             &none,
         );

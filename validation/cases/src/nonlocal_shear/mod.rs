@@ -37,7 +37,7 @@ impl Case for NonlocalShearFlows {
         shears there over a few grains. Particles start 10 % too fast and are compared with the ordinary \
         differential equation of the steady flow, at the pressure that they have.\n\n\
         Judged. Velocities, the e-folding length of the creeping zone, the width of the shear layer at a wall of the \
-        chute, and the traction on the plate. The heap also runs under the local law, whose profile is exact.";
+        chute, and the traction on the plate. The heap also runs under the local law (exact profile, paper tier).";
     type Flow = NonlocalShearFlow;
     const QUANTITIES: &'static [Quantity] = metrics::QUANTITIES;
 

@@ -33,9 +33,6 @@ pub struct Control {
     /// Keys of the runs that the changes need; all where none is named.
     #[serde(default)]
     pub only: Vec<Variant>,
-    /// Keys and values of the right run that its runs stand for, where the change has a key in their names.
-    #[serde(default)]
-    pub stands_for: Variant,
     /// Whether the changes take too long for a report and stand in the table instead.
     #[serde(default)]
     pub in_table: bool,

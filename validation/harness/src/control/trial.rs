@@ -1,7 +1,7 @@
 //! Result of a control: the gates that reject it.
 
 use super::Control;
-use crate::metric::{Metric, Value, Variant, Verdict};
+use crate::metric::{Metric, Variant, Verdict};
 
 /// Answer of a gate to a control.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,11 +54,10 @@ impl ControlTrial {
     ) -> Self {
         let has_run = |variant: &Variant| {
             let own = variant.run_among(right_runs);
-            own.is_some_and(|own| wrong_runs.iter().any(|run| control.as_right(run) == *own))
+            own.is_some_and(|own| wrong_runs.contains(own))
         };
         let found = right.iter().filter_map(|metric| {
-            let is_it =
-                |other: &&Metric| other.name == metric.name && control.as_right(&other.variant) == metric.variant;
+            let is_it = |other: &&Metric| (&other.name, &other.variant) == (&metric.name, &metric.variant);
             let tried = wrong.iter().find(is_it);
             (tried.is_some() || has_run(&metric.variant)).then(|| Found::of(metric, tried))
         });
@@ -93,14 +92,6 @@ impl ControlTrial {
     }
 }
 
-impl Control {
-    /// The variant of the right case that one of the control stands for.
-    fn as_right(&self, variant: &Variant) -> Variant {
-        let value = |key: &str, own: &Value| self.stands_for.get(key).unwrap_or(own).clone();
-        variant.parts().fold(Variant::default(), |all, (key, own)| all.and(key, value(key, own)))
-    }
-}
-
 impl Found {
     /// A metric of the right case, and the same of the control's.
     #[must_use]
@@ -126,7 +117,7 @@ mod tests {
     fn trial(wrong: Option<&Metric>, diverged: bool) -> ControlTrial {
         let set = vec!["x=1".to_owned()];
         let (name, error) = ("still".to_owned(), "nothing moves".to_owned());
-        let control = Control { name, error, set, stands_for: Variant::of("start", 1), ..Control::default() };
+        let control = Control { name, error, set, ..Control::default() };
         ControlTrial { control, found: vec![Found::of(&front(0.5, None), wrong)], diverged, tried_at: None }
     }
 
@@ -145,12 +136,5 @@ mod tests {
         assert_eq!(trial(Some(&front(0.1, limit)), false).answer(&front(0.5, None)), None);
         let other = Metric { variant: Variant::of("start", 2), ..right };
         assert_eq!(trial(Some(&front(0.1, limit)), false).answer(&other), None, "not run");
-    }
-
-    #[test]
-    fn a_run_of_another_name_stands_for_the_right_one() {
-        let control = trial(None, false).control;
-        let half = Variant::of("slope", 0.03).and("start", 0.5);
-        assert_eq!(control.as_right(&half), Variant::of("slope", 0.03).and("start", 1));
     }
 }

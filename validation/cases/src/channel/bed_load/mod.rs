@@ -38,9 +38,9 @@ impl Case for BedLoad {
         two slopes. `continuum` resolves the grain layer by its solid fraction, with closures from the literature, \
         in three stages: fixed grains, moving grains at a given fraction, dilating grains. `paper` is the printed \
         set-up. The run `at-rest` holds all grains fixed; a second start differs in its velocity.\n\n\
-        Judged. Conservation in all tiers. `continuum` against the 1-D layer of `bed-load-1d` (verification). \
-        Transport of `stabilised` on the third slope, in the paper tier. `forgets_start` fails while the two starts \
-        still differ.\n\n\
+        Judged. Conservation in all tiers. `continuum` against the 1-D layer of `bed-load-1d` (verification). In the \
+        paper tier, transport of `stabilised` on the third slope, and whether the two starts still differ \
+        (`forgets_start`).\n\n\
         Observed only. All metrics of `paper`, which fails in documented ways. Transport and profiles of runs that \
         still depend on their start.";
     const EXTERNAL_SCHEMA: ExternalSchema = foreign::EXTERNAL_SCHEMA;

@@ -84,7 +84,7 @@ pub fn execute(
     let runs = cases.iter().enumerate().flat_map(|(case, own)| (0..own.run_count()).map(move |run| (case, run)));
     // each with its position over all cases, which the monitor knows it by
     let mut jobs: Vec<(usize, (usize, usize))> = runs.enumerate().collect();
-    let cost = |&(_, (case, run)): &(usize, (usize, usize))| cases[case].estimate(run).particle_steps;
+    let cost = |&(_, (case, run)): &(usize, (usize, usize))| cases[case].estimate(run).core_seconds;
     // The longest first; of equal cost the first first.
     jobs.sort_by(|a, b| cost(b).total_cmp(&cost(a)));
     share_out(jobs, |(number, (case, run))| {
