@@ -12,7 +12,7 @@ mod rooms;
 
 use code::{code, is_of_tests};
 use embed::{embed, sorted_files, texts};
-use rooms::Rooms;
+use rooms::{LAWS, Rooms};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -50,7 +50,8 @@ fn main() {
     let package = PathBuf::from(std::env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let workspace = package.parent().map(Path::to_path_buf).unwrap_or_default();
     let (mut hash, mut of_solver, mut build) = (Sha256::new(), Sha256::new(), Sha256::new());
-    let mut rooms = Rooms::default();
+    let dispatch = |folder: &str| source(&workspace, &workspace.join(folder).join("mod.rs")).1;
+    let mut rooms = Rooms::new(&LAWS.map(dispatch).concat());
 
     for name in CODE {
         let folder = workspace.join(name);
@@ -90,7 +91,7 @@ fn main() {
         add(&mut build, variable, self::variable(variable).as_bytes());
     }
 
-    write_rooms(&rooms.hashes(&build));
+    write_hashes(&rooms, &build);
     hash.update(build.finalize());
     println!("cargo::rustc-env=BAGNOLD_SOURCE_HASH={}", digits(hash));
     println!("cargo::rustc-env=BAGNOLD_SOLVER_HASH={}", digits(of_solver));
@@ -138,8 +139,16 @@ fn source(workspace: &Path, file: &Path) -> (String, String) {
     (path, code(&std::fs::read_to_string(file).unwrap_or_default()))
 }
 
-/// Writes cases and hashes as an array for `include!`.
-fn write_rooms(hashes: &[(String, String)]) {
+/// Writes cases, laws and what draws, each with the hash of all that it depends on beside the rest of the build, as an array for
+/// `include!`.
+fn write_hashes(rooms: &Rooms, build: &Sha256) {
+    let hash = |sources: &[&(String, String)]| {
+        let mut hash = build.clone();
+        sources.iter().for_each(|(path, code)| add(&mut hash, path, code.as_bytes()));
+        digits(hash)
+    };
+    let hashes: Vec<(String, String)> =
+        rooms.dependences().into_iter().map(|(name, sources)| (name, hash(&sources))).collect();
     let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default()).join("rooms.rs");
     if let Err(error) = std::fs::write(&out, format!("&{hashes:?}")) {
         println!("cargo::error=failed to write {}: {error}", out.display());

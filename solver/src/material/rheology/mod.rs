@@ -19,7 +19,6 @@
 
 mod bingham;
 mod coulomb_bingham;
-mod dilating_return;
 #[cfg(test)]
 mod dilation_tests;
 pub mod field;

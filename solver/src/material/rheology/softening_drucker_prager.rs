@@ -27,6 +27,8 @@
 //! Limits: no rate; a dilation that does not end (without κ_d) is for checks against limit analysis. Softening localises: in a body,
 //! bands of shear are as narrow as the particles allow.
 
+mod dilating_return;
+
 use super::field::{FieldLaw, FieldReturn, FieldStep, LawField};
 use super::mu_i::REST_SHEAR_RATE;
 use super::plastic_dilation::PlasticDilation;

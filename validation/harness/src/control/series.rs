@@ -32,8 +32,12 @@ static ALL: [ErrorSeries; 5] = [
         parameter: "reference inertial number I_0",
         factors: &[0.9, 0.8, 0.5, 0.1],
     },
-    ErrorSeries { name: "yield-stress", parameter: "yield stress of the Bingham law", factors: FRICTIONS },
-    ErrorSeries { name: "plastic-viscosity", parameter: "plastic viscosity of the Bingham law", factors: FRICTIONS },
+    ErrorSeries { name: "yield-stress", parameter: "yield stress of the viscoplastic law", factors: FRICTIONS },
+    ErrorSeries {
+        name: "plastic-viscosity",
+        parameter: "plastic viscosity of the viscoplastic law",
+        factors: FRICTIONS,
+    },
 ];
 
 impl ErrorSeries {

@@ -50,7 +50,7 @@ impl Drawings {
     pub fn key(&self, data: &impl Serialize) -> DrawingKey {
         let of = |bytes: Vec<u8>| {
             let mut hash = Sha256::new();
-            hash.update(simulation_hash("drawing"));
+            hash.update(simulation_hash("drawing", ""));
             hash.update(bytes);
             hexadecimal(&hash.finalize())
         };

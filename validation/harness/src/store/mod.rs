@@ -159,14 +159,15 @@ impl Store {
             return None;
         }
         let program = identity(origin)?;
-        let program = if program == source_hash() { provenance::simulation_hash(case) } else { program };
-        let description = serde_json::to_vec(run)
+        let description = serde_json::to_string(run)
             .inspect_err(|error| {
                 tracing::warn!("{case}: a run cannot be stored, its description does not serialise: {error}")
             })
             .ok()?;
+        let own = provenance::simulation_hash(case, &description);
+        let program = if program == source_hash() { own.as_str() } else { program };
         let mut hash = Sha256::new();
-        for part in [program.as_bytes(), case.as_bytes(), &description] {
+        for part in [program, case, &description].map(str::as_bytes) {
             hash.update((part.len() as u64).to_le_bytes());
             hash.update(part);
         }

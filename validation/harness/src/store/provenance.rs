@@ -12,7 +12,7 @@ pub struct Build {
     pub source_hash: &'static str,
     /// SHA-256 of the solver's sources alone.
     pub solver_hash: &'static str,
-    /// Cases with SHA-256 of what their simulations depend on.
+    /// Cases with SHA-256 of what their simulations depend on; so with laws, by their quoted names, and with what draws.
     pub simulation_hashes: &'static [(&'static str, &'static str)],
     /// Commit, with `+changes` after it if the sources differ from it; `unknown` without a repository.
     pub commit: &'static str,
@@ -58,11 +58,15 @@ pub fn version() -> &'static str {
     env!("CARGO_PKG_VERSION")
 }
 
-/// SHA-256 of what the simulations of a case depend on: its own sources, its model and all that is common, but neither what
-/// judges and draws nor other cases.
-pub(super) fn simulation_hash(case: &str) -> &'static str {
-    let own = build().simulation_hashes.iter().find(|(name, _)| *name == case);
-    own.map_or_else(source_hash, |(_, hash)| hash)
+/// SHA-256 of what a run of a case depends on: the sources of the case, its model and all that is common, and those of each law
+/// that its description names, `"law":"mu-i"`; but neither what judges and draws nor other cases and laws.
+pub(super) fn simulation_hash(case: &str, description: &str) -> String {
+    let hashes = build().simulation_hashes.iter();
+    let is_used = |name: &str| name == case || name.starts_with('"') && description.contains(name);
+    if !hashes.clone().any(|(name, _)| *name == case) {
+        return source_hash().to_owned();
+    }
+    hashes.filter(|(name, _)| is_used(name)).map(|(_, hash)| *hash).collect()
 }
 
 /// SHA-256 of everything that a result depends on; empty where nothing was declared. Laws and cases of another crate are no part

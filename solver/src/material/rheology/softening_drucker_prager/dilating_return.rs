@@ -9,10 +9,10 @@
 //! the next kink at the latest, find the first root: the one to which the strain grows as the load does. Where g rises (the material softens faster than
 //! it unloads) there is none before the next kink. A bracket halves what tension makes of Y elsewhere; every step gains one bit or more.
 
-use super::field::FieldReturn;
-use super::softening_drucker_prager::where_held;
-use super::{SofteningDruckerPrager, TrialStress};
+use super::{SofteningDruckerPrager, where_held};
 use crate::lanes::Real;
+use crate::material::rheology::TrialStress;
+use crate::material::rheology::field::FieldReturn;
 
 /// Most evaluations: those of a bracket that is halved down to rounding.
 const MOST: usize = 80;
