@@ -87,7 +87,10 @@ impl Rooms {
             None => {
                 let part = other.strip_prefix(REFERENCE);
                 let path = format!("crate::{}", part.unwrap_or(other));
-                sources.iter().any(|(_, code)| code.contains(&path) || part.is_some() && code.contains(other))
+                // a case and a part of the references may have one name
+                let own = if part.is_some() { "validation/reference/" } else { "validation/cases/" };
+                let is_own = |(file, code): &(String, String)| file.starts_with(own) && code.contains(&path);
+                sources.iter().any(|source| is_own(source) || part.is_some() && source.1.contains(other))
             }
         };
         let is_around = |other: &str| room.split_once("::").is_some_and(|(family, _)| family == other);
