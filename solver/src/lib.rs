@@ -19,3 +19,6 @@ pub mod run;
 
 pub mod incompressible;
 pub mod weakly_compressible;
+
+#[doc(hidden)]
+pub mod internals;

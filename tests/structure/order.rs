@@ -18,6 +18,7 @@ const SOLVER: Floors = &[
     &["material", "linear"],
     &["run"],
     &["weakly_compressible", "incompressible"],
+    &["internals"],
 ];
 
 /// `validation/inference/src`.
@@ -104,16 +105,21 @@ fn the_inference_depends_downwards_only() {
 }
 
 /// They are reachable for the package's tests, and no part of its interface.
-#[test]
-fn internals_of_the_inference_are_named_by_its_tests_alone() {
+fn check_internals(library: &str, tests: &str) {
     let name = |path: &PathBuf| {
         let code = blanked(&std::fs::read_to_string(path).expect("readable"));
-        ["bagnold_inference", "internals"].iter().all(|word| code.contains(word))
+        [library, "internals"].iter().all(|word| code.contains(word))
     };
     let all = ["solver", "validation", "tests", "python"].into_iter().flat_map(|folder| files(folder, "rs"));
     let (own, others): (Vec<PathBuf>, Vec<PathBuf>) =
-        all.filter(name).partition(|path| path.starts_with(workspace().join("validation/inference/tests")));
-    assert!(!own.is_empty() && others.is_empty(), "{others:?} name internals of `bagnold_inference`");
+        all.filter(name).partition(|path| path.starts_with(workspace().join(tests)));
+    assert!(!own.is_empty() && others.is_empty(), "{others:?} name internals of `{library}`");
+}
+
+#[test]
+fn internals_of_a_package_are_named_by_its_tests_alone() {
+    check_internals("bagnold_inference", "validation/inference/tests");
+    check_internals("bagnold_solver", "solver/tests");
 }
 
 #[test]

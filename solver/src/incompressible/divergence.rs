@@ -58,7 +58,7 @@ impl Quantity {
 
 /// Failure of a step: a row of the velocity system, and its quantity that left its range.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Failure {
+pub(crate) struct Failure {
     /// Row of the velocity system: the fluid's free particles first, then the sediment's.
     pub(super) row: usize,
     pub(super) quantity: Quantity,

@@ -13,25 +13,22 @@
 //! along the line between the two: equal and opposite, so that momentum closes to rounding.
 
 mod boundary;
-mod columns;
+pub(crate) mod columns;
 mod divergence;
-mod neighbours;
+pub(crate) mod neighbours;
 mod numerics;
-mod passes;
-mod phase;
-mod projection;
+pub(crate) mod passes;
+pub(crate) mod phase;
+pub(crate) mod projection;
 mod saved;
 mod scene;
 mod simulation;
 mod snapshot;
-mod state;
-mod step;
+pub(crate) mod state;
+pub(crate) mod step;
 mod stratification;
 mod terms;
 mod velocity_solve;
-
-#[cfg(test)]
-mod tests;
 
 pub use columns::DrivenGrains;
 pub use numerics::{

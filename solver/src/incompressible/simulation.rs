@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 /// A running simulation of a fluid, alone or with sediment.
 #[derive(Debug)]
 pub struct IncompressibleSimulation<const D: usize> {
-    pub(super) state: State<D>,
+    pub(crate) state: State<D>,
 }
 
 /// Cost of a run: iterations of its linear solves, and searches.

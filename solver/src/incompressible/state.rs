@@ -15,22 +15,29 @@ use crate::vector::Vector;
 
 /// Both phases, the storage of the passes, and the time.
 #[derive(Debug)]
-pub(super) struct State<const D: usize> {
-    pub(super) scene: IncompressibleScene<D>,
-    pub(super) phases: Phases<D>,
-    pub(super) exchange: DragExchange<D>,
-    pub(super) search: Search<D>,
-    pub(super) viscosities: Viscosities<D>,
+pub struct State<const D: usize> {
+    /// The scene.
+    pub scene: IncompressibleScene<D>,
+    /// Both phases.
+    pub phases: Phases<D>,
+    /// Pairs between the phases.
+    pub exchange: DragExchange<D>,
+    /// Schedule of the searches.
+    pub search: Search<D>,
+    /// Viscosities of the laws.
+    pub viscosities: Viscosities<D>,
     /// Grains that dilate, if there are any; they are no phase of pairs.
-    pub(super) columns: Option<Columns<D>>,
-    pub(super) system: VelocitySystem<D>,
-    pub(super) projection: Projection<D>,
+    pub columns: Option<Columns<D>>,
+    /// Implicit velocities.
+    pub system: VelocitySystem<D>,
+    /// Pressures.
+    pub projection: Projection<D>,
     pub(super) shifts: Vec<Vector<D>>,
     /// Time `[s]`.
     pub(super) time: f64,
     pub(super) steps: u64,
     /// Δt of the last step, or the largest before the first `[s]`.
-    pub(super) last_step: f64,
+    pub last_step: f64,
 }
 
 /// Fields common to every kind of sediment; arrays have the shape `[free particles]`.

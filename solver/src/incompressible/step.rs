@@ -42,7 +42,7 @@ fn advance<const D: usize>(state: &mut State<D>) -> Result<(), Failure> {
 }
 
 /// Measures the pairs of both phases and those between them.
-pub(super) fn measure<const D: usize>(state: &mut State<D>) {
+pub(crate) fn measure<const D: usize>(state: &mut State<D>) {
     let State { scene, phases, exchange, search, .. } = state;
     let gradients = if scene.fluid.turbulence == Turbulence::Laminar { Gradients::Skip } else { Gradients::Find };
     find_surroundings(&mut phases.fluid, &search.periods, &scene.numerics, scene.fluid.bed, gradients);

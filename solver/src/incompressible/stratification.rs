@@ -38,10 +38,10 @@ pub struct Strata {
 
 /// Columns of equal width next to each other along the bed, around a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ColumnRow {
+pub struct ColumnRow {
     pub(super) count: usize,
     /// Width of each `[m]`.
-    pub(super) width: f64,
+    pub width: f64,
     /// Middle of the first `[m]`.
     pub(super) left: f64,
 }

@@ -9,7 +9,7 @@ pub mod energy;
 mod forces;
 mod initial_particles;
 mod memory;
-mod model;
+pub(crate) mod model;
 pub mod neighbours;
 pub mod numerics;
 pub mod particles;
@@ -19,15 +19,13 @@ pub mod scene;
 mod search;
 pub mod simulation;
 pub mod snapshot;
-mod state;
+pub(crate) mod state;
 mod step;
 pub mod terms;
-#[cfg(test)]
-mod tests;
 pub mod time_step;
 mod velocity_step;
 pub(crate) mod viscous_solve;
-mod wall_fields;
+pub(crate) mod wall_fields;
 pub mod walls;
 
 pub use saved::SavedSimulation;

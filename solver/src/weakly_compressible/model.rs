@@ -16,20 +16,26 @@ use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
 
 /// Properties of a run that do not change from step to step. Only the neighbour list does: a search fills it anew.
 #[derive(Debug)]
-pub(crate) struct Model<const D: usize> {
-    pub(crate) list: VerletList,
-    pub(crate) kernel: Kernel<D>,
-    pub(crate) equation_of_state: EquationOfState,
-    pub(crate) rheology: Rheology,
-    pub(crate) numerics: Numerics,
-    pub(crate) gravity: Vector<D>,
+pub struct Model<const D: usize> {
+    /// Neighbour list.
+    pub list: VerletList,
+    /// Kernel.
+    pub kernel: Kernel<D>,
+    /// Equation of state.
+    pub equation_of_state: EquationOfState,
+    /// Constitutive law.
+    pub rheology: Rheology,
+    /// Numerics.
+    pub numerics: Numerics,
+    /// Gravity `[m/s²]`.
+    pub gravity: Vector<D>,
     pub(crate) spacing: f64,
     pub(crate) contact_friction: f64,
     pub(crate) instruction_set: InstructionSet,
     /// Field that the law keeps of each particle.
     pub(crate) field: Option<LawField>,
     /// Σ −2 V F over a lattice `[1/m²]`.
-    pub(crate) full_weight: f64,
+    pub full_weight: f64,
     /// W(0) where tension is cut, so that grains may fly apart, else 0 `[1/m^D]`.
     pub(crate) lone_density_per_mass: f64,
     /// Whether plastic flow changes the volume, so that the pressure depends on the field also.
@@ -37,7 +43,7 @@ pub(crate) struct Model<const D: usize> {
     /// Liquid that bears a part of the pressure, which is the law's field.
     pub(crate) pore_liquid: Option<PoreLiquid>,
     /// Artificial stress of a cohesive law.
-    pub(crate) artificial_stress: Option<ArtificialStress>,
+    pub artificial_stress: Option<ArtificialStress>,
 }
 
 /// Quantities that diffuse among pairs in the pass of continuity.
@@ -90,7 +96,7 @@ impl<const D: usize> Model<D> {
 
     /// Whether the flow may slide along a rough wall as far as its volume is concerned: a liquid, whose boundary layer can
     /// be thinner than a spacing, but no grains.
-    pub(crate) fn slides(&self) -> bool {
+    pub fn slides(&self) -> bool {
         !self.rheology.is_solid() && self.gradient_use() == GradientUse::Stress
     }
 
@@ -105,14 +111,14 @@ impl<const D: usize> Model<D> {
     }
 
     /// Moduli of a step whose volume is given.
-    pub(crate) fn moduli(&self) -> ElasticModuli {
+    pub fn moduli(&self) -> ElasticModuli {
         ElasticModuli { shear: self.shear_modulus(), bulk: self.equation_of_state.bulk_modulus }
     }
 
     /// Pressure `[Pa]` at a density `[kg/m³]` and what the law keeps: that of the equation of state at ρ exp(e), with the plastic volume strain e.
     /// With a pore liquid the sum of its pressure and that of the skeleton, K_s (ρ φ_0/(ρ_0 φ) − 1).
     #[inline(always)]
-    pub(crate) fn pressure<R: Real>(&self, density: R, kept: &FieldStep<R>) -> R {
+    pub fn pressure<R: Real>(&self, density: R, kept: &FieldStep<R>) -> R {
         if self.pore_liquid.is_none() {
             return self.equation_of_state.pressure(density * self.rheology.loosening(kept.value));
         }
@@ -189,7 +195,7 @@ impl<const D: usize> Model<D> {
     }
 
     /// Whether the terms of pairs are single precision.
-    pub(crate) fn pairs_in_single(&self) -> bool {
+    pub fn pairs_in_single(&self) -> bool {
         self.numerics.pairs_in_single()
     }
 
@@ -236,7 +242,7 @@ impl<const D: usize> Model<D> {
 
     /// Diffusion of the law's field, if it diffuses.
     #[inline(always)]
-    pub(crate) fn field_diffusion(&self) -> Option<FieldDiffusion> {
+    pub fn field_diffusion(&self) -> Option<FieldDiffusion> {
         self.field.and_then(|field| field.diffusion)
     }
 
@@ -247,7 +253,7 @@ impl<const D: usize> Model<D> {
 
     /// Elastic part of a particle, from an equivalent shear stress and a pressure `[Pa]`, and its field and memory.
     #[inline(always)]
-    pub(crate) fn elasticity(&self, shear_stress: f64, pressure: f64, field: &FieldStep<f64>) -> f64 {
+    pub fn elasticity(&self, shear_stress: f64, pressure: f64, field: &FieldStep<f64>) -> f64 {
         self.rheology.elasticity(shear_stress, pressure, field, self.elastic_viscosity())
     }
 

@@ -23,9 +23,11 @@ use crate::weakly_compressible::walls::{Images, SideWalls, Wall};
 
 /// Particles, walls and neighbours, time, and what the next step's length follows from.
 #[derive(Debug)]
-pub(crate) struct State<const D: usize> {
-    pub(crate) particles: Particles<D>,
-    pub(crate) images: Images<D>,
+pub struct State<const D: usize> {
+    /// The particles.
+    pub particles: Particles<D>,
+    /// Images of particles across periodic and mirrored axes.
+    pub images: Images<D>,
     pub(crate) walls: Vec<Wall<D>>,
     /// Displacement of each wall in a step `[m]`.
     pub(crate) wall_displacements: Vec<Vector<D>>,
@@ -35,9 +37,12 @@ pub(crate) struct State<const D: usize> {
     /// Impulse that side walls have given to the flow since the start `[kg m/s]`, and in a step block by block.
     pub(crate) side_wall_impulse: Vector<D>,
     pub(crate) side_wall_blocks: Vec<Vector<D>>,
-    pub(crate) model: Model<D>,
-    pub(crate) pairs: PairData<D>,
-    pub(crate) viscous: ViscousSystem<D>,
+    /// Material and numerics.
+    pub model: Model<D>,
+    /// Data of pairs.
+    pub pairs: PairData<D>,
+    /// The implicit viscous step.
+    pub viscous: ViscousSystem<D>,
     pub(crate) search: Search<D>,
     pub(crate) energy: EnergyLedger,
     pub(crate) time: f64,
@@ -144,7 +149,7 @@ impl<const D: usize> State<D> {
     }
 
     /// A divergence at the particle with this storage index.
-    pub(crate) fn divergence(&self, index: usize, quantity: Quantity, value: f64) -> Divergence<D> {
+    pub fn divergence(&self, index: usize, quantity: Quantity, value: f64) -> Divergence<D> {
         let identity = self.particles.identity.get(index).copied().unwrap_or(index as u32);
         self.diverged(OutOfRange { index, identity, quantity, value })
     }

@@ -8,17 +8,17 @@ use serde::{Deserialize, Serialize};
 /// Arrays of the wall particles, then of all images (zero for those of the flow) and the sentinel, shape
 /// `[wall + images + 1]`: the entry of the particle at a storage index stands at that index less the flow's particles.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(crate) struct WallFields<const D: usize> {
+pub struct WallFields<const D: usize> {
     /// Normals of the walls into the flow `[-]`.
-    pub(crate) normal: Vec<Vector<D>>,
+    pub normal: Vec<Vector<D>>,
     /// Depths behind their surface `[m]`.
-    pub(crate) depth: Vec<f64>,
+    pub depth: Vec<f64>,
     /// Velocities of the walls themselves `[m/s]`.
-    pub(crate) velocity: Vec<Vector<D>>,
+    pub velocity: Vec<Vector<D>>,
     /// Velocities of walls as the continuity of a sliding liquid takes them `[m/s]`.
     pub(crate) sliding_velocity: Vec<Vector<D>>,
     /// 1 on particles of smooth walls, 0 elsewhere `[-]`.
-    pub(crate) smoothness: Vec<f64>,
+    pub smoothness: Vec<f64>,
 }
 
 impl<const D: usize> WallFields<D> {

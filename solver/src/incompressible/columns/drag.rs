@@ -22,7 +22,7 @@ struct Link {
 
 /// Exchange of momentum between the columns and the fluid in a step.
 #[derive(Debug, Default)]
-pub(crate) struct ColumnDrag {
+pub struct ColumnDrag {
     links: Vec<Link>,
     /// Σ of the weights of every node `[-]`.
     weight: Vec<f64>,
@@ -31,13 +31,13 @@ pub(crate) struct ColumnDrag {
     /// And across it `[m/s]`.
     pub(crate) fluid_lift: Vec<f64>,
     /// Σ β of every fluid particle `[kg/s]`.
-    pub(crate) hold: Vec<f64>,
+    pub hold: Vec<f64>,
     /// Σ β U of every fluid particle `[N]`.
-    pub(crate) push: Vec<f64>,
+    pub push: Vec<f64>,
     /// Force of suspended grains across the bed on every fluid particle `[N]`.
     pub(crate) burden: Vec<f64>,
     /// Impulse of the fluid on every node in the last step `[kg/(m s)]`.
-    pub(crate) impulse: Vec<f64>,
+    pub impulse: Vec<f64>,
 }
 
 impl ColumnDrag {

@@ -7,9 +7,11 @@ use crate::vector::Vector;
 
 /// Free particles of dilating sediment; arrays have the shape `[particles]`.
 #[derive(Debug)]
-pub(crate) struct Grains<const D: usize> {
-    pub(crate) position: Vec<Vector<D>>,
-    pub(crate) velocity: Vec<Vector<D>>,
+pub struct Grains<const D: usize> {
+    /// Positions `[m]`.
+    pub position: Vec<Vector<D>>,
+    /// Velocities `[m/s]`.
+    pub velocity: Vec<Vector<D>>,
     /// Masses `[kg]`, per metre of width in 2-D.
     pub(crate) mass: Vec<f64>,
     /// Spacing `[m]`.

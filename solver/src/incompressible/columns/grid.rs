@@ -7,9 +7,9 @@ use super::super::stratification::ColumnRow;
 
 /// Nodes of all columns; node k of column c has the index c × nodes + k.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct ColumnGrid {
+pub struct ColumnGrid {
     /// The columns along the bed.
-    pub(crate) row: ColumnRow,
+    pub row: ColumnRow,
     /// Height of the lowest node `[m]`.
     pub(crate) base: f64,
     /// Distance Δ of two nodes `[m]`.

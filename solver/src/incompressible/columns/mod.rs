@@ -28,7 +28,7 @@ pub(super) mod tests;
 
 pub use driven::DrivenGrains;
 pub(super) use fluctuation::relax_fluctuation;
-pub(super) use grains::Grains;
+pub use grains::Grains;
 
 use super::divergence::{Failure, Quantity};
 use super::numerics::ColumnNumerics;
@@ -51,10 +51,13 @@ pub(super) type Saved<const D: usize> = (Vec<Vector<D>>, Vec<Vector<D>>, Vec<f64
 
 /// The grains of a scene that dilate, and their columns.
 #[derive(Debug)]
-pub(super) struct Columns<const D: usize> {
-    pub(super) grains: Grains<D>,
-    pub(super) drag: ColumnDrag,
-    grid: ColumnGrid,
+pub struct Columns<const D: usize> {
+    /// The grains.
+    pub grains: Grains<D>,
+    /// Exchange with the fluid.
+    pub drag: ColumnDrag,
+    /// The columns.
+    pub grid: ColumnGrid,
     nodes: Nodes,
     dilatancy: Dilatancy,
     numerics: ColumnNumerics,
@@ -62,7 +65,7 @@ pub(super) struct Columns<const D: usize> {
     suspension: Option<Suspension>,
     friction: FrictionSolve,
     /// Impulse of the fluid's pressure on the grains of every node, which the next step brings `[kg/(m s)]`.
-    pressed: Vec<f64>,
+    pub pressed: Vec<f64>,
     chain: Chain,
     /// Velocities of the nodes after the step `[m/s]`.
     velocity: Vec<f64>,

@@ -6,7 +6,7 @@ use crate::vector::Vector;
 
 /// Particles sorted by cell.
 #[derive(Debug)]
-pub(crate) struct Grid<const D: usize> {
+pub struct Grid<const D: usize> {
     lower: Vector<D>,
     inverse_size: Vector<D>,
     cells: [usize; D],
@@ -22,7 +22,8 @@ const MOST_CELLS: usize = 4096;
 pub(crate) const MOST_STRETCHES: usize = 18;
 
 impl<const D: usize> Grid<D> {
-    pub(crate) fn new() -> Self {
+    /// No cells yet.
+    pub fn new() -> Self {
         Self {
             lower: Vector::zeros(),
             inverse_size: Vector::zeros(),
@@ -34,7 +35,7 @@ impl<const D: usize> Grid<D> {
     }
 
     /// Sorts the particles into cells of at least `size` `[m]`.
-    pub(crate) fn sort(&mut self, positions: &[Vector<D>], domain: &Domain<D>, size: f64) {
+    pub fn sort(&mut self, positions: &[Vector<D>], domain: &Domain<D>, size: f64) {
         for axis in 0..D {
             let (lower, upper) = match domain.axes[axis] {
                 AxisBoundary::Periodic { lower, upper } => (lower, upper),

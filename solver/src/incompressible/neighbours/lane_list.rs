@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 /// Candidates of a set of targets among sources.
 #[derive(Debug)]
-pub(crate) struct LaneList<const D: usize> {
+pub struct LaneList<const D: usize> {
     /// Chunks from one group to the next.
     stride: usize,
     columns: CheckedIndices,
@@ -35,7 +35,7 @@ pub(crate) struct LaneList<const D: usize> {
 
 /// Whether the sources are the targets themselves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Sources {
+pub enum Sources {
     /// The same particles: none is its own neighbour.
     Same,
     /// Others.
@@ -51,7 +51,8 @@ pub(crate) struct SavedList {
 }
 
 impl<const D: usize> LaneList<D> {
-    pub(crate) fn new() -> Self {
+    /// No candidates yet.
+    pub fn new() -> Self {
         Self {
             stride: LANES,
             columns: CheckedIndices::default(),
@@ -88,7 +89,7 @@ impl<const D: usize> LaneList<D> {
 
     /// Finds all candidates within `reach` and `skin` `[m]`.
     #[expect(clippy::too_many_arguments, reason = "what a search is between, and how far it goes")]
-    pub(crate) fn search(
+    pub fn search(
         &mut self,
         targets: &[Vector<D>],
         sources: &[Vector<D>],
@@ -193,7 +194,7 @@ impl<const D: usize> LaneList<D> {
 
     /// The candidates of a target.
     #[inline(always)]
-    pub(crate) fn of(&self, target: usize) -> impl Iterator<Item = usize> {
+    pub fn of(&self, target: usize) -> impl Iterator<Item = usize> {
         let (group, lane) = (target / LANES, target % LANES);
         let chunks = self.first_of(group, self.count[target] as usize).raw();
         chunks.iter().map(move |chunk| chunk[lane] as usize)

@@ -6,11 +6,13 @@ mod layers;
 mod pairs;
 mod periods;
 
-pub(crate) use grid::Grid;
-pub(crate) use lane_list::{LaneList, SavedList, Sources};
+pub use grid::Grid;
+pub(crate) use lane_list::SavedList;
+pub use lane_list::{LaneList, Sources};
 pub(crate) use layers::{Layers, Places, SavedLayers};
-pub(crate) use pairs::{Pairs, SavedPairs};
-pub(crate) use periods::{Across, Periods};
+pub use pairs::Pairs;
+pub(crate) use pairs::SavedPairs;
+pub use periods::{Across, Periods};
 
 use crate::lanes::LANES;
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 /// Pairs of targets with sources, each target's in a row of its own; all rows are equally long.
 #[derive(Debug)]
-pub(crate) struct Pairs<const D: usize> {
+pub struct Pairs<const D: usize> {
     /// A multiple of eight.
     stride: usize,
     /// Candidates of every target, and how many there are.
@@ -26,15 +26,15 @@ pub(crate) struct Pairs<const D: usize> {
 
 /// One pair of a target a with a source b.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pair<const D: usize> {
+pub struct Pair<const D: usize> {
     /// Index of the source.
-    pub(crate) source: u32,
+    pub source: u32,
     /// x_a − x_b of the nearest images `[m]`.
-    pub(crate) separation: Vector<D>,
+    pub separation: Vector<D>,
     /// W `[1/m^D]`.
-    pub(crate) value: f64,
+    pub value: f64,
     /// F = (1/r) dW/dr `[1/m^(D+2)]`, never positive.
-    pub(crate) gradient: f64,
+    pub gradient: f64,
 }
 
 /// Candidates as they are saved; the pairs within reach are measured anew.
@@ -68,7 +68,8 @@ impl<const D: usize> Pairs<D> {
         Ok(())
     }
 
-    pub(crate) fn new() -> Self {
+    /// No pairs yet.
+    pub fn new() -> Self {
         Self {
             stride: LANES,
             candidate: Vec::new(),
@@ -80,7 +81,7 @@ impl<const D: usize> Pairs<D> {
     }
 
     /// Finds all candidates within `radius` `[m]`.
-    pub(crate) fn search(
+    pub fn search(
         &mut self,
         targets: &[Vector<D>],
         sources: &[Vector<D>],
@@ -124,13 +125,7 @@ impl<const D: usize> Pairs<D> {
     }
 
     /// Measures the candidates and keeps those within the kernel's reach.
-    pub(crate) fn measure(
-        &mut self,
-        targets: &[Vector<D>],
-        sources: &[Vector<D>],
-        periods: &Periods<D>,
-        kernel: &Kernel<D>,
-    ) {
+    pub fn measure(&mut self, targets: &[Vector<D>], sources: &[Vector<D>], periods: &Periods<D>, kernel: &Kernel<D>) {
         let rows = LEAST_TASK * self.stride;
         (
             self.entry.par_chunks_mut(rows),
@@ -158,7 +153,7 @@ impl<const D: usize> Pairs<D> {
 
     /// The pairs of a target.
     #[inline(always)]
-    pub(crate) fn of(&self, target: usize) -> &[Pair<D>] {
+    pub fn of(&self, target: usize) -> &[Pair<D>] {
         let start = target * self.stride;
         &self.entry[start..start + self.count[target] as usize]
     }

@@ -7,7 +7,7 @@ use crate::vector::Vector;
 
 /// The separation of two particles by the shortest way.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Periods<const D: usize> {
+pub struct Periods<const D: usize> {
     lower: Vector<D>,
     length: Vector<D>,
     inverse: Vector<D>,
@@ -19,7 +19,7 @@ const ROOM: f64 = 1.5;
 
 /// Whether eight particles have pairs across the end of a period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Across {
+pub enum Across {
     /// None within the distance that was asked for: separations are differences of positions as they stand.
     None,
     /// Some may.
@@ -27,7 +27,8 @@ pub(crate) enum Across {
 }
 
 impl<const D: usize> Periods<D> {
-    pub(crate) fn of(domain: &Domain<D>) -> Self {
+    /// The periods of a domain.
+    pub fn of(domain: &Domain<D>) -> Self {
         let (mut lower, mut length) = (Vector::zeros(), Vector::zeros());
         for (axis, boundary) in domain.axes.iter().enumerate() {
             if let AxisBoundary::Periodic { lower: low, upper } = *boundary {
@@ -46,7 +47,7 @@ impl<const D: usize> Periods<D> {
     /// Whether one of eight particles lies so near to the end of a period that it may have a pair across it that is shorter than
     /// `reach` `[m]`. If none does, such a pair is longer, by the shortest way as well as by the way that leaves the period.
     #[inline(always)]
-    pub(crate) fn across<V: Lanes>(&self, positions: &[V], reach: f64) -> Across {
+    pub fn across<V: Lanes>(&self, positions: &[V], reach: f64) -> Across {
         let (mut mask, range) = (0, ROOM * reach);
         for axis in 0..D {
             if self.has(axis) {
@@ -59,7 +60,7 @@ impl<const D: usize> Periods<D> {
 
     /// The same as [`Periods::shortest`] where it is known whether pairs lie across the end of a period.
     #[inline(always)]
-    pub(crate) fn shortest_if<V: Real>(&self, across: Across, separation: [V; D]) -> [V; D] {
+    pub fn shortest_if<V: Real>(&self, across: Across, separation: [V; D]) -> [V; D] {
         match across {
             Across::None => separation,
             Across::Some => self.shortest(separation),
@@ -83,7 +84,7 @@ impl<const D: usize> Periods<D> {
 
     /// x_a − x_b `[m]` of the nearest images.
     #[inline(always)]
-    pub(crate) fn separation(&self, target: &Vector<D>, source: &Vector<D>) -> Vector<D> {
+    pub fn separation(&self, target: &Vector<D>, source: &Vector<D>) -> Vector<D> {
         Vector::from(self.shortest::<f64>((target - source).into()))
     }
 

@@ -17,11 +17,11 @@ use crate::vector::Vector;
 
 /// Pairs between the phases, and what a step needs of them.
 #[derive(Debug)]
-pub(crate) struct DragExchange<const D: usize> {
+pub struct DragExchange<const D: usize> {
     /// Sediment particles, the free ones first and then the fixed, with the fluid around them.
-    pub(crate) of_sediment: Pairs<D>,
+    pub of_sediment: Pairs<D>,
     /// Fluid particles with the sediment around them, indexed as above.
-    pub(crate) of_fluid: Pairs<D>,
+    pub of_fluid: Pairs<D>,
     /// Positions of the sediment, free and fixed `[m]`.
     sediment: Vec<Vector<D>>,
     /// β_ab/(m_b W) of every sediment particle, from its mean slip `[m²/s]` in 2-D.
@@ -45,7 +45,8 @@ impl<const D: usize> DragExchange<D> {
         }
     }
 
-    pub(crate) fn kernel(&self) -> &Kernel<D> {
+    /// Kernel of the drag.
+    pub fn kernel(&self) -> &Kernel<D> {
         &self.kernel
     }
 
@@ -68,7 +69,7 @@ impl<const D: usize> DragExchange<D> {
     }
 
     /// Largest distance of a pair `[m]`.
-    pub(crate) fn reach(&self) -> f64 {
+    pub fn reach(&self) -> f64 {
         self.kernel.support()
     }
 

@@ -1,7 +1,7 @@
 //! The loops over particles and pairs of a step, with what they store.
 
 pub(super) mod drag_exchange;
-pub(super) mod pair_rows;
+pub(crate) mod pair_rows;
 pub(super) mod pressure_rows;
 pub(super) mod search;
 pub(super) mod shifting;

@@ -8,8 +8,9 @@ use crate::run::ForeignState;
 
 /// Schedule of the neighbour searches, and their number.
 #[derive(Debug)]
-pub(crate) struct Search<const D: usize> {
-    pub(crate) periods: Periods<D>,
+pub struct Search<const D: usize> {
+    /// Periods of the domain.
+    pub periods: Periods<D>,
     /// Skin over the reach of the fluid's kernel `[-]`.
     skin: f64,
     layers: Layers<D>,

@@ -14,15 +14,15 @@ use crate::vector::{Tensor, shear_rate};
 
 /// Viscosities, shear rates and loads of the laws at every free particle.
 #[derive(Debug)]
-pub(crate) struct Viscosities<const D: usize> {
+pub struct Viscosities<const D: usize> {
     /// Dynamic viscosity of every fluid particle `[Pa·s]`, times its voidage.
-    pub(crate) fluid: Vec<f64>,
+    pub fluid: Vec<f64>,
     /// ⟨∇u⟩ of every fluid particle `[1/s]`; empty before the first step, which starts it with ∇u.
     mean_gradient: Vec<Tensor<D>>,
     /// Shear rate of every fluid particle that its turbulence takes `[1/s]`.
-    pub(crate) fluid_rate: Vec<f64>,
+    pub fluid_rate: Vec<f64>,
     /// Part 1 − φ of the space that the fluid has at every fluid particle `[-]`.
-    pub(crate) voidage: Vec<f64>,
+    pub voidage: Vec<f64>,
     /// Apparent viscosity of every sediment particle `[Pa·s]`.
     pub(crate) sediment: Vec<f64>,
     /// Load on the grains of every sediment particle `[Pa]`.
@@ -57,7 +57,7 @@ impl<const D: usize> Viscosities<D> {
     }
 
     /// Evaluates the laws at the present heights and velocity gradients, a step `[s]` after the last time.
-    pub(crate) fn find(&mut self, scene: &IncompressibleScene<D>, phases: &Phases<D>, time_step: f64) {
+    pub fn find(&mut self, scene: &IncompressibleScene<D>, phases: &Phases<D>, time_step: f64) {
         let fluid = &phases.fluid;
         let layer = scene.solid_fraction.stratification();
         // what is larger than the particles Smagorinsky's closure leaves to their motion

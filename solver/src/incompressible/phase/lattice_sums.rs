@@ -5,17 +5,18 @@ use crate::vector::Vector;
 
 /// Sums of an undisturbed lattice, by which the discrete operators are divided.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LatticeSums {
+pub struct LatticeSums {
     /// Σ V W, the particle itself included `[-]`.
-    pub(crate) concentration: f64,
+    pub concentration: f64,
     /// Σ V (−F) x² `[-]`: the gradient of a linear field along an axis.
-    pub(crate) gradient: f64,
+    pub gradient: f64,
     /// Σ (−F) `[1/m^(D+2)]`: the diagonal of a Laplacian.
-    pub(crate) diagonal: f64,
+    pub diagonal: f64,
 }
 
 impl LatticeSums {
-    pub(crate) fn of<const D: usize>(kernel: &Kernel<D>, spacing: f64) -> Self {
+    /// Sums of a lattice.
+    pub fn of<const D: usize>(kernel: &Kernel<D>, spacing: f64) -> Self {
         let reach = (kernel.support() / spacing).ceil() as i32;
         let width = (2 * reach + 1) as usize;
         let volume = spacing.powi(D as i32);

@@ -5,7 +5,7 @@ mod phases;
 pub(crate) mod records;
 mod sliding_rows;
 
-pub(crate) use lattice_sums::LatticeSums;
+pub use lattice_sums::LatticeSums;
 pub(crate) use phases::Phases;
 
 use super::neighbours::{Grid, LaneList, Periods, Places, Sources};
@@ -29,21 +29,26 @@ pub(crate) struct WallSums {
 
 /// State and measures of one phase; arrays have the shape `[free particles]` unless said otherwise.
 #[derive(Debug)]
-pub(crate) struct Phase<const D: usize> {
-    pub(crate) position: Vec<Vector<D>>,
-    pub(crate) velocity: Vec<Vector<D>>,
+pub struct Phase<const D: usize> {
+    /// Positions `[m]`.
+    pub position: Vec<Vector<D>>,
+    /// Velocities `[m/s]`.
+    pub velocity: Vec<Vector<D>>,
     /// Masses `[kg]`.
-    pub(crate) mass: Vec<f64>,
-    pub(crate) pressure: Vec<f64>,
+    pub mass: Vec<f64>,
+    /// Pressures `[Pa]`.
+    pub pressure: Vec<f64>,
     /// Fixed particles `[wall particles]`.
-    pub(crate) wall: Vec<Vector<D>>,
+    pub wall: Vec<Vector<D>>,
     /// Volume of a particle on the lattice, which it stands for in sums `[m^D]`.
-    pub(crate) lattice_volume: f64,
+    pub lattice_volume: f64,
     pub(crate) spacing: f64,
     /// Density of the phase's material `[kg/m³]`.
     pub(crate) density: f64,
-    pub(crate) kernel: Kernel<D>,
-    pub(crate) lattice: LatticeSums,
+    /// Kernel.
+    pub kernel: Kernel<D>,
+    /// Sums of the lattice.
+    pub lattice: LatticeSums,
     /// Shear rate of rows that slide over each other over that of their pairs, |u_ab|/r, as a mean `[-]`.
     pub(crate) sliding_rate: f64,
     /// Candidates among the free particles and among the walls.
@@ -58,21 +63,22 @@ pub(crate) struct Phase<const D: usize> {
     pub(crate) records: Vec<[f64; 4]>,
     pub(crate) wall_records: Vec<[f64; 4]>,
     /// Σ V W over that of the lattice `[-]`.
-    pub(crate) concentration: Vec<f64>,
-    pub(crate) at_surface: Vec<bool>,
+    pub concentration: Vec<f64>,
+    /// Whether a particle is at the surface.
+    pub at_surface: Vec<bool>,
     /// Neighbour deficit of a particle, from 0 inside to 1 at the surface `[-]`; a smooth form of (31), because
     /// particles that change sides in steps shake the column. One half is (31).
-    pub(crate) deficit: Vec<f64>,
+    pub deficit: Vec<f64>,
     /// 1 at the surface and beside it, 0 inside `[-]`.
     pub(crate) nearness: Vec<f64>,
     /// Σ V (−F) r²/D `[-]`: the sum of gradients that would be 1 in a continuum; the lattice's at the surface.
-    pub(crate) moment: Vec<f64>,
+    pub moment: Vec<f64>,
     /// δ = Σ V (−F) r rᵀ/M − 1 `[-]`: how far the neighbours lie otherwise than evenly all around; 0 at the surface.
-    pub(crate) anisotropy: Vec<Tensor<D>>,
+    pub anisotropy: Vec<Tensor<D>>,
     /// Its mean over the neighbours, times the share that gradients of pairs are rid of `[-]`.
-    pub(crate) mean_anisotropy: Vec<Tensor<D>>,
+    pub mean_anisotropy: Vec<Tensor<D>>,
     /// ∇u, corrected, over free particles `[1/s]`.
-    pub(crate) velocity_gradient: Vec<Tensor<D>>,
+    pub velocity_gradient: Vec<Tensor<D>>,
     /// Displacement since the last search `[m]`.
     pub(crate) travel: Vec<Vector<D>>,
     grid: Grid<D>,
@@ -129,12 +135,13 @@ impl<const D: usize> Phase<D> {
         self
     }
 
-    pub(crate) fn len(&self) -> usize {
+    /// Free particles.
+    pub fn len(&self) -> usize {
         self.position.len()
     }
 
     /// Finds the candidates of the pairs within the phase.
-    pub(crate) fn search(&mut self, domain: &Domain<D>, periods: &Periods<D>, skin: f64) {
+    pub fn search(&mut self, domain: &Domain<D>, periods: &Periods<D>, skin: f64) {
         let reach = self.kernel.support();
         self.grid.sort(&self.position, domain, reach + skin);
         self.free.search(&self.position, &self.position, Sources::Same, &self.grid, periods, reach, skin);
@@ -146,7 +153,7 @@ impl<const D: usize> Phase<D> {
     /// The free particles within reach of one at the positions that were last measured: index, x_a − x_b of the nearest
     /// images `[m]` and F `[1/m^(D+2)]`.
     #[inline(always)]
-    pub(crate) fn free_pairs(&self, a: usize, periods: &Periods<D>) -> impl Iterator<Item = (usize, Vector<D>, f64)> {
+    pub fn free_pairs(&self, a: usize, periods: &Periods<D>) -> impl Iterator<Item = (usize, Vector<D>, f64)> {
         let (first, lane) = (a / LANES * self.free.stride(), a % LANES);
         let candidates = self.free.of(a).zip(&self.weight[first..]);
         let near = candidates.filter(move |(_, weight)| weight[lane] < 0.0);
@@ -157,7 +164,7 @@ impl<const D: usize> Phase<D> {
 
     /// The wall particles within reach of a free one, likewise.
     #[inline(always)]
-    pub(crate) fn wall_pairs(&self, a: usize, periods: &Periods<D>) -> impl Iterator<Item = (usize, Vector<D>, f64)> {
+    pub fn wall_pairs(&self, a: usize, periods: &Periods<D>) -> impl Iterator<Item = (usize, Vector<D>, f64)> {
         self.walls.of(a).filter_map(move |b| {
             let separation = periods.separation(&self.position[a], &self.wall[b]);
             let weight = self.kernel.gradient_weight(separation.norm_squared(), 1.0);
@@ -177,7 +184,7 @@ impl<const D: usize> Phase<D> {
 
     /// Moves a particle.
     #[inline(always)]
-    pub(crate) fn displace(&mut self, particle: usize, by: Vector<D>) {
+    pub fn displace(&mut self, particle: usize, by: Vector<D>) {
         self.position[particle] += by;
         self.travel[particle] += by;
     }

@@ -5,9 +5,11 @@ use crate::domain::Domain;
 
 /// The fluid and the sediment, if there is one.
 #[derive(Debug)]
-pub(crate) struct Phases<const D: usize> {
-    pub(crate) fluid: Phase<D>,
-    pub(crate) sediment: Option<Phase<D>>,
+pub struct Phases<const D: usize> {
+    /// The fluid.
+    pub fluid: Phase<D>,
+    /// The sediment, where there is one.
+    pub sediment: Option<Phase<D>>,
 }
 
 impl<const D: usize> Phases<D> {
@@ -15,12 +17,13 @@ impl<const D: usize> Phases<D> {
         std::iter::once(&self.fluid).chain(&self.sediment)
     }
 
-    pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut Phase<D>> {
+    /// Every phase.
+    pub fn all_mut(&mut self) -> impl Iterator<Item = &mut Phase<D>> {
         std::iter::once(&mut self.fluid).chain(&mut self.sediment)
     }
 
     /// Puts all particles back into their periods.
-    pub(crate) fn wrap(&mut self, domain: &Domain<D>) {
+    pub fn wrap(&mut self, domain: &Domain<D>) {
         for phase in self.all_mut() {
             for position in &mut phase.position {
                 domain.wrap(position);

@@ -3,13 +3,13 @@
 
 mod correction;
 mod gauge;
-pub(super) mod mixture;
+pub(crate) mod mixture;
 mod motion;
 mod pressure_links;
 mod pressure_poisson;
 
 pub(super) use mixture::{Flux, Mixture};
-pub(super) use pressure_poisson::PressurePoisson;
+pub use pressure_poisson::PressurePoisson;
 
 use super::divergence::{Failure, Quantity};
 use super::neighbours::Periods;
@@ -25,10 +25,12 @@ use correction::Correction;
 
 /// The pressure Poisson equations of a run, reused from step to step.
 #[derive(Debug)]
-pub(super) struct Projection<const D: usize> {
-    pub(super) fluid: PressurePoisson<D>,
+pub struct Projection<const D: usize> {
+    /// Pressure of the fluid.
+    pub fluid: PressurePoisson<D>,
     pub(super) sediment: PressurePoisson<D>,
-    pub(super) mixture: Mixture<D>,
+    /// Pressure of a mixture.
+    pub mixture: Mixture<D>,
 }
 
 /// Whether the rows of a phase's pressure are there.

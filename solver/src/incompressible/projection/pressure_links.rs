@@ -7,10 +7,11 @@ use crate::vector::Vector;
 
 /// A pair of two free particles.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Link<const D: usize> {
-    pub(crate) source: u32,
+pub struct Link<const D: usize> {
+    /// The other particle.
+    pub source: u32,
     /// g_ab `[1/m]`.
-    pub(crate) gradient: Vector<D>,
+    pub gradient: Vector<D>,
     /// Coefficient of A, 2 V (−F) `[1/m²]`.
     pub(crate) laplacian: f64,
 }

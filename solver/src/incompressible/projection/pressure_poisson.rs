@@ -38,7 +38,7 @@ pub(crate) const LATTICE_ROWS: usize = 4096;
 
 /// Coefficients, reused from step to step.
 #[derive(Debug)]
-pub(crate) struct PressurePoisson<const D: usize> {
+pub struct PressurePoisson<const D: usize> {
     links: LaneRows<LinkChunk<D>>,
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
     own: Vec<Vector<D>>,
@@ -57,7 +57,8 @@ pub(crate) struct PressurePoisson<const D: usize> {
 }
 
 impl<const D: usize> PressurePoisson<D> {
-    pub(crate) fn new() -> Self {
+    /// No rows yet.
+    pub fn new() -> Self {
         Self {
             links: LaneRows::new(),
             own: Vec::new(),
@@ -107,7 +108,7 @@ impl<const D: usize> PressurePoisson<D> {
 
     /// (D u)_a `[1/s]` of a velocity field.
     #[inline(always)]
-    pub(crate) fn divergence(&self, a: usize, velocity: &[Vector<D>]) -> f64 {
+    pub fn divergence(&self, a: usize, velocity: &[Vector<D>]) -> f64 {
         let mut sum = -self.own[a].dot(&velocity[a]);
         for link in self.links(a) {
             sum += link.gradient.dot(&velocity[link.source as usize]);
@@ -117,7 +118,7 @@ impl<const D: usize> PressurePoisson<D> {
 
     /// (G P)_a `[Pa/m]`.
     #[inline(always)]
-    pub(crate) fn gradient(&self, a: usize, pressure: &[f64]) -> Vector<D> {
+    pub fn gradient(&self, a: usize, pressure: &[f64]) -> Vector<D> {
         let mut sum = self.own[a] * pressure[a];
         for link in self.links(a) {
             sum += link.gradient * pressure[link.source as usize];
@@ -126,7 +127,7 @@ impl<const D: usize> PressurePoisson<D> {
     }
 
     /// D u `[1/s]` of a velocity field, of all particles.
-    pub(crate) fn find_divergence(&self, velocity: &[Vector<D>], divergence: &mut [f64]) {
+    pub fn find_divergence(&self, velocity: &[Vector<D>], divergence: &mut [f64]) {
         divergence.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, out)| {
             let (links, own, first) = (&self.links, &self.own[..], task * TASK_ROWS);
             self.links.run(Divergence { links, own, u: velocity, first, out, taken: None });
@@ -134,7 +135,7 @@ impl<const D: usize> PressurePoisson<D> {
     }
 
     /// G P `[Pa/m]` of all particles.
-    pub(crate) fn find_gradient(&mut self, p: &[f64]) -> &[Vector<D>] {
+    pub fn find_gradient(&mut self, p: &[f64]) -> &[Vector<D>] {
         let Self { links, own, gradient, .. } = self;
         let (links, own) = (&*links, &own[..]);
         gradient.par_chunks_mut(TASK_ROWS).enumerate().for_each(|(task, gradient)| {
@@ -160,7 +161,7 @@ impl<const D: usize> PressurePoisson<D> {
 
     /// The links of a particle.
     #[inline(always)]
-    pub(crate) fn links(&self, a: usize) -> impl Iterator<Item = Link<D>> {
+    pub fn links(&self, a: usize) -> impl Iterator<Item = Link<D>> {
         self.links.row(a).map(|(source, (gradient, laplacian))| Link { source, gradient, laplacian })
     }
 
@@ -229,7 +230,8 @@ impl<const D: usize> PressurePoisson<D> {
         outcome
     }
 
-    pub(crate) fn apply(
+    /// A p, less s D G p where it is stabilised.
+    pub fn apply(
         &self,
         p: &[f64],
         product: &mut [f64],

@@ -22,7 +22,7 @@ const MILD_FRICTION: f64 = 0.5;
 
 /// Rows of M + Δt K: the fluid's free particles first, then the sediment's.
 #[derive(Debug)]
-pub(crate) struct VelocitySystem<const D: usize> {
+pub struct VelocitySystem<const D: usize> {
     /// Δt k_ab `[kg]` of the fluid's viscous pairs.
     couplings: LaneRows<Single>,
     /// Σ_b of these in every row of the fluid `[kg]`.
@@ -32,13 +32,13 @@ pub(crate) struct VelocitySystem<const D: usize> {
     /// m_a + Δt Σ k `[kg]`.
     pub(crate) diagonal: Vec<f64>,
     /// m_a, and what walls and the fixed bed hold, Δt Σ_w k_aw `[kg]`: the rows' sums.
-    pub(crate) of_constant: Vec<f64>,
+    pub of_constant: Vec<f64>,
     /// m_a `[kg]`; of the fluid only its share of the space.
-    pub(crate) inertia: Vec<f64>,
+    pub inertia: Vec<f64>,
     /// Momentum before the solve `[kg m/s]`.
     pub(crate) momentum: Vec<Vector<D>>,
     /// u* `[m/s]`.
-    pub(crate) velocity: Vec<Vector<D>>,
+    pub velocity: Vec<Vector<D>>,
     /// u* − uⁿ of the last solve `[m/s]`.
     change: Vec<Vector<D>>,
     inverse_diagonal: Vec<f64>,

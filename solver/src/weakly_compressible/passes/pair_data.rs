@@ -8,7 +8,7 @@ use crate::weakly_compressible::neighbours::BLOCK;
 
 /// Weights of all pairs, packed copies of what a loop reads of a neighbour, and buffers.
 #[derive(Debug, Default)]
-pub(crate) struct PairData<const D: usize> {
+pub struct PairData<const D: usize> {
     /// V_b F of every pair `[1/m²]`, chunk by chunk as in the neighbour list: made by the first pass of a step, used by
     /// the others, so that a step takes one square root a pair. Without meaning where pairs are in single precision.
     pub(crate) weights: Vec<[f64; LANES]>,

@@ -37,10 +37,7 @@ mod start;
 mod system;
 mod update;
 
-#[cfg(test)]
-mod tests;
-
-pub(crate) use system::ViscousSystem;
+pub use system::ViscousSystem;
 
 use crate::linear::{Descent, Stalled, descend};
 use crate::vector::Vector;
@@ -50,21 +47,24 @@ use crate::weakly_compressible::passes::PairData;
 use crate::weakly_compressible::walls::Images;
 
 /// Iterations after which a solve is given up.
-pub(crate) const MOST_ITERATIONS: usize = 1000;
+pub const MOST_ITERATIONS: usize = 1000;
 
 /// A solve that did not reach its tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct NotConverged {
+pub struct NotConverged {
     /// Storage index of the particle with the largest residual acceleration, or the first whose is not a number.
-    pub(crate) worst: usize,
+    pub worst: usize,
 }
 
 /// The constants of a step's solve.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct ViscousSolve<'a, const D: usize> {
-    pub(crate) model: &'a Model<D>,
-    pub(crate) pairs: &'a PairData<D>,
-    pub(crate) time_step: f64,
+pub struct ViscousSolve<'a, const D: usize> {
+    /// Material and numerics.
+    pub model: &'a Model<D>,
+    /// Weights of the pairs.
+    pub pairs: &'a PairData<D>,
+    /// Δt `[s]`.
+    pub time_step: f64,
 }
 
 impl<const D: usize> ViscousSolve<'_, D> {
@@ -72,7 +72,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
     ///
     /// # Errors
     /// A solve that did not reach its tolerance.
-    pub(crate) fn run(
+    pub fn run(
         &self,
         particles: &mut Particles<D>,
         images: &Images<D>,
@@ -102,7 +102,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
     }
 
     /// (M + Δt K) times the direction.
-    fn product(&self, system: &mut ViscousSystem<D>, flow: usize, images: &Images<D>) {
+    pub fn product(&self, system: &mut ViscousSystem<D>, flow: usize, images: &Images<D>) {
         self.product_stresses(system, flow, images);
         self.divergence(system);
     }
@@ -147,6 +147,6 @@ impl<const D: usize> Descent for Iteration<'_, D> {
 }
 
 /// Accelerations of a group of eight particles to and from vectors.
-fn lane<const D: usize>(group: &[[f64; crate::lanes::LANES]; D], lane: usize) -> Vector<D> {
+pub fn lane<const D: usize>(group: &[[f64; crate::lanes::LANES]; D], lane: usize) -> Vector<D> {
     Vector::from_fn(|i, _| group[i][lane])
 }

@@ -18,7 +18,7 @@ use crate::weakly_compressible::terms::{no_slip, wall_slip};
 
 impl<const D: usize> ViscousSolve<'_, D> {
     /// Pair vectors, coefficients, and what the diagonal needs of a neighbour in the place of its stress.
-    pub(super) fn prepare(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
+    pub(crate) fn prepare(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
         (
             system.coefficients.par_chunks_mut(GROUPS),
             system.pair_vectors.par_chunks_mut(self.model.list.region()),
@@ -40,7 +40,7 @@ impl<const D: usize> ViscousSolve<'_, D> {
     }
 
     /// Diagonal and residual; the increment starts from zero.
-    pub(super) fn residual_of_start(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
+    pub(crate) fn residual_of_start(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
         let (stiffnesses, pair_vectors) = (&system.stresses, &system.pair_vectors);
         (system.coefficients.par_chunks_mut(GROUPS), system.unknowns.par_chunks_mut(GROUPS), &mut system.sums)
             .into_par_iter()

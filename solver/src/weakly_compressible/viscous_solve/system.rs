@@ -17,7 +17,7 @@ pub(super) type LaneVector<const D: usize> = [[f64; LANES]; D];
 
 /// Coefficients of eight particles.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Coefficients<const D: usize> {
+pub struct Coefficients<const D: usize> {
     /// Σ_b w r + (1 − ½ χ) Σ_w w β r `[1/m]`, the factor of the particle's own velocity in its gradient.
     pub(super) closure: LaneVector<D>,
     /// L `[-]`.
@@ -35,20 +35,20 @@ pub(super) struct Coefficients<const D: usize> {
     /// Δt V `[s m^D]`.
     pub(super) impulse_volume: [f64; LANES],
     /// One over the diagonal of M + Δt K `[1/kg]`.
-    pub(super) inverse_diagonal: [f64; LANES],
+    pub inverse_diagonal: [f64; LANES],
 }
 
 /// The vectors of the iteration for eight particles.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Unknowns<const D: usize> {
+pub struct Unknowns<const D: usize> {
     /// δ `[m/s]`.
-    pub(super) increment: LaneVector<D>,
+    pub increment: LaneVector<D>,
     /// Residual `[kg m/s]`.
-    pub(super) residual: LaneVector<D>,
+    pub residual: LaneVector<D>,
     /// Search direction `[m/s]`.
-    pub(super) direction: LaneVector<D>,
+    pub direction: LaneVector<D>,
     /// (M + Δt K) times the direction `[kg m/s]`.
-    pub(super) product: LaneVector<D>,
+    pub product: LaneVector<D>,
 }
 
 /// Sums over a block of [`BLOCK`] particles: each lane adds up its particles, then the lanes are added in order, and
@@ -65,9 +65,11 @@ pub(super) struct BlockSums {
 
 /// Buffers of the solve, reused from step to step, and its counts.
 #[derive(Debug)]
-pub(crate) struct ViscousSystem<const D: usize> {
-    pub(super) coefficients: Vec<Coefficients<D>>,
-    pub(super) unknowns: Vec<Unknowns<D>>,
+pub struct ViscousSystem<const D: usize> {
+    /// Coefficients of all groups.
+    pub coefficients: Vec<Coefficients<D>>,
+    /// Vectors of all groups.
+    pub unknowns: Vec<Unknowns<D>>,
     /// w r of every flow pair `[1/m]`, chunk by chunk as in the neighbour list.
     pub(super) pair_vectors: Vec<LaneVector<D>>,
     /// Velocity, or search direction, of every particle.
@@ -101,12 +103,12 @@ impl<const D: usize> ViscousSystem<D> {
     }
 
     /// Iterations of all solves.
-    pub(crate) fn iterations(&self) -> u64 {
+    pub fn iterations(&self) -> u64 {
         self.iterations
     }
 
     /// Relative residual of the solve that failed `[-]`.
-    pub(crate) fn residual(&self) -> f64 {
+    pub fn residual(&self) -> f64 {
         self.residual
     }
 
@@ -119,7 +121,7 @@ impl<const D: usize> ViscousSystem<D> {
     }
 
     /// Room for the particles and for neighbour lists with `region` chunks a block.
-    pub(super) fn resize(&mut self, particles: &Particles<D>, region: usize) {
+    pub(crate) fn resize(&mut self, particles: &Particles<D>, region: usize) {
         let (flow, all) = (particles.flow_count(), particles.position.len());
         let zero = [[0.0; LANES]; D];
         let coefficients = Coefficients {
@@ -151,7 +153,7 @@ impl<const D: usize> ViscousSystem<D> {
     }
 
     /// Copies stresses to the images.
-    pub(super) fn copy_stresses(&mut self, images: &Images<D>) {
+    pub(crate) fn copy_stresses(&mut self, images: &Images<D>) {
         copy_tensors(&mut self.stresses, images);
     }
 

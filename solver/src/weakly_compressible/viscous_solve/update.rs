@@ -12,7 +12,7 @@ use crate::weakly_compressible::passes::records::{self, Records};
 
 impl<const D: usize> ViscousSolve<'_, D> {
     /// p ← D⁻¹ r + growth · p.
-    pub(super) fn next_direction(&self, system: &mut ViscousSystem<D>, flow: usize, growth: f64) {
+    pub fn next_direction(&self, system: &mut ViscousSystem<D>, flow: usize, growth: f64) {
         let coefficients = &system.coefficients;
         (system.unknowns.par_chunks_mut(GROUPS), system.velocities.blocks_mut(flow, BLOCK))
             .into_par_iter()

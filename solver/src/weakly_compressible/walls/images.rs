@@ -19,7 +19,7 @@ struct Image<const D: usize> {
 
 /// All images; image k stands at `first + k` in every array.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(crate) struct Images<const D: usize> {
+pub struct Images<const D: usize> {
     images: Vec<Image<D>>,
     first: usize,
     /// New images of every block of sources, while they are found.
@@ -221,7 +221,7 @@ impl<const D: usize> Images<D> {
     }
 
     /// Place, source and sign of every image.
-    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, &Vector<D>)> {
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &Vector<D>)> {
         let first = self.first;
         self.images.iter().enumerate().map(move |(k, image)| (first + k, image.source as usize, &image.sign))
     }

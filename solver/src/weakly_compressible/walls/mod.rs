@@ -7,6 +7,6 @@ mod images;
 mod side_walls;
 pub mod wall;
 
-pub(crate) use images::Images;
+pub use images::Images;
 pub use side_walls::SideWalls;
 pub use wall::{Surface, Wall, WallTreatment};

@@ -115,10 +115,10 @@ pub struct TestTarget {
 }
 
 impl TestTarget {
-    /// The targets that ask for physics: the solver's unit tests, and those of balances, orders and bits.
+    /// The targets that ask for physics: the solver's tests, and those of balances, orders and bits.
     #[must_use]
     pub fn of_physics() -> Vec<Self> {
-        ["solver/src", "tests/"].iter().filter_map(|source| Self::of(source)).collect()
+        ["solver/src", "solver/tests", "tests/"].iter().filter_map(|source| Self::of(source)).collect()
     }
 
     /// The target of a source, by its path in the checkout.
@@ -127,6 +127,7 @@ impl TestTarget {
         let mut folders = source.split('/');
         let (package, name, is_library) = match (folders.next()?, folders.next()?) {
             ("solver", "src") => ("bagnold-solver-tests".to_owned(), "solver".to_owned(), false),
+            ("solver", "tests") => ("bagnold-solver-tests".to_owned(), "steps".to_owned(), false),
             ("tests", _) => ("bagnold-tests".to_owned(), SUITE.to_owned(), false),
             ("validation", "inference") => ("bagnold-inference-tests".to_owned(), "inference".to_owned(), false),
             ("validation", part) => (format!("bagnold-{part}"), format!("bagnold_{part}"), true),

@@ -2,7 +2,8 @@
 
 use super::super::super::scene::SedimentPressure;
 use super::super::Columns;
-use super::super::tests::{columns_of, scene, shear_flow, with_eddies};
+use super::super::tests::columns_of;
+use super::super::tests::moving_bed::{scene, shear_flow, with_eddies};
 use crate::material::drag::SettlingTable;
 use crate::vector::{Tensor, Vector};
 

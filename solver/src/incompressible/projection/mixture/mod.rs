@@ -17,8 +17,6 @@
 //! Fluid particles keep their volume of the lattice, so that the form serves suspensions whose φ changes little.
 
 mod step;
-#[cfg(test)]
-pub(in crate::incompressible) mod tests;
 
 pub(crate) use step::Flux;
 
@@ -38,7 +36,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// Arrays of the mixture's pressure solve besides the operators of the fluid, reused from step to step.
 #[derive(Debug)]
-pub(crate) struct Mixture<const D: usize> {
+pub struct Mixture<const D: usize> {
     /// Grain volumes of the sediment, the free particles first and then the fixed `[m^D]`.
     grain_volume: Vec<f64>,
     /// Σ_j c_aj of every fluid particle `[1/m]`.
@@ -55,7 +53,8 @@ pub(crate) struct Mixture<const D: usize> {
     /// Accelerations by a pressure `[m/s²]`.
     fluid_change: Vec<Vector<D>>,
     sediment_change: Vec<Vector<D>>,
-    inverse_diagonal: Vec<f64>,
+    /// One over the diagonal `[m³ Pa/s]`.
+    pub inverse_diagonal: Vec<f64>,
     right_side: Vec<f64>,
     deviation: Vec<f64>,
     /// Accelerations by all pressure of the last step, the fluid's particles first `[m/s²]`.
@@ -67,19 +66,24 @@ pub(crate) struct Mixture<const D: usize> {
 }
 
 /// Both phases and the operators between them, as a solve reads them.
-struct Operators<'a, const D: usize> {
-    poisson: &'a PressurePoisson<D>,
-    exchange: &'a DragExchange<D>,
+pub struct Operators<'a, const D: usize> {
+    /// Operators of the fluid.
+    pub poisson: &'a PressurePoisson<D>,
+    /// Pairs between the phases.
+    pub exchange: &'a DragExchange<D>,
     /// s of every fluid particle `[-]`.
-    voidage: &'a [f64],
+    pub voidage: &'a [f64],
     /// Σ V (−F) x² of the cross kernel over a lattice of sediment, by which c_aj is divided `[-]`.
-    lattice_gradient: f64,
-    fluid_volume: f64,
-    stabilisation: f64,
+    pub lattice_gradient: f64,
+    /// Volume of a fluid particle `[m^D]`.
+    pub fluid_volume: f64,
+    /// σ `[-]`.
+    pub stabilisation: f64,
 }
 
 impl<const D: usize> Mixture<D> {
-    pub(crate) fn new() -> Self {
+    /// No coefficients yet.
+    pub fn new() -> Self {
         Self {
             grain_volume: Vec::new(),
             cross: Vec::new(),
@@ -117,7 +121,7 @@ impl<const D: usize> Mixture<D> {
     }
 
     /// Coefficients at the present positions; the grain volumes are there.
-    fn assemble(&mut self, operators: &Operators<'_, D>, fluid: &Phase<D>, sediment: &Phase<D>) {
+    pub fn assemble(&mut self, operators: &Operators<'_, D>, fluid: &Phase<D>, sediment: &Phase<D>) {
         let count = fluid.len();
         for array in [&mut self.held, &mut self.weighted, &mut self.inverse_diagonal, &mut self.right_side] {
             array.resize(count, 0.0);
@@ -158,7 +162,13 @@ impl<const D: usize> Mixture<D> {
     }
 
     /// (𝒟u)_a `[1/s]`.
-    fn divergence(&self, operators: &Operators<'_, D>, a: usize, fluid: &[Vector<D>], sediment: &[Vector<D>]) -> f64 {
+    pub fn divergence(
+        &self,
+        operators: &Operators<'_, D>,
+        a: usize,
+        fluid: &[Vector<D>],
+        sediment: &[Vector<D>],
+    ) -> f64 {
         let of_fluid = operators.voidage[a] * operators.poisson.divergence(a, fluid) - self.cross[a].dot(&fluid[a]);
         operators
             .links(a, &self.grain_volume)
@@ -186,7 +196,7 @@ impl<const D: usize> Mixture<D> {
     }
 
     /// (A + σ L) p.
-    fn apply(&mut self, operators: &Operators<'_, D>, p: &[f64], product: &mut [f64]) {
+    pub fn apply(&mut self, operators: &Operators<'_, D>, p: &[f64], product: &mut [f64]) {
         self.find_changes(operators, p);
         let this = &*self;
         product.par_iter_mut().enumerate().with_min_len(LEAST_TASK).for_each(|(a, out)| {

@@ -1,10 +1,10 @@
 //! Saved states of grains in columns and of a mixture: continued, they end bitwise identical to a run without
 //! interruption.
 
-use crate::incompressible::columns::tests::{scene, shear_flow, with_eddies};
-use crate::incompressible::projection::mixture::tests::suspension;
-use crate::incompressible::{IncompressibleScene, IncompressibleSimulation, MeanFlux, SavedIncompressible};
-use crate::vector::Vector;
+use super::columns::moving_bed::{scene, shear_flow, with_eddies};
+use super::mixture::suspension;
+use bagnold_solver::incompressible::{IncompressibleScene, IncompressibleSimulation, MeanFlux, SavedIncompressible};
+use bagnold_solver::vector::Vector;
 
 const STEPS: usize = 30;
 

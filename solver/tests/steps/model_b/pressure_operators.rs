@@ -1,15 +1,12 @@
 //! G = −Dᵀ, and A + s D G symmetric and positive, on disordered particles above a wall and with a surface.
 
-use super::super::neighbours::Sources;
-use super::super::numerics::SurfaceTreatment;
-use super::super::passes::pair_rows::fill_rows;
-use super::super::projection::PressurePoisson;
-use super::super::simulation::IncompressibleSimulation;
-use super::super::state::State;
-use super::super::step;
 use super::pairs::by_force;
 use super::{random, symmetric, water};
-use crate::vector::Vector;
+use bagnold_solver::incompressible::{IncompressibleSimulation, SurfaceTreatment};
+use bagnold_solver::internals::incompressible::{
+    PressurePoisson, Sources, State, fill_pressure_rows, measure, pressure_operator, state, state_mut,
+};
+use bagnold_solver::vector::Vector;
 
 struct Prepared {
     simulation: IncompressibleSimulation<2>,
@@ -22,23 +19,19 @@ fn prepare(closed: bool, eliminated: bool, stabilisation: f64) -> Prepared {
     (scene.numerics.stabilisation, scene.numerics.even_pairs) = (stabilisation, 1.0);
     scene.numerics.surface = if eliminated { SurfaceTreatment::Eliminated } else { SurfaceTreatment::Completed };
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    step::measure(&mut simulation.state);
-    let State { scene, phases, search, .. } = &mut simulation.state;
-    let mut poisson = PressurePoisson::new();
-    let rows = poisson.rows(&phases.fluid);
-    fill_rows(&mut phases.fluid, &search.periods, &scene.numerics, rows, None);
-    poisson.find_gauge(&phases.fluid, scene.numerics.surface);
+    measure(state_mut(&mut simulation));
+    let poisson = pressure_operator(state_mut(&mut simulation));
     Prepared { simulation, poisson, eliminated }
 }
 
 impl Prepared {
     fn rows(&self) -> usize {
-        self.simulation.state.phases.fluid.len()
+        state(&self.simulation).phases.fluid.len()
     }
 
     /// A field that is zero where it is no unknown.
     fn field(&self, mut value: impl FnMut(&Vector<2>) -> f64) -> Vec<f64> {
-        let phase = &self.simulation.state.phases.fluid;
+        let phase = &state(&self.simulation).phases.fluid;
         let known = |a: usize| self.eliminated && phase.at_surface[a];
         (0..self.rows()).map(|a| if known(a) { 0.0 } else { value(&phase.position[a]) }).collect()
     }
@@ -46,7 +39,7 @@ impl Prepared {
     fn apply(&self, p: &[f64]) -> Vec<f64> {
         let (mut product, mut gradient) = (vec![0.0; p.len()], vec![Vector::zeros(); p.len()]);
         let stabilisation = self.simulation.scene().numerics.stabilisation;
-        let surface = &self.simulation.state.phases.fluid.at_surface;
+        let surface = &state(&self.simulation).phases.fluid.at_surface;
         self.poisson.apply(p, &mut product, &mut gradient, surface, self.eliminated, stabilisation);
         product
     }
@@ -82,7 +75,7 @@ fn the_wall_turns_the_normal_velocity_only() {
     let down = vec![Vector::<2>::new(0.0, -1.0); prepared.rows()];
     let lowest = (0..prepared.rows())
         .min_by(|&a, &b| {
-            let height = |a: usize| prepared.simulation.state.phases.fluid.position[a][1];
+            let height = |a: usize| state(&prepared.simulation).phases.fluid.position[a][1];
             height(a).total_cmp(&height(b))
         })
         .expect("particles");
@@ -139,7 +132,7 @@ fn the_operators_are_their_sums_over_all_pairs() {
     let (product, gradients) = (prepared.apply(&p), prepared.poisson.find_gradient(&p).to_vec());
     let mut divergences = vec![0.0; p.len()];
     prepared.poisson.find_divergence(&u, &mut divergences);
-    let phase = &prepared.simulation.state.phases.fluid;
+    let phase = &state(&prepared.simulation).phases.fluid;
     let (kernel, volume, moment, uneven) = (&phase.kernel, phase.lattice_volume, &phase.moment, &phase.mean_anisotropy);
     let of = |sources: &[Vector<2>], which| {
         by_force(&phase.position, sources, which, &prepared.simulation.scene().domain, kernel.support())
@@ -186,18 +179,18 @@ fn the_operators_are_their_sums_over_all_pairs() {
 #[test]
 fn a_uniform_pressure_carries_no_shear_stress_among_sheared_particles() {
     let mut prepared = prepare(true, false, 0.5);
-    let State { scene, phases, search, .. } = &mut prepared.simulation.state;
+    let State { scene, phases, search, .. } = state_mut(&mut prepared.simulation);
     // a shear that comes round within a period
     let phase = |x: &Vector<2>| std::f64::consts::TAU * x[1] / (17.0 * super::SPACING);
     for x in &mut phases.fluid.position {
         x[0] += 0.3 * super::SPACING * phase(x).sin();
-        scene.domain.wrap(x);
     }
+    phases.wrap(&scene.domain);
     phases.fluid.search(&scene.domain, &search.periods, 0.0);
-    step::measure(&mut prepared.simulation.state);
-    let State { scene, phases, search, .. } = &mut prepared.simulation.state;
-    let rows = prepared.poisson.rows(&phases.fluid);
-    fill_rows(&mut phases.fluid, &search.periods, &scene.numerics, rows, None);
+    let state = state_mut(&mut prepared.simulation);
+    measure(state);
+    fill_pressure_rows(state, &mut prepared.poisson);
+    let State { phases, search, .. } = state;
     let fluid = &phases.fluid;
     // stresses over the pressure where the shear is, of the rows, and of gradients along the lines between particles
     let stress = |pair: &dyn Fn(usize, usize, &Vector<2>, f64) -> Vector<2>| {
@@ -219,9 +212,9 @@ fn a_uniform_pressure_carries_no_shear_stress_among_sheared_particles() {
 #[test]
 fn eliminated_particles_have_no_pressure() {
     let mut simulation = prepare(false, true, 0.5).simulation;
-    simulation.state.phases.fluid.pressure.fill(500.0);
+    state_mut(&mut simulation).phases.fluid.pressure.fill(500.0);
     simulation.step().expect("a step");
-    let fluid = &simulation.state.phases.fluid;
+    let fluid = &state(&simulation).phases.fluid;
     let of_surface = |at_surface: bool| (0..fluid.len()).filter(move |&a| fluid.at_surface[a] == at_surface);
     assert!(of_surface(true).count() >= 13 && of_surface(true).all(|a| fluid.pressure[a] == 0.0));
     assert!(of_surface(false).all(|a| fluid.pressure[a] != 0.0));

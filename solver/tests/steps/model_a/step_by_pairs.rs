@@ -1,12 +1,12 @@
 //! The equations of a step, written down pair by pair.
 
 use super::pairs::{Pair, corrections, pairs_of};
-use super::{DENSITY, SPACING, TIME_STEP};
-use crate::material::rheology::field::FieldStep;
-use crate::vector::{Tensor, Vector, deviator, equivalent_shear_stress, shear_rate, strain_rate};
-use crate::weakly_compressible::numerics::ViscositySwitch;
-use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::terms::field_diffusion::surface_sink;
+use super::{DENSITY, SPACING};
+use bagnold_solver::internals::weakly_compressible::{State, viscosities, walls};
+use bagnold_solver::material::rheology::field::FieldStep;
+use bagnold_solver::vector::{Tensor, Vector, deviator, equivalent_shear_stress, shear_rate, strain_rate};
+use bagnold_solver::weakly_compressible::numerics::ViscositySwitch;
+use bagnold_solver::weakly_compressible::terms::field_diffusion::surface_sink;
 
 /// One over a sum of a wall's neighbours, or nothing where they hardly reach it.
 fn wet_inverse(sum: f64, unit: f64) -> f64 {
@@ -23,8 +23,9 @@ pub(super) struct Made<const D: usize> {
     pub(super) artificial_viscosity: Vec<f64>,
 }
 
-pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
+pub(super) fn by_pairs<const D: usize>(state: &State<D>, time_step: f64) -> Made<D> {
     let (of, model) = (&state.particles, &state.model);
+    let (apparent, walls) = (viscosities(of), walls(of));
     let (numerics, law, state_equation) = (&model.numerics, &model.rheology, &model.equation_of_state);
     let (flow, real) = (of.flow_count(), of.real_count());
     let (h, c, gravity, identity) =
@@ -42,7 +43,7 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
     let mut stress = of.stress[..real].to_vec();
     let row = DENSITY * gravity.norm() * SPACING;
     for w in flow..real {
-        let normal = of.walls.normal[w - flow];
+        let normal = walls.normal[w - flow];
         let (mut weights, mut sum, mut tensor) = (0.0, 0.0, Tensor::zeros());
         for f in pairs[w].iter().filter(is_flow) {
             let own = pressure[f.source];
@@ -53,7 +54,7 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
             sum += f.value * there;
             tensor += f.tensor(&of.stress) * (f.value * ratio);
         }
-        let mirror = identity - normal * normal.transpose() * (2.0 * of.walls.smoothness[w - flow]);
+        let mirror = identity - normal * normal.transpose() * (2.0 * walls.smoothness[w - flow]);
         let wet = wet_inverse(weights, 1.0);
         (pressure[w], stress[w]) = ((sum * wet).max(0.0), mirror * tensor * mirror * wet);
     }
@@ -61,7 +62,8 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
     // corrections, pressure gradient, corrected stress
     let corrected: Vec<_> = pairs[..flow].iter().map(|pairs| corrections(pairs)).collect();
     let for_forces = |a: usize| if numerics.corrects_forces(law) { corrected[a].2 } else { identity };
-    let elasticity = |a: usize| model.elasticity(equivalent_shear_stress(&of.stress[a]), pressure[a], &of.kept(a));
+    let elasticity =
+        |a: usize| model.elasticity(equivalent_shear_stress(&of.stress[a]), pressure[a], &FieldStep::alone(field[a]));
     let (mut slope, mut flux) = (Vec::new(), Vec::new());
     for a in 0..flow {
         let rise = |sum, b: &Pair<D>| sum + b.r * (b.weight * (pressure[b.source] - pressure[a]));
@@ -83,10 +85,10 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
         if of_grains { speed * (0.375 + 0.625 * fast.max(still).clamp(0.0, 1.0)) } else { speed }
     };
     let wall_factor = |b: &Pair<D>| {
-        let (normal, depth) = (of.walls.normal[b.index - flow], of.walls.depth[b.index - flow]);
+        let (normal, depth) = (walls.normal[b.index - flow], walls.depth[b.index - flow]);
         (1.0 + depth / (b.r.dot(&normal) - depth).max(1e-6 * h)).min(6.0)
     };
-    let roughness = |b: &Pair<D>| 1.0 - of.walls.smoothness[b.index - flow];
+    let roughness = |b: &Pair<D>| 1.0 - walls.smoothness[b.index - flow];
     let acceleration = |a: usize| {
         let mut sum = gravity;
         let resistance = |b: &Pair<D>| -b.weight * roughness(b) * wall_factor(b) * wall_factor(b).min(2.0);
@@ -117,9 +119,9 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                 sum += (traction + b.r * relief) * (b.weight / of.density[a]) + b.r * (b.weight * damping);
             } else {
                 let place = b.index - flow;
-                let (normal, factor) = (of.walls.normal[place], wall_factor(b));
+                let (normal, factor) = (walls.normal[place], wall_factor(b));
                 let wall = b.tensor(&stress) - identity * pressure[b.source];
-                let slip = (of.velocity[a] - of.walls.velocity[place]) * factor;
+                let slip = (of.velocity[a] - walls.velocity[place]) * factor;
                 let strange = slip - of.velocity_gradient[a] * b.r;
                 let whole = (pressure[b.source].max(0.0) / DENSITY).sqrt();
                 let control = numerics.hourglass * h * (speed(a) + if law.is_solid() { speed(a) } else { whole });
@@ -127,7 +129,7 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                 let (height, corrected) = (b.r.dot(&normal), for_forces(a) * b.r);
                 let viscosity =
                     if law.is_plastic() { 0.0 } else { law.viscosity(shear_rate(&of.velocity_gradient[a]), 0.0) };
-                let part = if viscosity > 0.0 { viscosity / of.viscosity[a] } else { 0.0 };
+                let part = if viscosity > 0.0 { viscosity / apparent[a] } else { 0.0 };
                 let further = slip - of.velocity_gradient[a] * normal * height;
                 let further = further - normal * further.dot(&normal);
                 let slip = slip + further * (factor - 1.0).min(1.0);
@@ -144,15 +146,15 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
     let acceleration: Vec<_> = (0..flow).map(acceleration).collect();
 
     // velocities of the walls: a line through that of the surface, and as the volume of a liquid has it a fitted one
-    let mut velocity: Vec<_> = (0..flow).map(|a| of.velocity[a] + acceleration[a] * TIME_STEP).collect();
+    let mut velocity: Vec<_> = (0..flow).map(|a| of.velocity[a] + acceleration[a] * time_step).collect();
     velocity.resize(real, Vector::zeros());
     let mut sliding = velocity.clone();
     for w in flow..real {
-        let (normal, depth) = (of.walls.normal[w - flow], of.walls.depth[w - flow]);
+        let (normal, depth) = (walls.normal[w - flow], walls.depth[w - flow]);
         let (mut moments, mut first, mut mean) = ([0.0; 3], Vector::zeros(), Vector::zeros());
         for f in pairs[w].iter().filter(is_flow) {
             let distance = (-f.r.dot(&normal) - depth).max(0.25 * SPACING);
-            let slip = f.vector(&velocity) - of.walls.velocity[w - flow];
+            let slip = f.vector(&velocity) - walls.velocity[w - flow];
             for (k, moment) in moments.iter_mut().enumerate() {
                 *moment += f.value * distance.powi(k as i32);
             }
@@ -164,11 +166,11 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
         let (mean_slip, mean_distance) = (mean * wet_inverse(m0, 1.0), m1 * wet_inverse(m0, 1.0));
         let spread = m0 * m2 - m1 * m1 + 0.1 * (SPACING * m0).powi(2);
         let growth = (first * m0 - mean * m1) / spread.max(f64::MIN_POSITIVE);
-        let is_smooth = of.walls.smoothness[w - flow] > 0.0;
+        let is_smooth = walls.smoothness[w - flow] > 0.0;
         let along = if is_smooth { mean_slip } else { opposite };
         let fitted = if is_smooth { along } else { mean_slip - growth * (mean_distance + depth) };
         let across = normal * normal.transpose();
-        let moving = |along| of.walls.velocity[w - flow] + across * opposite + (identity - across) * along;
+        let moving = |along| walls.velocity[w - flow] + across * opposite + (identity - across) * along;
         (velocity[w], sliding[w]) = (moving(along), moving(if model.slides() { fitted } else { along }));
     }
 
@@ -198,24 +200,24 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>) -> Made<D> {
                 given += b.weight;
             } else {
                 let place = b.index - flow;
-                let above = (b.r.dot(&of.walls.normal[place]) - of.walls.depth[place]).max(0.05 * SPACING);
-                let factor = (1.0 + of.walls.depth[place] / above).min(6.0);
-                given += b.weight * factor * (1.0 - of.walls.smoothness[place]);
+                let above = (b.r.dot(&walls.normal[place]) - walls.depth[place]).max(0.05 * SPACING);
+                let factor = (1.0 + walls.depth[place] / above).min(6.0);
+                given += b.weight * factor * (1.0 - walls.smoothness[place]);
             }
         }
-        let coupled = if law.is_cohesive() { 0.0 } else { TIME_STEP * numerics.density_coupling * coupling };
+        let coupled = if law.is_cohesive() { 0.0 } else { time_step * numerics.density_coupling * coupling };
         let rate = of.density[a] * compression + coupled;
         let gradient = gradient * corrected[a].1;
         let diffuses = if law.strength_is_friction() { numerics.stress_diffusion } else { 0.0 };
-        let before = of.stress[a] + diffusion * (TIME_STEP * diffuses * c * h);
+        let before = of.stress[a] + diffusion * (time_step * diffuses * c * h);
         let kept = model.field_diffusion().map_or(FieldStep::alone(field[a]), |spreads| {
             let loss = surface_sink(-2.0 * all, model.full_weight, corrected[a].0) - 2.0 * given;
             FieldStep::new(field[a], -2.0 * spreads.strength * taken, spreads.strength * loss)
         });
-        let pressure = model.pressure(of.density[a] + TIME_STEP * rate, &FieldStep::alone(field[a]));
-        let end = law.updated_state_of_volume(&before, &gradient, pressure, &kept, model.moduli(), TIME_STEP);
+        let pressure = model.pressure(of.density[a] + time_step * rate, &FieldStep::alone(field[a]));
+        let end = law.updated_state_of_volume(&before, &gradient, pressure, &kept, model.moduli(), time_step);
         let alpha = of.artificial_viscosity[a];
-        let switched = alpha + TIME_STEP * (compression.max(0.0) - 0.1 * (alpha - 0.1) * c / h);
+        let switched = alpha + time_step * (compression.max(0.0) - 0.1 * (alpha - 0.1) * c / h);
         let switches = numerics.viscosity_switch == ViscositySwitch::MorrisMonaghan;
         made.artificial_viscosity.push(if switches { switched.clamp(0.1, 1.0) } else { alpha });
         made.density_rate.push(rate);

@@ -1,19 +1,21 @@
 //! Tests of the internals of a step: pairs against brute force, operators against their definitions.
 
+mod columns;
 mod eddy_viscosity;
+mod mixture;
 mod pairs;
 mod pressure_operators;
 mod restart;
 mod velocity_rows;
 
-use super::{
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::incompressible::{
     Bed, DragForm, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, Sediment, SedimentLoad,
     SedimentPressure, SolidFraction, Turbulence,
 };
-use crate::domain::{AxisBoundary, Domain};
-use crate::material::drag::DragLaw;
-use crate::material::rheology::{CoulombBingham, Rheology};
-use crate::vector::Vector;
+use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
+use bagnold_solver::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 

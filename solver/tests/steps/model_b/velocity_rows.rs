@@ -1,13 +1,12 @@
 //! The implicit velocities against plain sums over all pairs: what they solve is the balance of momentum of every particle.
 
-use super::super::neighbours::Sources;
-use super::super::simulation::IncompressibleSimulation;
-use super::super::{Bed, Turbulence};
 use super::pairs::by_force;
 use super::{grains, random, symmetric, water};
-use crate::material::drag::DragLaw;
-use crate::material::turbulence::Smagorinsky;
-use crate::vector::Vector;
+use bagnold_solver::incompressible::{Bed, IncompressibleSimulation, Turbulence};
+use bagnold_solver::internals::incompressible::{Sources, state};
+use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::turbulence::Smagorinsky;
+use bagnold_solver::vector::Vector;
 use std::f64::consts::PI;
 
 #[test]
@@ -24,7 +23,7 @@ fn implicit_velocities_close_the_balance_of_every_particle() {
     (scene.numerics.velocity_tolerance, scene.sediment) = (1e-13, Some(sediment.clone()));
     let mut simulation = IncompressibleSimulation::new(scene.clone()).expect("a valid scene");
     simulation.step().expect("a step");
-    let state = &simulation.state;
+    let state = state(&simulation);
     let (fluid, solid) = (&state.phases.fluid, state.phases.sediment.as_ref().expect("a sediment"));
     let (time_step, solved, rows) = (state.last_step, &state.system.velocity, fluid.len());
     let (water, bed, loose) = (&scene.fluid.particles, &scene.fluid.wall, &sediment.particles);
@@ -87,10 +86,10 @@ fn the_drag_that_is_shown_is_what_the_grains_gain() {
     scene.numerics.velocity_tolerance = 1e-13;
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
     simulation.step().expect("a step");
-    let (system, first) = (&simulation.state.system, simulation.state.phases.fluid.len());
+    let (system, first) = (&state(&simulation).system, state(&simulation).phases.fluid.len());
     let gained: Vector<2> = (first..system.velocity.len()).map(|row| system.velocity[row] * system.inertia[row]).sum();
     let given: Vector<2> = simulation.drag().iter().sum();
     assert!(given[0] > 0.0 && given[1] > 0.0, "{given}");
-    let difference = (given * simulation.state.last_step - gained).norm();
+    let difference = (given * state(&simulation).last_step - gained).norm();
     assert!(difference < 1e-10 * gained.norm(), "{given} and {gained}");
 }

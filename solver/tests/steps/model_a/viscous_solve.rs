@@ -1,17 +1,21 @@
-use super::{MOST_ITERATIONS, NotConverged, ViscousSolve, ViscousSystem};
-use crate::domain::{AxisBoundary, Domain};
-use crate::lanes::LANES;
-use crate::material::equation_of_state::{EquationOfState, Tension};
-use crate::material::rheology::{Bingham, MuI, Rheology};
-use crate::vector::{Tensor, Vector, deviator, strain_rate};
-use crate::weakly_compressible::divergence::Quantity;
-use crate::weakly_compressible::enclosure::BoundarySet;
-use crate::weakly_compressible::numerics::{Numerics, ViscousStep};
-use crate::weakly_compressible::scene::{Flow, Scene};
-use crate::weakly_compressible::simulation::{Compiled, Simulation};
-use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::tests::pairs::{Pair, corrections, pairs_of};
-use crate::weakly_compressible::walls::{Wall, wall};
+//! The operator of the implicit viscous step against its sums over all pairs, and its solves against dense ones.
+
+use super::pairs::{Pair, corrections, pairs_of};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::internals::weakly_compressible::{
+    MOST_ITERATIONS, NotConverged, State, ViscousSolve, ViscousSystem, accelerations, into_state, lane, smooth_walls,
+    viscosities, viscous_system, walls,
+};
+use bagnold_solver::lanes::LANES;
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{Bingham, MuI, Rheology};
+use bagnold_solver::vector::{Tensor, Vector, deviator, strain_rate};
+use bagnold_solver::weakly_compressible::divergence::Quantity;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
+use bagnold_solver::weakly_compressible::numerics::{Numerics, ViscousStep};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -51,7 +55,7 @@ where
     let reach = Vector::<D>::from_fn(|axis, _| cells[axis] as f64 * SPACING);
     let wall_particles = wall::fill(&walls, &domain, (Vector::zeros(), reach), SPACING, 4);
     let equation_of_state = EquationOfState { reference_density: DENSITY, bulk_modulus: 6e5, tension: Tension::Cut };
-    Simulation::new(Scene {
+    let simulation = Simulation::new(Scene {
         flow,
         walls,
         wall_particles,
@@ -63,9 +67,8 @@ where
         equation_of_state,
         rheology: LAW,
         numerics: Numerics { viscous_step: ViscousStep::Implicit, viscous_tolerance: tolerance, ..Numerics::default() },
-    })
-    .expect("a valid scene")
-    .state
+    });
+    into_state(simulation.expect("a valid scene"))
 }
 
 fn periodic(cells: usize) -> AxisBoundary {
@@ -74,17 +77,6 @@ fn periodic(cells: usize) -> AxisBoundary {
 
 fn mirrors(cells: usize) -> AxisBoundary {
     AxisBoundary::Mirror { lower: Some(0.0), upper: Some(cells as f64 * SPACING) }
-}
-
-/// The coefficients of the system at the patch's state.
-fn system<const D: usize>(patch: &State<D>) -> ViscousSystem<D> {
-    let solve = ViscousSolve { model: &patch.model, pairs: &patch.pairs, time_step: TIME_STEP };
-    let mut system = ViscousSystem::new();
-    system.resize(&patch.particles, patch.model.list.region());
-    solve.prepare(&patch.particles, &mut system);
-    system.copy_stresses(&patch.images);
-    solve.residual_of_start(&patch.particles, &mut system);
-    system
 }
 
 /// (M + Δt K) times a vector.
@@ -98,7 +90,7 @@ fn product<const D: usize>(patch: &State<D>, system: &mut ViscousSystem<D>, vect
     }
     solve.next_direction(system, vector.len(), 1.0);
     solve.product(system, vector.len(), &patch.images);
-    (0..vector.len()).map(|index| super::lane(&system.unknowns[index / LANES].product, index % LANES)).collect()
+    (0..vector.len()).map(|index| lane(&system.unknowns[index / LANES].product, index % LANES)).collect()
 }
 
 fn random_vector<const D: usize>(count: usize, seed: u64) -> Vec<Vector<D>> {
@@ -115,7 +107,7 @@ fn momentum<const D: usize>(patch: &State<D>, vector: &[Vector<D>]) -> Vec<Vecto
 }
 
 fn check_symmetry<const D: usize>(patch: &State<D>) {
-    let mut system = system(patch);
+    let mut system = viscous_system(patch, TIME_STEP);
     let count = patch.particles.flow_count();
     for seed in 0..4 {
         let (u, w) = (random_vector::<D>(count, seed), random_vector::<D>(count, seed + 100));
@@ -139,25 +131,26 @@ fn the_operator_is_symmetric_at_walls_mirrors_and_periods() {
 /// The same product by plain sums over all pairs.
 fn product_by_pairs<const D: usize>(patch: &State<D>, u: &[Vector<D>]) -> Vec<Vector<D>> {
     let (of, flow) = (&patch.particles, u.len());
+    let (apparent, fields) = (viscosities(of), walls(of));
     let pairs = pairs_of(patch, &of.volume);
     // what stands still behind a wall moves as a line through the surface has it
     let factor = |b: &Pair<D>| {
-        let (normal, depth) = (of.walls.normal[b.index - flow], of.walls.depth[b.index - flow]);
+        let (normal, depth) = (fields.normal[b.index - flow], fields.depth[b.index - flow]);
         let height = (b.r.dot(&normal) - depth).max(1e-6 * patch.model.kernel.smoothing_length());
         (1.0 + depth / height).min(6.0)
     };
     // of the viscosity that needs no pressure, half of the wall's part of the strain goes over to the resistance of the surface
     let held = |a: usize| {
         let rate = (2.0 * deviator(&strain_rate(&of.velocity_gradient[a])).norm_squared()).sqrt();
-        let viscosity = LAW.viscosity(rate, 0.0).min(of.viscosity[a]);
-        (viscosity, 0.5 * viscosity / of.viscosity[a])
+        let viscosity = LAW.viscosity(rate, 0.0).min(apparent[a]);
+        (viscosity, 0.5 * viscosity / apparent[a])
     };
     let stress = |a: usize| {
         let shared = 1.0 - held(a).1;
         let slip = |b: &Pair<D>| if b.source < flow { u[a] - b.vector(u) } else { u[a] * factor(b) * shared };
         let gradient = pairs[a].iter().fold(Tensor::zeros(), |sum, b| sum - slip(b) * b.r.transpose() * b.weight);
         let (_, correction, _) = corrections(&pairs[a]);
-        deviator(&strain_rate(&(gradient * correction))) * correction * (2.0 * of.viscosity[a])
+        deviator(&strain_rate(&(gradient * correction))) * correction * (2.0 * apparent[a])
     };
     let stress: Vec<_> = (0..flow).map(stress).collect();
     let row = |a: usize| {
@@ -169,14 +162,14 @@ fn product_by_pairs<const D: usize>(patch: &State<D>, u: &[Vector<D>]) -> Vec<Ve
         let walls = || pairs[a].iter().filter(|b| b.source >= flow);
         let (_, correction, _) = corrections(&pairs[a]);
         let stretch = |b: &Pair<D>| {
-            let normal = of.walls.normal[b.index - flow];
+            let normal = fields.normal[b.index - flow];
             let height = normal.dot(&b.r);
             if height > 0.0 { (normal.dot(&(correction * b.r)) / height).clamp(0.0, 2.0) } else { 1.0 }
         };
         let resistance = walls().map(|b| -2.0 * b.weight * factor(b) * factor(b).min(2.0) * stretch(b)).sum::<f64>();
         let by_walls = walls().fold(Vector::<D>::zeros(), |sum, b| sum + b.r * (b.weight * factor(b) * half_share));
         let mean = 1.0 + (1.0 - 2.0 / D as f64) / D as f64;
-        let counted = mean * of.viscosity[a] * (correction * by_walls).norm_squared();
+        let counted = mean * apparent[a] * (correction * by_walls).norm_squared();
         let force = force - u[a] * (viscosity * resistance - counted).max(0.0);
         u[a] * of.mass[a] - force * (TIME_STEP * of.volume[a])
     };
@@ -187,7 +180,8 @@ fn product_by_pairs<const D: usize>(patch: &State<D>, u: &[Vector<D>]) -> Vec<Ve
 fn the_operator_is_its_sums_over_all_pairs() {
     fn check<const D: usize>(patch: &State<D>) {
         let u = random_vector::<D>(patch.particles.flow_count(), 9);
-        let (found, expected) = (product(patch, &mut system(patch), &u), product_by_pairs(patch, &u));
+        let (found, expected) =
+            (product(patch, &mut viscous_system(patch, TIME_STEP), &u), product_by_pairs(patch, &u));
         let largest = expected.iter().map(Vector::amax).fold(0.0, f64::max);
         for (found, expected) in found.iter().zip(&expected) {
             assert!((found - expected).amax() < 1e-12 * largest, "{found} and {expected}");
@@ -213,7 +207,7 @@ fn the_operator_has_no_negative_direction() {
 
 /// M + Δt K, column by column.
 fn assembled(patch: &State<2>) -> DMatrix<f64> {
-    let mut system = system(patch);
+    let mut system = viscous_system(patch, TIME_STEP);
     let count = patch.particles.flow_count();
     let mut matrix = DMatrix::zeros(2 * count, 2 * count);
     for column in 0..2 * count {
@@ -231,7 +225,7 @@ fn assembled(patch: &State<2>) -> DMatrix<f64> {
 fn the_diagonal_is_exact_in_the_plane() {
     // eight cells: no particle shares a neighbour with its own image
     let patch = patch([8, 8], [periodic(8), AxisBoundary::Open], true, 0.2, 0.1);
-    let (matrix, system) = (assembled(&patch), system(&patch));
+    let (matrix, system) = (assembled(&patch), viscous_system(&patch, TIME_STEP));
     for index in 0..patch.particles.flow_count() {
         let diagonal = 1.0 / system.coefficients[index / LANES].inverse_diagonal[index % LANES];
         for i in 0..2 {
@@ -245,18 +239,18 @@ fn the_diagonal_is_exact_in_the_plane() {
 fn the_solve_agrees_with_a_dense_one() {
     let mut patch = patch([7, 6], [mirrors(7), AxisBoundary::Open], true, 0.2, 1e-10);
     let count = patch.particles.flow_count();
-    let accelerations = random_vector::<2>(count, 3);
-    let impulses = momentum(&patch, &accelerations);
+    let given = random_vector::<2>(count, 3);
+    let impulses = momentum(&patch, &given);
     let right = DVector::from_iterator(2 * count, impulses.iter().flat_map(|v| [v[0], v[1]]));
     let expected = assembled(&patch).cholesky().expect("a positive matrix").solve(&right);
     let largest = expected.amax();
-    patch.particles.acceleration.copy_from_slice(&accelerations);
+    accelerations(&mut patch.particles).copy_from_slice(&given);
     let solve = ViscousSolve { model: &patch.model, pairs: &patch.pairs, time_step: TIME_STEP };
     solve.run(&mut patch.particles, &patch.images, &mut patch.viscous).expect("a solution");
-    for (index, found) in patch.particles.acceleration.iter().enumerate() {
+    for (index, found) in accelerations(&mut patch.particles).iter().enumerate() {
         let expected = Vector::<2>::new(expected[2 * index], expected[2 * index + 1]);
         assert!((found - expected).norm() < 1e-7 * largest, "{found} and {expected}");
-        assert!((found - accelerations[index]).norm() > 1e-3, "the viscosity acts");
+        assert!((found - given[index]).norm() > 1e-3, "the viscosity acts");
     }
     assert!((10..400).contains(&patch.viscous.iterations()));
 }
@@ -264,7 +258,7 @@ fn the_solve_agrees_with_a_dense_one() {
 #[test]
 fn the_viscous_forces_add_up_to_none_and_leave_a_translation_alone() {
     fn check<const D: usize>(patch: &State<D>) {
-        let mut system = system(patch);
+        let mut system = viscous_system(patch, TIME_STEP);
         let count = patch.particles.flow_count();
         let forces = |system: &mut _, u: &[Vector<D>]| -> Vec<_> {
             product(patch, system, u).iter().zip(momentum(patch, u)).map(|(a, b)| a - b).collect()
@@ -286,11 +280,11 @@ fn a_smooth_bed_leaves_a_translation_alone_and_a_rough_one_holds_it() {
     fn check<const D: usize>(mut patch: State<D>) {
         let still = vec![Vector::repeat(1.0); patch.particles.flow_count()];
         let force = |patch: &State<D>| {
-            let found = product(patch, &mut system(patch), &still);
+            let found = product(patch, &mut viscous_system(patch, TIME_STEP), &still);
             found.iter().zip(momentum(patch, &still)).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
         };
         let rough = force(&patch);
-        patch.particles.walls.smoothness.fill(1.0);
+        smooth_walls(&mut patch.particles);
         let smooth = force(&patch);
         assert!(smooth < 1e-12 * rough, "{smooth} of {rough}");
     }
@@ -318,22 +312,23 @@ fn a_shear_flow_on_the_bed_dissipates_exactly_by_friction_and_little_more_by_a_l
 
 /// Power of the matrix on a straight shear over that of its strain.
 fn shear_dissipation(patch: &State<2>) -> f64 {
-    let mut system = system(patch);
+    let mut system = viscous_system(patch, TIME_STEP);
     let rate = 3.0;
     let particles = &patch.particles;
     let count = particles.flow_count();
     let shear: Vec<_> = particles.position[..count].iter().map(|x| Vector::<2>::new(rate * x[1], 0.0)).collect();
     let found = product(patch, &mut system, &shear);
     let power = scalar_product(&shear, &found) - scalar_product(&shear, &momentum(patch, &shear));
-    let expected: f64 = particles.viscosity.iter().zip(&particles.volume[..count]).map(|(eta, v)| eta * v).sum();
+    let expected: f64 = viscosities(particles).iter().zip(&particles.volume[..count]).map(|(eta, v)| eta * v).sum();
     power / (TIME_STEP * rate * rate * expected)
 }
 
 #[test]
 fn a_force_that_is_no_number_is_refused_with_its_particle() {
     let mut patch = patch([7, 6], [mirrors(7), AxisBoundary::Open], true, 0.2, 0.1);
-    patch.particles.acceleration.fill(Vector::zeros());
-    patch.particles.acceleration[11][1] = f64::NAN;
+    let accelerations = accelerations(&mut patch.particles);
+    accelerations.fill(Vector::zeros());
+    accelerations[11][1] = f64::NAN;
     let solve = ViscousSolve { model: &patch.model, pairs: &patch.pairs, time_step: TIME_STEP };
     let found = solve.run(&mut patch.particles, &patch.images, &mut patch.viscous);
     assert_eq!(found, Err(NotConverged { worst: 11 }));

@@ -1,12 +1,10 @@
 //! Eddy viscosity of each closure in a uniform shear of perturbed particles, where the corrected gradient is exact.
 
-use super::super::Turbulence;
-use super::super::simulation::IncompressibleSimulation;
-use super::super::state::State;
-use super::super::step;
 use super::{random, symmetric, water};
-use crate::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
-use crate::vector::{Tensor, Vector, shear_rate};
+use bagnold_solver::incompressible::{IncompressibleSimulation, Turbulence};
+use bagnold_solver::internals::incompressible::{State, measure, state, state_mut};
+use bagnold_solver::material::turbulence::{MixingLength, MixingLengthShape, Smagorinsky};
+use bagnold_solver::vector::{Tensor, Vector, shear_rate};
 
 const SHEAR_RATE: f64 = 40.0;
 
@@ -17,8 +15,8 @@ fn eddy_viscosities(turbulence: Turbulence) -> Vec<(f64, f64)> {
     particles.velocity = particles.position.iter().map(|x| Vector::<2>::new(SHEAR_RATE * x[1], 0.0)).collect();
     scene.fluid.turbulence = turbulence;
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    step::measure(&mut simulation.state);
-    let State { scene, phases, viscosities, .. } = &mut simulation.state;
+    measure(state_mut(&mut simulation));
+    let State { scene, phases, viscosities, .. } = state_mut(&mut simulation);
     viscosities.find(scene, phases, scene.numerics.time_step);
     let (density, molecular) = (1000.0, 1e-6);
     let eddy = |viscosity: &f64| viscosity / density - molecular;
@@ -51,16 +49,16 @@ fn random_motion(shear: f64) -> (f64, f64) {
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
     let (mut random, mut own) = (random(11), 0.0);
     for _ in 0..steps {
-        let fluid = &mut simulation.state.phases.fluid;
+        let fluid = &mut state_mut(&mut simulation).phases.fluid;
         for (u, x) in fluid.velocity.iter_mut().zip(&fluid.position) {
             *u = Vector::<2>::new(0.8 + shear * x[1], 0.0) + Vector::<2>::from_fn(|_, _| 2e-2 * symmetric(&mut random));
         }
-        step::measure(&mut simulation.state);
-        let State { scene, phases, viscosities, .. } = &mut simulation.state;
+        measure(state_mut(&mut simulation));
+        let State { scene, phases, viscosities, .. } = state_mut(&mut simulation);
         viscosities.find(scene, phases, scene.numerics.time_step);
         own = phases.fluid.velocity_gradient.iter().map(shear_rate).sum::<f64>() / phases.fluid.len() as f64;
     }
-    let rate = &simulation.state.viscosities.fluid_rate;
+    let rate = &state(&simulation).viscosities.fluid_rate;
     (rate.iter().sum::<f64>() / rate.len() as f64, own)
 }
 
@@ -82,8 +80,8 @@ fn the_gradient_of_a_linear_flow_is_exact_inside() {
     particles.velocity = particles.position.iter().map(|x| gradient * x).collect();
     scene.fluid.turbulence = Turbulence::Smagorinsky(Smagorinsky { coefficient: 0.15 });
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    step::measure(&mut simulation.state);
-    let fluid = &simulation.state.phases.fluid;
+    measure(state_mut(&mut simulation));
+    let fluid = &state(&simulation).phases.fluid;
     // across the period the flow jumps
     let inside = (0..fluid.len()).filter(|&a| fluid.position[a][0] > 0.03 && fluid.position[a][0] < 0.09);
     for found in inside.map(|a| fluid.velocity_gradient[a]) {

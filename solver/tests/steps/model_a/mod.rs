@@ -1,26 +1,27 @@
 //! A whole step against plain sums over all pairs, one particle after the other.
 
-pub(super) mod pairs;
+mod pairs;
 mod step_by_pairs;
+mod viscous_solve;
 
-use crate::domain::{AxisBoundary, Domain};
-use crate::material::equation_of_state::{EquationOfState, Tension};
-use crate::material::rheology::{Bingham, MuI, NonlocalMuI, Rheology, SofteningDruckerPrager};
-use crate::vector::{Tensor, Vector, deviator, strain_rate};
-use crate::weakly_compressible::enclosure::BoundarySet;
-use crate::weakly_compressible::energy::{EnergyAccount, EnergyLedger, energy_of};
-use crate::weakly_compressible::numerics::{Contact, MomentumOperator, Numerics, PairPrecision, ViscositySwitch};
-use crate::weakly_compressible::scene::{Flow, Scene};
-use crate::weakly_compressible::simulation::{Compiled, Simulation};
-use crate::weakly_compressible::state::State;
-use crate::weakly_compressible::walls::{Surface, Wall, wall};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::internals::weakly_compressible::{accelerations, energy_of, state};
+use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::rheology::{Bingham, MuI, NonlocalMuI, Rheology, SofteningDruckerPrager};
+use bagnold_solver::vector::{Tensor, Vector, deviator, strain_rate};
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
+use bagnold_solver::weakly_compressible::numerics::{
+    Contact, MomentumOperator, Numerics, PairPrecision, ViscositySwitch,
+};
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
+use bagnold_solver::weakly_compressible::walls::{Surface, Wall, wall};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use step_by_pairs::by_pairs;
 
 const SPACING: f64 = 0.01;
 const DENSITY: f64 = 1500.0;
-const TIME_STEP: f64 = 1e-4;
 
 const GRAINS: MuI = MuI {
     static_friction: 0.38,
@@ -41,7 +42,7 @@ const SOIL: SofteningDruckerPrager = SofteningDruckerPrager {
 const MUD: Bingham = Bingham { plastic_viscosity: 5.0, yield_stress: 100.0, regularisation_rate: 2.0 };
 
 /// A jittered block with a free surface, on a rough belt, between a smooth wall and a mirror, and in space periodic across.
-fn block<const D: usize>(rheology: Rheology, tension: Tension, numerics: Numerics) -> State<D>
+fn block<const D: usize>(rheology: Rheology, tension: Tension, numerics: Numerics) -> Simulation<D>
 where
     Simulation<D>: Compiled<D>,
 {
@@ -74,7 +75,7 @@ where
     let belt =
         Wall { velocity: Vector::from_fn(|axis, _| if axis == 0 { 0.2 } else { 0.0 }), ..Wall::still(D - 1, 0.0, 1.0) };
     let walls = vec![belt, Wall { roughness: Surface::Smooth, ..Wall::still(0, 0.0, 1.0) }];
-    let mut state = Simulation::new(Scene {
+    let mut simulation = Simulation::new(Scene {
         flow,
         wall_particles: wall::fill(&walls, &domain, (Vector::zeros(), reach), SPACING, 4),
         walls,
@@ -87,11 +88,11 @@ where
         rheology,
         numerics: Numerics { contact: Contact::None, smagorinsky_constant: 0.1, ..numerics },
     })
-    .expect("a valid scene")
-    .state;
-    let flow = state.particles.flow_count();
-    state.particles.artificial_viscosity[..flow].fill_with(|| 0.5 + 0.3 * symmetric());
-    state
+    .expect("a valid scene");
+    let particles = &mut state(&mut simulation).particles;
+    let flow = particles.flow_count();
+    particles.artificial_viscosity[..flow].fill_with(|| 0.5 + 0.3 * symmetric());
+    simulation
 }
 
 /// The largest difference of two fields over the largest value.
@@ -109,21 +110,23 @@ where
     Simulation<D>: Compiled<D>,
 {
     for pair_precision in [PairPrecision::Double, PairPrecision::Single] {
-        let mut state = block::<D>(rheology, tension, Numerics { pair_precision, ..numerics });
-        let (expected, before) = (by_pairs(&state), state.particles.density.clone());
-        state.advance(TIME_STEP).expect("a step");
-        let (of, flow) = (&state.particles, state.particles.flow_count());
-        let rate: Vec<f64> = (0..flow).map(|a| (of.density[a] - before[a]) / TIME_STEP).collect();
+        let mut simulation = block::<D>(rheology, tension, Numerics { pair_precision, ..numerics });
+        let (time_step, before) = (simulation.time_step_bounds().step(), simulation.particles().density.clone());
+        let expected = by_pairs(state(&mut simulation), time_step);
+        simulation.step().expect("a step");
+        let accelerations = accelerations(&mut state(&mut simulation).particles).to_vec();
+        let (of, flow) = (simulation.particles(), accelerations.len());
+        let rate: Vec<f64> = (0..flow).map(|a| (of.density[a] - before[a]) / time_step).collect();
         let field = of.field.clone().unwrap_or_else(|| vec![0.0; flow]);
         let errors = [
-            difference(of.acceleration.iter().flatten(), expected.acceleration.iter().flatten()),
+            difference(accelerations.iter().flatten(), expected.acceleration.iter().flatten()),
             difference(rate.iter(), expected.density_rate.iter()),
             difference(of.velocity_gradient[..flow].iter().flatten(), expected.gradient.iter().flatten()),
             difference(of.stress[..flow].iter().flatten(), expected.stress.iter().flatten()),
             difference(field.iter().take(flow), expected.field.iter()),
             difference(of.artificial_viscosity.iter().take(flow), expected.artificial_viscosity.iter()),
         ];
-        let allowed = if state.model.pairs_in_single() { 1e-5 } else { 1e-10 };
+        let allowed = if state(&mut simulation).model.pairs_in_single() { 1e-5 } else { 1e-10 };
         assert!(
             errors.iter().all(|error| *error < allowed),
             "{}, {pair_precision:?}, {D}: {errors:?}",
@@ -164,18 +167,19 @@ fn the_energy_of_a_particle_is_its_motion_compression_and_shear() {
     where
         Simulation<D>: Compiled<D>,
     {
-        let State { particles: of, model, .. } = block::<D>(Rheology::MuI(GRAINS), Tension::Cut, Numerics::default());
-        let mut sum = 0.0;
+        let mut simulation = block::<D>(Rheology::MuI(GRAINS), Tension::Cut, Numerics::default());
+        let account = simulation.energy().expect("an account");
+        let (state, mut sum) = (state(&mut simulation), 0.0);
+        let of = &state.particles;
         for a in 0..of.flow_count() {
             let strain = (of.density[a] / DENSITY - 1.0).max(0.0);
             let compression = 6e5 / DENSITY * (libm::log1p(strain) - strain / (1.0 + strain));
             let shear = of.stress[a].norm_squared() / (4.0 * 0.3 * 6e5 * of.density[a]);
             let expected = of.mass[a] * (0.5 * of.velocity[a].norm_squared() + compression + shear);
-            let found = energy_of(&of, a, &model);
+            let found = energy_of(state, a);
             assert!((found - expected).abs() < 1e-12 * expected, "{found} and {expected}");
             sum += expected;
         }
-        let account = EnergyAccount::of(&of, &model, EnergyLedger::default());
         assert!((account.kinetic + account.elastic - sum).abs() < 1e-12 * sum);
     }
     check::<2>();

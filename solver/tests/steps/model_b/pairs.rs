@@ -1,14 +1,14 @@
 //! Pairs against brute force: every pair of nearest images, with no cells and no wrapping.
 
-use super::super::neighbours::{Across, Grid, LaneList, Pairs, Periods, Sources};
-use super::super::phase::Phase;
-use super::super::simulation::IncompressibleSimulation;
-use super::super::step;
 use super::{SPACING, grains, random, symmetric, water};
-use crate::domain::{AxisBoundary, Domain};
-use crate::kernel::{Kernel, KernelShape};
-use crate::lanes::{InstructionSet, LanePass, Lanes};
-use crate::vector::{Tensor, Vector};
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::incompressible::IncompressibleSimulation;
+use bagnold_solver::internals::incompressible::{
+    Across, Grid, LaneList, Pairs, Periods, Phase, Sources, measure, search_and_measure, state, state_mut,
+};
+use bagnold_solver::kernel::{Kernel, KernelShape};
+use bagnold_solver::lanes::{InstructionSet, LanePass, Lanes};
+use bagnold_solver::vector::{Tensor, Vector};
 use rand::RngExt;
 
 /// Sources within `reach` of every target with their separations, by trying every image.
@@ -224,35 +224,28 @@ fn check_phase(phase: &Phase<2>, domain: &Domain<2>, what: &str) {
 
 fn check_all(simulation: &IncompressibleSimulation<2>, what: &str) {
     let domain = simulation.scene().domain;
-    check_phase(&simulation.state.phases.fluid, &domain, what);
-    if let Some(sediment) = &simulation.state.phases.sediment {
+    check_phase(&state(simulation).phases.fluid, &domain, what);
+    if let Some(sediment) = &state(simulation).phases.sediment {
         check_phase(sediment, &domain, what);
-        let reach = simulation.state.exchange.reach();
+        let reach = state(simulation).exchange.reach();
         let kernel = Kernel::new(KernelShape::CubicSpline, 0.5 * reach);
-        let (fluid, grains) = (&simulation.state.phases.fluid.position, &sediment.position);
+        let (fluid, grains) = (&state(simulation).phases.fluid.position, &sediment.position);
         let of = |targets, sources| by_force(targets, sources, Sources::Other, &domain, reach);
-        compare(&simulation.state.exchange.of_sediment, &of(grains, fluid), &kernel, what);
-        compare(&simulation.state.exchange.of_fluid, &of(fluid, grains), &kernel, what);
+        compare(&state(simulation).exchange.of_sediment, &of(grains, fluid), &kernel, what);
+        compare(&state(simulation).exchange.of_fluid, &of(fluid, grains), &kernel, what);
     }
-}
-
-/// Measures all pairs, after a search if one is due.
-fn measure(simulation: &mut IncompressibleSimulation<2>) {
-    let state = &mut simulation.state;
-    state.search.search_if_due(&state.scene.domain, &mut state.phases, &mut state.exchange);
-    step::measure(state);
 }
 
 /// Moves all particles by a field of displacements and puts them back into their periods.
 fn displace(simulation: &mut IncompressibleSimulation<2>, field: impl Fn(&Vector<2>) -> Vector<2>) {
     let domain = simulation.scene().domain;
-    for phase in simulation.state.phases.all_mut() {
+    for phase in state_mut(simulation).phases.all_mut() {
         for particle in 0..phase.len() {
             let by = field(&phase.position[particle]);
             phase.displace(particle, by);
-            domain.wrap(&mut phase.position[particle]);
         }
     }
+    state_mut(simulation).phases.wrap(&domain);
 }
 
 #[test]
@@ -265,7 +258,7 @@ fn no_pair_is_missed_in_a_shear_across_a_period() {
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
     for step in 0..60 {
         displace(&mut simulation, |x| Vector::<2>::new(0.15 * x[1] / height, 0.03) * SPACING);
-        measure(&mut simulation);
+        search_and_measure(state_mut(&mut simulation));
         check_all(&simulation, &format!("step {step}"));
     }
     let searches = simulation.cost().searches;
@@ -279,7 +272,7 @@ fn no_pair_is_missed_when_a_drop_falls_onto_the_surface() {
     scene.fluid.particles.position.push(Vector::<2>::new(0.06, 0.40));
     scene.fluid.particles.velocity.push(Vector::zeros());
     let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
-    let drop = simulation.state.phases.fluid.len() - 1;
+    let drop = state(&simulation).phases.fluid.len() - 1;
     for step in 0..100 {
         displace(
             &mut simulation,
@@ -287,11 +280,11 @@ fn no_pair_is_missed_when_a_drop_falls_onto_the_surface() {
                 if x[1] > 0.09 { Vector::<2>::new(0.0, -0.4 * SPACING) } else { Vector::zeros() }
             },
         );
-        measure(&mut simulation);
+        search_and_measure(state_mut(&mut simulation));
         check_all(&simulation, &format!("step {step}"));
     }
     assert!(
-        simulation.state.phases.fluid.free_pairs(drop, &simulation.state.search.periods).count() > 3,
+        state(&simulation).phases.fluid.free_pairs(drop, &state(&simulation).search.periods).count() > 3,
         "the drop has arrived"
     );
 }
@@ -312,9 +305,9 @@ fn no_pair_is_missed_within_a_step_of_a_run_with_strong_shear() {
     for step in 0..25 {
         simulation.step().expect("a step");
         let searches = simulation.cost().searches;
-        step::measure(&mut simulation.state);
+        measure(state_mut(&mut simulation));
         assert_eq!(simulation.cost().searches, searches, "measured from the candidates of the step");
-        check_phase(&simulation.state.phases.fluid, &simulation.scene().domain, &format!("end of step {step}"));
+        check_phase(&state(&simulation).phases.fluid, &simulation.scene().domain, &format!("end of step {step}"));
     }
     assert!(simulation.cost().searches > 5);
 }

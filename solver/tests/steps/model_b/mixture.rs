@@ -1,15 +1,16 @@
-use super::*;
-use crate::domain::{AxisBoundary, Domain};
-use crate::incompressible::phase::LatticeSums;
-use crate::incompressible::simulation::IncompressibleSimulation;
-use crate::incompressible::{
-    Bed, Continuity, DragForm, Fluid, IncompressibleScene, MeanFlux, ParticleSet, Sediment, SedimentLoad,
-    SedimentPressure, SolidFraction, Strata, Stratification, Turbulence,
+//! One pore pressure for both phases: what it conserves, its operator and its limits.
+
+use bagnold_solver::domain::{AxisBoundary, Domain};
+use bagnold_solver::incompressible::{
+    Bed, Continuity, DragForm, Fluid, IncompressibleScene, IncompressibleSimulation, MeanFlux, ParticleSet,
+    ProjectionNumerics, Sediment, SedimentLoad, SedimentPressure, SolidFraction, Strata, Stratification, Turbulence,
 };
-use crate::material::drag::DragLaw;
-use crate::material::rheology::{Newtonian, Rheology};
-use crate::material::suspension_viscosity::SuspensionViscosity;
-use crate::material::turbulence::GrainRoughness;
+use bagnold_solver::internals::incompressible::{LatticeSums, Mixture, Operators, state, state_mut};
+use bagnold_solver::material::drag::DragLaw;
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
+use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
+use bagnold_solver::material::turbulence::GrainRoughness;
+use bagnold_solver::vector::Vector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -22,7 +23,7 @@ const WAVE_NUMBER: f64 = 2.0 * std::f64::consts::PI / (ROWS as f64 * SPACING);
 const LAWLESS: Rheology = Rheology::Newtonian(Newtonian { viscosity: 0.0 });
 
 /// A displaced suspension in a periodic box, with velocities by place.
-pub(in crate::incompressible) fn suspension(
+pub(super) fn suspension(
     fluid: impl Fn(Vector<2>) -> Vector<2>,
     sediment: impl Fn(Vector<2>) -> Vector<2>,
     (mean_flux, gravity): (MeanFlux, f64),
@@ -115,7 +116,7 @@ fn divergence(simulation: &IncompressibleSimulation<2>) -> (f64, f64) {
     let (fluid, sediment) = (simulation.fluid().1, simulation.sediment().1);
     let (mut wave, mut square) = (0.0, 0.0);
     for (a, place) in simulation.fluid().0.iter().enumerate() {
-        let value = simulation.state.projection.mixture.divergence(&operators, a, fluid, sediment);
+        let value = state(simulation).projection.mixture.divergence(&operators, a, fluid, sediment);
         wave += 2.0 * value * (WAVE_NUMBER * place[1]).cos();
         square += value * value;
     }
@@ -124,10 +125,10 @@ fn divergence(simulation: &IncompressibleSimulation<2>) -> (f64, f64) {
 
 fn operators(simulation: &IncompressibleSimulation<2>) -> Operators<'_, 2> {
     Operators {
-        poisson: &simulation.state.projection.fluid,
-        exchange: &simulation.state.exchange,
-        voidage: &simulation.state.viscosities.voidage,
-        lattice_gradient: LatticeSums::of(simulation.state.exchange.kernel(), SPACING).gradient,
+        poisson: &state(simulation).projection.fluid,
+        exchange: &state(simulation).exchange,
+        voidage: &state(simulation).viscosities.voidage,
+        lattice_gradient: LatticeSums::of(state(simulation).exchange.kernel(), SPACING).gradient,
         fluid_volume: SPACING * SPACING,
         stabilisation: 0.5,
     }
@@ -159,7 +160,7 @@ fn operator_is_symmetric_and_positive() {
     let count = COLUMNS * ROWS;
     let mut field = || (0..count).map(|_| random.random::<f64>() - 0.5).collect::<Vec<f64>>();
     let (p, q) = (field(), field());
-    let mut mixture = std::mem::replace(&mut simulation.state.projection.mixture, Mixture::new());
+    let mut mixture = std::mem::replace(&mut state_mut(&mut simulation).projection.mixture, Mixture::new());
     let operators = operators(&simulation);
     let (mut of_p, mut of_q) = (vec![0.0; count], vec![0.0; count]);
     mixture.apply(&operators, &p, &mut of_p);
@@ -176,9 +177,9 @@ fn the_diagonal_is_that_of_the_operator_that_is_applied() {
     simulation.step().unwrap();
     let (mut random, count) = (Pcg64::seed_from_u64(9), COLUMNS * ROWS);
     let voidage: Vec<f64> = (0..count).map(|_| 0.5 + 0.4 * random.random::<f64>()).collect();
-    let mut mixture = std::mem::replace(&mut simulation.state.projection.mixture, Mixture::new());
+    let mut mixture = std::mem::replace(&mut state_mut(&mut simulation).projection.mixture, Mixture::new());
     let operators = Operators { voidage: &voidage, ..operators(&simulation) };
-    let phases = &simulation.state.phases;
+    let phases = &state(&simulation).phases;
     mixture.assemble(&operators, &phases.fluid, phases.sediment.as_ref().unwrap());
     for a in 0..count {
         let (mut unit, mut product) = (vec![0.0; count], vec![0.0; count]);
