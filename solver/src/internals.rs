@@ -73,6 +73,16 @@ pub mod incompressible {
     use crate::incompressible::passes::pair_rows::fill_rows;
     use crate::incompressible::{IncompressibleSimulation, step};
 
+    /// Room for a search: cells, and candidates in lanes and in pairs.
+    pub fn search_room<const D: usize>() -> (Grid<D>, LaneList<D>, Pairs<D>) {
+        (Grid::new(), LaneList::new(), Pairs::new())
+    }
+
+    /// Takes the pressure of a mixture out of a state.
+    pub fn take_mixture(state: &mut State<2>) -> Mixture<2> {
+        std::mem::replace(&mut state.projection.mixture, Mixture::new())
+    }
+
     /// What a simulation steps.
     pub fn state(simulation: &IncompressibleSimulation<2>) -> &State<2> {
         &simulation.state

@@ -22,8 +22,7 @@ const MOST_CELLS: usize = 4096;
 pub(crate) const MOST_STRETCHES: usize = 18;
 
 impl<const D: usize> Grid<D> {
-    /// No cells yet.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             lower: Vector::zeros(),
             inverse_size: Vector::zeros(),

@@ -51,8 +51,7 @@ pub(crate) struct SavedList {
 }
 
 impl<const D: usize> LaneList<D> {
-    /// No candidates yet.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             stride: LANES,
             columns: CheckedIndices::default(),

@@ -68,8 +68,7 @@ impl<const D: usize> Pairs<D> {
         Ok(())
     }
 
-    /// No pairs yet.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             stride: LANES,
             candidate: Vec::new(),

@@ -57,8 +57,7 @@ pub struct PressurePoisson<const D: usize> {
 }
 
 impl<const D: usize> PressurePoisson<D> {
-    /// No rows yet.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             links: LaneRows::new(),
             own: Vec::new(),

@@ -5,7 +5,7 @@ use bagnold_solver::incompressible::{
     Bed, Continuity, DragForm, Fluid, IncompressibleScene, IncompressibleSimulation, MeanFlux, ParticleSet,
     ProjectionNumerics, Sediment, SedimentLoad, SedimentPressure, SolidFraction, Strata, Stratification, Turbulence,
 };
-use bagnold_solver::internals::incompressible::{LatticeSums, Mixture, Operators, state, state_mut};
+use bagnold_solver::internals::incompressible::{LatticeSums, Operators, state, state_mut, take_mixture};
 use bagnold_solver::material::drag::DragLaw;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::material::suspension_viscosity::SuspensionViscosity;
@@ -160,7 +160,7 @@ fn operator_is_symmetric_and_positive() {
     let count = COLUMNS * ROWS;
     let mut field = || (0..count).map(|_| random.random::<f64>() - 0.5).collect::<Vec<f64>>();
     let (p, q) = (field(), field());
-    let mut mixture = std::mem::replace(&mut state_mut(&mut simulation).projection.mixture, Mixture::new());
+    let mut mixture = take_mixture(state_mut(&mut simulation));
     let operators = operators(&simulation);
     let (mut of_p, mut of_q) = (vec![0.0; count], vec![0.0; count]);
     mixture.apply(&operators, &p, &mut of_p);
@@ -177,7 +177,7 @@ fn the_diagonal_is_that_of_the_operator_that_is_applied() {
     simulation.step().unwrap();
     let (mut random, count) = (Pcg64::seed_from_u64(9), COLUMNS * ROWS);
     let voidage: Vec<f64> = (0..count).map(|_| 0.5 + 0.4 * random.random::<f64>()).collect();
-    let mut mixture = std::mem::replace(&mut state_mut(&mut simulation).projection.mixture, Mixture::new());
+    let mut mixture = take_mixture(state_mut(&mut simulation));
     let operators = Operators { voidage: &voidage, ..operators(&simulation) };
     let phases = &state(&simulation).phases;
     mixture.assemble(&operators, &phases.fluid, phases.sediment.as_ref().unwrap());

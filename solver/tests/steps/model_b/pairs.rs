@@ -4,7 +4,7 @@ use super::{SPACING, grains, random, symmetric, water};
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::IncompressibleSimulation;
 use bagnold_solver::internals::incompressible::{
-    Across, Grid, LaneList, Pairs, Periods, Phase, Sources, measure, search_and_measure, state, state_mut,
+    Across, LaneList, Pairs, Periods, Phase, Sources, measure, search_and_measure, search_room, state, state_mut,
 };
 use bagnold_solver::kernel::{Kernel, KernelShape};
 use bagnold_solver::lanes::{InstructionSet, LanePass, Lanes};
@@ -106,14 +106,13 @@ fn check<const D: usize>(periods: [Option<f64>; D], which: Sources) {
     // targets reach beyond an open axis' sources
     let sources = set(150, 6.0);
     let targets = if which == Sources::Same { sources.clone() } else { set(120, 9.0) };
-    let (mut grid, wrapped) = (Grid::new(), Periods::of(&domain));
+    let (mut grid, mut list, mut pairs) = search_room();
+    let wrapped = Periods::of(&domain);
     grid.sort(&sources, &domain, radius);
     let expected = by_force(&targets, &sources, which, &domain, reach);
-    let mut list = LaneList::new();
     list.search(&targets, &sources, which, &grid, &wrapped, reach, radius - reach);
     compare_list(&list, &expected, &by_force(&targets, &sources, which, &domain, radius));
     if which == Sources::Other {
-        let mut pairs = Pairs::new();
         pairs.search(&targets, &sources, &grid, &wrapped, radius);
         pairs.measure(&targets, &sources, &wrapped, &kernel);
         let count = compare(&pairs, &expected, &kernel, &format!("{periods:?}"));

@@ -82,8 +82,7 @@ pub struct Operators<'a, const D: usize> {
 }
 
 impl<const D: usize> Mixture<D> {
-    /// No coefficients yet.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             grain_volume: Vec::new(),
             cross: Vec::new(),
