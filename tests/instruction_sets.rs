@@ -9,3 +9,5 @@ mod invariants {
     mod patches;
     mod shells;
 }
+
+mod threads;

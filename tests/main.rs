@@ -10,3 +10,4 @@ mod invariants;
 mod physics;
 mod snapshots;
 mod structure;
+mod threads;

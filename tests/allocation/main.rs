@@ -19,6 +19,9 @@ use std::sync::atomic::Ordering;
 const SPACING: f64 = 0.01;
 const GRAVITY: f64 = 9.81;
 
+#[path = "../threads.rs"]
+mod threads;
+
 #[path = "../invariants/two_phases.rs"]
 #[expect(dead_code, reason = "the scenes of the invariants, of which this target needs one")]
 mod two_phases;

@@ -8,6 +8,7 @@
 //! closes to rounding; a flow pays it once, because particles move until that force has gone.
 
 use crate::convergence::orders;
+use crate::invariants::patches::simulation;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::kernel::Kernel;
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
@@ -159,7 +160,7 @@ where
 {
     let scene = scene::<D>(field, cells, jitter, momentum_operator);
     let start = scene.flow.clone();
-    let mut simulation = Simulation::new(scene).expect("a valid scene");
+    let mut simulation = simulation(scene);
     simulation.step().expect("a stable step");
     let (time, end) = (simulation.time(), simulation.snapshot());
     let (mut square, mut size) = (0.0, 0.0);

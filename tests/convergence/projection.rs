@@ -5,10 +5,10 @@
 //! lag of a step or two, and nothing in a steady flow. Several short steps show what the operators do in space.
 
 use crate::convergence::orders;
+use crate::invariants::two_phases::simulation;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
-    Bed, Fluid, IncompressibleScene, IncompressibleSimulation, ParticleSet, ProjectionNumerics, SolidFraction,
-    Turbulence,
+    Bed, Fluid, IncompressibleScene, ParticleSet, ProjectionNumerics, SolidFraction, Turbulence,
 };
 use bagnold_solver::vector::Vector;
 use rand::{RngExt, SeedableRng};
@@ -73,7 +73,7 @@ fn errors(cells: usize, jitter: f64, stabilisation: f64, steps: usize) -> (f64, 
             ..ProjectionNumerics::default()
         },
     };
-    let mut simulation = IncompressibleSimulation::new(scene).expect("a valid scene");
+    let mut simulation = simulation(scene);
     let mut pressure = vec![0.0; position.len()];
     for _ in 0..steps {
         simulation.step().expect("a stable step");

@@ -2,6 +2,7 @@
 //! exp(−4 ν k² t) for u = U (sin kx cos ky, −cos kx sin ky).
 
 use crate::convergence::orders;
+use crate::invariants::patches::simulation;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::kernel::{Kernel, KernelShape};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
@@ -24,7 +25,7 @@ const SPEED: f64 = 1.0;
 const SOUND_SPEED: f64 = 10.0;
 
 fn vortices(cells: usize, jitter: f64, reynolds: f64, numerics: Numerics) -> Simulation<2> {
-    Simulation::new(scene(cells, jitter, reynolds, numerics)).expect("a valid scene")
+    simulation(scene(cells, jitter, reynolds, numerics))
 }
 
 fn scene(cells: usize, jitter: f64, reynolds: f64, numerics: Numerics) -> Scene<2> {
@@ -201,7 +202,7 @@ fn schwaigers_correction_is_the_sum_over_displaced_particles() {
     }
     let position = flow.position.clone();
     scene.flow = flow;
-    let mut simulation = Simulation::new(scene).expect("a valid scene");
+    let mut simulation = simulation(scene);
     let start = simulation.snapshot();
     let reason = simulation.run(1e-9, f64::INFINITY, |_| ControlFlow::Continue(()));
     assert_eq!(reason, StopReason::Finished);

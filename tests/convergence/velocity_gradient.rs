@@ -1,6 +1,7 @@
 //! The corrected velocity gradient (9): exact for linear fields, convergent for smooth ones, also when jittered.
 
 use crate::convergence::orders;
+use crate::invariants::patches::simulation;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
@@ -53,7 +54,7 @@ where
         numerics: Numerics { pair_precision: PairPrecision::Double, ..Numerics::default() },
     };
     // a new simulation has the gradient of its initial state
-    Simulation::new(scene).expect("a valid scene").snapshot()
+    simulation(scene).snapshot()
 }
 
 #[test]

@@ -11,11 +11,10 @@ use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::numerics::Numerics;
 use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
-use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use bagnold_solver::weakly_compressible::walls::{Wall, wall};
 
-use crate::invariants::patches::{random, symmetric};
+use crate::invariants::patches::{random, simulation, symmetric};
 
 /// Height of the face `[m]`.
 const HEIGHT: f64 = 4.0;
@@ -157,7 +156,7 @@ impl Cut {
 
 /// The state after a time `[s]`.
 fn held(scene: &Scene<2>, time: f64) -> Snapshot<2> {
-    let mut simulation = Simulation::new(scene.clone()).expect("a valid scene");
+    let mut simulation = simulation(scene.clone());
     while simulation.time() < time {
         simulation.step().expect("a stable step");
     }

@@ -1,9 +1,9 @@
 //! Onset of flow in a chute of the nonlocal law: the case `nonlocal-shear` judges the flow itself.
 
 use crate::invariants::nonlocal_layers::on_one_thread;
+use crate::invariants::patches::simulation;
 use bagnold_cases::nonlocal_shear::{Channel, ExactShear, Motion, NonlocalShearFlow, ShearedGrains, UpperBoundary};
 use bagnold_harness::case::recording::StartState;
-use bagnold_solver::weakly_compressible::simulation::Simulation;
 
 /// A chute of the case that is 20 diameters wide, whose walls bear a friction.
 fn chute(wall_friction: f64) -> NonlocalShearFlow {
@@ -27,7 +27,7 @@ fn remaining(grains: &ShearedGrains, start: &ExactShear, wall_friction: f64) -> 
         },
     };
     let scene = channel.scene(StartState::New).expect("a valid scene");
-    let mut simulation = Simulation::new(scene).expect("a valid scene");
+    let mut simulation = simulation(scene);
     while simulation.time() < 0.5 {
         simulation.step().expect("a stable step");
     }

@@ -1,5 +1,6 @@
 //! The states that the invariants are tested on: seeded, disordered blocks of grains or liquid.
 
+use crate::threads::alone;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
 use bagnold_solver::material::rheology::{MuI, Newtonian, Rheology};
@@ -131,6 +132,7 @@ pub(crate) fn simulation<const D: usize>(scene: Scene<D>) -> Simulation<D>
 where
     Simulation<D>: Compiled<D>,
 {
+    alone();
     Simulation::new(scene).expect("a valid scene")
 }
 

@@ -179,7 +179,7 @@ fn a_liquid_at_rest_creeps_by_less_than_a_quarter_per_cent_of_its_fall() {
 fn a_scene_of_facets_alone_holds_its_material() {
     let scene = Scene { rheology: SYRUP, ..turned_box(30.0) };
     let down = scene.gravity / GRAVITY;
-    let mut simulation = Simulation::new(scene).expect("a scene");
+    let mut simulation = simulation(scene);
     assert!(simulation.particles().wall_count() > 4 * ROWS * 16, "rows stand behind all facets");
     advance(&mut simulation, 500);
     let held: Vector<2> = simulation.facet_wall_impulses().iter().sum();

@@ -1,5 +1,6 @@
 //! The states that incompressible runs are tested on: seeded water and grains.
 
+use crate::threads::alone;
 use bagnold_solver::domain::{AxisBoundary, Domain};
 use bagnold_solver::incompressible::{
     Bed, DragForm, Fluid, IncompressibleScene, IncompressibleSimulation, ParticleSet, ProjectionNumerics, Sediment,
@@ -123,6 +124,7 @@ pub(crate) fn periodic_box(cells: [i32; 2], jitter: f64, speed: f64, seed: u64) 
 }
 
 pub(crate) fn simulation(scene: IncompressibleScene<2>) -> IncompressibleSimulation<2> {
+    alone();
     IncompressibleSimulation::new(scene).expect("a valid scene")
 }
 

@@ -1,5 +1,6 @@
 //! Run-out of columns: the measurement at rest, and the uncertainty at the default resolution.
 
+use crate::threads::alone;
 use bagnold_cases::collapse::columns::ColumnCase;
 use bagnold_cases::collapse::{Collapse, ColumnFlow, Material};
 use bagnold_harness::case::{Case, Flow, Progress, RunList, Tier};
@@ -17,6 +18,7 @@ pub(super) fn column(aspect_ratio: f64) -> PlanarColumn {
 }
 
 fn records<R: Flow<Observation = Collapse>>(runs: Vec<R>) -> Vec<(R, Recorded<Collapse>)> {
+    alone();
     let simulated = |run: R| {
         let record = run.simulate(&Progress::SILENT).expect("a valid scene");
         (run, record)

@@ -1,6 +1,7 @@
 //! State of a scene before it runs: settled bodies rest when they are released, and the stated cost is the cost that is
 //! taken.
 
+use crate::threads::alone;
 use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_validation::REGISTRY;
@@ -13,6 +14,7 @@ fn result_of(text: &str) -> (CaseResult, f64) {
     let case = REGISTRY.find(case.as_str().expect("a name")).expect("a case");
     let prepared = case.prepare(Tier::Quick, &changes).unwrap_or_else(|error| panic!("{error}"));
     let expected = prepared.estimate_of_all().particle_steps;
+    alone();
     let mut results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent).expect("a result");
     (results.remove(0), expected)
 }

@@ -1,5 +1,6 @@
 //! Scenes that several questions are asked of, as a user writes them.
 
+use crate::threads::alone;
 use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_validation::REGISTRY;
@@ -69,6 +70,7 @@ pub(crate) fn result(text: &str) -> (f64, CaseResult) {
     let prepared = REGISTRY.find("scene").and_then(|case| case.prepare(Tier::Quick, &changes));
     let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
     let expected = prepared.estimate(0).particle_steps;
+    alone();
     let mut results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent).expect("a result");
     (expected, results.remove(0))
 }

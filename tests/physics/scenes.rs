@@ -1,5 +1,6 @@
 //! Shipped scenes against what is known of them. Their balances are gates of the case; what is here takes several scenes.
 
+use crate::threads::alone;
 use bagnold_harness::case::{CaseFile, Changes, Silent, Tier, execute};
 use bagnold_harness::output::Table;
 use bagnold_harness::store::{Store, StorePolicy};
@@ -19,6 +20,7 @@ fn changed(name: &str, change: impl FnOnce(&mut toml::Table)) -> Table {
     let changes = Changes { file: Some((&path, fields)), ..Changes::default() };
     let prepared = REGISTRY.find(&case).and_then(|case| case.prepare(tier.unwrap_or(Tier::Quick), &changes));
     let prepared = prepared.unwrap_or_else(|error| panic!("{error}"));
+    alone();
     let mut results = execute(vec![prepared], &Store::open(StorePolicy::Use), &Silent).expect("a result");
     let mut tables = results.remove(0).tables;
     tables.remove(0)
