@@ -15,8 +15,10 @@ pub enum MomentumOperator {
     SingleDivergence,
     /// The same divergence without kernel correction.
     UncorrectedDivergence,
-    /// The single divergence without kernel correction for liquids, whose forces then do no work that the density does not
-    /// answer, so that they come to rest; with it for all laws with a friction.
+    /// The single divergence with the kernel correction for all laws with a friction; for liquids with the share of it that
+    /// [`correction_share`] gives to their motion: none at rest, where forces must do no work that the density does not answer.
+    ///
+    /// [`correction_share`]: crate::weakly_compressible::terms::common_motion::correction_share
     ByLaw,
     /// Pressure (10) and pairwise viscosity (11).
     Pairwise,
@@ -175,15 +177,15 @@ impl Numerics {
         }
     }
 
-    /// Whether each particle's kernel correction enters its momentum equation, with a law.
+    /// Share of each particle's kernel correction in its momentum equation `[-]`, with a law; none if it follows from the motion.
     #[must_use]
-    pub fn corrects_forces(&self, law: &Rheology) -> bool {
+    pub fn force_correction(&self, law: &Rheology) -> Option<f64> {
         match self.momentum_operator {
-            MomentumOperator::SingleDivergence => true,
-            MomentumOperator::ByLaw => law.is_solid(),
+            MomentumOperator::SingleDivergence => Some(1.0),
+            MomentumOperator::ByLaw => law.is_solid().then_some(1.0),
             MomentumOperator::UncorrectedDivergence
             | MomentumOperator::Pairwise
-            | MomentumOperator::PairwiseCorrected => false,
+            | MomentumOperator::PairwiseCorrected => Some(0.0),
         }
     }
 

@@ -12,12 +12,12 @@ use crate::lanes::algebra::{
 };
 use crate::lanes::{LANES, LaneNumbers, LanePass, LaneTensorsMut, Lanes, Real};
 use crate::parallel::prelude::*;
-use crate::vector::{Tensor, Vector};
+use crate::vector::{Tensor, Vector, shear_rate};
 use crate::weakly_compressible::model::Model;
 use crate::weakly_compressible::neighbours::{BLOCK, NeighbourGroup};
 use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::terms::field_diffusion;
 use crate::weakly_compressible::terms::kernel_correction::{corrections, corrections_and_eigenvalue};
+use crate::weakly_compressible::terms::{common_motion, field_diffusion};
 use std::ops::Range;
 
 struct Output<'a, const D: usize> {
@@ -33,6 +33,7 @@ struct Output<'a, const D: usize> {
 /// Updates corrections, pressure gradients and corrected stresses of the flow particles.
 pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>, pairs: &mut PairData<D>) {
     let flow = particles.flow_count();
+    let share = share_of_correction(model, particles);
     let shared = &*particles;
     let PairData { weights, eigenvalues, geometry, single, .. } = pairs;
     let in_single = model.pairs_in_single();
@@ -70,7 +71,7 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
             |(block, (correction, force_correction, pressure_gradient, corrected_stress, weights, eigenvalues))| {
                 let out =
                     Output { correction, force_correction, pressure_gradient, corrected_stress, weights, eigenvalues };
-                model.instruction_set.run(Pass { model, particles: shared, records, block, out });
+                model.instruction_set.run(Pass { model, particles: shared, records, block, share, out });
             },
         );
     particles.correction = correction;
@@ -95,6 +96,8 @@ struct Pass<'a, const D: usize> {
     /// In double and in single precision.
     records: (&'a Records, &'a Records<f32>),
     block: usize,
+    /// Share of the kernel correction in forces `[-]`.
+    share: f64,
     out: Output<'a, D>,
 }
 
@@ -104,7 +107,6 @@ impl<const D: usize> LanePass for Pass<'_, D> {
         let list = &self.model.list;
         let region_start = self.block * list.region();
         let count = self.out.corrected_stress.len();
-        let corrects_forces = self.model.numerics.corrects_forces(&self.model.rheology);
         let meets_surface = self.model.field_meets_surface();
         let mut offset = 0;
         while offset < count {
@@ -124,8 +126,8 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             } else {
                 corrections(&sums.moment)
             };
-            if !corrects_forces {
-                for_forces = identity();
+            if self.share < 1.0 {
+                for_forces = shared_correction(&for_forces, self.share);
             }
             let stress = self.stress::<V>(first..first + end - offset);
             let out = &mut self.out;
@@ -197,13 +199,37 @@ fn pair_sums<V: Lanes, P: Precision, const D: usize>(
     sums
 }
 
+/// I + β (E − I).
 #[inline(always)]
-fn identity<V: Lanes, const D: usize>() -> [[V; D]; D] {
+fn shared_correction<V: Lanes, const D: usize>(whole: &[[V; D]; D], share: f64) -> [[V; D]; D] {
     let mut lanes = zero_tensor::<V, D>();
     for i in 0..D {
-        lanes[i][i] = V::splat(1.0);
+        for j in 0..D {
+            lanes[i][j] = V::splat(share) * whole[i][j];
+        }
+        lanes[i][i] = lanes[i][i] + V::splat(1.0 - share);
     }
     lanes
+}
+
+/// Share of the kernel correction in forces `[-]`; of a liquid that of its motion at the start of the step, summed particle by particle.
+fn share_of_correction<const D: usize>(model: &Model<D>, particles: &Particles<D>) -> f64 {
+    if let Some(share) = model.numerics.force_correction(&model.rheology) {
+        return share;
+    }
+    let flow = particles.flow_count();
+    let (mut velocity, mut speed, mut shear) = (Vector::<D>::zeros(), 0.0, 0.0);
+    for (own, gradient) in particles.velocity[..flow].iter().zip(&particles.velocity_gradient) {
+        velocity += own;
+        speed += own.norm_squared();
+        shear += shear_rate(gradient).powi(2);
+    }
+    let (count, sound_speed) = (flow.max(1) as f64, model.equation_of_state.sound_speed());
+    let about_the_mean = (speed / count - (velocity / count).norm_squared()).max(0.0);
+    common_motion::correction_share(
+        about_the_mean.sqrt() / sound_speed,
+        (shear / count).sqrt() * model.spacing / sound_speed,
+    )
 }
 
 impl<const D: usize> Pass<'_, D> {

@@ -3,6 +3,7 @@
 
 pub mod artificial_stress;
 pub mod artificial_viscosity;
+pub mod common_motion;
 pub mod continuity;
 pub mod density_coupling;
 pub mod field_diffusion;

@@ -6,6 +6,7 @@ use bagnold_solver::internals::weakly_compressible::{State, viscosities, walls};
 use bagnold_solver::material::rheology::field::FieldStep;
 use bagnold_solver::vector::{Tensor, Vector, deviator, equivalent_shear_stress, shear_rate, strain_rate};
 use bagnold_solver::weakly_compressible::numerics::ViscositySwitch;
+use bagnold_solver::weakly_compressible::terms::common_motion::correction_share;
 use bagnold_solver::weakly_compressible::terms::field_diffusion::surface_sink;
 
 /// One over a sum of a wall's neighbours, or nothing where they hardly reach it.
@@ -61,7 +62,14 @@ pub(super) fn by_pairs<const D: usize>(state: &State<D>, time_step: f64) -> Made
 
     // corrections, pressure gradient, corrected stress
     let corrected: Vec<_> = pairs[..flow].iter().map(|pairs| corrections(pairs)).collect();
-    let for_forces = |a: usize| if numerics.corrects_forces(law) { corrected[a].2 } else { identity };
+    let share = numerics.force_correction(law).unwrap_or_else(|| {
+        let count = flow as f64;
+        let mean = of.velocity[..flow].iter().sum::<Vector<D>>() / count;
+        let speed = of.velocity[..flow].iter().map(|v| (v - mean).norm_squared()).sum::<f64>() / count;
+        let shear = of.velocity_gradient[..flow].iter().map(|v| shear_rate(v).powi(2)).sum::<f64>() / count;
+        correction_share(speed.sqrt() / c, shear.sqrt() * SPACING / c)
+    });
+    let for_forces = |a: usize| identity + (corrected[a].2 - identity) * share;
     let elasticity =
         |a: usize| model.elasticity(equivalent_shear_stress(&of.stress[a]), pressure[a], &FieldStep::alone(field[a]));
     let (mut slope, mut flux) = (Vec::new(), Vec::new());
