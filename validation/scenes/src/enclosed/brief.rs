@@ -36,7 +36,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let mach = speed / sound_speed;
         // a fall over the height of the scene reaches the limit itself at the default stiffness
         if mach > 1.01 * LARGEST_MACH_NUMBER {
-            caution(&too_fast(&self.name, speed, mach, self.stiffness));
+            caution(&too_fast(&self.name, speed, mach, self.stiffness()));
         }
         for wall in self.walls.iter().filter(|_| D == 3) {
             let finer = wall.facet_wall().facets.len() as f64 * self.spacing.powi(2) / wall.measure();
@@ -56,9 +56,10 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let grains = self.material.grain_diameter().map(|diameter| diameter / self.spacing);
         let grains = grains.map(|ratio| format!(", grain diameter {ratio:.2} particle spacings")).unwrap_or_default();
         format!(
-            "scene `{}`, spacing {} m: sound speed {sound_speed:.3} m/s, largest expected speed {speed:.3} m/s (Mach {mach:.2}){grains}{}",
+            "scene `{}`, spacing {} m: sound speed {sound_speed:.3} m/s ({}), largest expected speed {speed:.3} m/s (Mach {mach:.2}){grains}{}",
             self.name,
             four_digits(self.spacing),
+            self.scale().1,
             openings.concat()
         )
     }
@@ -94,6 +95,6 @@ fn too_fast(name: &str, speed: f64, mach: f64, stiffness: f64) -> String {
     let enough = (stiffness * (mach / LARGEST_MACH_NUMBER).powi(2)).ceil();
     format!(
         "scene `{name}`: a speed of {speed:.3} m/s is Mach {mach:.2}, above {LARGEST_MACH_NUMBER}: impacts and forces are not \
-         validated there; set `stiffness = {enough}`"
+         validated there; set `stiffness = {enough}`, or leave it out"
     )
 }

@@ -25,7 +25,6 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         }
         rules::material("material", &self.material)?;
         self.bulk.check(&self.material).map_err(|error| error.within("bulk"))?;
-        self.check_pore_liquid()?;
         self.sides.check()?;
         for (k, body) in self.bodies.iter().enumerate() {
             body.check().map_err(|error| error.within(&format!("bodies[{k}]")))?;
@@ -37,6 +36,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
                 .and_then(|()| check_motion(&wall.motion(), S::Wall::GIVEN_BY));
             sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
         }
+        self.check_pore_liquid()?;
         self.check_scales()?;
         self.check_lateral_pressure()?;
         self.check_inlets()?;

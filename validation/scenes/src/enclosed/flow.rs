@@ -11,7 +11,7 @@ use crate::metric::Variant;
 use crate::observation::Frame;
 use crate::setup::Bulk;
 use bagnold_solver::domain::AxisBoundary;
-use bagnold_solver::material::equation_of_state::{EquationOfState, Tension};
+use bagnold_solver::material::equation_of_state::Tension;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{at_least, between, positive};
 use bagnold_solver::vector::Vector;
@@ -85,9 +85,11 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     pub interval: f64,
     /// Least number of pictures over the duration, which are 1, 2, 4, … intervals apart; the last state follows.
     pub pictures: usize,
-    /// Bulk modulus over ρ0 g and the height of the scene `[-]`.
-    #[schemars(transform = between(20.0, 1e4, "50 for grains; 200 make sound seven times as fast as a fall"))]
-    pub stiffness: f64,
+    /// Bulk modulus over ρ0 (g H + p/ρ0), of the height H and the pressure p `[-]`. Where it is left out, it is 50, and sound is also five times
+    /// as fast as bodies, inflow and walls move towards each other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = between(20.0, 1e6, "50 for grains; 200 make sound seven times as fast as a fall"))]
+    pub stiffness: Option<f64>,
     /// Treatment of a negative pressure.
     pub tension: Tension,
     /// Largest random displacement of a particle in spacings `[-]`.
@@ -183,7 +185,7 @@ impl<S: Dimension<D>, const D: usize> Default for SceneFlow<S, D> {
             duration: 0.4,
             interval: 0.01,
             pictures: 4,
-            stiffness: 50.0,
+            stiffness: None,
             tension: Tension::Cut,
             jitter: 0.05,
             seed: 1,
@@ -243,12 +245,6 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         }
     }
 
-    /// Weight of the scene's height and pressure at the start, over the density `[m²/s²]`: the square of the speed that
-    /// either gives.
-    pub(super) fn fall(&self) -> f64 {
-        self.pull().norm() * self.height() + self.pressure / self.bulk.density(&self.material)
-    }
-
     /// Measurands of the gauges, gauge by gauge.
     pub(super) fn measures(&self) -> Vec<Measurand<'_, D>> {
         self.gauges.iter().map(|gauge| gauge.measure(&self.direction_of(gauge))).collect()
@@ -272,27 +268,5 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let bodies = self.bodies.iter().flat_map(|body| <[Vector<D>; 2]>::from(body.extent()));
         let inlets = self.inlets.iter().flat_map(SceneInlet::corners);
         shapes::around(bodies.chain(self.walls.iter().flat_map(SceneWall::hull)).chain(inlets))
-    }
-
-    /// Height of the scene along gravity, from the highest material, at the start or in inlets, to the lowest of walls and material
-    /// `[m]`; bodies count by their boxes.
-    pub(super) fn height(&self) -> f64 {
-        let up = -self.down();
-        let of_inlets: Vec<f64> =
-            self.inlets.iter().flat_map(SceneInlet::corners).map(|place| up.dot(&place)).collect();
-        let highest = self.bodies.iter().map(|body| body.span(&up).1).chain(of_inlets.iter().copied());
-        let highest = highest.fold(f64::NEG_INFINITY, f64::max);
-        let of_walls = self.walls.iter().flat_map(SceneWall::hull).map(|place| up.dot(&place));
-        let lowest = self.bodies.iter().map(|body| body.span(&up).0).chain(of_walls).chain(of_inlets);
-        highest - lowest.fold(f64::INFINITY, f64::min)
-    }
-
-    /// Equation of state of the material: its density under a pressure.
-    pub(super) fn equation_of_state(&self) -> EquationOfState {
-        let reference_density = self.bulk.density(&self.material);
-        let fastest = self.bodies.iter().map(|body| body.velocity().norm_squared()).fold(0.0, f64::max);
-        // what moves at the start must be as slow against sound as what falls
-        let bulk_modulus = self.stiffness * reference_density * self.fall().max(0.5 * fastest);
-        EquationOfState { reference_density, bulk_modulus, tension: self.tension }
     }
 }

@@ -12,7 +12,7 @@ use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, LARGEST_MACH_
 use bagnold_solver::weakly_compressible::enclosure::{BoundarySet, FeedRate};
 
 /// Largest stiffness of a scene `[-]`.
-const STIFFEST: f64 = 1e4;
+const STIFFEST: f64 = 1e6;
 
 /// Times at which it is added up how many particles are there: for estimates.
 const TIMES: usize = 64;
@@ -35,7 +35,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     }
 
     fn feed(&self, inlet: &S::Inlet, rate: FeedRate) -> Option<Inlet<D>> {
-        let density = self.equation_of_state().reference_density;
+        let density = self.bulk.density(&self.material);
         inlet.feed(Supply { spacing: self.spacing, density, rate })
     }
 
@@ -69,7 +69,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let speed = feed.largest_speed();
             let rule =
                 format!("at most {:.4}, {LARGEST_MACH_NUMBER} of the sound speed", feed.rate.largest() * most / speed);
-            let stiffness = (self.stiffness * (speed / most).powi(2)).ceil();
+            let stiffness = (self.stiffness() * (speed / most).powi(2)).ceil();
             let stiffer =
                 if stiffness <= STIFFEST { format!(", or raise `stiffness` to {stiffness}") } else { String::new() };
             let remedy = format!("{speed:.4} m/s is too fast: widen the opening{stiffer}");

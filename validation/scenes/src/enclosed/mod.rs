@@ -30,6 +30,7 @@ pub mod setting;
 mod settling;
 pub(super) mod shapes;
 pub mod sides;
+mod sound;
 mod start;
 mod surfaces;
 

@@ -250,10 +250,9 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         self.fall().sqrt()
     }
 
-    /// Largest speed that falling, bodies, walls and inlets give `[m/s]`.
+    /// Largest speed that falling, and bodies, walls and inlets relative to each other give `[m/s]`.
     pub(super) fn expected_speed(&self) -> f64 {
-        let fall = 2.0_f64.sqrt() * self.fall_speed();
-        fall.max(self.fastest_body()).max(self.fastest_wall()).max(self.fastest_inlet())
+        self.relative_speed().max(2.0_f64.sqrt() * self.fall_speed())
     }
 
     /// Largest speed of a wall `[m/s]`.

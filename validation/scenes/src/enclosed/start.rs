@@ -42,7 +42,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             ("material.law".to_owned(), self.material.name().to_owned()),
         ];
         let whole = serde_json::to_value(self).unwrap_or_default();
-        for field in ["spacing", "stiffness", "tension", "sides", "inlets", "numerics"] {
+        likeness.push(("stiffness".to_owned(), format!("{:?}", self.stiffness())));
+        for field in ["spacing", "tension", "sides", "inlets", "numerics"] {
             add_leaves(field, &whole[field], &mut likeness);
         }
         likeness
