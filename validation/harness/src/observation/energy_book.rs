@@ -74,6 +74,17 @@ impl EnergyBook {
         self.exchanged.0.max(self.exchanged.1).max(dissipated).max(self.entered.0 + self.entered.1)
     }
 
+    /// Energy that the viscosity of the law has dissipated up to the last sample, and what the scheme has: by artificial terms, the
+    /// hourglass control at walls and the density coupling, less what it has fed in beside gravity and walls.
+    #[must_use]
+    pub fn viscous_and_numerical(&self) -> (f64, f64) {
+        let of =
+            |cause: &str| self.dissipated.iter().find(|(name, _)| name == cause).map_or(0.0, |(_, energy)| *energy);
+        let physical: f64 =
+            ["viscosity", "plastic flow", "contacts", "friction of side walls"].into_iter().map(of).sum();
+        (of("viscosity"), self.walls - self.explained.last().unwrap_or(&0.0) - physical)
+    }
+
     /// Largest rise of the total energy above its least value before.
     #[must_use]
     pub fn rise(&self) -> f64 {
@@ -100,6 +111,28 @@ mod tests {
         assert_eq!(book.residual(), 0.125);
         assert_eq!(book.rise(), 0.25);
         assert!(EnergyBook::default().residual().is_nan());
+    }
+
+    #[test]
+    fn the_scheme_dissipates_what_neither_law_nor_walls_do() {
+        let ledger = EnergyLedger {
+            gravity: 64.0,
+            walls: 32.0,
+            viscous: 0.25,
+            plastic: 16.0,
+            artificial: 4.0,
+            wall_control: 0.5,
+            density_coupling: 1.0,
+            contact: 8.0,
+            side_walls: 128.0,
+            correction: 2.0,
+            cut: 0.125,
+            ways: -1.0,
+        };
+        let mut book = EnergyBook::default();
+        book.enter(1.0, &EnergyAccount { kinetic: 1.0, elastic: 0.0, ledger }, 0.0);
+        assert_eq!(book.viscous_and_numerical(), (0.25, 4.0 + 0.5 + 1.0 - 2.0 - 0.125 + 1.0));
+        assert_eq!(EnergyBook::default().viscous_and_numerical(), (0.0, 0.0));
     }
 
     #[test]

@@ -85,8 +85,9 @@ pub struct SceneFlow<S: Dimension<D>, const D: usize> {
     pub interval: f64,
     /// Least number of pictures over the duration, which are 1, 2, 4, … intervals apart; the last state follows.
     pub pictures: usize,
-    /// Bulk modulus over ρ0 (g H + p/ρ0), of the height H and the pressure p `[-]`. Where it is left out, it is 50, and sound is also five times
-    /// as fast as bodies, inflow and walls move towards each other.
+    /// Bulk modulus over ρ0 (g H + p/ρ0) `[-]`, of the pressure p and of the height H of the material and of what it can fall onto: neither walls that
+    /// move nor vertical ones below a floor add to it. Where it is left out, it is 50, and sound is also five times as fast as bodies, inflow and
+    /// walls move towards or along each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = between(20.0, 1e6, "50 for grains; 200 make sound seven times as fast as a fall"))]
     pub stiffness: Option<f64>,

@@ -11,14 +11,20 @@ use crate::output::caution_about;
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::statistics::{Extrapolation, interpolated};
 use bagnold_number::four_digits;
-use bagnold_solver::weakly_compressible::numerics::{ViscositySwitch, ViscousStep};
-use bagnold_solver::weakly_compressible::terms::artificial_viscosity::shear_viscosity;
+use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 
 /// Impulse that implicit viscous steps may leave out, over that of gravity `[%]`.
 const MOST_UNSOLVED: f64 = 0.5;
 
 /// Largest difference of the mass that was fed from the integral of the rate, over a row `[-]`.
 const FARTHEST: f64 = 0.7;
+/// Numerical viscosity over the liquid's own that is warned of `[-]`.
+const MOST_NUMERICAL: f64 = 0.25;
+/// Largest root mean square of the speed of a liquid at rest at the end, over √(g H) `[-]`: particles that fall into place have as much. In
+/// slow flows viscosity takes most of the energy.
+const REST: f64 = 0.02;
+/// Least loss over the energy that went through a liquid `[-]`: a smaller one moves nothing that is measured.
+const LEAST_LOSS: f64 = 1e-3;
 /// Least way of a front, in particle spacings, from which its return is said `[-]`.
 const FRONT_ROWS: f64 = 5.0;
 
@@ -41,8 +47,8 @@ quantities! { pub(super) [ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WO
         accounted("final_rms_speed", "m/s", "root mean square of the speed in the scene, mean over the last tenth of the run"),
     MACH_NUMBER:
         accounted("mach_number", "-", "largest speed of the slower 99.5 % of the particles over the sound speed; not validated above 0.2"),
-    ARTIFICIAL_VISCOSITY:
-        accounted("artificial_viscosity", "Pa s", "α ρ c h/(4 (D + 2)), viscosity added by the artificial viscosity"),
+    NUMERICAL_VISCOSITY:
+        accounted("numerical_viscosity", "Pa s", "viscosity of the liquid times what artificial terms, hourglass control and density coupling dissipate less what the scheme feeds in, over what the viscosity does; disorder that the viscosity itself damps is not in it"),
     FRONT: accounted("front", "m", "distance of the front along the line of a gauge at the end"),
     DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
     GAUGE_ERROR: validated("gauge_error", "%", "√⟨(g(t)/m − 1)²⟩ over the measured values m at times t; the gauge g is interpolated linearly between its rows"),
@@ -110,7 +116,7 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
     metrics.push(FINAL_RMS_SPEED.of(&variant, final_mean(&data.rms_speed)).with_snapshot_tolerance(0.1, 1e-3));
     let mach = data.largest_speed / parameters.equation_of_state().sound_speed();
     metrics.push(MACH_NUMBER.of(&variant, mach).with_snapshot_tolerance(0.1, 1e-3));
-    metrics.extend(artificial_viscosity(&variant, data, parameters));
+    metrics.extend(numerical_viscosity(&variant, data, parameters));
     let all = series::of_run(parameters, data);
     let front = all.iter().find_map(|series| match &series.measure {
         Measurand::Front(line) => Some((line.clone(), series.values.first()?.clone())),
@@ -249,30 +255,35 @@ fn energy<S: Dimension<D>, const D: usize>(
     ]
 }
 
-/// Viscosity that the artificial viscosity comes to, beside the material's own; in smooth flows of grains it acts on nothing.
-fn artificial_viscosity<S: Dimension<D>, const D: usize>(
+/// Viscosity of a liquid by which the scheme's own dissipation would be that of the law's; none at rest. A large one is warned of.
+fn numerical_viscosity<S: Dimension<D>, const D: usize>(
     variant: &Variant,
     data: &SceneObservation<D>,
     parameters: &SceneFlow<S, D>,
 ) -> Option<Metric> {
-    let (law, numerics) = (&parameters.material, &parameters.numerics);
-    if law.strength_is_friction() || numerics.viscosity_switch != ViscositySwitch::Constant {
+    let (law, (viscous, numerical)) = (&parameters.material, data.energy.viscous_and_numerical());
+    let (fall, through) = (parameters.fall(), data.energy.turnover());
+    let is_at_rest = final_mean(&data.rms_speed) < REST * fall.sqrt() && viscous < 0.5 * through;
+    let is_small = viscous <= 0.0 || viscous.max(numerical) <= LEAST_LOSS * through;
+    if law.is_plastic() || law.is_solid() || is_at_rest || is_small {
         return None;
     }
-    let sound_speed = parameters.equation_of_state().sound_speed();
-    let strength = numerics.artificial_viscosity * sound_speed * numerics.smoothing_ratio * parameters.spacing;
-    let density = parameters.bulk.density(law);
-    let height = parameters.height();
-    let rate = data.rms_speed.iter().copied().fold(0.0, f64::max) / height;
-    let own = law.viscosity(rate, density * parameters.fall());
-    let metric =
-        ARTIFICIAL_VISCOSITY.of(variant, density * shear_viscosity(strength, D)).with_snapshot_tolerance(1e-6, 0.0);
-    Some(metric.against(
-        Some(own).filter(|own| own.is_finite()),
-        "the material's own viscosity, at the largest root mean square of the speed over its height; the other is α ρ c h/(4 (D + 2)), and \
-         the pressure's operator damps waves beside it",
-        Confidence::Exact,
-    ))
+    let rate = data.rms_speed.iter().copied().fold(0.0, f64::max) / parameters.height();
+    let own = law.viscosity(rate, parameters.bulk.density(law) * fall);
+    let share = numerical / viscous;
+    if share > MOST_NUMERICAL {
+        let subject = format!("numerical viscosity of scene `{}`", parameters.name);
+        let [times, lost] = [share, 100.0 * numerical / through].map(four_digits);
+        caution_about(
+            &subject,
+            &format!(
+                "{subject}: {times} times the liquid's own, and {lost} % of the energy that went through: reduce `spacing`"
+            ),
+        );
+    }
+    let metric = NUMERICAL_VISCOSITY.of(variant, own * share).with_snapshot_tolerance(0.1, 0.0);
+    let source = "the material's own viscosity, at the largest root mean square of the speed over its height";
+    Some(metric.against(Some(own).filter(|own| own.is_finite()), source, Confidence::Exact))
 }
 
 /// A gauge's series beside what was measured.

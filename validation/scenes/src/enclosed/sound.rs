@@ -41,19 +41,12 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     pub(super) fn scale(&self) -> (f64, String) {
         let fall = self.fall();
         let meeting = if self.stiffness.is_some() && fall > 0.0 { 0.0 } else { 0.5 * self.relative_square() };
-        let factor = format!("stiffness {} times", self.stiffness());
-        if meeting > fall {
-            return (
-                meeting,
-                format!("{factor} ½ u², u = {} m/s between what can touch", four_digits(self.relative_speed())),
-            );
-        }
-        let pressure = if self.pressure > 0.0 {
-            format!(" + p/ρ, p = {} Pa,", four_digits(self.pressure))
+        let cause = if meeting > fall {
+            format!("½ u², u = {} m/s between what can touch", four_digits(self.relative_speed()))
         } else {
-            String::new()
+            format!("g H + p/ρ, H = {} m, p = {} Pa", four_digits(self.height()), four_digits(self.pressure))
         };
-        (fall, format!("{factor} g H{pressure} over H = {} m", four_digits(self.height())))
+        (meeting.max(fall), format!("stiffness {} times {cause}", self.stiffness()))
     }
 
     /// Weight of the scene's height and pressure at the start, over the density `[m²/s²]`: the square of the speed that
