@@ -199,11 +199,6 @@ fn a_moving_bed_that_cannot_be() {
             "`continuum.closures.karman` is 0.4, but must be 0.41; the particles know no other; bed-load-1d takes any",
         ),
         (
-            "continuum.closures.turbulent_schmidt=0.7",
-            "`continuum.closures.turbulent_schmidt` is 0.7, but must be 0 unless grains dilate; eddies carry no grains \
-             of a given fraction",
-        ),
-        (
             "continuum.closures.limiting_friction=0.3",
             "`continuum.closures.limiting_friction` is 0.3, but must be greater than the static friction; friction grows \
              from μ_s at rest to μ_2 in fast shear",
@@ -217,6 +212,11 @@ fn a_moving_bed_that_cannot_be() {
     for (setting, message) in cases {
         refused(&place, &["bed-load", "--set", setting], message);
     }
+    // only runs of the paper tier have grains of a given fraction
+    let schmidt = ["bed-load", "--tier", "paper", "--set", "continuum.closures.turbulent_schmidt=0.7"];
+    let message = "`continuum.closures.turbulent_schmidt` is 0.7, but must be 0 unless grains dilate; eddies carry no grains \
+                   of a given fraction";
+    refused(&place, &schmidt, message);
 }
 
 #[test]

@@ -178,7 +178,7 @@ mod tests {
     fn laws_have_a_mark_each_that_is_open_where_a_layer_stopped() {
         let trial = |(slope_angle, fate)| SlopeTrial { slope_angle, fate, time: 1.0, mean_velocity: 0.0, lost: 0 };
         let found = StartStop { trials: [(20.0, LayerFate::Stops), (24.0, LayerFate::Flows)].map(trial).to_vec() };
-        let list = RunList::<FlowThicknessFlow>::of_tier(Tier::Quick);
+        let list = RunList::<FlowThicknessFlow>::of_tier(Tier::Paper);
         let mut panel = Panel::new("", Axis::linear("θ [°]"), Axis::logarithmic("h [mm]"));
         let searches = list.flows().iter().filter(|flow| flow.is_sought());
         draw_searches(&mut panel, searches.map(|flow| (flow, &found)));
