@@ -14,7 +14,7 @@ pub mod weakly_compressible {
     use crate::weakly_compressible::particles::Particles;
     use crate::weakly_compressible::simulation::Simulation;
 
-    /// What a simulation steps.
+    /// State of a simulation.
     pub fn state<const D: usize>(simulation: &mut Simulation<D>) -> &mut State<D> {
         &mut simulation.state
     }
@@ -83,7 +83,7 @@ pub mod incompressible {
         std::mem::replace(&mut state.projection.mixture, Mixture::new())
     }
 
-    /// What a simulation steps.
+    /// State of a simulation.
     pub fn state(simulation: &IncompressibleSimulation<2>) -> &State<2> {
         &simulation.state
     }

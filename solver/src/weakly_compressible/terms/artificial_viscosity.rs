@@ -24,13 +24,6 @@ pub fn pair_factor<V: Real>(strength: V, approach: V, felt: V, inverse: V) -> V 
     strength * felt.max(approach).min(V::splat(0.0)) * inverse
 }
 
-/// Kinematic viscosity ν = α h c/(4 (D + 2)) `[m²/s]` that (15) adds to a flow that does not change its volume, `strength` being
-/// α h c `[m²/s]`: the continuum limit α h c/(2 (D + 2)) of a sum over all pairs (Monaghan 2005), of which the approaching half counts.
-#[must_use]
-pub fn shear_viscosity(strength: f64, dimensions: usize) -> f64 {
-    strength / (4.0 * (dimensions as f64 + 2.0))
-}
-
 /// One explicit step of (16): dα/dt = −(α − α_min)/ς + S, S = max(0, −∇·v), ς = h/(σ c).
 ///
 /// `divergence` is ∇·v `[1/s]`, `decay_rate` c/h `[1/s]`.
@@ -63,7 +56,8 @@ mod tests {
                 if squared < 36.0 { 0.5 * factor * x * y * weight } else { 0.0 }
             })
         });
-        let (dissipation, expected) = (rates.sum::<f64>().abs(), shear_viscosity(STRENGTH, 3));
+        // α h c/(2 (D + 2)) of a sum over all pairs (Monaghan 2005), of which the approaching half counts
+        let (dissipation, expected) = (rates.sum::<f64>().abs(), STRENGTH / (4.0 * (3.0 + 2.0)));
         assert!((dissipation / expected - 1.0).abs() < 0.01, "{dissipation} instead of {expected}");
     }
 
