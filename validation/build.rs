@@ -10,26 +10,13 @@ mod embed;
 #[path = "build/rooms.rs"]
 mod rooms;
 
-use code::{code, is_of_tests};
+use code::{CODE, code, is_of_tests};
 use embed::{embed, sorted_files, texts};
 use rooms::{LAWS, Rooms};
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// Folders of code that results depend on.
-const CODE: [&str; 9] = [
-    "solver/src",
-    "validation/number/src",
-    "validation/figure/src",
-    "validation/inference/src",
-    "validation/harness/src",
-    "validation/reference/src",
-    "validation/cases/src",
-    "validation/scenes/src",
-    "validation/tools/src",
-];
 
 /// Other files and folders on which results depend.
 const REST: [&str; 3] = ["reference-data", "Cargo.lock", "Cargo.toml"];

@@ -1,4 +1,4 @@
-//! What judges and draws is no part of a stored run, nor are other cases, laws and models: `validation/build/rooms.rs` finds in the text
+//! Stored runs without what judges and draws, and without other cases, laws and models: `validation/build/rooms.rs` finds in the text
 //! of the sources what each run depends on, and relies on what is checked here.
 
 #[path = "../../validation/build/code.rs"]
@@ -9,33 +9,17 @@ mod rooms;
 use crate::structure::imports::imports;
 use crate::structure::source::{Source, is_word, sources, workspace};
 use bagnold_solver::material::rheology::Rheology;
-use built::{code, is_of_tests, left_open};
-use rooms::{DRAWING, LAWS, Rooms, type_name};
+use built::{CODE, code, is_of_tests, left_open};
+use rooms::{DRAWING, JUDGING_PARTS, LAWS, Rooms, type_name};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Parts of a case that see runs which have ended.
-const JUDGING: [&str; 2] = ["metrics", "figures"];
-
-/// Packages with code that results depend on.
-const CODE: [&str; 9] = [
-    "solver/src",
-    "validation/number/src",
-    "validation/figure/src",
-    "validation/inference/src",
-    "validation/harness/src",
-    "validation/reference/src",
-    "validation/cases/src",
-    "validation/scenes/src",
-    "validation/tools/src",
-];
-
 fn is_judging(source: &Source) -> bool {
-    source.module.iter().any(|part| JUDGING.contains(&part.as_str()))
+    source.module.iter().any(|part| JUDGING_PARTS.contains(&part.as_str()))
 }
 
 /// Files that simulate and use what judges, and files that judge and hold what is stored.
 fn wrong(sources: &[Source]) -> Vec<&str> {
-    let names = |source: &Source| JUDGING.iter().any(|part| source.code.contains(&format!("{part}::")));
+    let names = |source: &Source| JUDGING_PARTS.iter().any(|part| source.code.contains(&format!("{part}::")));
     let simulates = |source: &Source| ["fn simulate", "Simulation::new"].iter().any(|mark| source.code.contains(mark));
     let is_wrong = |source: &&Source| {
         if is_judging(source) { source.code.contains("Serialize") } else { names(source) && simulates(source) }

@@ -1,4 +1,17 @@
-//! The part of a source that results depend on.
+//! The sources that results depend on, and the part of each that they do.
+
+/// Folders of code that results depend on.
+pub(crate) const CODE: [&str; 9] = [
+    "solver/src",
+    "validation/number/src",
+    "validation/figure/src",
+    "validation/inference/src",
+    "validation/harness/src",
+    "validation/reference/src",
+    "validation/cases/src",
+    "validation/scenes/src",
+    "validation/tools/src",
+];
 
 /// The code of a file without its comments and its unit tests: no result depends on them.
 pub(crate) fn code(text: &str) -> String {
@@ -15,7 +28,7 @@ pub(crate) fn code(text: &str) -> String {
     before.lines().chain(after.lines()).filter(is_code).collect::<Vec<_>>().join("\n")
 }
 
-/// What closes the literal that a line leaves open, by that of the literal which it begins in: `"`, or `"##` of a raw one.
+/// End of the literal that a line leaves open, by that of the literal which it begins in: `"`, or `"##` of a raw one.
 pub(crate) fn left_open(line: &str, mut open: Option<String>) -> Option<String> {
     let line = line.replace("\\\\", "").replace("\\\"", "").replace("'\"'", "");
     let mut rest = line.as_str();

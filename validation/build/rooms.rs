@@ -1,4 +1,4 @@
-//! What the simulations of each case depend on, found in the text of the sources: an edit of one case, law or model, or of what
+//! Dependences of the simulations of each case, found in the text of the sources: an edit of one case, law or model, or of what
 //! judges and draws, leaves stored runs of the others as they are.
 //!
 //! Relied on, and checked by `tests/structure/simulations.rs`: code outside of a room names the room on its path, or the type of a
@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Packages and parts of a case's folder that see runs which have ended.
 const JUDGING: [&str; 2] = ["validation/inference/src/inference/", "validation/tools/"];
-const JUDGING_PARTS: [&str; 2] = ["metrics", "figures"];
+pub(crate) const JUDGING_PARTS: [&str; 2] = ["metrics", "figures"];
 
 /// Name of what drawings depend on besides their data.
 pub(crate) const DRAWING: &str = "drawing";
