@@ -224,6 +224,22 @@ fn a_prepared_bed_is_tilted_and_its_balances_close() {
 }
 
 #[test]
+fn a_belt_that_starts_below_a_resting_layer_leaves_its_weight() {
+    let place = Place::new();
+    let level = layer(0.0, 0.4, 0.0025) + "[[gauges]]\nkind = \"force\"\nname = \"bed\"\nwall = \"bed\"\n";
+    let belt =
+        level.replace("[0.07, 0.0]]", "[0.07, 0.0]]\nmotion = [[0.0, 0.0, 0.0], [0.3, 0.0, 0.0], [1.3, 2.0, 0.0]]");
+    let (rests, moves) = (place.file("level.toml", &level), place.file("belt.toml", &belt));
+    let state = state_of(&outcome(&place, &set(&rests, &["duration=0.3"])));
+    let arguments = from(&moves, &state, &["duration=0.305", "interval=0.005"]);
+    place.run(&arguments.iter().map(String::as_str).collect::<Vec<_>>()).code(0);
+    // the bed of a belt alone would have the sound of 2 m/s, and its layer a load 17 % too large
+    let weight = 1500.0 * 9.81 * 0.05 * 0.03;
+    let load = metric(&place, "mean_force", "gauge=bed");
+    assert!((load / weight - 1.0).abs() < 0.05, "{load} N/m for {weight}");
+}
+
+#[test]
 fn a_state_that_does_not_fit_is_refused_by_field_and_rule() {
     let place = Place::new();
     let level = place.file("level.toml", &layer(0.0, 0.4, 0.0025));

@@ -8,7 +8,7 @@ use super::profile::StageTimer;
 use super::publication::Publication;
 use super::simulation::{announce, introduce, reject_fast, simulate_showing};
 use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, Tier, settings_to_vary};
-use crate::checkpoint::{Checkpoints, StoredState};
+use crate::checkpoint::{BULK_MODULUS, Checkpoints, StoredState};
 use crate::measured::{Measurements, draw_measured};
 use crate::output::{FileError, OutputFolder};
 use crate::report::{Baseline, CommittedValues, SingleRun};
@@ -29,9 +29,11 @@ fn start_setting(given: &Path, command: &RunArguments, registry: Registry) -> Re
         )
     };
     let file = if given.is_dir() { newest_state(given, command, registry).map_err(refused)? } else { given.to_owned() };
-    let digest = StoredState::read(&file).map_err(refused)?.digest;
-    let name = file.display().to_string();
-    Ok(format!("from={{ file = {}, sha256 = \"{digest}\" }}", toml::Value::String(name)))
+    let state = StoredState::read(&file).map_err(refused)?;
+    let name = toml::Value::String(file.display().to_string());
+    let stiffness =
+        state.property(BULK_MODULUS).map(|modulus| format!(", bulk_modulus = {modulus}")).unwrap_or_default();
+    Ok(format!("from={{ file = {name}, sha256 = \"{}\"{stiffness} }}", state.digest))
 }
 
 /// The newest state in a folder of states, or that the store keeps of the run in a folder of results.

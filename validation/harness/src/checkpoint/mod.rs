@@ -3,7 +3,7 @@
 
 mod stored;
 
-pub use stored::{Likeness, StoredState};
+pub use stored::{BULK_MODULUS, Likeness, StoredState};
 
 use crate::interruption;
 use crate::output::SealedFormat;

@@ -7,6 +7,9 @@ use std::path::Path;
 /// Properties that a state and a scene that starts from it share: paths of fields with their values.
 pub type Likeness = Vec<(String, String)>;
 
+/// Name of the bulk modulus `[Pa]` among the properties of a scene that leaves a state.
+pub const BULK_MODULUS: &str = "from.bulk_modulus";
+
 /// A state in a file.
 #[derive(Debug)]
 pub struct StoredState {
@@ -25,6 +28,13 @@ impl StoredState {
         let contents = STATE.read(path, None).map_err(|refused| format!("it {refused}"))?;
         let digest = Sha256::digest(&contents).iter().map(|byte| format!("{byte:02x}")).collect();
         Ok(Self { contents, digest })
+    }
+
+    /// A property of the scene that has left it, by its name; none where the state has no such property.
+    #[must_use]
+    pub fn property(&self, name: &str) -> Option<String> {
+        let (likeness, _): (Likeness, _) = postcard::take_from_bytes(&self.contents).ok()?;
+        likeness.into_iter().find_map(|(own, value)| (own == name).then_some(value))
     }
 
     /// The first property in which a scene of a likeness differs, with the scene's value and the state's.

@@ -36,7 +36,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let mach = speed / sound_speed;
         // a fall over the height of the scene reaches the limit itself at the default stiffness
         if mach > 1.01 * LARGEST_MACH_NUMBER {
-            caution(&too_fast(&self.name, speed, mach, self.stiffness()));
+            caution(&too_fast(&self.name, speed, mach, (self.stiffness(), self.from.is_some())));
         }
         for wall in self.walls.iter().filter(|_| D == 3) {
             let finer = wall.facet_wall().facets.len() as f64 * self.spacing.powi(2) / wall.measure();
@@ -59,7 +59,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             "scene `{}`, spacing {} m: sound speed {sound_speed:.3} m/s ({}), largest expected speed {speed:.3} m/s (Mach {mach:.2}){grains}{}",
             self.name,
             four_digits(self.spacing),
-            self.scale().1,
+            self.sound_cause(),
             openings.concat()
         )
     }
@@ -91,10 +91,15 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 }
 
 /// Warning of a flow too fast for its sound speed, with the stiffness that suffices.
-fn too_fast(name: &str, speed: f64, mach: f64, stiffness: f64) -> String {
+fn too_fast(name: &str, speed: f64, mach: f64, (stiffness, goes_on): (f64, bool)) -> String {
     let enough = (stiffness * (mach / LARGEST_MACH_NUMBER).powi(2)).ceil();
+    let remedy = if goes_on {
+        format!("start from a state of a scene with `stiffness = {enough}`")
+    } else {
+        format!("set `stiffness = {enough}`, or leave it out")
+    };
     format!(
         "scene `{name}`: a speed of {speed:.3} m/s is Mach {mach:.2}, above {LARGEST_MACH_NUMBER}: impacts and forces are not \
-         validated there; set `stiffness = {enough}`, or leave it out"
+         validated there; {remedy}"
     )
 }

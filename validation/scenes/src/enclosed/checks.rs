@@ -47,9 +47,11 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 
     /// Pore liquid that the solver serves, and a start that only a material with one has.
     fn check_pore_liquid(&self) -> Result<(), ParameterError> {
-        let scale = (self.spacing, self.equation_of_state().bulk_modulus);
         let parts = (!self.inlets.is_empty(), self.side_walls.is_some());
-        let problem = |pore| pore_problem(&pore, &self.numerics, scale, parts);
+        let problem = |pore| {
+            let scale = (self.spacing, self.equation_of_state().bulk_modulus);
+            pore_problem(&pore, &self.numerics, scale, parts)
+        };
         if let Some(problem) = self.material.pore_liquid().and_then(problem) {
             return Err(problem.into());
         }

@@ -155,6 +155,11 @@ pub struct SceneStart {
     pub file: String,
     /// SHA-256 of the state.
     pub sha256: String,
+    /// Bulk modulus of the state `[Pa]`, which the scene keeps: its densities stand for other pressures under another one. That of the
+    /// scene where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("`--from` takes it from the state"))]
+    pub bulk_modulus: Option<f64>,
 }
 
 fn is_none(pressure: &f64) -> bool {

@@ -240,7 +240,7 @@ fn energy<S: Dimension<D>, const D: usize>(
     let (fall, height) = (parameters.fall(), parameters.height());
     let numerics = &parameters.numerics;
     let smoothing_length = numerics.smoothing_ratio * parameters.spacing;
-    let sound_speed = parameters.equation_of_state().sound_speed();
+    let sound_speed = parameters.equation_of_state_over(fall).sound_speed();
     let scale = EnergyScale::WorkOver {
         fall_time: height / fall.sqrt(),
         weight_by_height: data.whole_mass() * fall,

@@ -236,8 +236,9 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// The solver's own bounds of a step, with the largest viscosity and speed that the scene can come to.
     fn step_bounds(&self) -> TimeStepBounds {
         let Self { numerics, spacing, material, .. } = self;
-        let equation_of_state = self.equation_of_state();
-        let (density, fall) = (equation_of_state.reference_density, self.fall_speed());
+        let squared = self.fall();
+        let equation_of_state = self.equation_of_state_over(squared);
+        let (density, fall) = (equation_of_state.reference_density, squared.sqrt());
         let (walls, inlets) = (self.fastest_wall(), self.fastest_inlet());
         let speed = (2.0_f64.sqrt() * fall).max(self.fastest_body()).max(inlets) + walls.max(inlets);
         let viscosity = material.largest_viscosity(density * fall * fall) / density;

@@ -9,7 +9,6 @@ use bagnold_number::four_digits;
 use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::EquationOfState;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 
 /// Stiffness where a scene gives none `[-]`: a fall over its height, and what meets at its largest relative speed, has Mach 0.2.
@@ -31,22 +30,35 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 
     /// Equation of state of the material: its density under a pressure.
     pub(super) fn equation_of_state(&self) -> EquationOfState {
+        self.equation_of_state_over(self.fall())
+    }
+
+    /// The same with g H + p/ρ `[m²/s²]`; from a state its own.
+    pub(super) fn equation_of_state_over(&self, fall: f64) -> EquationOfState {
         let reference_density = self.bulk.density(&self.material);
-        let bulk_modulus = self.stiffness() * reference_density * self.scale().0;
+        let of_state = self.from.as_ref().and_then(|from| from.bulk_modulus);
+        let bulk_modulus = of_state.unwrap_or_else(|| self.stiffness() * reference_density * self.scale(fall));
         EquationOfState { reference_density, bulk_modulus, tension: self.tension }
     }
 
-    /// The larger of g H + p/ρ and ½ u² `[m²/s²]`, with the largest relative speed u, and its cause in words. A stiffness that the scene
-    /// gives multiplies the former alone, unless it is zero.
-    pub(super) fn scale(&self) -> (f64, String) {
+    /// The larger of g H + p/ρ and ½ u² `[m²/s²]`, with the largest relative speed u. A stiffness that the scene gives multiplies the
+    /// former alone, unless it is zero.
+    fn scale(&self, fall: f64) -> f64 {
+        if self.stiffness.is_some() && fall > 0.0 { fall } else { fall.max(0.5 * self.relative_square()) }
+    }
+
+    /// Cause of the sound speed, in words.
+    pub(super) fn sound_cause(&self) -> String {
+        if self.from.is_some() {
+            return "that of the state it starts from".to_owned();
+        }
         let fall = self.fall();
-        let meeting = if self.stiffness.is_some() && fall > 0.0 { 0.0 } else { 0.5 * self.relative_square() };
-        let cause = if meeting > fall {
+        let cause = if self.scale(fall) > fall {
             format!("½ u², u = {} m/s between what can touch", four_digits(self.relative_speed()))
         } else {
             format!("g H + p/ρ, H = {} m, p = {} Pa", four_digits(self.height()), four_digits(self.pressure))
         };
-        (meeting.max(fall), format!("stiffness {} times {cause}", self.stiffness()))
+        format!("stiffness {} times {cause}", self.stiffness())
     }
 
     /// Weight of the scene's height and pressure at the start, over the density `[m²/s²]`: the square of the speed that
@@ -100,47 +112,55 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     }
 
     /// Height along gravity of the material, at the start or in inlets, and of what it can fall onto `[m]`; bodies count by their boxes.
-    /// Resting walls count to their lowest corner, but facets that do not face upwards neither below a floor nor beyond the sides of the
-    /// domain. A wall that moves counts as a floor at its top, whatever its length and travel are.
+    /// Resting walls count to their lowest corner, but facets that do not face upwards neither between or below floors nor beyond the sides
+    /// of the domain. A wall that moves counts as a floor at its top, whatever its length and travel are.
     pub(super) fn height(&self) -> f64 {
         let up = -self.down();
         let of_inlets = self.inlets.iter().flat_map(SceneInlet::corners).map(|place| (up.dot(&place), up.dot(&place)));
         let spans = self.bodies.iter().map(|body| body.span(&up)).chain(of_inlets);
         let none = (f64::INFINITY, f64::NEG_INFINITY);
         let (mut lowest, highest) = spans.fold(none, |(low, high), span| (low.min(span.0), high.max(span.1)));
-        let (mut floors, mut faces) = (Vec::new(), Vec::new());
+        let beside = |place: &Vector<D>| place - up * up.dot(place);
+        let (mut low, mut high) = (Vector::<D>::repeat(f64::INFINITY), Vector::<D>::repeat(f64::NEG_INFINITY));
+        let mut faces = Vec::new();
         for (wall, rests) in self.walls.iter().zip(self.resting_walls()) {
-            let facets = wall.facet_wall().facets.into_iter();
-            let (floor, face): (Vec<_>, Vec<_>) = facets.partition(|facet| facet.normal.dot(&up) > PARALLEL);
-            let heights = floor.iter().flat_map(|facet| facet.corners).map(|corner| up.dot(&corner));
-            if rests {
-                lowest = heights.fold(lowest, f64::min);
-                floors.extend(floor);
-                faces.extend(face);
-            } else if let Some(top) = heights.reduce(f64::max) {
-                lowest = lowest.min(top);
+            let mut top = None;
+            for facet in wall.facet_wall().facets {
+                let heights = facet.corners.map(|corner| up.dot(&corner));
+                if facet.normal.dot(&up) <= PARALLEL {
+                    faces.extend(rests.then_some((facet, heights)));
+                } else if rests {
+                    lowest = heights.into_iter().fold(lowest, f64::min);
+                    for corner in facet.corners {
+                        (low, high) = (low.inf(&beside(&corner)), high.sup(&beside(&corner)));
+                    }
+                } else {
+                    top = heights.into_iter().chain(top).reduce(f64::max);
+                }
             }
+            lowest = lowest.min(top.unwrap_or(f64::INFINITY));
         }
+        // by the rounding of a place along gravity
+        let slack = 1e-9 * self.spacing;
+        let is_between_floors = |place: Vector<D>| {
+            let place = beside(&place);
+            (0..D).all(|axis| place[axis] >= low[axis] - slack && place[axis] <= high[axis] + slack)
+        };
         let inside = |corner: Vector<D>| {
             let (raised, _) = self.sides.clip((corner, corner));
             self.sides.clip((raised, raised)).1
         };
-        let ends = faces.iter().flat_map(|face| face.corners.map(|corner| (inside(corner), face.normal)));
-        let mut ends: Vec<_> = ends.filter(|(end, _)| up.dot(end) < lowest).collect();
-        ends.sort_by(|(one, _), (other, _)| up.dot(one).total_cmp(&up.dot(other)));
-        let is_open = |(end, normal): &&(Vector<D>, Vector<D>)| {
-            let ahead = end + normal * (0.5 * self.spacing);
-            !floors.iter().any(|floor| is_above(floor, &ahead, &up))
-        };
-        highest - ends.iter().find(is_open).map_or(lowest, |(end, _)| up.dot(end))
+        let floor = lowest;
+        for (face, heights) in &faces {
+            let below = face.corners.iter().zip(heights).filter(|(_, height)| **height < floor);
+            for end in below.map(|(corner, _)| inside(*corner)) {
+                if !is_between_floors(end + face.normal * (0.5 * self.spacing)) {
+                    lowest = lowest.min(up.dot(&end));
+                }
+            }
+        }
+        highest - lowest
     }
-}
-
-/// Whether a facet that faces upwards lies above a place.
-fn is_above<const D: usize>(floor: &Facet<D>, place: &Vector<D>, up: &Vector<D>) -> bool {
-    let rise = -floor.height(place) / floor.normal.dot(up);
-    let above = place + up * rise;
-    rise >= 0.0 && (floor.nearest(&above) - above).norm() <= 1e-9 * (1.0 + above.norm())
 }
 
 /// Square of the largest relative speed of two motions `[m²/s²]`, while the tables of both last.
@@ -159,7 +179,7 @@ fn is_common<const D: usize>(one: &Motion<D>, other: &Motion<D>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::enclosed::{DomainSide, quick, setting};
+    use crate::enclosed::{DomainSide, SceneStart, quick, setting};
     use crate::scene::{FlowSide, Plane, PlaneBody, PlaneInlet, PlaneSides, PlaneVector, WallLine};
 
     type Flow = SceneFlow<Plane, 2>;
@@ -347,6 +367,15 @@ mod tests {
         assert_near(sound(&scene), of(18.0), "without gravity");
         scene.pressure = 20.0 * scene.bulk.density(&scene.material);
         assert_near(sound(&scene), of(20.0), "over p/ρ");
+    }
+
+    #[test]
+    fn a_scene_from_a_state_keeps_the_bulk_modulus_of_the_state() {
+        let mut scene = fall();
+        let (file, sha256) = ("state".to_owned(), String::new());
+        scene.from = Some(SceneStart { file, sha256, bulk_modulus: Some(1.2e5) });
+        assert_eq!(scene.equation_of_state().bulk_modulus, 1.2e5);
+        assert!(scene.summary().contains("that of the state it starts from"), "{}", scene.summary());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::flow::{Dimension, SceneFlow, SceneStart};
 use crate::case::ParameterError;
-use crate::checkpoint::{Likeness, StoredState};
+use crate::checkpoint::{BULK_MODULUS, Likeness, StoredState};
 use crate::store::source_hash;
 use serde_json::Value;
 use std::path::Path;
@@ -13,7 +13,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// # Errors
     /// A file that holds no state of such a scene.
     pub(super) fn stored_state(&self) -> Result<Option<StoredState>, ParameterError> {
-        let Some(SceneStart { file, sha256 }) = &self.from else { return Ok(None) };
+        let Some(SceneStart { file, sha256, .. }) = &self.from else { return Ok(None) };
         let refused = |defect: String| {
             let remedy = "give the file of a state that `bagnold run` names after a run of a scene";
             ParameterError::field("from.file", format!("\"{file}\": {defect}"), "", remedy)
@@ -46,6 +46,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         for field in ["spacing", "tension", "sides", "inlets", "numerics"] {
             add_leaves(field, &whole[field], &mut likeness);
         }
+        likeness.push((BULK_MODULUS.to_owned(), self.equation_of_state().bulk_modulus.to_string()));
         likeness
     }
 }
