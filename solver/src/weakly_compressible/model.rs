@@ -13,6 +13,7 @@ use crate::weakly_compressible::neighbours::VerletList;
 use crate::weakly_compressible::numerics::{MomentumOperator, Numerics, ViscositySwitch};
 use crate::weakly_compressible::terms::artificial_stress::ArtificialStress;
 use crate::weakly_compressible::terms::artificial_viscosity::SWITCH_LOWEST;
+use crate::weakly_compressible::terms::stress_diffusion::steepness;
 
 /// Properties of a run that do not change from step to step. Only the neighbour list does: a search fills it anew.
 #[derive(Debug)]
@@ -182,9 +183,10 @@ impl<const D: usize> Model<D> {
         Some(viscosity)
     }
 
-    /// δ c h `[m²/s]`: diffusivity of the stress ratio among yielding particles.
+    /// δ c h `[m²/s]`: diffusivity of the stress ratio among yielding particles; that of a steep law is larger.
     pub(crate) fn stress_diffusivity(&self) -> f64 {
-        self.numerics.stress_diffusion * self.equation_of_state.sound_speed() * self.kernel.smoothing_length()
+        let coefficient = self.numerics.stress_diffusion * steepness(self.rheology.contact_friction());
+        coefficient * self.equation_of_state.sound_speed() * self.kernel.smoothing_length()
     }
 
     /// σ of the density–pressure coupling (27) `[-]`. None in soil that holds together: there the pressure is one of the stresses in

@@ -7,6 +7,7 @@ use super::setting::SceneWall;
 use crate::output::caution;
 use bagnold_number::four_digits;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::terms::stress_diffusion::STEEPEST;
 
 /// Largest Mach number `[-]` of a weakly compressible flow: density then varies by some per cent.
 const LARGEST_MACH_NUMBER: f64 = 0.2;
@@ -37,6 +38,10 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         // a fall over the height of the scene reaches the limit itself at the default stiffness
         if mach > 1.01 * LARGEST_MACH_NUMBER {
             caution(&too_fast(&self.name, speed, mach, (self.stiffness(), self.from.is_some())));
+        }
+        let friction = self.material.contact_friction();
+        if self.material.strength_is_friction() && friction > STEEPEST {
+            caution(&too_steep(&self.name, friction));
         }
         for wall in self.walls.iter().filter(|_| D == 3) {
             let finer = wall.facet_wall().facets.len() as f64 * self.spacing.powi(2) / wall.measure();
@@ -88,6 +93,14 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         }
         narrowest
     }
+}
+
+/// Warning of a law whose waves the diffusion of the stress does not damp.
+fn too_steep(name: &str, friction: f64) -> String {
+    format!(
+        "scene `{name}`: a static friction of {friction} is above {STEEPEST}: such a law is ill-posed at small inertial numbers, and layers \
+         flow 5 % too fast or more (0.8, 40 rows); lower it, or judge by two spacings"
+    )
 }
 
 /// Warning of a flow too fast for its sound speed, with the stiffness that suffices.

@@ -86,7 +86,8 @@ fn has_other_seed(run: &BagnoldFlow, records: &[Record]) -> bool {
 /// Limits for runs of at least 40 and at least 20 rows; coarser runs are observed. A norm has a largest value, a signed
 /// error one to either side.
 fn by_resolution(metric: Metric, rows: usize, fine: f64, coarse: f64, reason: &str) -> Metric {
-    let is_norm = [VELOCITY_L2, IMPLIED_STRESS_ERROR].iter().any(|norm| norm.name == metric.name);
+    let is_norm =
+        [VELOCITY_L2, VELOCITY_L2_MEASURED_HEIGHT, IMPLIED_STRESS_ERROR].iter().any(|norm| norm.name == metric.name);
     let limit = |largest: f64| if is_norm { Limit::AtMost(largest) } else { Limit::Within(-largest, largest) };
     match rows {
         40.. => metric.gated(limit(fine), reason),
@@ -127,9 +128,14 @@ fn steady(record: &Record) -> Vec<Metric> {
     let measured = BagnoldProfile { layer_height: exact.layer_height * height.value, ..exact };
     metrics.push(height);
     let errors = SteadyErrors::of(&data.profile, &measured);
-    metrics.extend(errors.map(|errors| error(VELOCITY_L2_MEASURED_HEIGHT, errors.velocity_l2)));
+    let reason = "the project's aim: 0.7 % at 40 rows; 1 % at 20, where first order would have 1.4";
+    metrics.extend(errors.map(|errors| {
+        let metric = error(VELOCITY_L2_MEASURED_HEIGHT, errors.velocity_l2);
+        by_resolution(metric, run.layer.resolution, 0.7, 1.0, reason)
+    }));
     if run.start == LayerStart::Rest {
-        metrics.extend(transient(record));
+        let reason = "as close as the steady profile: 0.7 % at 40 rows, 0.8 % at 20";
+        metrics.extend(transient(record, (0.7, 0.8), reason));
     }
     metrics
 }
@@ -147,7 +153,8 @@ fn relative_height(run: &BagnoldFlow, data: &LayerObservation) -> Metric {
 }
 
 /// One set of numerics is to serve every material: the same errors with somewhat wider limits.
-fn other_grains((run, record): &Record) -> Vec<Metric> {
+fn other_grains(whole: &Record) -> Vec<Metric> {
+    let (run, record) = whole;
     let Some(errors) = SteadyErrors::of(&record.data.profile, &run.profile()) else { return Vec::new() };
     let not_steady = run.unsteadiness(&record.data);
     let gated = |quantity: Quantity, value: f64, limit: f64, reason: &str| {
@@ -158,11 +165,16 @@ fn other_grains((run, record): &Record) -> Vec<Metric> {
         "the project's aim for any grains: 1 % at 40 rows and more; first order and some noise, so 2.5 % at 20";
     let stress =
         "the project's aim for any grains: 0.15 % at 40 rows and more; first order and some noise, so 0.375 % at 20";
-    vec![
+    let mut metrics = vec![
         gated(VELOCITY_L2, errors.velocity_l2, 1.0, velocity),
         gated(IMPLIED_STRESS_ERROR, errors.implied_stress_error, 0.15, stress),
         relative_height(run, &record.data),
-    ]
+    ];
+    if run.start == LayerStart::Rest {
+        let reason = "the project's aim for steep layers: 3 % of the 1-D solution; without enough diffusion of the stress 40 rows have 20 %";
+        metrics.extend(transient(whole, (3.0, 3.0), reason));
+    }
+    metrics
 }
 
 /// The paper's law is not the exact one, nor is its algorithm that of the case: what they differ by is observed.
@@ -197,7 +209,8 @@ fn compression((run, record): &Record) -> Option<Metric> {
     )
 }
 
-fn transient((run, record): &Record) -> Vec<Metric> {
+/// Depth means of a layer from rest against the 1-D solution, with limits at 40 and 20 rows `[%]`.
+fn transient((run, record): &Record, (fine, coarse): (f64, f64), reason: &str) -> Vec<Metric> {
     let Some((history, steady_mean)) = history_from_rest(run) else { return Vec::new() };
     let Some(rise) = history.rise_time(steady_mean, 0.99) else { return Vec::new() };
     let (variant, particles) = (run.variant(), particle_history(&record.data));
@@ -209,13 +222,7 @@ fn transient((run, record): &Record) -> Vec<Metric> {
     let error = |(quantity, part): (Quantity, f64)| {
         let error = 100.0 * (mean_at(&particles, part * rise) / mean_at(&history, part * rise) - 1.0);
         let metric = quantity.of(&variant, error).exactly(0.0, TRANSIENT).with_snapshot_tolerance(1e-3, 1e-3);
-        by_resolution(
-            metric,
-            run.layer.resolution,
-            0.7,
-            0.8,
-            "as close as the steady profile: 0.7 % at 40 rows, 0.8 % at 20",
-        )
+        by_resolution(metric, run.layer.resolution, fine, coarse, reason)
     };
     let time = particles.rise_time(steady_mean, 0.99);
     let time =
