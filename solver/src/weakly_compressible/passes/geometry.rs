@@ -218,18 +218,20 @@ fn share_of_correction<const D: usize>(model: &Model<D>, particles: &Particles<D
         return share;
     }
     let flow = particles.flow_count();
-    let (mut velocity, mut speed, mut shear) = (Vector::<D>::zeros(), 0.0, 0.0);
-    for (own, gradient) in particles.velocity[..flow].iter().zip(&particles.velocity_gradient) {
+    let (mut velocity, mut speed, mut shear, mut stress) = (Vector::<D>::zeros(), 0.0, 0.0, 0.0);
+    let motion = particles.velocity[..flow].iter().zip(&particles.velocity_gradient);
+    for ((own, gradient), deviator) in motion.zip(&particles.stress) {
         velocity += own;
         speed += own.norm_squared();
         shear += shear_rate(gradient).powi(2);
+        stress += 0.5 * deviator.norm_squared();
     }
     let (count, sound_speed) = (flow.max(1) as f64, model.equation_of_state.sound_speed());
     let about_the_mean = (speed / count - (velocity / count).norm_squared()).max(0.0);
-    common_motion::correction_share(
-        about_the_mean.sqrt() / sound_speed,
-        (shear / count).sqrt() * model.spacing / sound_speed,
-    )
+    let shear = (shear / count).sqrt() * model.spacing / sound_speed;
+    let modulus = model.equation_of_state.bulk_modulus;
+    common_motion::correction_share(about_the_mean.sqrt() / sound_speed, shear)
+        * common_motion::fluidity((stress / count).sqrt() / modulus, shear)
 }
 
 impl<const D: usize> Pass<'_, D> {

@@ -8,7 +8,10 @@
 //!
 //! Ma the root mean square of the velocity about its mean over the speed of sound, and Ma_γ that of γ̇ Δ. Where velocities differ from
 //! particle to particle, in a tank that stirs itself, Ma_γ is 0.48 to 0.75 Ma; in waves of 15 rows 0.3. Above a Mach number of 0.007
-//! no tank stirs itself. The share is the same in a moving frame. Not in the paper.
+//! no tank stirs itself. The share is the same in a moving frame.
+//!
+//! What is stiff stirs itself as one body, and needs no correction: its viscous stress s is large against what uncorrected forces add,
+//! 0.02 ρ c Δ γ̇ in a vortex. β counts by clamp(2 − 2 |s|/(ρ c Δ γ̇), 0, 1) of root mean squares. Not in the paper.
 
 /// Ma_γ of disorder counts this often `[-]`.
 const DISORDER: f64 = 2.0;
@@ -22,6 +25,12 @@ const RISE: (f64, f64) = (2e-4, 6e-4);
 pub fn correction_share(speed: f64, shear: f64) -> f64 {
     let common = speed - (DISORDER * shear).min(MOST_DISORDER);
     ((common - RISE.0) / (RISE.1 - RISE.0)).clamp(0.0, 1.0)
+}
+
+/// Part of β `[-]` that the viscous stress leaves, from the root mean squares of |s|/(ρ c²) and of γ̇ Δ/c `[-]`.
+#[must_use]
+pub fn fluidity(stress: f64, shear: f64) -> f64 {
+    if stress > 0.0 { (2.0 - 2.0 * stress / shear.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0) } else { 1.0 }
 }
 
 #[cfg(test)]
@@ -39,5 +48,12 @@ mod tests {
             assert_eq!(correction_share(speed, shear), 1.0, "{speed}");
         }
         assert!((correction_share(1e-3, 3e-4) - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_stiff_liquid_has_none() {
+        assert_eq!([fluidity(0.0, 0.0), fluidity(0.02, 1.0), fluidity(0.5, 1.0)], [1.0; 3]);
+        assert_eq!([fluidity(1.0, 1.0), fluidity(1e4, 1.0), fluidity(1e-9, 0.0)], [0.0; 3]);
+        assert_eq!(fluidity(0.75, 1.0), 0.5);
     }
 }

@@ -212,7 +212,12 @@ impl<S: Dimension<D>, const D: usize> Default for SceneFlow<S, D> {
             measured: Vec::new(),
             from: None,
             // a liquid comes to rest, grains keep the operator that they are verified with
-            numerics: Numerics { momentum_operator: MomentumOperator::ByLaw, ..Numerics::default() },
+            // with a tenth, 0.6 % of the weight of a block of mud at rest stays unsolved
+            numerics: Numerics {
+                momentum_operator: MomentumOperator::ByLaw,
+                viscous_tolerance: 0.03,
+                ..Numerics::default()
+            },
         }
     }
 }
