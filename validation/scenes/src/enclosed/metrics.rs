@@ -245,6 +245,7 @@ fn energy<S: Dimension<D>, const D: usize>(
         fall_time: height / fall.sqrt(),
         weight_by_height: data.whole_mass() * fall,
         time_step: numerics.acoustic_courant * smoothing_length / sound_speed,
+        crossing_time: height / sound_speed,
     };
     let share = |value: f64| 100.0 * value / scale.of(book).0;
     vec![

@@ -149,7 +149,8 @@ where
             return Err(ParameterError::field("bodies", defect, "", remedy));
         }
         let (gravity, measures) = (self.pull(), self.measures());
-        let pull = self.fall() / self.height();
+        // of grains in a liquid the whole weight, that of both, for the liquid bears its part
+        let pull = (self.fall() / self.height()).max(crate::enclosed::setting::vector::<D>(&self.gravity).norm());
         let (likeness, state) = (self.likeness(), self.stored_state()?);
         let periods = Periods::of(&self.sides.axes());
         let stage =
