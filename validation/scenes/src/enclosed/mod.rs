@@ -33,6 +33,7 @@ pub mod sides;
 mod sound;
 mod start;
 mod surfaces;
+mod yields;
 
 pub use flow::{Dimension, SceneFlow, SceneStart};
 pub use given::PlainData;

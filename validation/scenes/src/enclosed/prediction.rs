@@ -38,7 +38,8 @@ fn column<S: Dimension<D>, const D: usize>(
 ) -> Option<Column> {
     let diameter = parameters.material.grain_diameter()?;
     let [body] = &parameters.bodies[..] else { return None };
-    if !parameters.inlets.is_empty() || parameters.material.pore_liquid().is_some() {
+    let holds = parameters.doubtful_yield().is_none();
+    if !parameters.inlets.is_empty() || parameters.material.pore_liquid().is_some() || !holds {
         return None;
     }
     let gravity = vector::<D>(&parameters.gravity).norm();

@@ -3,7 +3,7 @@
 use super::flow::{Dimension, SceneStart};
 use super::gauges::Memory;
 use super::periods::Periods;
-use super::setting::{SceneBody, SceneInlet, SceneWall};
+use super::setting::{self, SceneBody, SceneInlet, SceneWall};
 use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
@@ -102,7 +102,7 @@ where
     }
 
     fn doubts(&self) -> Vec<String> {
-        self.doubtful_units()
+        self.doubtful_units().into_iter().chain(self.doubtful_yield()).collect()
     }
 
     fn variant(&self) -> Variant {
@@ -150,7 +150,7 @@ where
         }
         let (gravity, measures) = (self.pull(), self.measures());
         // of grains in a liquid the whole weight, that of both, for the liquid bears its part
-        let pull = (self.fall() / self.height()).max(crate::enclosed::setting::vector::<D>(&self.gravity).norm());
+        let pull = (self.fall() / self.height()).max(setting::vector::<D>(&self.gravity).norm());
         let (likeness, state) = (self.likeness(), self.stored_state()?);
         let periods = Periods::of(&self.sides.axes());
         let stage =
@@ -235,7 +235,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     }
 
     /// The solver's own bounds of a step, with the largest viscosity and speed that the scene can come to.
-    fn step_bounds(&self) -> TimeStepBounds {
+    pub(super) fn step_bounds(&self) -> TimeStepBounds {
         let Self { numerics, spacing, material, .. } = self;
         let squared = self.fall();
         let equation_of_state = self.equation_of_state_over(squared);

@@ -21,8 +21,7 @@ const CAUSES: [(&str, &str); 9] = [
     ),
     (
         "viscous step",
-        "viscosities that differ too much for the solve: raise `regularisation_rate`, lower `largest_viscosity`, or take \
-         `numerics.viscous_step` \"explicit\"",
+        "viscosities that differ too much for the solve: raise `regularisation_rate`, or lower `largest_viscosity`",
     ),
     (
         "implicit velocity",
