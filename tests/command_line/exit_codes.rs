@@ -36,7 +36,7 @@ fn one_and_no_number_where_a_flow_is_not_steady() {
     let settings = settings.split_whitespace().flat_map(|setting| ["--set", setting]);
     let arguments: Vec<&str> = ["bagnold", "--quiet", "--json"].into_iter().chain(settings).collect();
     let document = document(&place.run(&arguments).code(1));
-    let of_profile: Vec<_> = document.metrics.iter().filter(|metric| metric.not_steady.is_some()).collect();
+    let of_profile: Vec<_> = document.metrics.iter().filter(|metric| metric.remark.is_some()).collect();
     assert!(of_profile.len() >= 4, "{} metrics are not steady", of_profile.len());
     for metric in of_profile {
         assert_eq!(metric.value, None, "{}", metric.name);

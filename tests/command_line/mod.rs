@@ -4,6 +4,7 @@ mod bad;
 mod bad_input;
 mod bad_parameters;
 mod calibrate;
+mod dry;
 mod exit_codes;
 mod files;
 mod installed;

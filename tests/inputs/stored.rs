@@ -88,7 +88,7 @@ fn a_sweep_is_continued_or_refused() {
             value,
             unit: "%".to_owned(),
             verdict: Verdict::Pass,
-            not_steady: None,
+            remark: None,
         });
         files.push(begun.of(entry).join("record.postcard"));
         std::fs::create_dir_all(begun.of(entry)).expect("writable");

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 const HEAD: &str = "panel,x_axis,y_axis,drawn_as,label,curve,x,y,error,lower,upper,value\n";
 
-/// The table of a figure: series with the half height of their error bars, bands with their edges, particles with their scalar.
+/// The table of a figure, with an empty cell for what is not a number: series with the half height of their error bars, bands with their edges, particles with their scalar.
 #[must_use]
 pub fn csv(figure: &Figure) -> String {
     let mut text = HEAD.to_owned();
@@ -21,7 +21,7 @@ fn add_panel(text: &mut String, start: &str, panel: &Panel) {
     let mut curve = 0;
     let mut row = |kind: &str, (label, is_first): (&str, bool), numbers: [Option<f64>; 6]| {
         curve += usize::from(is_first);
-        let numbers = numbers.map(|number| number.map(short).unwrap_or_default());
+        let numbers = numbers.map(|number| number.filter(|number| !number.is_nan()).map(short).unwrap_or_default());
         writeln!(text, "{start},{kind},{},{curve},{}", quoted(label), numbers.join(","))
             .expect("a string takes any text");
     };

@@ -262,7 +262,7 @@ impl Baseline {
             };
             let of_run =
                 |metric: &&Metric| key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant);
-            let unsteady = metrics.iter().filter(of_run).find_map(|metric| metric.not_steady.clone());
+            let unsteady = metrics.iter().filter(of_run).find_map(|metric| metric.reason_of_absence().cloned());
             let reason = unsteady.map_or_else(|| reason.to_owned(), |cause| format!("{reason}; {cause}"));
             Some((key.clone(), reason))
         });

@@ -1,7 +1,7 @@
 //! Verdicts as JUnit's XML, which CI systems show as tests: one per gate, and one for every run that should not have diverged.
 
 use super::judgement::{JudgedCase, JudgedMetric, Judgement, Severity};
-use super::rows::statement;
+use super::rows::{self, statement};
 use super::view::typed;
 use crate::input::FieldError;
 use quick_junit::{NonSuccessKind, Property, TestCase, TestCaseStatus, TestSuite};
@@ -86,7 +86,7 @@ fn status(judged: &JudgedMetric<'_>) -> Option<TestCaseStatus> {
 /// Value and limit, why the limit stands where it does, and what the value is compared with.
 fn reason(judged: &JudgedMetric<'_>) -> String {
     let doubt = judged.doubt.map_or_else(String::new, |doubt| format!("; inconclusive: {}", doubt.words()));
-    let why = judged.metric.gate.as_ref().map(|gate| format!("; {}", gate.reason)).unwrap_or_default();
+    let why = rows::reason(judged.metric).map(|why| format!("; {why}")).unwrap_or_default();
     let source = judged.metric.reference.as_ref().map(|reference| format!("; reference: {}", reference.source));
     format!("{}{why}{}{doubt}", statement(judged), source.unwrap_or_default())
 }

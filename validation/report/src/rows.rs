@@ -39,7 +39,7 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> Value {
         "width": width(metric),
         "metric": metric.name,
         "variant": metric.variant.parts().map(|(key, value)| format!("{key}={}", value.text())).collect::<Vec<_>>(),
-        "value": metric.without_value().map_or_else(|| with_unit(metric.value, &metric.unit), str::to_owned),
+        "value": value(metric),
         "prediction": metric.prediction.as_ref().map(|found| prediction(found, &metric.unit)),
         "reference": expected.map(|value| with_unit(value, &metric.unit)).unwrap_or_default(),
         "residual": expected.map(|expected| residual(metric.value - expected, expected)),
@@ -47,7 +47,7 @@ pub(super) fn row(case: &str, judged: &JudgedMetric<'_>) -> Value {
         "confidence": reference.map(|reference| confidence(reference.confidence)),
         "kind": kind(metric.kind),
         "limit": gate.map(|gate| limit(gate.limit, &metric.unit)).unwrap_or_default(),
-        "reason": metric.not_steady.clone().or_else(|| gate.map(|gate| reason(metric, gate))),
+        "reason": reason(metric),
         "margin": gate.map(|gate| margin(metric, gate.limit)).unwrap_or_default(),
         "relative_margin": relative_margin(metric),
         // numbers to sort by: the margin's share of the limit, and the change in tolerances
@@ -68,18 +68,27 @@ fn prediction(found: &PredictionInterval, unit: &str) -> Value {
     json!({ "interval": interval, "warnings": found.warnings })
 }
 
-/// Reason of the gate, with a remark if the spacing is too coarse for the gate to judge.
-fn reason(metric: &Metric, gate: &Gate) -> String {
-    if metric.is_coarser_than_gate() {
-        return format!("not judged, for the spacing moves the value by more than the gate is wide: {}", gate.reason);
-    }
-    gate.reason.clone()
+/// Reason of a missing value; else that of the gate, with a remark if the spacing is too coarse for the gate to judge, and the part of a
+/// run that the value leaves out.
+pub(super) fn reason(metric: &Metric) -> Option<String> {
+    let of_gate = |gate: &Gate| {
+        let coarse = "not judged, for the spacing moves the value by more than the gate is wide: ";
+        format!("{}{}", if metric.is_coarser_than_gate() { coarse } else { "" }, gate.reason)
+    };
+    let of_gate = metric.gate.as_ref().filter(|_| metric.reason_of_absence().is_none()).map(of_gate);
+    let parts: Vec<String> = of_gate.into_iter().chain(metric.remark.clone()).collect();
+    (!parts.is_empty()).then(|| parts.join("; "))
+}
+
+/// The value with its unit, or a word for a missing one.
+fn value(metric: &Metric) -> String {
+    metric.without_value().map_or_else(|| with_unit(metric.value, &metric.unit), str::to_owned)
 }
 
 /// `value limit` of a metric, for the banner.
 pub(super) fn statement(judged: &JudgedMetric<'_>) -> String {
     let metric = judged.metric;
-    let value = with_unit(metric.value, &metric.unit);
+    let value = value(metric);
     match (judged.rank(), &metric.gate, &judged.change) {
         (Rank::Moved, _, Change::Moved { baseline, tolerance, .. }) => {
             let (value, was) = value_and_baseline(metric, *baseline);

@@ -111,7 +111,8 @@ fn metric<'r>(case: &'r CaseReport, key: &MetricKey) -> Option<&'r Metric> {
 /// Whether a metric is measured, and by a steady run, but without a gate: its reference does not hold for these parameters.
 fn loses_its_gate_by_parameters(case: &CaseReport, key: &MetricKey) -> bool {
     let is_unsteady = |metric: &Metric| {
-        metric.not_steady.is_some() && (key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant))
+        metric.reason_of_absence().is_some()
+            && (key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant))
     };
     metric(case, key).is_some_and(|metric| metric.gate.is_none()) && !case.metrics.iter().any(is_unsteady)
 }

@@ -53,7 +53,10 @@ fn predictions(metrics: &[Metric]) -> String {
 /// Observed values of gauges without an interval, in a line; of several runs their mean and standard deviation.
 fn without_interval(metrics: &[Metric]) -> String {
     let mut of_gauge: BTreeMap<String, (Vec<f64>, &str)> = BTreeMap::new();
-    for metric in metrics.iter().filter(|metric| metric.reference.is_none() && metric.prediction.is_none()) {
+    for metric in metrics
+        .iter()
+        .filter(|metric| metric.reference.is_none() && metric.prediction.is_none() && metric.value.is_finite())
+    {
         if let Some(gauge) = metric.variant.get("gauge") {
             let name = format!("`{}` of {}", metric.name, gauge.text());
             of_gauge.entry(name).or_insert_with(|| (Vec::new(), &metric.unit)).0.push(metric.value);
@@ -138,8 +141,7 @@ fn heading(result: &CaseReport) -> String {
     }
     let mut reasons: Vec<(&Variant, &String)> = Vec::new();
     for metric in &result.metrics {
-        if let Some(reason) = metric.not_steady.as_ref().filter(|reason| !reasons.contains(&(&metric.variant, *reason)))
-        {
+        if let Some(reason) = metric.remark.as_ref().filter(|reason| !reasons.contains(&(&metric.variant, *reason))) {
             reasons.push((&metric.variant, reason));
             let _ = writeln!(text, "{}: {reason}", metric.variant);
         }

@@ -22,8 +22,8 @@ pub struct MetricValue {
     pub unit: String,
     /// The gate's outcome.
     pub verdict: Verdict,
-    /// Reason for the missing value: the change that the flow still shows at the end of the run.
-    pub not_steady: Option<String>,
+    /// Reason for a missing value, or the part of a run that the value leaves out.
+    pub remark: Option<String>,
 }
 
 impl MetricValue {
@@ -34,7 +34,7 @@ impl MetricValue {
             value: metric.value,
             unit: metric.unit.clone(),
             verdict: metric.verdict(),
-            not_steady: metric.not_steady.clone(),
+            remark: metric.remark.clone(),
         }
     }
 }
@@ -121,7 +121,7 @@ mod tests {
             value: 0.1 + 0.2,
             unit: "%".to_owned(),
             verdict: Verdict::Pass,
-            not_steady: None,
+            remark: None,
         });
         assert_eq!(EvaluationRecord::read(&path, "a"), None);
         record.write(&path).expect("writable");

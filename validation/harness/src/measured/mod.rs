@@ -144,16 +144,12 @@ impl Measurements {
         let variant = Variant::of("overlay", name.as_str());
         let variant =
             if one_of_several { variant.and("curve", text_of_variant(&curve.label).as_str()) } else { variant };
-        let mut source = self.source();
-        let all = self.measured.values.len();
-        if curve.compared < all {
-            let beyond = format!("{} of {all} measurements, the others lie beyond the curve's ends", curve.compared);
-            tracing::warn!("{}: {} is compared with {beyond}", self.path.display(), curve.label);
-            source += &format!("; {beyond}");
-        }
+        let (compared, all) = (curve.compared, self.measured.values.len());
+        let left_out = || format!("`{}` has a value at {compared} of {all} measurements", curve.label);
         let confidence = self.said.confidence.unwrap_or(Confidence::Low);
         let metric = Metric::observed("overlay_residual", &variant, curve.residual, "-")
-            .against(Some(0.0), &source, confidence)
+            .against(Some(0.0), &self.source(), confidence)
+            .remarked((compared < all).then(left_out))
             .of_kind(MetricKind::Validation);
         let reason = format!("the limit that {} states", self.path.display());
         metric.gated_by(self.said.limit.map(Limit::AtMost), &reason).of_user()

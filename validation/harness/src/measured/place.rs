@@ -25,7 +25,7 @@ pub(super) struct MatchingPanel {
 pub(super) struct CurveResidual {
     /// Its legend.
     pub(super) label: String,
-    /// Root mean square of (curve − measurement)/uncertainty where the curve has a value `[-]`.
+    /// Root mean square of (curve − measurement)/uncertainty where the curve has a value `[-]`; not a number where it has none.
     pub(super) residual: f64,
     /// Measurements at which it has one.
     pub(super) compared: usize,
@@ -101,19 +101,21 @@ impl MatchingPanel {
             let (name, figure) = (&measurements.abscissa.name, &figures[self.figure].name);
             let values = measurements.abscissa.values.iter().map(|value| value * self.factors.0);
             let points = series.iter().flat_map(|series| &series.points).map(|point| self.turned(*point).0);
-            let rule = format!("where a curve of {figure} has a value; they reach over {}", range(points));
+            let rule = format!("where a curve of {figure} is; they reach over {}", range(points));
             let error = FieldError::new(name, range(values), &rule, "check the unit and the origin of the abscissa");
             return Err(error.in_file(&measurements.path));
         }
         Ok(curves)
     }
 
-    /// The residual, and at how many measurements; none where the curve has no value at any.
+    /// The residual, and at how many measurements; none where all of them lie beyond the curve's ends.
     fn residual(&self, measurements: &Measurements, points: &[(f64, f64)]) -> Option<(f64, usize)> {
         let mut curve: Vec<(f64, f64)> = points.iter().map(|point| self.turned(*point)).collect();
-        curve.retain(|(x, y)| x.is_finite() && y.is_finite());
+        curve.retain(|(x, _)| x.is_finite());
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (to_x, to_y) = self.factors;
+        let (first, last) = (curve.first()?.0, curve.last()?.0);
+        let is_beside = measurements.abscissa.values.iter().any(|x| (first..=last).contains(&(x * to_x)));
         let given = measurements.abscissa.values.iter().zip(&measurements.measured.values);
         let squares: Vec<f64> = given
             .zip(&measurements.uncertainty)
@@ -124,7 +126,7 @@ impl MatchingPanel {
             })
             .collect();
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
-        (!squares.is_empty()).then_some((mean.sqrt(), squares.len()))
+        is_beside.then_some((mean.sqrt(), squares.len()))
     }
 }
 

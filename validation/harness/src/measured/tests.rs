@@ -82,6 +82,25 @@ fn a_residual_is_the_root_mean_square_in_uncertainties_and_a_stated_limit_judges
     assert_eq!(result.metrics[0].verdict(), Verdict::Observed, "what is unverified never judges");
 }
 
+/// A gauge at a place that is reached after half a second.
+#[test]
+fn measurements_at_a_dry_place_are_left_out_and_nothing_else_is_not_judged() {
+    let with = |rows: &str| {
+        let mut own = result();
+        let points = &mut own.figures[0].panels[0].series[0].points;
+        *points = vec![(0.0, f64::NAN), (0.5, f64::NAN), (0.6, 1.2), (1.0, 2.0)];
+        let table = format!("# limit: 1\nt [s],front [m],uncertainty [m]\n{rows}");
+        read(&table).expect("a table").draw(&mut own).expect("drawn");
+        own.metrics.remove(0)
+    };
+    let wet = with("0.2,7,1\n0.55,7,1\n0.8,1.6,1\n");
+    assert!(wet.value.abs() < 1e-12 && wet.verdict() == Verdict::Pass, "{}", wet.value);
+    assert_eq!(wet.remark.as_deref(), Some("`sand` has a value at 1 of 3 measurements"));
+    let dry = with("0.2,7,1\n0.55,7,1\n");
+    assert!(dry.value.is_nan() && dry.verdict() == Verdict::Fail, "{}", dry.value);
+    assert_eq!(dry.reason_of_absence().map(String::as_str), Some("`sand` has a value at 0 of 2 measurements"));
+}
+
 #[test]
 fn a_byte_order_mark_hides_no_limit() {
     let text = "# limit: 1e-9\n# source: own flume\nt [s],front [m],uncertainty [m]\n0.1,0.22,0.01\n";
@@ -157,7 +176,7 @@ fn unplaceable_curve_is_refused_with_the_available_ones() {
     assert!(other_unit.contains("is front [kg] over t [s], but must be the axes"), "{other_unit}");
     assert_eq!(
         refused("t [s],front [m],uncertainty [m]\n5,1,1\n6,1,1\n"),
-        "mine.csv: `t` is 5 … 6, but must be where a curve of front has a value; they reach over 0 … 1; check the unit and the origin of the abscissa"
+        "mine.csv: `t` is 5 … 6, but must be where a curve of front is; they reach over 0 … 1; check the unit and the origin of the abscissa"
     );
     assert_eq!(
         refused("# curve: gravel\nt [s],front [m],uncertainty [m]\n0.5,1,1\n"),

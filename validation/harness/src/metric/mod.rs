@@ -198,8 +198,8 @@ pub struct Metric {
     /// Whether a page opens with it, right behind what fails: what its reader asked for, where nothing judges it.
     #[serde(default)]
     pub leads: bool,
-    /// Reason why the metric has no value: it should be one of a steady state, but is not.
-    pub not_steady: Option<String>,
+    /// Reason why the metric has no value, or the part of a run that its value leaves out.
+    pub remark: Option<String>,
     /// Uncertainty of value and reference, as far as it is known.
     #[serde(default)]
     pub uncertainty: Uncertainty,
@@ -225,7 +225,7 @@ impl Metric {
             kind: MetricKind::Verification,
             gate: None,
             leads: false,
-            not_steady: None,
+            remark: None,
             uncertainty: Uncertainty::default(),
             prediction: None,
             snapshot_tolerance: 1e-6,
@@ -333,16 +333,31 @@ impl Metric {
     /// Takes its value away where there is a reason why it is not that of a steady state: a gate then does not hold.
     pub fn unless(mut self, not_steady: Option<&String>) -> Self {
         if let Some(reason) = not_steady {
-            (self.value, self.not_steady) = (f64::NAN, Some(reason.clone()));
+            (self.value, self.remark) = (f64::NAN, Some(reason.clone()));
         }
         self
+    }
+
+    /// Says why it has no value, or which part of a run its value leaves out.
+    pub fn remarked(self, remark: Option<String>) -> Self {
+        Self { remark, ..self }
+    }
+
+    /// Reason for a missing value, where one is known; none beside a value.
+    #[must_use]
+    pub fn reason_of_absence(&self) -> Option<&String> {
+        self.remark.as_ref().filter(|_| self.value.is_nan())
     }
 
     /// Reason for a missing value, in a word or two.
     #[must_use]
     pub fn without_value(&self) -> Option<&'static str> {
-        let reason = self.not_steady.as_deref()?;
-        Some(if reason == DIVERGED { "diverged" } else { "not steady" })
+        let reason = self.reason_of_absence()?;
+        Some(match reason.as_str() {
+            DIVERGED => "diverged",
+            reason if reason.starts_with("not steady") => "not steady",
+            _ => "no value",
+        })
     }
 
     /// Sets what the verdict rests on.
@@ -429,7 +444,7 @@ mod tests {
             metric.prediction = reason.is_none().then(|| prediction.clone());
             let bytes = postcard::to_allocvec(&metric).expect("plain data");
             let read: Metric = postcard::from_bytes(&bytes).expect("the same");
-            assert_eq!((read.name, read.not_steady, read.prediction), (metric.name, reason, metric.prediction));
+            assert_eq!((read.name, read.remark, read.prediction), (metric.name, reason, metric.prediction));
         }
     }
 

@@ -15,6 +15,6 @@ pub use error::{FileError, FolderError, reason};
 pub use folder::OutputFolder;
 pub use lock::FolderLock;
 pub(crate) use sealed::{Refused, SealedFormat};
-pub use table::{Table, csv_text};
+pub use table::{ABSENT, Table, csv_text};
 pub use warning::{caution, caution_about, cautions};
 pub use whole::write_whole;

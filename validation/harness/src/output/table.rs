@@ -4,6 +4,11 @@ use serde::{Deserialize, Serialize};
 use std::io;
 use std::path::Path;
 
+/// Stands in a table for a value that does not exist, such as the velocity at a place where nothing is.
+///
+/// A file has an empty cell for it, JSON null and a figure a gap; no mean and no gate counts it.
+pub const ABSENT: f64 = f64::NAN;
+
 /// A table that becomes one CSV file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Table {
@@ -11,7 +16,7 @@ pub struct Table {
     pub name: String,
     /// Column headings with units in brackets, such as `y [m]`.
     pub columns: Vec<String>,
-    /// Rows of the same length as `columns`.
+    /// Rows of the same length as `columns`; [`ABSENT`] where there is no value.
     pub rows: Vec<Vec<f64>>,
 }
 
@@ -42,7 +47,7 @@ impl Table {
         Self::of_rows(name, &headings, (0..rows).map(|row| columns.iter().map(|(_, array)| array[row]).collect()))
     }
 
-    /// Writes the table as `<name>.csv` into a folder, every number with all its digits.
+    /// Writes the table as `<name>.csv` into a folder, every number with all its digits, [`ABSENT`] as an empty cell.
     ///
     /// # Errors
     /// A file that cannot be written, or a row that is not as long as the heading.
@@ -50,7 +55,8 @@ impl Table {
         let mut writer = csv::Writer::from_path(folder.join(format!("{}.csv", self.name)))?;
         writer.write_record(&self.columns)?;
         for row in &self.rows {
-            writer.serialize(row)?;
+            writer
+                .serialize(row.iter().map(|value| Some(value).filter(|value| !value.is_nan())).collect::<Vec<_>>())?;
         }
         writer.flush()
     }
@@ -77,6 +83,6 @@ mod tests {
         };
         table.write(folder.path()).expect("writable");
         let text = std::fs::read_to_string(folder.path().join("profile.csv")).expect("written");
-        assert_eq!(text, "y [m],u [m/s]\n0.0,0.30000000000000004\n1e-20,NaN\n");
+        assert_eq!(text, "y [m],u [m/s]\n0.0,0.30000000000000004\n1e-20,\n");
     }
 }

@@ -82,9 +82,9 @@ pub struct MetricEntry {
     pub margin: Option<f64>,
     /// The gate's outcome.
     pub verdict: Verdict,
-    /// Reason why a number that should be one of a steady state has no value; absent if it has one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub not_steady: Option<String>,
+    /// Reason why there is no value, or the part of a run that the value leaves out; absent where neither is the case.
+    #[serde(default, alias = "not_steady", skip_serializing_if = "Option::is_none")]
+    pub remark: Option<String>,
     /// Parts of what value and reference are known to; absent where nothing is known.
     #[serde(default, skip_serializing_if = "Uncertainty::is_empty")]
     pub uncertainty: Uncertainty,
@@ -136,7 +136,7 @@ impl From<&Metric> for MetricEntry {
             reason: gate.map(|gate| gate.reason.clone()),
             margin: gate.and_then(|gate| finite(gate.limit.margin(metric.value))),
             verdict: metric.verdict(),
-            not_steady: metric.not_steady.clone(),
+            remark: metric.remark.clone(),
             uncertainty: metric.uncertainty.clone(),
             prediction: metric.prediction.clone(),
             snapshot_tolerance: metric.snapshot_tolerance,

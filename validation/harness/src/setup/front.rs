@@ -1,5 +1,6 @@
 //! Front position of a material.
 
+use crate::output::ABSENT;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
@@ -21,7 +22,7 @@ pub struct FrontLine<const D: usize> {
 
 impl<const D: usize> FrontLine<D> {
     /// The first place along it, from its start and where material stands on, with less than the section `[m]`: volumes of
-    /// particles are spread over a `spacing` `[m]` to either side.
+    /// particles are spread over a `spacing` `[m]` to either side. [`ABSENT`] where nowhere along it stands as much.
     pub fn reached(&self, spacing: f64, snapshot: &Snapshot<D>) -> f64 {
         self.first_below([self.section], spacing, snapshot)[0]
     }
@@ -61,7 +62,7 @@ impl<const D: usize> FrontLine<D> {
         let area: Vec<f64> = shares.iter().map(|parts| parts.iter().map(|part| part / PARTS as f64).sum()).collect();
         sections.map(|section| {
             let stands = |area: &f64| *area >= section * bin;
-            let Some(first) = area.iter().position(stands) else { return 0.0 };
+            let Some(first) = area.iter().position(stands) else { return ABSENT };
             let gap = area[first..].iter().position(|area| !stands(area));
             gap.map_or(length, |gap| (first + gap) as f64 * bin)
         })

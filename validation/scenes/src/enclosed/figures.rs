@@ -98,13 +98,12 @@ fn start<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> (Stri
     (caption, S::setup(parameters, &sites))
 }
 
-/// One panel a gauge with a line a column that shares its axis.
+/// A panel for each axis of a gauge, with a line for each column that has it.
 fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &SceneObservation<D>) -> Option<Figure> {
-    let panel = |series: series::GaugeSeries<'_, D>| {
+    let panel = |series: &series::GaugeSeries<'_, D>, axis: &str| {
         let columns = &series.columns;
-        let axis = columns.first().map_or("", |column| &column.axis);
         let mut panel = Panel::new(series.gauge, Axis::linear("t [s]"), Axis::linear(axis));
-        for measured in series.measured {
+        for measured in series.measured.iter().filter(|_| columns[0].axis == axis) {
             panel.reference("measured", measured.points.iter().copied());
         }
         if let (Measurand::Front(_), [_, least, most, ..]) = (&series.measure, series.values) {
@@ -118,7 +117,14 @@ fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &
         }
         panel
     };
-    let panels: Vec<Panel> = series::of_run(parameters, data).into_iter().map(panel).collect();
+    let panels = |series: series::GaugeSeries<'_, D>| {
+        let mut axes: Vec<&str> = series.columns.iter().map(|column| column.axis.as_str()).collect();
+        axes.dedup();
+        // the interval of a front is a band in its panel
+        axes.truncate(if matches!(series.measure, Measurand::Front(_)) { 1 } else { D });
+        axes.into_iter().map(|axis| panel(&series, axis)).collect::<Vec<_>>()
+    };
+    let panels: Vec<Panel> = series::of_run(parameters, data).into_iter().flat_map(panels).collect();
     (!panels.is_empty()).then(|| Figure::new("gauges", "What the gauges of the scene measured.", panels).in_columns(2))
 }
 

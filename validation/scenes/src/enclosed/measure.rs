@@ -2,7 +2,9 @@
 
 use super::periods::Periods;
 use super::shapes;
+use crate::output::ABSENT;
 use crate::setup::front::FrontLine;
+use bagnold_solver::material::equation_of_state::Tension;
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -96,7 +98,8 @@ pub struct Probe<const D: usize> {
 }
 
 impl<const D: usize> Probe<D> {
-    /// Pressure and pore pressure `[Pa]` and velocity `[m/s]` at the place, where the law's field is one: linear least squares with the weight 1 − r²/R²; zero without particles.
+    /// Pressure and pore pressure `[Pa]` and velocity `[m/s]` at the place, where the law's field is one: linear least squares with the weight 1 − r²/R².
+    /// [`ABSENT`] without particles. Where tension is cut, the line is not continued below zero pressure.
     pub(super) fn values(&self, simulation: &Simulation<D>, periods: &Periods<D>, snapshot: &Snapshot<D>) -> Vec<f64> {
         let radius = self.reach * simulation.spacing();
         let is_wet = simulation.rheology().pore_liquid().is_some();
@@ -108,7 +111,7 @@ impl<const D: usize> Probe<D> {
         let near: Vec<_> = (0..snapshot.position.len()).flat_map(near).filter(|(.., weight)| *weight > 0.0).collect();
         let total: f64 = near.iter().map(|(.., weight)| weight).sum();
         if near.is_empty() {
-            return vec![0.0; D + 2];
+            return vec![ABSENT; D + 2];
         }
         let centre = near.iter().map(|(_, way, weight)| way * *weight).sum::<Vector<D>>() / total;
         let spread: Tensor<D> = near
@@ -125,7 +128,9 @@ impl<const D: usize> Probe<D> {
             mean - (inverse * slope).dot(&centre)
         };
         let pore = |index: usize| if is_wet { snapshot.field[index] } else { 0.0 };
-        let pressures = [fitted(&|index| snapshot.pressure[index]), fitted(&pore)];
+        let is_cut = simulation.equation_of_state().tension == Tension::Cut && !is_wet;
+        let least = if is_cut { 0.0 } else { f64::NEG_INFINITY };
+        let pressures = [fitted(&|index| snapshot.pressure[index]).max(least), fitted(&pore)];
         pressures.into_iter().chain((0..D).map(|axis| fitted(&|index| snapshot.velocity[index][axis]))).collect()
     }
 }

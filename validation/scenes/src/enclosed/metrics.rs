@@ -51,7 +51,7 @@ quantities! { pub(super) [ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WO
         accounted("numerical_viscosity", "Pa s", "viscosity of the liquid times what artificial terms, hourglass control and density coupling dissipate less what the scheme feeds in, over what the viscosity does; disorder that the viscosity itself damps is not in it"),
     FRONT: accounted("front", "m", "distance of the front along the line of a gauge at the end"),
     DEPTH: accounted("depth", "m", "thickness of the material at a gauge at the end"),
-    GAUGE_ERROR: validated("gauge_error", "%", "√⟨(g(t)/m − 1)²⟩ over the measured values m at times t; the gauge g is interpolated linearly between its rows"),
+    GAUGE_ERROR: validated("gauge_error", "%", "√⟨(g(t)/m − 1)²⟩ over the measured values m at times t; the gauge g is interpolated linearly between its rows; m where it has no value are left out"),
 }
 
 const fn mean_force<S: Dimension<D>, const D: usize>() -> Quantity {
@@ -140,7 +140,9 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                         ),
                     );
                 }
-                FRONT.of(&own, last).predicted(prediction::of_front(parameters, data, &line, first))
+                let absent =
+                    last.is_nan().then(|| "nowhere on its line stands as much as `thickness` at the end".to_owned());
+                FRONT.of(&own, last).remarked(absent).predicted(prediction::of_front(parameters, data, &line, first))
             }
             Measurand::Depth(depth) => {
                 let front = front.as_ref().map(|(line, fronts)| (line, &fronts[..]));
@@ -291,8 +293,11 @@ fn numerical_viscosity<S: Dimension<D>, const D: usize>(
 fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&MeasuredSeries]) -> Vec<Metric> {
     let error = |measured: &&MeasuredSeries| {
         let limit = (measured.limit > 0.0).then_some(Limit::AtMost(measured.limit));
+        let ((error, compared), all) = (error(time, series, &measured.points), measured.points.len());
+        let left_out = || format!("gauge `{}` has a value at {compared} of {all} measurements", measured.gauge);
         GAUGE_ERROR
-            .of(variant, 100.0 * error(time, series, &measured.points))
+            .of(variant, 100.0 * error)
+            .remarked((compared < all).then(left_out))
             .against(Some(0.0), &measured.source, Confidence::Medium)
             .gated_by(limit, "the limit that the scene's file gives")
             .with_snapshot_tolerance(0.1, 1.0)
@@ -324,24 +329,33 @@ fn largest(series: &[f64]) -> f64 {
     series.iter().fold(0.0, |most: f64, value| most.max(value.abs()))
 }
 
-/// Root mean square of value/measured − 1 at the measured times; NaN where the series does not reach them.
-fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> f64 {
+/// Root mean square of value/measured − 1 at the measured times at which the series has a value, and their number; NaN where it has none,
+/// or ends before.
+fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> (f64, usize) {
     let samples: Vec<(f64, f64)> = time.iter().copied().zip(series.iter().copied()).collect();
-    let at =
-        |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Nothing)).unwrap_or(f64::NAN);
-    let square = |&(time, measured): &(f64, f64)| (at(time) / measured - 1.0).powi(2);
-    (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
+    let at = |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Nothing));
+    let square = |&(time, measured): &(f64, f64)| Some((at(time)? / measured - 1.0).powi(2));
+    let squares: Vec<f64> = points.iter().filter_map(square).collect();
+    let reached = time.first().zip(time.last()).map_or(0.0..=0.0, |(first, last)| *first..=*last);
+    let is_whole = points.iter().all(|(time, _)| reached.contains(time));
+    let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+    (if is_whole { mean.sqrt() } else { f64::NAN }, squares.len())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::ABSENT;
 
     #[test]
     fn the_error_is_that_at_the_measured_times() {
         let (time, series) = ([0.0, 1.0, 2.0], [1.0, 2.0, 4.0]);
-        assert!(error(&time, &series, &[(0.0, 1.0), (0.5, 1.5), (2.0, 4.0)]) < 1e-15);
-        assert!((error(&time, &series, &[(1.5, 2.0)]) - 0.5).abs() < 1e-15);
-        assert!(error(&time, &series, &[(2.5, 4.0)]).is_nan(), "the run ended before");
+        assert!(error(&time, &series, &[(0.0, 1.0), (0.5, 1.5), (2.0, 4.0)]).0 < 1e-15);
+        assert!((error(&time, &series, &[(1.5, 2.0)]).0 - 0.5).abs() < 1e-15);
+        assert!(error(&time, &series, &[(1.0, 2.0), (2.5, 4.0)]).0.is_nan(), "the run ended before");
+        // without a front at first
+        let late = [ABSENT, 2.0, 4.0];
+        assert_eq!(error(&time, &late, &[(0.5, 9.0), (1.0, 2.0)]), (0.0, 1));
+        assert!(error(&time, &late, &[(0.5, 9.0)]).0.is_nan(), "nothing is compared");
     }
 }

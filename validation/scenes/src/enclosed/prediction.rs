@@ -77,10 +77,10 @@ pub(super) fn of_front<S: Dimension<D>, const D: usize>(
     line: &FrontLine<D>,
     series: &[f64],
 ) -> Option<PredictionInterval> {
-    let (first, last) = (*series.first()?, *series.last()?);
+    let (first, last) = (*series.first()?, *series.last().filter(|last| last.is_finite())?);
     let column = column(parameters, data, line, first)?;
     let way = last - column.front;
-    if way <= parameters.spacing {
+    if way.is_nan() || way <= parameters.spacing {
         return None;
     }
     let mut found = ValidationSet::shipped().predict(&WAY_OF_FRONT, column.regime, way)?;

@@ -49,7 +49,7 @@ pub enum PlaneGauge {
     Probe {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
-        /// The place x, y `[m]`; on a wall or the free surface the lines are continued to it.
+        /// The place x, y `[m]`; on a wall or the free surface the lines are continued to it. Without particles around it has no value.
         at: PlaneVector,
         /// Diameter of the circle whose particles count, in spacings `[-]`.
         #[serde(default = "setting::probe_width")]
@@ -189,16 +189,39 @@ mod tests {
             *velocity = Vector::<2>::new(1.0 + 3.0 * place[1], -2.0 * place[0]);
         }
         let simulation = Simulation::new(scene).expect("a scene");
-        let unbounded = Periods::of(&[AxisBoundary::Open; 2]);
-        for (at, expected) in [("[0.1, 0.04]", [1.12, -0.2]), ("[0.0, 0.08]", [1.24, 0.0]), ("[3.0, 3.0]", [0.0, 0.0])]
-        {
-            let text = format!("kind = \"probe\"\nname = \"probe\"\nat = {at}");
-            let gauge = toml::from_str::<PlaneGauge>(&text).expect("a gauge");
-            let measures = [gauge.measure(&Vector::<2>::new(0.0, -1.0))];
-            let found = Memory::default().read_all(&measures, &simulation, &simulation.snapshot(), (160, &unbounded));
+        for (at, expected) in [("[0.1, 0.04]", [1.12, -0.2]), ("[0.0, 0.08]", [1.24, 0.0])] {
+            let found = probed(at, &simulation);
             assert!((found[2] - expected[0]).abs() < 1e-12 && (found[3] - expected[1]).abs() < 1e-12, "{found:?}");
             assert_eq!(found[..2], [0.0; 2], "no pressure, and no liquid in the pores");
         }
+        let nothing = probed("[3.0, 3.0]", &simulation);
+        assert!(nothing.len() == 4 && nothing.iter().all(|value| value.is_nan()), "{nothing:?}");
+    }
+
+    /// The values of a probe at a place in a simulation without periodic sides.
+    fn probed(at: &str, simulation: &Simulation<2>) -> Vec<f64> {
+        let text = format!("kind = \"probe\"\nname = \"probe\"\nat = {at}");
+        let gauge = toml::from_str::<PlaneGauge>(&text).expect("a gauge");
+        let measures = [gauge.measure(&Vector::<2>::new(0.0, -1.0))];
+        let unbounded = Periods::of(&[AxisBoundary::Open; 2]);
+        Memory::default().read_all(&measures, simulation, &simulation.snapshot(), (160, &unbounded))
+    }
+
+    /// Grains that are pressed less and less towards the place they come to: the line through their pressures ends below zero there.
+    #[test]
+    fn a_probe_that_is_being_wetted_reads_no_tension_that_the_law_has_not() {
+        let with = |tension: Tension| {
+            let mut scene = block_scene();
+            scene.equation_of_state.tension = tension;
+            for (density, place) in scene.flow.density.iter_mut().zip(&scene.flow.position) {
+                *density += 10.0 * (0.195 - place[0]);
+            }
+            let simulation = Simulation::new(scene).expect("a scene");
+            [probed("[0.205, 0.04]", &simulation)[0], probed("[0.19, 0.04]", &simulation)[0]]
+        };
+        let ([cut, inside], [kept, same]) = (with(Tension::Cut), with(Tension::Kept));
+        assert!((inside - 5.0).abs() < 1e-6 && inside == same, "1 Pa/mm: {inside} and {same} Pa");
+        assert!(cut == 0.0 && (kept + 10.0).abs() < 1e-6, "{cut} and {kept} Pa");
     }
 
     /// A layer of 8 rows of 1 cm that is 20 columns long and comes in again at the other side, and slides there with 1 m/s.

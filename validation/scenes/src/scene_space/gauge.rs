@@ -52,7 +52,7 @@ pub enum SpaceGauge {
     Probe {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
-        /// The place x, y, z `[m]`; on a wall or the free surface the lines are continued to it.
+        /// The place x, y, z `[m]`; on a wall or the free surface the lines are continued to it. Without particles around it has no value.
         at: SpaceVector,
         /// Diameter of the circle whose particles count, in spacings `[-]`.
         #[serde(default = "setting::probe_width")]
@@ -208,5 +208,11 @@ mod tests {
         // three layers of 48 particles of 1 g, and half of them the other way round
         assert!((end[4] - 0.144).abs() < 1e-12 && (end[5] - 0.144 / way).abs() < 1e-9, "{end:?}");
         assert!((end[6] + 0.072).abs() < 1e-12, "{end:?}");
+        let probe = |at: &str| gauge(&format!("kind = \"probe\"\nname = \"probe\"\nat = {at}"));
+        let probes = ["[0.13, 0.04, 0.03]", "[0.0, 0.04, 0.03]"].map(probe);
+        let measures: Vec<_> = probes.iter().map(|gauge| gauge.measure(&down)).collect();
+        let found = memory.read_all(&measures, &simulation, &simulation.snapshot(), (960, &unbounded));
+        assert!((found[2] - 1.0).abs() < 1e-3, "{found:?}");
+        assert!(found[5..].iter().all(|value| value.is_nan()), "the block has left: {found:?}");
     }
 }

@@ -37,8 +37,10 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
         let same_run = panel.series.iter().find(|series| series.label == label).map(|series| series.colour);
         let slot = same_run.unwrap_or_else(|| next(panel));
         // an earlier check may have drawn the same window; another window is a line of its own in the run's colour
-        let is_drawn = |point| panel.series.iter().any(|series| series.colour == slot && series.points.contains(point));
-        if !curve.points.iter().all(is_drawn) {
+        let is_drawn = |point: &(f64, f64)| {
+            panel.series.iter().any(|series| series.colour == slot && series.points.contains(point))
+        };
+        if !curve.wet().all(|point| is_drawn(&point)) {
             let label = if same_run.is_some() { "" } else { &label };
             panel.line(label, slot, curve.points.iter().copied());
         }

@@ -307,12 +307,9 @@ impl Study {
                 let remedy = "leave it out to mean all";
                 return Err(wrong(FieldError::new("only", format!("\"{}\"", check.only), &rule, remedy)).into());
             }
-            for reading in readings.iter().filter(|reading| reading.value.is_nan()) {
-                let (study, variant, reason) = (&self.text.study, &reading.variant, reading.reason_of_absence());
-                tracing::warn!("{study}: {}, {variant}: {reason}", check.name);
-            }
             let metric = |reading: &Reading| {
-                check.metric(&reading.variant, reading.value, &reading.unit).known_as(&reading.uncertainty)
+                let metric = check.metric(&reading.variant, reading.value, &reading.unit);
+                metric.known_as(&reading.uncertainty).remarked(reading.remark.clone())
             };
             judged.metrics.extend(readings.iter().map(metric));
             figures::add(&mut judged.figures, check, &readings).map_err(wrong)?;

@@ -31,7 +31,7 @@ pub(super) struct RunCurve {
     pub(super) run: Variant,
     /// Heading of the abscissa.
     pub(super) over: String,
-    /// Finite points (abscissa, value) within the window, in ascending order.
+    /// Points (abscissa, value) within the window, in ascending order; values that do not exist are not numbers.
     pub(super) points: Vec<(f64, f64)>,
 }
 
@@ -94,8 +94,7 @@ impl ColumnWindow {
         let value = |row: &[f64]| others.iter().fold(row[measured], |sum, (other, sign)| sum + *sign * row[*other]);
         let rows = table.rows.iter().map(|row| (row[over], value(row)));
         let (from, to) = self.window;
-        let mut points: Vec<(f64, f64)> = rows.filter(|(x, y)| x.is_finite() && y.is_finite()).collect();
-        points.retain(|(x, _)| *x >= from && *x <= to);
+        let mut points: Vec<(f64, f64)> = rows.filter(|(x, _)| x.is_finite() && *x >= from && *x <= to).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let run = result.runs.iter().map(|run| &run.variant);
         let run = run.filter(|variant| !variant.is_empty()).find(|variant| table.name.ends_with(&variant.file_name()));
@@ -104,9 +103,14 @@ impl ColumnWindow {
 }
 
 impl RunCurve {
-    /// Value of a reduction of the curve; not a number for a curve without suitable points.
+    /// The points that have a value.
+    pub(super) fn wet(&self) -> impl DoubleEndedIterator<Item = (f64, f64)> {
+        self.points.iter().copied().filter(|point| point.1.is_finite())
+    }
+
+    /// Value of a reduction of the curve where it has values; not a number for a curve without suitable points.
     pub(super) fn value(&self, reduction: Reduction) -> f64 {
-        let values = || self.points.iter().map(|point| point.1);
+        let values = || self.wet().map(|point| point.1);
         let found = match reduction {
             Reduction::First => values().next(),
             Reduction::Last => values().next_back(),
@@ -115,20 +119,23 @@ impl RunCurve {
             Reduction::Mean => self.mean(),
             Reduction::At(place) => self.at(place),
             Reduction::Reaches(level) => self.reaches(level),
-            Reduction::Slope => linear_fit(&self.points).map(|fit| fit.slope),
+            Reduction::Slope => linear_fit(&self.wet().collect::<Vec<_>>()).map(|fit| fit.slope),
         };
         found.unwrap_or(f64::NAN)
     }
 
-    /// Mean by the trapezoidal rule; of a single point its value.
+    /// Mean by the trapezoidal rule over the steps between points with values; of single points that of their values.
     fn mean(&self) -> Option<f64> {
-        let (first, last) = (self.points.first()?, self.points.last()?);
-        if last.0 <= first.0 {
-            return Some(first.1);
+        let is_wet = |pair: &&[(f64, f64)]| pair.iter().all(|point| point.1.is_finite());
+        let length = |pair: &[(f64, f64)]| pair[1].0 - pair[0].0;
+        let (steps, gaps): (Vec<_>, Vec<_>) = self.points.windows(2).partition(is_wet);
+        if steps.iter().all(|pair| length(pair) <= 0.0) {
+            let count = self.wet().count();
+            return (count > 0).then(|| self.wet().map(|point| point.1).sum::<f64>() / count as f64);
         }
-        let area: f64 =
-            self.points.windows(2).map(|pair| 0.5 * (pair[0].1 + pair[1].1) * (pair[1].0 - pair[0].0)).sum();
-        Some(area / (last.0 - first.0))
+        let area: f64 = steps.iter().map(|pair| 0.5 * (pair[0].1 + pair[1].1) * length(pair)).sum();
+        let dry: f64 = gaps.into_iter().map(length).sum();
+        Some(area / (self.points.last()?.0 - self.points.first()?.0 - dry))
     }
 
     /// The value at a place, linear between points; none beyond the ends.
@@ -136,24 +143,31 @@ impl RunCurve {
         interpolated(&self.points, place, (Extrapolation::Nothing, Extrapolation::Nothing))
     }
 
-    /// The first place at which the value reaches a level, from below or from above; none if it does not.
+    /// The first place at which the value reaches a level, from below or from above; none if it does not. What comes to a place where
+    /// nothing was comes from zero, and reaches the level there at the earliest.
     fn reaches(&self, level: f64) -> Option<f64> {
         let first = self.points.first().filter(|point| point.1 == level).map(|point| point.0);
         let crossing = |pair: &[(f64, f64)]| {
             let [(x, y), (next_x, next_y)] = *pair else { return None };
-            let crosses = (y < level && next_y >= level) || (y > level && next_y <= level);
-            crosses.then(|| x + (next_x - x) * (level - y) / (next_y - y))
+            let before = if y.is_nan() { 0.0 } else { y };
+            let crosses = (before < level && next_y >= level) || (before > level && next_y <= level);
+            let way = if y.is_nan() { 1.0 } else { (level - y) / (next_y - y) };
+            crosses.then_some(x + (next_x - x) * way)
         };
         first.or_else(|| self.points.windows(2).find_map(crossing))
     }
 
-    /// Its distance from measured points (abscissa, value, standard uncertainty) within a window, in the curve's units. It must
-    /// reach them all: a run that ends early would else be judged by its beginning, so it is not a number then.
+    /// Its distance from measured points (abscissa, value, standard uncertainty) within a window, in the curve's units, where it has a
+    /// value. It must go on beyond them all: a run that ends early would else be judged by its beginning, so it is not a number then.
     pub(super) fn distance(&self, measured: &[[f64; 3]], window: (f64, f64), distance: Distance) -> f64 {
-        let meant = measured.iter().filter(|point| point[0] >= window.0 && point[0] <= window.1);
-        let differences: Option<Vec<[f64; 3]>> =
-            meant.map(|&[x, y, u]| self.at(x).map(|own| [own - y, y, u])).collect();
-        let Some(differences) = differences.filter(|differences| !differences.is_empty()) else { return f64::NAN };
+        let meant = || measured.iter().filter(|point| point[0] >= window.0 && point[0] <= window.1);
+        let ends = self.points.first().zip(self.points.last());
+        let is_whole = ends.is_some_and(|(first, last)| meant().all(|point| (first.0..=last.0).contains(&point[0])));
+        let differences: Vec<[f64; 3]> =
+            meant().filter_map(|&[x, y, u]| self.at(x).map(|own| [own - y, y, u])).collect();
+        if !is_whole || differences.is_empty() {
+            return f64::NAN;
+        }
         let count = differences.len() as f64;
         let mean = |of: fn(&[f64; 3]) -> f64| differences.iter().map(of).sum::<f64>() / count;
         match distance {
@@ -264,6 +278,37 @@ mod tests {
         let mut points = vec![(0.0, 1.0), (0.9, 1.0)];
         points.extend((0..=10).map(|k| (0.9 + 0.01 * f64::from(k), 2.0)));
         assert!((curve(&points).value(Reduction::Mean) - 1.1).abs() < 1e-12);
+    }
+
+    /// A place that is reached at t = 2 with the value 4, dry for a moment at 4, and dry at the end.
+    #[test]
+    fn a_place_that_is_dry_at_times_has_the_values_of_the_others() {
+        let dry = f64::NAN;
+        let series = [dry, dry, 4.0, 2.0, dry, 3.0, 1.0, dry];
+        let curve = curve(&(0..8).map(f64::from).zip(series).collect::<Vec<_>>());
+        for (reduction, value) in [
+            (Reduction::First, 4.0),
+            (Reduction::Last, 1.0),
+            (Reduction::Largest, 4.0),
+            (Reduction::Smallest, 1.0),
+            (Reduction::Mean, 2.5),
+            (Reduction::At(2.5), 3.0),
+            (Reduction::Reaches(3.5), 2.0),
+            (Reduction::Reaches(1.5), 2.0),
+        ] {
+            assert_eq!(curve.value(reduction), value, "{reduction:?}");
+        }
+        for reduction in [Reduction::At(0.0), Reduction::At(3.5), Reduction::Reaches(5.0), Reduction::Reaches(-1.0)] {
+            assert!(curve.value(reduction).is_nan(), "{reduction:?}");
+        }
+        let measured = [[0.5, 9.0, 1.0], [2.0, 3.0, 1.0], [4.5, 9.0, 1.0], [6.0, 1.0, 1.0]];
+        let over_all = (f64::NEG_INFINITY, f64::INFINITY);
+        assert_eq!(curve.distance(&measured, over_all, Distance::Mean), 0.5);
+        assert!(curve.distance(&measured[..1], over_all, Distance::Mean).is_nan(), "nothing is compared");
+        let never = RunCurve { points: vec![(0.0, dry), (1.0, dry)], ..curve };
+        for reduction in [Reduction::Mean, Reduction::Largest, Reduction::Slope, Reduction::Reaches(0.0)] {
+            assert!(never.value(reduction).is_nan(), "{reduction:?}");
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::check::{CheckedQuantity, StudyCheck};
 use super::file::Reduction;
-use super::probe::{self, RunCurve};
+use super::probe::{self, ColumnWindow, RunCurve};
 use super::{Study, file};
 use crate::case::CaseResult;
 use crate::input::FieldError;
@@ -19,23 +19,31 @@ pub(super) struct Reading {
     pub(super) curve: Option<RunCurve>,
     /// Uncertainty that the case states for the value.
     pub(super) uncertainty: Uncertainty,
+    /// Reason for a missing value, or the rows that the value leaves out.
+    pub(super) remark: Option<String>,
 }
 
 impl Reading {
     fn new(variant: Variant, value: f64, unit: impl Into<String>, curve: Option<RunCurve>) -> Self {
-        Self { variant, value, unit: unit.into(), curve, uncertainty: Uncertainty::default() }
+        let nothing = || "there is no finite value to take it from".to_owned();
+        let remark = value.is_nan().then(nothing);
+        Self { variant, value, unit: unit.into(), curve, uncertainty: Uncertainty::default(), remark }
     }
 
-    /// Reason for a value that is not a number.
-    pub(super) fn reason_of_absence(&self) -> String {
-        let ends = |curve: &RunCurve| Some((curve.over.clone(), curve.points.first()?.0, curve.points.last()?.0));
-        match self.curve.as_ref().map(ends) {
-            Some(Some((over, from, to))) => {
-                format!("what is asked for lies beyond the run, whose {over} reaches over {from} … {to}")
+    /// The reading of a column in a run, and how many of its rows have a value.
+    fn of_column(variant: Variant, value: f64, unit: &str, column: &ColumnWindow, curve: RunCurve) -> Self {
+        let (wet, all, heading) = (curve.wet().count(), curve.points.len(), column.heading());
+        let counted = format!("`{heading}` has a value in {wet} of {all} rows");
+        let ends = curve.points.first().zip(curve.points.last());
+        let remark = match ends {
+            None => Some("the run has no row in the window that counts".to_owned()),
+            Some((from, to)) if value.is_nan() && wet > 0 => {
+                let (over, from, to) = (&curve.over, from.0, to.0);
+                Some(format!("{counted}, whose {over} reaches over {from} … {to}: none at what is asked for"))
             }
-            Some(None) => "the run has no finite value in the window that counts".to_owned(),
-            None => "there is no finite value to take it from".to_owned(),
-        }
+            Some(_) => (wet < all).then_some(counted),
+        };
+        Self { remark, ..Self::new(variant, value, unit, Some(curve)) }
     }
 }
 
@@ -61,6 +69,7 @@ impl Study {
                     let metrics = probe::metrics(result, name)?;
                     readings.extend(metrics.into_iter().map(|metric| Reading {
                         uncertainty: metric.uncertainty.clone(),
+                        remark: metric.remark.clone(),
                         ..Reading::new(of_run(&metric.variant), metric.value, &metric.unit, None)
                     }));
                 }
@@ -73,7 +82,7 @@ impl Study {
                             Reduction::Slope => format!("{own}/{over}"),
                             _ => own.to_owned(),
                         };
-                        readings.push(Reading::new(of_run(&curve.run), value, unit, Some(curve)));
+                        readings.push(Reading::of_column(of_run(&curve.run), value, &unit, column, curve));
                     }
                 }
                 CheckedQuantity::Distance(column, measured, distance) => {
@@ -85,7 +94,7 @@ impl Study {
                             file::Distance::RelativeL2 => "%",
                             file::Distance::Largest | file::Distance::Mean => probe::unit_of(&column.column),
                         };
-                        readings.push(Reading::new(of_run(&curve.run), value, unit, Some(curve)));
+                        readings.push(Reading::of_column(of_run(&curve.run), value, unit, column, curve));
                     }
                 }
                 CheckedQuantity::Order { .. } | CheckedQuantity::Difference { .. } => {}

@@ -96,7 +96,7 @@ impl Target {
                         first.variant
                     ));
                 }
-                match &first.not_steady {
+                match first.remark.as_ref().filter(|_| first.value.is_nan()) {
                     Some(reason) => Err(format!("no `{name}`: {reason}; let the runs last longer")),
                     None => Ok((first.value, first.unit.clone())),
                 }
@@ -119,7 +119,11 @@ impl Target {
                 interpolated(&points, *at, HALF_A_STEP).map(|value| (value, unit)).ok_or_else(|| {
                     let ends = points.first().zip(points.last()).map(|(first, last)| (first.0, last.0));
                     let (first, last) = ends.unwrap_or_default();
-                    format!("no value of `{table}` at {at}; it reaches from {first} to {last}")
+                    let there = points.iter().filter(|point| point.1.is_finite()).count();
+                    let all = points.len();
+                    format!(
+                        "no value of `{table}` at {at}; it reaches from {first} to {last}, and {there} of {all} rows have a value"
+                    )
                 })
             }
         }

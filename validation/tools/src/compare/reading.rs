@@ -4,7 +4,7 @@ use super::roles::{self, PairedKey};
 use crate::ToolError;
 use crate::input::{STORED, read_text, shown, text_fault};
 use crate::metric::Limit;
-use crate::output::{FileError, Table};
+use crate::output::{ABSENT, FileError, Table};
 use crate::result::{MetricEntry, MetricsDocument};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -181,7 +181,8 @@ fn table(file: &Path) -> Result<Table, FileError> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let wrong = |error: csv::Error| damaged(file, error.to_string());
     let columns = reader.headers().map_err(wrong)?.iter().map(str::to_owned).collect();
-    let rows = reader.deserialize().collect::<Result<Vec<Vec<f64>>, _>>().map_err(wrong)?;
+    let row = |row: Result<Vec<Option<f64>>, _>| Ok(row?.into_iter().map(|cell| cell.unwrap_or(ABSENT)).collect());
+    let rows = reader.deserialize().map(row).collect::<Result<Vec<Vec<f64>>, _>>().map_err(wrong)?;
     let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     Ok(Table { name, columns, rows })
 }

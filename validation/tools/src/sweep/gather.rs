@@ -83,7 +83,7 @@ fn reason(metric: &MetricValue, case: &str, registry: Registry) -> String {
     let quantities = registry.find(case).map(|case| case.quantities()).unwrap_or_default();
     let described =
         quantities.iter().find(|quantity| quantity.name == metric.name).map(|quantity| quantity.description);
-    let stated = metric.not_steady.clone();
+    let stated = metric.remark.clone();
     stated.unwrap_or_else(|| format!("the run ended, but gave no {}", described.unwrap_or("such value")))
 }
 
