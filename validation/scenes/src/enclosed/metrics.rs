@@ -129,20 +129,24 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
         let metric = match series.measure {
             Measurand::Front(line) => {
                 let farthest = largest(first);
-                if last < 0.5 * farthest && farthest > FRONT_ROWS * parameters.spacing {
+                let absent = last.is_nan();
+                if (absent || last < 0.5 * farthest) && farthest > FRONT_ROWS * parameters.spacing {
                     let subject = format!("front `{}` of scene `{}`", series.gauge, parameters.name);
-                    let [far, near] = [farthest, last].map(four_digits);
+                    let far = four_digits(farthest);
+                    let near = if absent { "nothing".to_owned() } else { format!("{} m", four_digits(last)) };
                     caution_about(
                         &subject,
                         &format!(
-                            "{subject} falls back from {far} to {near} m: the layer is thinner than `thickness` there; \
+                            "{subject} falls back from {far} m to {near}: the layer is thinner than `thickness` there; \
                              reduce `thickness` and `spacing`, or start the line farther along"
                         ),
                     );
                 }
-                let absent =
-                    last.is_nan().then(|| "nowhere on its line stands as much as `thickness` at the end".to_owned());
-                FRONT.of(&own, last).remarked(absent).predicted(prediction::of_front(parameters, data, &line, first))
+                let why = || "nowhere on its line stands as much as `thickness` at the end".to_owned();
+                FRONT
+                    .of(&own, last)
+                    .remarked(absent.then(why))
+                    .predicted(prediction::of_front(parameters, data, &line, first))
             }
             Measurand::Depth(depth) => {
                 let front = front.as_ref().map(|(line, fronts)| (line, &fronts[..]));
