@@ -44,6 +44,31 @@ fn one_and_no_number_where_a_flow_is_not_steady() {
     }
 }
 
+/// A file of verdicts that stayed as it was would be green.
+#[test]
+fn a_refused_command_leaves_no_green_verdicts() {
+    let place = Place::new();
+    let junit = |arguments: &[&str], code: i32| {
+        place.bagnold(&[arguments, &["--quiet", "--junit", "ci.xml"]].concat()).assert().code(code);
+        std::fs::read_to_string(place.path("ci.xml")).expect("written")
+    };
+    let green = junit(&[&["run"], CHEAP, &["--out", "out"]].concat(), 0);
+    assert!(green.contains("errors=\"0\"") && green.contains("particles_lost"), "{green}");
+    for arguments in [
+        &["judge", "none.toml", "--out", "judged"][..],
+        &["run", "film", "--set", "density=-1"],
+        &["run", "none.toml"],
+        &["report", "--cases", "none"],
+    ] {
+        let red = junit(arguments, 2);
+        assert!(red.contains("tests=\"1\"") && red.contains("errors=\"1\""), "{arguments:?}: {red}");
+        assert!(red.contains("type=\"refusal\"") && !red.contains("particles_lost"), "{arguments:?}: {red}");
+        place.file("ci.xml", &green);
+    }
+    place.file("ci.xml", "mine");
+    assert_eq!(junit(&["run", "none.toml"], 2), "mine", "another file is kept");
+}
+
 #[test]
 fn one_when_a_gate_fails() {
     let place = Place::new();

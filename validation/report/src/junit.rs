@@ -1,6 +1,7 @@
 //! Verdicts as JUnit's XML, which CI systems show as tests: one per gate, and one for every run that should not have diverged.
 
 use super::judgement::{JudgedCase, JudgedMetric, Judgement, Severity};
+use super::put_junit;
 use super::rows::{self, statement};
 use super::view::typed;
 use crate::input::FieldError;
@@ -23,6 +24,20 @@ pub fn check_junit(path: &Path) -> Result<(), FieldError> {
     }
     let remedy = "name another file: its contents would be lost";
     Err(FieldError::new("--junit", path.display(), "a new file, or one of JUnit's XML", remedy))
+}
+
+/// Writes the error of a command that gives no verdicts.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn put_refusal(path: &Path, message: &str) -> Result<(), FieldError> {
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
+    status.set_type("refusal").set_message(message);
+    let mut suite = TestSuite::new("bagnold");
+    suite.add_test_case(TestCase::new("command", status));
+    let mut document = quick_junit::Report::new("bagnold");
+    document.add_test_suite(suite);
+    put_junit(path, &document.to_string().expect("text that the crate itself has cleaned always serialises"))
 }
 
 /// A report as text. An expected failure is skipped, with the reason of its entry; a gate that disagrees with the list of

@@ -53,7 +53,7 @@ pub use exit::Exit;
 pub use expected_failures::{ExpectedFailure, ExpectedFailures, ListStatus};
 pub use gate_list::{GateList, RemovedGates};
 pub use judgement::{JudgedCase, JudgedMetric, Judgement, Rank, Severity, Tally, judge};
-pub use junit::check_junit;
+pub use junit::{check_junit, put_refusal};
 pub use power::Doubt;
 pub use process::{ReportOutcome, ReportProcess, ReportRequest};
 pub use single::{SingleOutcome, SingleRun};

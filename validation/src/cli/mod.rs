@@ -42,7 +42,7 @@ use crate::case::{Limits, ParameterError, Registry};
 use crate::checkpoint;
 use crate::interruption::{self, Signal};
 use crate::registry::{REGISTRY, declare_build};
-use crate::report::check_junit;
+use crate::report::{check_junit, put_refusal};
 use crate::store::{Store, StorePolicy};
 use bagnold_solver::lanes::InstructionSet;
 use clap::Parser;
@@ -170,7 +170,7 @@ fn interrupted(signal: Signal, error: &str) -> String {
 /// Does what the arguments ask for, with the cases of a registry.
 ///
 /// # Errors
-/// Input that is refused; nothing was written then. Output that cannot be written; files then are.
+/// Input that is refused; nothing but the file of `--junit` was written then. Output that cannot be written; files then are.
 pub fn execute(
     arguments: &Arguments,
     registry: Registry,
@@ -187,6 +187,15 @@ fn act(command: &Command, session: &mut Session<'_>) -> Result<Exit, ProgramErro
         _ => None,
     };
     junit.map_or(Ok(()), check_junit).map_err(ParameterError::from)?;
+    let outcome = perform(command, session);
+    if let (Some(path), Err(error)) = (junit, &outcome) {
+        // an older file would stay as it is
+        put_refusal(path, &error.to_string()).map_err(ParameterError::from)?;
+    }
+    outcome
+}
+
+fn perform(command: &Command, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     match command {
         Command::List => {
             let registry = session.registry;
