@@ -267,6 +267,32 @@ fn a_gauge_at_an_opening_counts_what_the_inlet_feeds() {
     assert!((metric(&place, "mass_crossed", "gauge=opening") / fed - 1.0).abs() < 1e-12);
 }
 
+/// A feed as a logger writes it: two rows of a time are a jump.
+#[test]
+fn a_staircase_of_rates_is_fed_as_its_rows_stand_and_ends_as_it_is_told() {
+    let place = Place::new();
+    let scene = "case = \"scene\"\nname = \"staircase\"\nspacing = 0.005\nduration = 0.3\ninterval = 0.005\nbodies = []\n\
+        [sides]\nleft = \"none\"\nright = { open = 0.12 }\nbottom = \"none\"\ntop = \"none\"\n\
+        [[walls]]\nname = \"bed\"\npoints = [[-0.03, 0.0], [0.12, 0.0]]\n\
+        [[inlets]]\nname = \"feed\"\nfrom = [0.0, 0.02]\nto = [0.0, 0.0]\n";
+    let half_a_row = 0.5 * 1500.0 * 0.02 * 0.005 + 1e-12;
+    let fed = |rows: &str, told: &str, mass: f64| {
+        place.file("stairs.toml", &format!("{scene}{rows}\n"));
+        let finished = place.run(&["stairs.toml"]).code(0);
+        let errors = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
+        let first = errors.lines().next().unwrap_or_default();
+        assert!(first.contains(told), "{told}: {errors}");
+        let fed = metric(&place, "mass_fed", "inlet=feed");
+        assert!((fed - mass).abs() <= half_a_row, "{rows}: {fed} for {mass} kg/m");
+    };
+    let jumps = "rates = [[0.0, 2.0], [0.1, 2.0], [0.1, 6.0], [0.2, 6.0], [0.2, 0.0]]";
+    fed(jumps, "inlet `feed` feeds 0 kg/(m s) after 0.2 s", 0.8);
+    let late = "rates = [[0.1, 2.0], [0.2, 6.0]]\nends = ";
+    fed(&format!("{late}\"hold\""), "feeds 2 kg/(m s) before 0.1 s; inlet `feed` feeds 6 kg/(m s) after 0.2 s", 1.2);
+    fed(&format!("{late}\"zero\""), "feeds 0 kg/(m s) before 0.1 s; inlet `feed` feeds 0 kg/(m s) after 0.2 s", 0.4);
+    fed("rates = [[0.0, 2.0], [0.3, 2.0]]\nends = \"error\"", "spacing 0.005 m", 0.6);
+}
+
 #[test]
 fn a_syrup_by_implicit_steps_collapses_as_by_explicit_ones_in_fewer() {
     let place = Place::new();

@@ -24,7 +24,7 @@ const BY_UNIT: [(&str, f64, f64); 14] = [
     ("1/s", 1e-15, 1e15),
     ("m²/s", 1e-15, 1e6),
     ("kg/s", 1e-15, 1e9),
-    ("kg/(s m)", 1e-15, 1e9),
+    ("kg/(m s)", 1e-15, 1e9),
 ];
 
 /// The largest count that a field without a rule of its own takes.

@@ -2,17 +2,20 @@
 
 use crate::parameter::ParameterProblem;
 
-/// A rate over time: linear between the rows of a table, and constant before its first and behind its last.
+/// A rate over time: linear between the rows of a table, of which two may have one time; before the first and after the last it is
+/// constant, or none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FeedRate {
     times: Vec<f64>,
     rates: Vec<f64>,
-    /// Integral from time 0 to each of the times `[kg]`.
+    /// Integral from the first time to each of them `[kg]`.
     masses: Vec<f64>,
+    /// Whether the first and the last rate go on beyond the table.
+    is_held: bool,
 }
 
 impl FeedRate {
-    /// One rate for all times `[kg/s]`, in the plane `[kg/(s m)]`.
+    /// One rate for all times `[kg/s]`, in the plane `[kg/(m s)]`.
     ///
     /// # Errors
     /// A rate that is negative or not finite.
@@ -23,21 +26,21 @@ impl FeedRate {
     /// Nothing at any time.
     #[must_use]
     pub fn closed() -> Self {
-        Self { times: vec![0.0], rates: vec![0.0], masses: vec![0.0] }
+        Self { times: vec![0.0], rates: vec![0.0], masses: vec![0.0], is_held: true }
     }
 
-    /// Rows of a time `[s]` and a rate `[kg/s]`, in the plane `[kg/(s m)]`; the first is that of time 0.
+    /// Rows of a time `[s]` and a rate `[kg/s]`, in the plane `[kg/(m s)]`; two of one time are a jump.
     ///
     /// # Errors
-    /// A table that is empty or does not begin at 0, times that do not rise, rates that are negative or not finite: the field
-    /// is the row, `[2]` for the third.
+    /// A table that is empty or begins before 0, times that fall or stand three times, rates that are negative or not finite: the
+    /// field is the row, `[2]` for the third.
     pub fn table(rows: &[(f64, f64)]) -> Result<Self, ParameterProblem> {
         let refused = |row: usize, rule: &str, remedy: &str| {
             let value = rows.get(row).map_or_else(|| "absent".to_owned(), |(time, rate)| format!("({time}, {rate})"));
             Err(ParameterProblem::new(&format!("[{row}]"), value, rule, remedy))
         };
-        if rows.first().is_none_or(|(time, _)| *time != 0.0) {
-            return refused(0, "a row for the time 0", "say at which rate the run begins; 0 is none");
+        if rows.first().is_none_or(|(time, _)| *time < 0.0) {
+            return refused(0, "a time and a rate, not before the time 0", "begin with the rate at the time 0");
         }
         for (row, (time, rate)) in rows.iter().enumerate() {
             if !(*rate >= 0.0 && rate.is_finite()) {
@@ -47,9 +50,12 @@ impl FeedRate {
                     "what flows out leaves by an open side",
                 );
             }
-            if !time.is_finite() || row > 0 && *time <= rows[row - 1].0 {
-                let rule = format!("later than the row before it, {} s", rows[row.max(1) - 1].0);
+            if !time.is_finite() || row > 0 && *time < rows[row - 1].0 {
+                let rule = format!("not before the row above it, {} s", rows[row.max(1) - 1].0);
                 return refused(row, &rule, "sort the rows by their times");
+            }
+            if row > 1 && *time == rows[row - 2].0 {
+                return refused(row, "at most the second row of its time", "a jump has a row before and one after it");
             }
         }
         let (times, rates): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
@@ -58,7 +64,18 @@ impl FeedRate {
             let mean = 0.5 * (rates[row] + rates[row - 1]);
             masses.push(masses[row - 1] + mean * (times[row] - times[row - 1]));
         }
-        Ok(Self { times, rates, masses })
+        Ok(Self { times, rates, masses, is_held: true })
+    }
+
+    /// The same without anything before the first and after the last row.
+    #[must_use]
+    pub fn closed_beyond(self) -> Self {
+        Self { is_held: false, ..self }
+    }
+
+    /// First and last time of the table `[s]`.
+    fn ends(&self) -> (f64, f64) {
+        (self.times[0], self.times[self.times.len() - 1])
     }
 
     /// The last row at or before a time.
@@ -77,16 +94,23 @@ impl FeedRate {
     /// The rate at a time `[kg/s]`.
     #[must_use]
     pub fn at(&self, time: f64) -> f64 {
-        let row = self.row(time);
+        let (first, last) = self.ends();
+        if !self.is_held && (time < first || time >= last) {
+            return 0.0;
+        }
+        let (row, time) = (self.row(time), time.max(first));
         self.rates[row] + self.slope(row) * (time - self.times[row])
     }
 
     /// Its integral from time 0 on `[kg]`, without an error that grows.
     #[must_use]
     pub fn mass(&self, time: f64) -> f64 {
-        let row = self.row(time);
-        let elapsed = time - self.times[row];
-        self.masses[row] + (self.rates[row] + 0.5 * self.slope(row) * elapsed) * elapsed
+        let (first, last) = self.ends();
+        let inside = if self.is_held { time.max(first) } else { time.clamp(first, last) };
+        let before = if self.is_held { self.rates[0] * time.min(first) } else { 0.0 };
+        let row = self.row(inside);
+        let elapsed = inside - self.times[row];
+        before + self.masses[row] + (self.rates[row] + 0.5 * self.slope(row) * elapsed) * elapsed
     }
 
     /// The largest rate of all times `[kg/s]`.
@@ -98,7 +122,8 @@ impl FeedRate {
     /// Whether nothing is fed after a time `[s]`.
     #[must_use]
     pub fn is_over(&self, time: f64) -> bool {
-        self.at(time) == 0.0 && self.rates[self.row(time)..].iter().skip(1).all(|&rate| rate == 0.0)
+        let is_beyond = !self.is_held && time >= self.ends().1;
+        is_beyond || self.at(time) == 0.0 && self.rates[self.row(time)..].iter().skip(1).all(|&rate| rate == 0.0)
     }
 }
 
@@ -120,11 +145,32 @@ mod tests {
     }
 
     #[test]
-    fn tables_begin_at_zero_rise_and_are_not_negative() {
+    fn a_jump_is_two_rows_of_one_time_and_a_table_ends_in_its_last_rate_or_in_none() {
+        let held = FeedRate::table(&[(1.0, 2.0), (2.0, 2.0), (2.0, 6.0), (4.0, 6.0)]).expect("a table");
+        let closed = held.clone().closed_beyond();
+        for (time, rates, masses) in [
+            (0.5, [2.0, 0.0], [1.0, 0.0]),
+            (1.5, [2.0, 2.0], [3.0, 1.0]),
+            (2.0, [6.0, 6.0], [4.0, 2.0]),
+            (3.0, [6.0, 6.0], [10.0, 8.0]),
+            (4.0, [6.0, 0.0], [16.0, 14.0]),
+            (5.0, [6.0, 0.0], [22.0, 14.0]),
+        ] {
+            assert_eq!([held.at(time), closed.at(time)], rates, "{time}");
+            assert_eq!([held.mass(time), closed.mass(time)], masses, "{time}");
+        }
+        assert!(!held.is_over(5.0) && closed.is_over(4.0) && !closed.is_over(3.0) && !closed.is_over(0.5));
+    }
+
+    #[test]
+    fn tables_rise_and_are_not_negative() {
         let refused = |rows: &[(f64, f64)]| FeedRate::table(rows).expect_err("refused").to_string();
-        assert!(refused(&[]).starts_with("`[0]` is absent, but must be a row for the time 0"));
-        assert!(refused(&[(0.5, 1.0)]).starts_with("`[0]` is (0.5, 1)"));
-        assert!(refused(&[(0.0, 1.0), (0.0, 2.0)]).contains("must be later than the row before it, 0 s"));
+        assert!(refused(&[]).starts_with("`[0]` is absent, but must be a time and a rate, not before the time 0"));
+        assert!(refused(&[(-0.5, 1.0)]).starts_with("`[0]` is (-0.5, 1)"));
+        assert!(refused(&[(0.0, 1.0), (1.0, 2.0), (0.5, 2.0)]).contains("must be not before the row above it, 1 s"));
+        assert!(
+            refused(&[(0.0, 1.0); 3]).starts_with("`[2]` is (0, 1), but must be at most the second row of its time")
+        );
         assert!(refused(&[(0.0, 1.0), (1.0, -2.0)]).starts_with("`[1]` is (1, -2)"));
         assert!(FeedRate::constant(f64::NAN).is_err() && FeedRate::constant(-1.0).is_err());
     }

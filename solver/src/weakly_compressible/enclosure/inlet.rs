@@ -40,7 +40,7 @@ pub struct Inlet<const D: usize> {
     pub depth: f64,
     /// Density of the material without pressure `[kg/m³]`.
     pub density: f64,
-    /// Mass per time `[kg/s]`, in the plane `[kg/(s m)]`.
+    /// Mass per time `[kg/s]`, in the plane `[kg/(m s)]`.
     pub rate: FeedRate,
 }
 
@@ -51,7 +51,7 @@ pub struct Supply {
     pub spacing: f64,
     /// Density of the material without pressure `[kg/m³]`.
     pub density: f64,
-    /// Mass per time `[kg/s]`, in the plane `[kg/(s m)]`.
+    /// Mass per time `[kg/s]`, in the plane `[kg/(m s)]`.
     pub rate: FeedRate,
 }
 

@@ -2,7 +2,7 @@
 
 use super::SceneFlow;
 use super::flow::Dimension;
-use super::setting::SceneWall;
+use super::setting::{SceneInlet, SceneWall};
 
 use crate::output::caution;
 use bagnold_number::four_digits;
@@ -58,6 +58,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             .iter()
             .filter_map(|wall| Some(format!("; wall `{}` has {}", wall.name(), wall.openings()?)))
             .collect();
+        let beyond = self.inlets.iter().map(|own| own.rate().beyond(own.name(), self.duration, S::FLUX_UNIT));
         let grains = self.material.grain_diameter().map(|diameter| diameter / self.spacing);
         let grains = grains.map(|ratio| format!(", grain diameter {ratio:.2} particle spacings")).unwrap_or_default();
         format!(
@@ -65,7 +66,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             self.name,
             four_digits(self.spacing),
             self.sound_cause(),
-            openings.concat()
+            openings.into_iter().chain(beyond).collect::<String>()
         )
     }
 

@@ -20,7 +20,7 @@ const TIMES: usize = 64;
 impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// The inlets for the solver; those that [`SceneFlow::check_inlets`] refuses are left out.
     pub(super) fn feeds(&self) -> Vec<Inlet<D>> {
-        self.inlets.iter().filter_map(|inlet| self.feed(inlet, inlet.rate().checked().ok()?)).collect()
+        self.inlets.iter().filter_map(|inlet| self.feed(inlet, inlet.rate().checked(self.duration).ok()?)).collect()
     }
 
     /// Walls, open sides and inlets for the solver.
@@ -49,7 +49,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 
     fn check_inlet(&self, inlet: &S::Inlet) -> Result<(), ParameterError> {
         let given = inlet.rate();
-        let rate = given.checked()?;
+        let rate = given.checked(self.duration)?;
         let least = NARROWEST * self.spacing;
         let narrow = |edge: f64| {
             let rule = format!("{NARROWEST} spacings or more along each edge, {least} m");

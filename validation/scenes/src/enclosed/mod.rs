@@ -37,7 +37,7 @@ mod yields;
 
 pub use flow::{Dimension, SceneFlow, SceneStart};
 pub use given::PlainData;
-pub use given_rate::GivenRate;
+pub use given_rate::{GivenRate, TableEnds};
 pub use measure::{DepthGauge, Measurand, Opening, Probe};
 pub use measured::MeasuredSeries;
 pub use observation::{FedMass, OutflowRecord, SceneObservation};

@@ -3,8 +3,8 @@
 use super::SpaceVector;
 use super::gauge::edges;
 use crate::case::ParameterError;
-use crate::enclosed::GivenRate;
 use crate::enclosed::setting;
+use crate::enclosed::{GivenRate, TableEnds};
 use bagnold_solver::parameter::not_negative;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::inlet::{Inlet, Supply};
@@ -26,13 +26,15 @@ pub struct SpaceInlet {
     #[serde(default)]
     #[schemars(transform = not_negative("what flows out leaves by an open side"))]
     pub rate: f64,
-    /// Mass per time as a table: time `[s]` and rate `[kg/s]`, linear between the rows, of which the first is that of time 0; the last
-    /// goes on.
+    /// Mass per time as a table: time `[s]` and rate `[kg/s]`, linear between the rows; two rows of one time are a jump.
     #[serde(default)]
     pub rates: Vec<(f64, f64)>,
     /// CSV file of these rows with a heading, whose path begins at the case file; empty without one.
     #[serde(default)]
     pub table: String,
+    /// Rate before the first and after the last row; unless given, the first row is that of the time 0 and the last goes on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ends: Option<TableEnds>,
 }
 
 impl setting::SceneInlet<3> for SpaceInlet {
@@ -44,7 +46,7 @@ impl setting::SceneInlet<3> for SpaceInlet {
     }
 
     fn rate(&self) -> GivenRate<'_> {
-        GivenRate { rate: self.rate, rates: &self.rates, table: &self.table }
+        GivenRate { rate: self.rate, rates: &self.rates, table: &self.table, ends: self.ends }
     }
 
     fn corners(&self) -> Vec<Vector<3>> {
@@ -87,6 +89,7 @@ mod tests {
             rate: 1.0,
             rates: Vec::new(),
             table: String::new(),
+            ends: None,
         };
         assert!(inlet((0.0, 0.0, 0.1)).check().is_ok());
         assert_eq!(

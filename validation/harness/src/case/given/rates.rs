@@ -26,7 +26,7 @@ pub(in crate::case) fn read_beside(fields: &mut Table, path: &Path) -> Result<()
             ParameterError::field(&field, format!("\"{name}\" cannot be read ({error})"), "", remedy).in_file(path)
         })?;
         // an opening in the plane feeds per width
-        let rate_unit = if inlet.contains_key("corners") { "kg/s" } else { "kg/(s m)" };
+        let rate_unit = if inlet.contains_key("corners") { "kg/s" } else { "kg/(m s)" };
         let rows = rows(&text, &beside.join(name), rate_unit)?;
         count += rows.len();
         if count > MOST_ROWS {
