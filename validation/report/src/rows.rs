@@ -5,7 +5,7 @@ use super::judgement::{JudgedMetric, Rank, Severity};
 use super::power::Doubt;
 use super::view::{VerdictMark, anchor};
 use super::width::width;
-use crate::metric::{Confidence, Gate, Limit, Metric, MetricKind, PredictionInterval, Verdict};
+use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, Verdict};
 use crate::number::{distinct_digits, four_digits, in_unit, two_digits, with_unit};
 use serde_json::{Value, json};
 
@@ -71,13 +71,11 @@ fn prediction(found: &PredictionInterval, unit: &str) -> Value {
 /// Reason of a missing value; else that of the gate, with a remark if the spacing is too coarse for the gate to judge, and the part of a
 /// run that the value leaves out.
 pub(super) fn reason(metric: &Metric) -> Option<String> {
-    let of_gate = |gate: &Gate| {
-        let coarse = "not judged, for the spacing moves the value by more than the gate is wide: ";
-        format!("{}{}", if metric.is_coarser_than_gate() { coarse } else { "" }, gate.reason)
-    };
-    let of_gate = metric.gate.as_ref().filter(|_| metric.reason_of_absence().is_none()).map(of_gate);
-    let parts: Vec<String> = of_gate.into_iter().chain(metric.remark.clone()).collect();
-    (!parts.is_empty()).then(|| parts.join("; "))
+    let coarse = "not judged, for the spacing moves the value by more than the gate is wide: ";
+    let coarse = if metric.is_coarser_than_gate() { coarse } else { "" };
+    let gate = metric.gate.as_ref().filter(|_| metric.reason_of_absence().is_none());
+    let parts = gate.map(|gate| format!("{coarse}{}", gate.reason)).into_iter().chain(metric.remark.clone());
+    parts.reduce(|reason, remark| format!("{reason}; {remark}"))
 }
 
 /// The value with its unit, or a word for a missing one.

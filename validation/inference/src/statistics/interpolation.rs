@@ -14,22 +14,18 @@ pub enum Extrapolation {
 /// The value at a place, straight between points of rising abscissa; [`Extrapolation`] before the first and after the last. None beside a
 /// point without a finite value.
 #[must_use]
-pub fn interpolated(points: &[(f64, f64)], place: f64, ends: (Extrapolation, Extrapolation)) -> Option<f64> {
-    within_or_beyond(points, place, ends).filter(|value| value.is_finite())
-}
-
-fn within_or_beyond(points: &[(f64, f64)], place: f64, (before, after): (Extrapolation, Extrapolation)) -> Option<f64> {
+pub fn interpolated(points: &[(f64, f64)], place: f64, (before, after): (Extrapolation, Extrapolation)) -> Option<f64> {
     let next = points.partition_point(|point| point.0 < place);
     if let Some(&(x, y)) = points.get(next)
         && x == place
     {
-        return Some(y);
+        return Some(y).filter(|y| y.is_finite());
     }
     let (end, beyond) = match next {
         0 => (points.first()?, before),
         _ => points.get(next).map_or((points.last()?, after), |right| (right, Extrapolation::Line(0.0))),
     };
-    match beyond {
+    let value = match beyond {
         Extrapolation::Nothing => None,
         Extrapolation::EndValue => (!place.is_nan()).then_some(end.1),
         Extrapolation::Line(most) => {
@@ -38,5 +34,6 @@ fn within_or_beyond(points: &[(f64, f64)], place: f64, (before, after): (Extrapo
             let distance = (x0 - place).max(place - x1) / (x1 - x0);
             (distance <= most).then(|| y0 + (y1 - y0) * (place - x0) / (x1 - x0))
         }
-    }
+    };
+    value.filter(|value| value.is_finite())
 }

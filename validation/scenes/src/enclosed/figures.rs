@@ -101,9 +101,8 @@ fn start<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> (Stri
 /// A panel for each axis of a gauge, with a line for each column that has it.
 fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &SceneObservation<D>) -> Option<Figure> {
     let panel = |series: &series::GaugeSeries<'_, D>, axis: &str| {
-        let columns = &series.columns;
         let mut panel = Panel::new(series.gauge, Axis::linear("t [s]"), Axis::linear(axis));
-        for measured in series.measured.iter().filter(|_| columns[0].axis == axis) {
+        for measured in series.measured.iter().filter(|_| series.columns[0].axis == axis) {
             panel.reference("measured", measured.points.iter().copied());
         }
         if let (Measurand::Front(_), [_, least, most, ..]) = (&series.measure, series.values) {
@@ -111,7 +110,7 @@ fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &
                 data.time.iter().zip(least.iter().zip(most)).map(|(&time, (&least, &most))| (time, least, most));
             panel.band("half a row of particles more or less", points);
         }
-        for (slot, column) in columns.iter().enumerate().filter(|(_, column)| column.axis == axis) {
+        for (slot, column) in series.columns.iter().enumerate().filter(|(_, column)| column.axis == axis) {
             let values = series.values.get(slot).map_or(&[][..], Vec::as_slice);
             panel.line(&column.heading, slot, data.time.iter().copied().zip(values.iter().copied()));
         }

@@ -340,8 +340,7 @@ fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> (f64, usize) {
     let at = |time: f64| interpolated(&samples, time, (Extrapolation::Nothing, Extrapolation::Nothing));
     let square = |&(time, measured): &(f64, f64)| Some((at(time)? / measured - 1.0).powi(2));
     let squares: Vec<f64> = points.iter().filter_map(square).collect();
-    let reached = time.first().zip(time.last()).map_or(0.0..=0.0, |(first, last)| *first..=*last);
-    let is_whole = points.iter().all(|(time, _)| reached.contains(time));
+    let is_whole = points.iter().all(|(at, _)| time.first() <= Some(at) && time.last() >= Some(at));
     let mean = squares.iter().sum::<f64>() / squares.len() as f64;
     (if is_whole { mean.sqrt() } else { f64::NAN }, squares.len())
 }

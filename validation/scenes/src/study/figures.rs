@@ -48,7 +48,7 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
     let colour = next(panel);
     let mut said = String::new();
     if let CheckedQuantity::Distance(column, measured, _) = &check.read {
-        let points = probe::in_units_of(measured, column, first)?;
+        let points = measured.in_units(probe::unit_of(&first.over), probe::unit_of(&column.column))?;
         let cloud = points.iter().map(|point| (point[0], point[1]));
         let series = panel.draw(&measured.name(), Mark::Points, colour, cloud);
         series.error = points.iter().map(|point| point[2]).collect();

@@ -4,7 +4,6 @@
 use super::file::{Distance, Reduction};
 use crate::case::CaseResult;
 use crate::input::{FieldError, name_and_unit, nearest};
-use crate::measured::Measurements;
 use crate::metric::{Metric, Variant};
 use crate::output::Table;
 use crate::statistics::{Extrapolation, interpolated, linear_fit};
@@ -189,15 +188,6 @@ pub(super) fn metrics<'a>(result: &'a CaseResult, name: &str) -> Result<Vec<&'a 
         return Err(FieldError::new("metric", format!("\"{name}\""), &rule, &did_you_mean(name, &names)));
     }
     Ok(found)
-}
-
-/// Measured points in the units of a curve.
-pub(super) fn in_units_of(
-    measured: &Measurements,
-    column: &ColumnWindow,
-    curve: &RunCurve,
-) -> Result<Vec<[f64; 3]>, FieldError> {
-    measured.in_units(unit_of(&curve.over), unit_of(&column.column))
 }
 
 fn did_you_mean(wanted: &str, known: &[&str]) -> String {

@@ -8,6 +8,7 @@ use crate::case::CaseResult;
 use crate::input::FieldError;
 use crate::metric::{Metric, Uncertainty, Value, Variant};
 use crate::statistics::log_log_slope;
+use bagnold_number::four_digits;
 
 /// Reading of a check in one run.
 pub(super) struct Reading {
@@ -25,24 +26,17 @@ pub(super) struct Reading {
 
 impl Reading {
     fn new(variant: Variant, value: f64, unit: impl Into<String>, curve: Option<RunCurve>) -> Self {
-        let nothing = || "there is no finite value to take it from".to_owned();
-        let remark = value.is_nan().then(nothing);
+        let remark = value.is_nan().then(|| "there is no finite value to take it from".to_owned());
         Self { variant, value, unit: unit.into(), curve, uncertainty: Uncertainty::default(), remark }
     }
 
     /// The reading of a column in a run, and how many of its rows have a value.
     fn of_column(variant: Variant, value: f64, unit: &str, column: &ColumnWindow, curve: RunCurve) -> Self {
-        let (wet, all, heading) = (curve.wet().count(), curve.points.len(), column.heading());
-        let counted = format!("`{heading}` has a value in {wet} of {all} rows");
-        let ends = curve.points.first().zip(curve.points.last());
-        let remark = match ends {
-            None => Some("the run has no row in the window that counts".to_owned()),
-            Some((from, to)) if value.is_nan() && wet > 0 => {
-                let (over, from, to) = (&curve.over, from.0, to.0);
-                Some(format!("{counted}, whose {over} reaches over {from} … {to}: none at what is asked for"))
-            }
-            Some(_) => (wet < all).then_some(counted),
-        };
+        let (wet, all, over) = (curve.wet().count(), curve.points.len(), &curve.over);
+        let ends = [curve.points.first(), curve.points.last()];
+        let [from, to] = ends.map(|end| four_digits(end.map_or(f64::NAN, |end| end.0)));
+        let counted = format!("`{}` has a value in {wet} of {all} rows, {over} from {from} to {to}", column.heading());
+        let remark = (value.is_nan() || wet < all).then_some(counted);
         Self { remark, ..Self::new(variant, value, unit, Some(curve)) }
     }
 }
@@ -87,7 +81,7 @@ impl Study {
                 }
                 CheckedQuantity::Distance(column, measured, distance) => {
                     for curve in column.curves(result)? {
-                        let points = probe::in_units_of(measured, column, &curve)?;
+                        let points = measured.in_units(probe::unit_of(&curve.over), probe::unit_of(&column.column))?;
                         let value = curve.distance(&points, column.window, *distance);
                         let unit = match distance {
                             file::Distance::Residual => "-",

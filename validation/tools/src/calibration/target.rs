@@ -119,8 +119,7 @@ impl Target {
                 interpolated(&points, *at, HALF_A_STEP).map(|value| (value, unit)).ok_or_else(|| {
                     let ends = points.first().zip(points.last()).map(|(first, last)| (first.0, last.0));
                     let (first, last) = ends.unwrap_or_default();
-                    let there = points.iter().filter(|point| point.1.is_finite()).count();
-                    let all = points.len();
+                    let (there, all) = (points.iter().filter(|point| point.1.is_finite()).count(), points.len());
                     format!(
                         "no value of `{table}` at {at}; it reaches from {first} to {last}, and {there} of {all} rows have a value"
                     )
