@@ -3,7 +3,7 @@
 use crate::results::{Figures, particles, table};
 use crate::waiting::{Refused, wait_for};
 use bagnold_harness::case::{CaseResult, Limits, ParameterError, Request, Requested, Silent, Tier, execute};
-use bagnold_harness::measured::{Measurements, draw_measured};
+use bagnold_harness::measured::{draw_measured, read_overlay};
 use bagnold_harness::metric::Variant;
 use bagnold_harness::result::MetricsDocument;
 use bagnold_harness::store::{Store, StorePolicy};
@@ -60,8 +60,7 @@ pub(crate) fn run<'py>(
         }
         let request = Request { target, tier, settings: &settings, only: &only, limits: Limits::of(None, None) };
         let Requested { prepared, overlay: named, .. } = request.prepare(*REGISTRY)?;
-        let measured =
-            named.iter().chain(&overlay).map(|file| Measurements::read(file)).collect::<Result<Vec<_>, _>>()?;
+        let measured = read_overlay(prepared.as_ref(), &named, &overlay)?;
         // what it warns of is told at the end
         drop(prepared.briefs());
         let mut result = execute(vec![prepared], &open(), &Silent)?.pop().ok_or(ParameterError::Interrupted)?;

@@ -2,7 +2,7 @@
 
 use super::coverage::{Problem, Tally, normal, usual};
 use super::film::correlated_errors;
-use bagnold_harness::case::{Limits, Silent, Tier};
+use bagnold_harness::case::{Limits, Silent};
 use bagnold_harness::evaluation::{CaseRequest, evaluate};
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_inference::inference::{SearchResult, solve};
@@ -34,11 +34,11 @@ fn logarithmic((lower, upper): (f64, f64), u: f64) -> f64 {
 /// Velocities `[m/s]` of particles at heights over that of the film; none where the run fails.
 fn velocities([yield_stress, consistency, flow_index]: [f64; 3], heights: &[f64]) -> Option<Vec<f64>> {
     let with = toml::from_str(WITH).expect("parameters of the case");
-    let request = CaseRequest { case: "film".to_owned(), name: None, tier: Tier::Quick, with, only: Vec::new() };
+    let request = CaseRequest { case: "film".to_owned(), with, ..CaseRequest::default() };
     let fields = [("yield_stress", yield_stress), ("consistency", consistency), ("flow_index", flow_index)];
     let settings = fields.map(|(name, value)| format!("material.{name}={value}"));
     let prepared = request.prepare(*REGISTRY, Path::new("particles.rs"), &settings, Limits::default()).ok()?;
-    let record = evaluate(prepared, &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");
+    let record = evaluate(prepared, &[], &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");
     let table = record.tables.iter().find(|table| table.columns.iter().any(|column| column == "u [m/s]"))?;
     let place = |name: &str| table.columns.iter().position(|column| column == name);
     let (y, u) = (place("y [m]")?, place("u [m/s]")?);

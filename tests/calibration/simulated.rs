@@ -2,7 +2,7 @@
 //! which suspensions sink, to which it comes through the drag.
 
 use super::coverage::{Problem, Tally, normal, usual};
-use bagnold_harness::case::{Limits, Silent, Tier};
+use bagnold_harness::case::{Limits, Silent};
 use bagnold_harness::evaluation::{CaseRequest, EvaluationRecord, evaluate};
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_inference::inference::{Budget, SolvePlan};
@@ -45,10 +45,10 @@ impl Simulated {
 
     fn simulated(&self, u: f64) -> Option<Vec<f64>> {
         let with = toml::from_str(self.with).expect("parameters of the case");
-        let request = CaseRequest { case: self.case.to_owned(), name: None, tier: Tier::Quick, with, only: Vec::new() };
+        let request = CaseRequest { case: self.case.to_owned(), with, ..CaseRequest::default() };
         let prepared =
             request.prepare(*REGISTRY, Path::new("simulated.rs"), &[(self.setting)(u)], Limits::default()).ok()?;
-        let record = evaluate(prepared, &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");
+        let record = evaluate(prepared, &[], &Store::open(StorePolicy::Use), &Silent).expect("threads to run it");
         record.failure.is_none().then(|| (self.predict)(&record)).filter(|values| values.len() == self.data)
     }
 

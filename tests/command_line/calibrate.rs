@@ -248,22 +248,22 @@ fn nothing_to_compare_with_is_refused() {
 fn wrong_data_are_refused_by_name() {
     let data = |from: &'static str, to: &'static str| refusal(str::to_owned, move |text| text.replace(from, to));
     assert_eq!(
-        data("u [m/s]", "u [cm/s]"),
-        "error: mine.csv: `u` is in [cm/s], but must be in [m/s], as the plan names the simulated quantity; convert the column, \
-         or correct the unit in the plan: units are not guessed"
+        data("u [m/s],uncertainty [m/s]", "u [cm],uncertainty [mm]"),
+        "error: mine.csv: `u` is [cm], but must be a unit of the same kind as [m/s]; mend the heading"
     );
     assert_eq!(
         data(",uncertainty [m/s]\n", "\n").split(';').next(),
         Some("error: mine.csv: `line 9`: 3 columns, and the heading has 2")
     );
     assert_eq!(
-        data(",uncertainty [m/s]", ",sigma [m/s]"),
-        "error: mine.csv: `uncertainty` is missing, but must be a column of standard deviations; add `uncertainty [m/s]`; \
-         Bagnold does not invent one"
+        data(",uncertainty [m/s]", ",weight"),
+        "error: mine.csv: `columns` is y [m], u [m/s], without uncertainty, but must be abscissa, measured quantity, and its \
+         uncertainty or repeats, with units; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`"
     );
     assert_eq!(
         data("y [m],", "z [m],"),
-        "error: mine.csv: `y`: no column of numbers; the columns are `z`, `u`, `uncertainty`"
+        "error: mine.csv: `columns` is z [m], u [m/s], uncertainty [m/s], but must be headings with `y` among them; rename one, \
+         or give { files = […], columns = { \"y\" = \"HEADING [UNIT]\" } }"
     );
     assert_eq!(
         data("0.126", "NaN"),

@@ -13,6 +13,7 @@ mod judge;
 mod killed;
 mod long;
 mod longer;
+mod measurements;
 mod mutate;
 mod nonlocal;
 mod overlay;

@@ -51,10 +51,22 @@ fn measurements_are_drawn_and_judged_by_the_limit_that_they_state_and_the_case_f
 fn measurements_that_cannot_be_read_are_refused_before_anything_is_simulated() {
     let place = Place::new();
     for (text, message) in [
-        ("y/h [-],u [m/s],uncertainty [s]\n0.5,1,1\n", "must be a unit of the same kind as [m/s], which is that of u"),
-        ("y/h [-],u [knots],uncertainty [m/s]\n0.5,1,1\n", "`u` is [knots], but must be a unit that is known"),
-        ("y/h [-],u [m/s],uncertainty [m/s]\n0.5,inf,1\n", "`u [m/s]` is inf in row 1, but must be finite numbers"),
-        ("y/h [-],u [m/s]\n0.5,1\n", "must be three: what was varied, what was measured, and its standard uncertainty"),
+        (
+            "y/h [-],u [m/s],uncertainty [s]\n0.5,1,1\n",
+            "`uncertainty` is [s], but must be a unit of the same kind as [m/s]",
+        ),
+        (
+            "y/h [-],u [knots],uncertainty [m/s]\n0.5,1,1\n",
+            "`uncertainty` is [m/s], but must be in a unit that is known, such as [cm/s] or [kPa], and not in [knots]",
+        ),
+        (
+            "y/h [-],u [m/s],uncertainty [m/s]\n0.5,inf,1\n",
+            "`line 2` is \"inf\" in column u [m/s], but must be a finite measured value",
+        ),
+        (
+            "y/h [-],u [m/s]\n0.5,1\n",
+            "`columns` is y/h [-], u [m/s], without uncertainty, but must be abscissa, measured quantity, and its uncertainty or repeats",
+        ),
         ("# limit: -1\ny/h [-],u [m/s],uncertainty [m/s]\n0.5,1,1\n", "`# limit` is -1, but must be a positive number"),
     ] {
         let file = place.file("bad.csv", text);

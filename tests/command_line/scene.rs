@@ -236,7 +236,7 @@ pub(crate) fn metric(place: &Place, name: &str, variant: &str) -> f64 {
 #[test]
 fn a_gauge_at_an_opening_counts_what_the_inlet_feeds() {
     let place = Place::new();
-    place.file("feed.csv", "t [s],rate [kg/(s m)]\n0,0\n0.02,6\n0.1,6\n0.12,0\n");
+    place.file("feed.csv", "t [s],rate [kg/(m s)]\n0,0\n0.02,6\n0.1,6\n0.12,0\n");
     let plane = "case = \"scene\"\nname = \"fed\"\nspacing = 0.005\nduration = 0.15\ninterval = 0.01\nbodies = []\n\
         [sides]\nleft = \"none\"\nright = { open = 0.1 }\nbottom = \"none\"\ntop = \"none\"\n\
         [[walls]]\nname = \"bed\"\npoints = [[-0.02, 0.0], [0.12, 0.0]]\n\

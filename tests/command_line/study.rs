@@ -284,7 +284,7 @@ fn a_study_that_cannot_be_followed_is_refused_by_its_field() {
         ("value = \"last\"", "value = \"last\"\nplus = \"front [m]\"", "did you mean \"front: front [m]\"?"),
         ("value = \"last\"", "value = \"last\"\norder_in = \"spacing\"", "`checks[0].order_in` is given"),
         ("value = \"last\"", "value = \"last\"\nonly = \"spacing=3\"", "`checks[0].only` is \"spacing=3\""),
-        ("compare = \"front.csv\"", "compare = \"flume.toml\"", "`checks[1].compare` is \"flume.toml\""),
+        ("compare = \"front.csv\"", "compare = \"flume.toml\"", "`checks[1].compare`: flume.toml: "),
         ("difference_of = \"front_at_the_end\"", "difference_of = \"front\"", "`checks[2].difference_of` is front"),
         ("\"spacing=0.02\",", "\"spacing=0.0125\",", "`checks[2].between` is [\"spacing=0.0125\", \"spacing=0.0125\"]"),
         ("\"spacing=0.02\",", "\"spacing=0.01\",", "name the keys in which they differ"),

@@ -3,7 +3,8 @@
 use crate::inputs::damage::read_damaged;
 use bagnold_harness::case::{AnyCase, CaseFile, Changes, Limits, ParameterError, Tier};
 use bagnold_harness::evidence::MeasuredData;
-use bagnold_harness::measured::Measurements;
+use bagnold_harness::input::MeasuredFiles;
+use bagnold_harness::measured::{Measurements, WantedColumns};
 use bagnold_scenes::study::{Suite, is_study};
 use bagnold_tools::calibration::CalibrationPlan;
 use bagnold_tools::judge::CaseSubmissions;
@@ -76,7 +77,7 @@ fn a_table_of_an_inlet_is_read_or_refused() {
     let (path, table) = (folder.path().join("fed.toml"), folder.path().join("feed.csv"));
     std::fs::write(&path, scene.replace(rates, "table = \"feed.csv\"")).expect("writable");
     let tables =
-        ["time [s],rate [kg/(s m)]\n0.0,2.476\n0.9,2.476\n1.0,0\n", "t;q [g/(s cm)]\r\n# a note\r\n0;1\r\n2;3,5\r\n"];
+        ["time [s],rate [kg/(m s)]\n0.0,2.476\n0.9,2.476\n1.0,0\n", "t;q [g/(s cm)]\r\n# a note\r\n0;1\r\n2;3,5\r\n"];
     read_damaged(&tables, |_, text| {
         std::fs::write(&table, text).expect("writable");
         if let Err(error) = prepare(&path) {
@@ -158,7 +159,7 @@ fn an_overlay_is_read_or_refused() {
     let path = folder.path().join("overlay.csv");
     read_damaged(&texts("validation/examples/studies", "csv"), |_, text| {
         std::fs::write(&path, text).expect("writable");
-        let _ = Measurements::read(&path);
+        let _ = Measurements::read(&MeasuredFiles::One(path.clone()), WantedColumns::default());
     });
 }
 

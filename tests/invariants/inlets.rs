@@ -26,7 +26,7 @@ fn empty<const D: usize>() -> Scene<D> {
     scene
 }
 
-/// Grains that are fed onto a bed through an opening six spacings high, at a rate `[kg/(s m)]` that rises, ends and begins anew.
+/// Grains that are fed onto a bed through an opening six spacings high, at a rate `[kg/(m s)]` that rises, ends and begins anew.
 pub(crate) fn fed() -> Scene<2> {
     let mut scene = empty::<2>();
     scene.enclosure.walls = vec![shell("bed", &[[-8.0 * SPACING, 0.0], [20.0 * SPACING, 0.0]])];

@@ -35,8 +35,8 @@ const HARNESS: Floors = &[
     &["control"],
     &["case"],
     &["setup"],
-    &["evaluation", "result"],
     &["measured"],
+    &["evaluation", "result"],
 ];
 
 /// Packages of `validation/`, each with the packages of this project that it may depend on.

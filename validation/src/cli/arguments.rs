@@ -50,7 +50,7 @@ A longer run of a scene, a collapse or a channel continues a finished one; if it
 A file names its case with `case = \"film\"`; the tier supplies the fields that it omits. `bagnold show film`
 prints a complete file. Values of --set are TOML; dots reach fields inside tables.
 
-Measurements for --overlay are a table of three columns, named like the axes of a figure, with units. `# limit:` is the
+Measurements for --overlay are named like the axes of a figure, with units; repeats replace uncertainties. `# limit:` is the
 largest root mean square residual; without it nothing is judged. `# figure:`, `# panel:` and `# curve:` select one of several:
 
   # source: own flume, May

@@ -9,7 +9,7 @@ use super::publication::Publication;
 use super::simulation::{announce, introduce, reject_fast, simulate_showing};
 use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, Tier, settings_to_vary};
 use crate::checkpoint::{BULK_MODULUS, Checkpoints, StoredState};
-use crate::measured::{Measurements, draw_measured};
+use crate::measured::{draw_measured, read_overlay};
 use crate::output::{FileError, OutputFolder};
 use crate::report::{Baseline, CommittedValues, SingleRun};
 use crate::result::States;
@@ -84,8 +84,7 @@ pub(super) fn run(
         Some(every) => Some(OutputPlan::new(every, command.output_fields.clone()).map_err(ParameterError::from)?),
         None => wanted,
     };
-    let overlay: Vec<Measurements> =
-        overlay.iter().chain(&command.overlay).map(|file| Measurements::read(file)).collect::<Result<_, _>>()?;
+    let overlay = read_overlay(prepared.as_ref(), &overlay, &command.overlay)?;
     let folder =
         command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", prepared.name())));
     introduce(std::slice::from_ref(&prepared), quiet || command.json, command.deny_warnings)?;

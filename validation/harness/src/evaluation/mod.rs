@@ -13,26 +13,33 @@ pub use plan::{parse_plan, read_plan};
 pub use record::{EvaluationRecord, MetricValue};
 pub use sensitivity::SensitivityPlan;
 
-use crate::case::{Changes, Limits, Monitor, ParameterError, PreparedCase, Registry, Tier, execute};
+use crate::case::{CaseFile, Changes, Limits, Monitor, ParameterError, PreparedCase, Registry, Tier, execute};
+use crate::input::MeasuredFiles;
+use crate::measured::{Measurements, draw_measured};
 use crate::metric::Variant;
 use crate::store::{Store, hexadecimal, identity_or_unique};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::panic::AssertUnwindSafe;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A case and what differs from its tier's parameters.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CaseRequest {
-    /// Case that is run
+    /// Case that is run; may be left out beside `base`
+    #[serde(default)]
     pub case: String,
+    /// A case file with the base values, beside the plan
+    pub base: Option<PathBuf>,
     /// Name that distinguishes it from other requests of the same case
     pub name: Option<String>,
     /// Tier whose parameters fill what `with` leaves out
+    pub tier: Option<Tier>,
+    /// Files with measurements that its figures are compared with
     #[serde(default)]
-    pub tier: Tier,
+    pub overlay: Vec<MeasuredFiles>,
     /// Parameters, as in a case file
     #[serde(default)]
     #[schemars(with = "std::collections::BTreeMap<String, serde_json::Value>")]
@@ -56,6 +63,19 @@ impl CaseRequest {
         self.name.as_deref().unwrap_or(&self.case)
     }
 
+    /// The same with the values of its base, and with the files that it names beside a plan.
+    ///
+    /// # Errors
+    /// Neither a case nor a base, a file that cannot be read.
+    pub fn based(self, plan: &Path) -> Result<Self, ParameterError> {
+        let case = Some(&*self.case).filter(|case| !case.is_empty());
+        let file = CaseFile::of_plan(plan, case, self.base.as_deref(), self.tier, &self.with)?;
+        let beside = plan.parent().unwrap_or(Path::new(""));
+        let own = self.overlay.iter().map(|files| files.beside(beside));
+        let overlay = file.overlay.into_iter().chain(own).collect();
+        Ok(Self { case: file.case, base: None, tier: file.tier, overlay, with: file.fields, ..self })
+    }
+
     /// Types and checks the parameters, `settings` (`path=value`) over what the file gives, and what they ask for.
     ///
     /// # Errors
@@ -69,7 +89,7 @@ impl CaseRequest {
     ) -> Result<Box<dyn PreparedCase>, ParameterError> {
         let case = registry.find(&self.case).map_err(|error| error.in_file(file))?;
         let changes = Changes { file: Some((file, self.with.clone())), settings, limits, only: &self.only };
-        chosen(case.prepare(self.tier, &changes)?, &self.only, file)
+        chosen(case.prepare(self.tier.unwrap_or_default(), &changes)?, &self.only, file)
     }
 }
 
@@ -85,13 +105,14 @@ pub fn chosen(
     crate::case::only(prepared, only, "only").map_err(|error| error.in_file(file))
 }
 
-/// The hash that an evaluation is known by: 32 hexadecimal digits.
+/// The hash that an evaluation is known by, with what its figures are compared with: 32 hexadecimal digits.
 #[must_use]
-pub fn key(prepared: &dyn PreparedCase) -> String {
+pub fn key(prepared: &dyn PreparedCase, overlay: &[Measurements]) -> String {
     let mut hash = Sha256::new();
     let variants: Vec<String> = (0..prepared.run_count()).map(|run| prepared.variant(run).to_string()).collect();
     let runs = variants.join("\n");
-    for part in [identity_or_unique(prepared.origin()), prepared.name(), prepared.parameters_toml(), &runs] {
+    let parts = [identity_or_unique(prepared.origin()), prepared.name(), prepared.parameters_toml(), &runs];
+    for part in parts.into_iter().chain(overlay.iter().map(|own| &*own.text)) {
         hash.update((part.len() as u64).to_le_bytes());
         hash.update(part);
     }
@@ -105,12 +126,17 @@ pub fn key(prepared: &dyn PreparedCase) -> String {
 /// Errors unrelated to the parameters, such as threads that cannot be started.
 pub fn evaluate(
     prepared: Box<dyn PreparedCase>,
+    overlay: &[Measurements],
     store: &Store,
     monitor: &dyn Monitor,
 ) -> Result<EvaluationRecord, ParameterError> {
-    let key = key(prepared.as_ref());
+    let key = key(prepared.as_ref(), overlay);
     let case = prepared.name().to_owned();
-    let simulate = AssertUnwindSafe(|| execute(vec![prepared], store, monitor));
+    let simulate = AssertUnwindSafe(|| {
+        let mut results = execute(vec![prepared], store, monitor)?;
+        results.iter_mut().try_for_each(|result| draw_measured(result, overlay))?;
+        Ok(results)
+    });
     match std::panic::catch_unwind(simulate) {
         Ok(Ok(results)) => Ok(results.into_iter().next().map_or_else(
             || EvaluationRecord::failed(&key, &case, "nothing was simulated"),

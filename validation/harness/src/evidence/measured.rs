@@ -17,7 +17,7 @@
 
 use crate::input::{FieldError, TableRows, is_mark, name_and_unit, plain_lines};
 use crate::metric::{Confidence, MetricKind};
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// No measured number is larger, in whatever unit; squares of such numbers are still finite.
@@ -71,18 +71,22 @@ pub struct Metadata {
     pub licence: String,
 }
 
+/// A column of finite numbers in a unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NumberColumn {
+    /// Name without the unit.
+    pub name: String,
+    /// Unit, from the brackets.
+    pub unit: String,
+    /// One value a row, in that unit.
+    pub values: Vec<f64>,
+}
+
 /// One column of a reference table.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ReferenceColumn {
     /// Finite numbers in a unit.
-    Numbers {
-        /// Name without the unit.
-        name: String,
-        /// Unit, from the brackets.
-        unit: String,
-        /// One value a row, in that unit.
-        values: Vec<f64>,
-    },
+    Numbers(NumberColumn),
     /// Text.
     Labels {
         /// Name.
@@ -97,7 +101,7 @@ impl ReferenceColumn {
     #[must_use]
     pub fn name(&self) -> &str {
         match self {
-            Self::Numbers { name, .. } | Self::Labels { name, .. } => name,
+            Self::Numbers(NumberColumn { name, .. }) | Self::Labels { name, .. } => name,
         }
     }
 }
@@ -139,16 +143,14 @@ impl MeasuredData {
         };
         let mut columns: Vec<ReferenceColumn> = Vec::with_capacity(names.len());
         for (index, heading) in names.into_iter().enumerate() {
-            let words = rows.iter().map(|(line, words)| (*line, words[index]));
             let column = match name_and_unit(heading) {
                 None => {
-                    let values = words.map(|(_, label)| label.to_owned()).collect();
+                    let values = rows.iter().map(|(_, words)| words[index].to_owned()).collect();
                     ReferenceColumn::Labels { name: heading.to_owned(), values }
                 }
-                Some((name, unit)) => {
-                    let values = words.map(|(line, word)| number(heading, line, word)).collect::<Result<_, _>>();
-                    let values = values.map_err(|error| error.in_file(file))?;
-                    ReferenceColumn::Numbers { name: name.to_owned(), unit: unit.to_owned(), values }
+                Some(named) => {
+                    let column = NumberColumn::of(&rows, index, heading, named);
+                    ReferenceColumn::Numbers(column.map_err(|error| error.in_file(file))?)
                 }
             };
             if columns.iter().any(|other| other.name() == column.name()) {
@@ -166,7 +168,7 @@ impl MeasuredData {
     /// Values of a number column, by its name without the unit.
     pub fn numbers(&self, name: &str) -> Result<&[f64], FieldError> {
         match self.column(name) {
-            Some(ReferenceColumn::Numbers { values, .. }) => Ok(values),
+            Some(ReferenceColumn::Numbers(NumberColumn { values, .. })) => Ok(values),
             _ => Err(self.no_column("numbers", name)),
         }
     }
@@ -230,13 +232,28 @@ impl MeasuredData {
     }
 }
 
-/// A word as a number of a column.
-fn number(heading: &str, line: usize, word: &str) -> Result<f64, FieldError> {
-    word.parse::<f64>().ok().filter(|value| value.abs() <= LARGEST && !is_mark(*value)).ok_or_else(|| {
-        let value = format!("\"{word}\" in column {heading}");
-        let remedy = "write one with a decimal point, or drop the row";
-        FieldError::new(&format!("line {line}"), value, "a finite measured value", remedy)
-    })
+impl NumberColumn {
+    /// The column at a place of a table, by its heading, with a name and a unit.
+    ///
+    /// # Errors
+    /// A word that is no finite number, or a mark of a missing value.
+    pub fn of(
+        rows: &[(usize, Vec<&str>)],
+        place: usize,
+        heading: &str,
+        (name, unit): (&str, &str),
+    ) -> Result<Self, FieldError> {
+        let number = |(line, words): &(usize, Vec<&str>)| {
+            let number = words[place].parse::<f64>().ok();
+            number.filter(|value| value.abs() <= LARGEST && !is_mark(*value)).ok_or_else(|| {
+                let value = format!("\"{}\" in column {heading}", words[place]);
+                let remedy = "write one with a decimal point, or drop the row";
+                FieldError::new(&format!("line {line}"), value, "a finite measured value", remedy)
+            })
+        };
+        let values = rows.iter().map(number).collect::<Result<_, _>>()?;
+        Ok(Self { name: name.to_owned(), unit: unit.to_owned(), values })
+    }
 }
 
 fn parse_metadata(text: &str) -> Result<Metadata, FieldError> {

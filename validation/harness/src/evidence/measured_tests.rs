@@ -25,7 +25,7 @@ fn a_good_file_is_read_completely() {
     assert_eq!(data.numbers("height").expect("present"), [0.001, 0.002]);
     assert_eq!(data.numbers("velocity").expect("present"), [0.012, -0.024]);
     assert_eq!(data.labels("run").expect("present"), ["a", "b, again"]);
-    assert!(matches!(&data.columns[1], ReferenceColumn::Numbers { unit, .. } if unit == "m/s"));
+    assert!(matches!(&data.columns[1], ReferenceColumn::Numbers(column) if column.unit == "m/s"));
 }
 
 #[test]

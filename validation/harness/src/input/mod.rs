@@ -2,6 +2,7 @@
 
 mod escape;
 mod field;
+mod measured_files;
 mod mesh;
 mod name;
 mod number;
@@ -15,8 +16,9 @@ pub mod unit;
 pub use escape::{escaped, escaped_lines, is_control, shown};
 pub(crate) use field::before;
 pub use field::{FieldError, Origin};
+pub use measured_files::MeasuredFiles;
 pub(crate) use mesh::{MOST_TRIANGLES, Triangle, read_mesh};
-pub use name::{check_name, check_text, did_you_mean, name_and_unit, nearest};
+pub use name::{check_name, check_text, did_you_mean, is_same_heading, name_and_unit, nearest, parted};
 pub use number::number_in;
 pub use packed_triangles::PackedTriangles;
 pub(crate) use packed_triangles::packed;

@@ -2,6 +2,7 @@
 
 use super::escape::is_control;
 use super::field::FieldError;
+use super::unit;
 
 /// Longest name `[characters]`: files, columns and legends are named after it, and no file system takes more than 255 bytes.
 pub(crate) const LONGEST_NAME: usize = 100;
@@ -43,6 +44,19 @@ pub fn name_and_unit(text: &str) -> Option<(&str, &str)> {
     Some((name.trim(), unit.trim()))
 }
 
+/// Name and unit of a heading or label; `-` where there is no unit.
+#[must_use]
+pub fn parted(text: &str) -> (&str, &str) {
+    name_and_unit(text).unwrap_or((text.trim(), "-"))
+}
+
+/// Whether two headings have the same name and the same unit, however that is spelt.
+#[must_use]
+pub fn is_same_heading(one: &str, other: &str) -> bool {
+    let of_one_unit = |((name, unit), (other, of))| name == other && unit::factor(unit, of) == Some(1.0);
+    one == other || name_and_unit(one).zip(name_and_unit(other)).is_some_and(of_one_unit)
+}
+
 /// The name that is most like `name`, if any is like it at all or has it for one of its words.
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
@@ -74,6 +88,12 @@ mod tests {
         assert_eq!(nearest("collapse", known), Some("incline-collapse".to_owned()));
         assert_eq!(nearest("angle", known), Some("slope_angle".to_owned()));
         assert_eq!(nearest("zzz", known), None);
+    }
+
+    #[test]
+    fn a_unit_may_be_spelt_in_two_ways() {
+        assert!(is_same_heading("q [kg/(s m)]", "q [kg/(m s)]") && is_same_heading("q [furlong]", "q [furlong]"));
+        assert!(!is_same_heading("q [kg/m]", "q [g/m]") && !is_same_heading("q [m]", "p [m]"));
     }
 
     #[test]

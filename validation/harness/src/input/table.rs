@@ -61,13 +61,15 @@ pub(super) fn number_remedy(word: &str) -> &'static str {
 }
 
 /// Remedy for a row whose number of values differs from the number of columns.
-pub(super) fn row_remedy(row: &str, values: usize, columns: usize) -> &'static str {
+pub(super) fn row_remedy(row: &str, words: &[&str], columns: usize) -> String {
     if [';', '\t'].iter().any(|separator| row.matches(*separator).count() + 1 == columns) {
-        "use one separator for the whole table"
-    } else if columns > 0 && values == 2 * columns {
-        "write decimals with a point, or complete or shorten the row"
-    } else {
-        "complete or shorten the row"
+        return "use one separator for the whole table".to_owned();
+    }
+    match words {
+        [whole, part, ..] if words.len() == 2 * columns => {
+            format!("write {whole}.{part} for {whole},{part}, or complete or shorten the row")
+        }
+        _ => "complete or shorten the row".to_owned(),
     }
 }
 
@@ -121,8 +123,8 @@ mod tests {
         assert_eq!(number_remedy("1,234.5"), "write numbers without separators of thousands");
         assert_eq!(number_remedy("-9999"), "leave out rows in which a value is missing");
         assert_eq!(number_remedy("N/A"), "leave out rows in which a value is missing");
-        assert!(row_remedy("1,5,2,5", 4, 2).starts_with("write decimals with a point, or"));
-        assert!(row_remedy("1;2", 1, 2).starts_with("use one separator"));
-        assert_eq!(row_remedy("1,2,3", 3, 2), "complete or shorten the row");
+        assert!(row_remedy("1,5,2,5", &["1", "5", "2", "5"], 2).starts_with("write 1.5 for 1,5, or"));
+        assert!(row_remedy("1;2", &["1;2"], 2).starts_with("use one separator"));
+        assert_eq!(row_remedy("1,2,3", &["1", "2", "3"], 2), "complete or shorten the row");
     }
 }

@@ -25,24 +25,22 @@ impl TextTable {
     /// No numbers, a quote that is not closed, a line with another number of columns, or a word where a number should be.
     pub fn parse(text: &str, file: &Path) -> Result<Self, FieldError> {
         let text = &*plain_lines(text);
-        let TableRows { heading, comment, rows } = TableRows::of(text, file)?;
+        let table = TableRows::of(text, file)?;
         let wrong = |line: usize, value: &str, rule: &str, remedy: &str| {
             FieldError::new(&format!("line {line}"), value, rule, remedy).in_file(file)
         };
-        let Some((_, first)) = rows.first() else {
+        let Some((_, first)) = table.rows.first() else {
             return Err(wrong(1, "without numbers", "the first of a table", "give a file with columns of numbers"));
         };
-        if let Some(fault) = heading.as_ref().and_then(|(line, _)| text_above(*line, first)) {
+        if let Some(fault) = table.heading.as_ref().and_then(|(line, _)| text_above(*line, first)) {
             return Err(fault.in_file(file));
         }
-        let headings = heading.map_or(comment, |(_, words)| words);
-        let headings: Vec<String> = if headings.len() == first.len() {
-            headings.into_iter().map(str::to_owned).collect()
-        } else {
-            (1..=first.len()).map(|column| column.to_string()).collect()
+        let headings: Vec<String> = match table.headings() {
+            [] => (1..=first.len()).map(|column| column.to_string()).collect(),
+            headings => headings.iter().map(|heading| (*heading).to_owned()).collect(),
         };
         let mut columns = vec![Vec::new(); first.len()];
-        for (line, words) in rows {
+        for (line, words) in table.rows {
             for ((column, name), word) in columns.iter_mut().zip(&headings).zip(words) {
                 let value = word.parse::<f64>().map_err(|_| {
                     let value = format!("\"{}\" in column {}", shortened(word), shortened(name));
@@ -54,17 +52,21 @@ impl TextTable {
         Ok(Self { headings, columns })
     }
 
-    /// A column by its heading.
+    /// A column by its heading; of repeats, which have the same heading, their mean.
     ///
     /// # Errors
     /// A heading that the file does not have; `field` is where it is asked for.
-    pub fn column(&self, heading: &str, field: &str, file: &Path) -> Result<&[f64], FieldError> {
-        let place = self.headings.iter().position(|own| own == heading);
-        place.map(|place| self.columns[place].as_slice()).ok_or_else(|| {
+    pub fn column(&self, heading: &str, field: &str, file: &Path) -> Result<Vec<f64>, FieldError> {
+        let named = self.headings.iter().zip(&self.columns).filter(|(own, _)| *own == heading);
+        let repeats: Vec<&Vec<f64>> = named.map(|(_, column)| column).collect();
+        let Some(first) = repeats.first() else {
             let guess = did_you_mean(&nearest(heading, self.headings.iter().map(String::as_str)));
             let rule = format!("a column of {}: {}", file.display(), shortened(&self.headings.join(", ")));
-            FieldError::new(field, format!("\"{heading}\""), &rule, &format!("{guess}headings are taken as they stand"))
-        })
+            let remedy = format!("{guess}headings are taken as they stand");
+            return Err(FieldError::new(field, format!("\"{heading}\""), &rule, &remedy));
+        };
+        let mean = |row: usize| repeats.iter().map(|own| own[row]).sum::<f64>() / repeats.len() as f64;
+        Ok((0..first.len()).map(mean).collect())
     }
 }
 
@@ -79,6 +81,13 @@ pub struct TableRows<'t> {
 }
 
 impl<'t> TableRows<'t> {
+    /// A heading for each column, of the first line or of the last comment above the rows; empty where there is none.
+    #[must_use]
+    pub fn headings(&self) -> &[&'t str] {
+        let headings = self.heading.as_ref().map_or(&self.comment, |(_, words)| words);
+        if self.rows.first().is_some_and(|(_, row)| row.len() == headings.len()) { headings } else { &[] }
+    }
+
     /// The words of a text whose first line that is no comment is the heading, unless it holds numbers alone.
     ///
     /// # Errors
@@ -120,8 +129,8 @@ impl<'t> TableRows<'t> {
                     return Err(fault.in_file(file));
                 }
                 let defect = format!("{} columns, and the {whose} {columns}", words.len());
-                let remedy = row_remedy(line, words.len(), columns);
-                return Err(FieldError::finding(&format!("line {number}"), defect, remedy).in_file(file));
+                let remedy = row_remedy(line, &words, columns);
+                return Err(FieldError::finding(&format!("line {number}"), defect, &remedy).in_file(file));
             }
             table.rows.push((number, words));
         }
@@ -242,7 +251,7 @@ mod tests {
             assert!(message(text).starts_with(said), "{}", message(text));
         }
         assert_eq!(message("x,y\n1,2\n\"3,4\n"), "a.csv: `line 3`: unclosed quote; close the quote, or remove it");
-        assert!(message("x,y\n1,5,2,5\n").ends_with("write decimals with a point, or complete or shorten the row"));
+        assert!(message("x,y\n1,5,2,5\n").ends_with("write 1.5 for 1,5, or complete or shorten the row"));
         assert!(message("x,y\n1,\u{202e}2\n").contains("U+202E"));
         assert_eq!(parse("\u{feff}x,y\n1,2\n").expect("a table").headings, ["x", "y"]);
         let table = parse("x,velocity\n1,2\n").expect("a table");

@@ -21,9 +21,9 @@ const SYMBOLS: [(&str, f64, UnitExponents); 10] = [
 const PREFIXES: [(&str, f64); 8] =
     [("k", 1e3), ("M", 1e6), ("h", 1e2), ("d", 1e-1), ("c", 1e-2), ("m", 1e-3), ("u", 1e-6), ("µ", 1e-6)];
 
-/// The factor from one unit to another `[-]`; none where one is unknown or they measure different things.
+/// The factor from one unit to another `[-]`, of the same text 1; none where one is unknown or they measure different things.
 pub fn factor(from: &str, to: &str) -> Option<f64> {
-    factor_with(from, to, &[])
+    if from == to { Some(1.0) } else { factor_with(from, to, &[]) }
 }
 
 /// The factor from one unit to another `[-]`, either of which may use further symbols, each with its value in SI and its dimension.

@@ -16,7 +16,7 @@ pub(super) fn draw(measurements: &Measurements, place: &MatchingPanel, figures: 
     let given: Vec<(f64, f64)> = given.map(|(x, y)| (x * to_x, y * to_y)).collect();
     let uncertainty: Vec<f64> = measurements.uncertainty.iter().map(|value| value * to_y).collect();
     let points = given.iter().map(|point| place.turned(*point)).collect();
-    let mut cloud = Series::new(&measurements.name(), Mark::Points, colour, points);
+    let mut cloud = Series::new(&measurements.legend(), Mark::Points, colour, points);
     if place.is_across {
         for ((x, y), half) in given.iter().zip(&uncertainty).take(MOST_BARS) {
             let ends = [(*x, y - half), (*x, y + half)].map(|point| place.turned(point));

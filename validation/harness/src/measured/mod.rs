@@ -6,44 +6,43 @@ mod place;
 mod reading;
 
 pub use column::ColumnSource;
+pub use place::HALF_A_ROW;
+pub use reading::WantedColumns;
 
-use crate::case::CaseResult;
-use crate::case::ParameterError;
-use crate::input::FieldError;
+use crate::case::{CaseResult, ParameterError, PreparedCase};
+use crate::evidence::NumberColumn;
+use crate::input::{FieldError, MeasuredFiles};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Variant};
+use crate::number::four_digits;
 use place::{CurveResidual, MatchingPanel};
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// Measurements of one quantity over another, with a standard uncertainty each.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Measurements {
     /// Their file.
     pub path: PathBuf,
-    /// Its text, as it was read.
-    text: String,
+    /// Text of the copy that a folder of results keeps.
+    pub text: String,
     /// Independent variable of the measurements: the first column.
-    abscissa: MeasuredColumn,
-    /// Measured quantity: the second column.
-    measured: MeasuredColumn,
+    abscissa: NumberColumn,
+    /// Measured quantity; of repeats their mean.
+    pub measured: NumberColumn,
     /// Standard uncertainties, in the unit of what was measured.
     uncertainty: Vec<f64>,
+    /// Number of repeats.
+    repeats: usize,
+    /// Standard deviation of the repeats of each row, in that unit.
+    scatter: Vec<f64>,
+    /// Words of a column `variant`; empty without one.
+    pub variants: Vec<String>,
     /// Values that the comments of the file give.
     said: Said,
 }
 
-/// A column of the file.
-#[derive(Debug, Clone, PartialEq)]
-struct MeasuredColumn {
-    /// Name of the quantity, as an axis has it.
-    name: String,
-    /// Unit.
-    unit: String,
-    /// Values in that unit.
-    values: Vec<f64>,
-}
-
 /// Values that comments of the form `# key: value` give.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 struct Said {
     /// Largest root mean square of the residuals `[-]`.
     limit: Option<f64>,
@@ -62,34 +61,59 @@ struct Said {
 /// Draws measurements into a finished case and judges by them; its parameters then name the copies that [`Measurements::keep`] makes.
 ///
 /// # Errors
-/// Two files of one name, and what [`Measurements::draw`] refuses.
+/// What [`Measurements::draw`] refuses.
 pub fn draw_measured(result: &mut CaseResult, measurements: &[Measurements]) -> Result<(), ParameterError> {
+    measurements.iter().try_for_each(|own| own.draw(result))?;
+    if !measurements.is_empty() {
+        result.parameters_toml = with_overlay(&result.parameters_toml, measurements);
+        "bagnold run case.toml".clone_into(&mut result.command);
+    }
+    Ok(())
+}
+
+/// A case file that names the copies of measurements beside it.
+#[must_use]
+pub fn with_overlay(case_file: &str, measurements: &[Measurements]) -> String {
+    let files: Vec<toml::Value> = measurements.iter().map(|own| toml::Value::String(own.kept())).collect();
+    let line = format!("overlay = {}\ntier = ", toml::Value::Array(files));
+    if measurements.is_empty() { case_file.to_owned() } else { case_file.replacen("tier = ", &line, 1) }
+}
+
+/// Reads the measurements that are drawn into a case's figures: those of its file and further ones. Where its figures are known before it is simulated, headings that fit
+/// none of them are refused.
+///
+/// # Errors
+/// Two files of one name, and what [`Measurements::read`] and [`Measurements::draw`] refuse.
+pub fn read_overlay(
+    case: &dyn PreparedCase,
+    of_case: &[MeasuredFiles],
+    further: &[PathBuf],
+) -> Result<Vec<Measurements>, ParameterError> {
+    let read = |files| Measurements::read(&files, WantedColumns::default());
+    let further = further.iter().cloned().map(MeasuredFiles::One);
+    let measurements: Vec<Measurements> = of_case.iter().cloned().chain(further).map(read).collect::<Result<_, _>>()?;
+    let outline = if measurements.is_empty() { None } else { case.outline() };
     for (number, own) in measurements.iter().enumerate() {
         if let Some(twin) = measurements[..number].iter().find(|twin| twin.kept() == own.kept()) {
             let rule = format!("of another name than {}", twin.path.display());
             let remedy = "its name stands in figures and metrics: rename one";
             return Err(FieldError::new("overlay", own.path.display(), &rule, remedy).into());
         }
-        own.draw(result)?;
+        if let Some(CaseResult { figures, .. }) = &outline {
+            MatchingPanel::of(own, figures)?.curves(own, figures)?;
+        }
     }
-    if !measurements.is_empty() {
-        let files: Vec<toml::Value> = measurements.iter().map(|own| toml::Value::String(own.kept())).collect();
-        let line = format!("overlay = {}\n", toml::Value::Array(files));
-        let head = format!("tier = \"{}\"\n", result.tier);
-        result.parameters_toml = result.parameters_toml.replacen(&head, &(head.clone() + &line), 1);
-        "bagnold run case.toml".clone_into(&mut result.command);
-    }
-    Ok(())
+    Ok(measurements)
 }
 
 impl Measurements {
-    /// Reads a file: three columns with their units, comments before.
+    /// Reads what was varied, what was measured and its standard uncertainties, or repeats.
     ///
     /// # Errors
-    /// A file that cannot be read or is no such table, numbers that are not finite, uncertainties that are not positive, comments
+    /// A file that cannot be read or lacks a column, numbers that are not finite, uncertainties that are not positive, comments
     /// that look like a key but are none.
-    pub fn read(path: &Path) -> Result<Self, ParameterError> {
-        reading::read(path)
+    pub fn read(given: &MeasuredFiles, wanted: WantedColumns<'_>) -> Result<Self, ParameterError> {
+        reading::read(given, wanted)
     }
 
     /// Name of the file without its ending: the measurements' name in figures and metrics.
@@ -98,9 +122,27 @@ impl Measurements {
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// Source of the measurements: as the file states it, else the path of the file.
+    /// Name of their points in a legend.
+    #[must_use]
+    pub fn legend(&self) -> String {
+        if self.repeats == 1 { self.name() } else { format!("{}, mean of {}", self.name(), self.repeats) }
+    }
+
+    /// Source of the measurements: as the file states it, else the path of the file; with the scatter of repeats.
     pub fn source(&self) -> String {
-        self.said.source.clone().unwrap_or_else(|| self.path.display().to_string())
+        let source = self.said.source.clone().unwrap_or_else(|| self.path.display().to_string());
+        if self.repeats == 1 {
+            return source;
+        }
+        let scatter = four_digits(self.scatter.iter().copied().fold(0.0, f64::max));
+        format!("{source}; mean of {} repeats, which scatter by up to {scatter} {}", self.repeats, self.measured.unit)
+    }
+
+    /// Limit of the residuals' root mean square that the file states `[-]`, with its reason.
+    #[must_use]
+    pub fn limit(&self) -> Option<(Limit, String)> {
+        let reason = || format!("the limit that {} states", self.path.display());
+        self.said.limit.map(|limit| (Limit::AtMost(limit), reason()))
     }
 
     /// Confidence in the measurements, as the file states it.
@@ -113,16 +155,11 @@ impl Measurements {
     /// # Errors
     /// A unit of another kind.
     pub fn in_units(&self, abscissa: &str, measured: &str) -> Result<Vec<[f64; 3]>, FieldError> {
-        let factor = |column: &MeasuredColumn, unit: &str| {
-            reading::same_kind(&column.unit, unit).ok_or_else(|| {
-                let rule = format!("a unit of the same kind as [{unit}]");
-                let error = FieldError::new(&column.name, format!("[{}]", column.unit), &rule, "mend the heading");
-                error.in_file(&self.path)
-            })
-        };
-        let (to_x, to_y) = (factor(&self.abscissa, abscissa)?, factor(&self.measured, measured)?);
-        let points = self.abscissa.values.iter().zip(&self.measured.values).zip(&self.uncertainty);
-        Ok(points.map(|((x, y), u)| [x * to_x, y * to_y, u * to_y]).collect())
+        let uncertainty = NumberColumn { values: self.uncertainty.clone(), ..self.measured.clone() };
+        let columns = [(&self.abscissa, abscissa), (&self.measured, measured), (&uncertainty, measured)];
+        let columns = columns.map(|(own, to)| reading::in_unit(own, to).map_err(|error| error.in_file(&self.path)));
+        let [x, y, u] = columns;
+        Ok(x?.into_iter().zip(y?).zip(u?).map(|((x, y), u)| [x, y, u]).collect())
     }
 
     /// Draws them into the figure whose axes are theirs, and adds a metric for each curve that is there: the root mean square of
@@ -151,8 +188,8 @@ impl Measurements {
             .against(Some(0.0), &self.source(), confidence)
             .remarked((compared < all).then(left_out))
             .of_kind(MetricKind::Validation);
-        let reason = format!("the limit that {} states", self.path.display());
-        metric.gated_by(self.said.limit.map(Limit::AtMost), &reason).of_user()
+        let (limit, reason) = self.limit().unzip();
+        metric.gated_by(limit, &reason.unwrap_or_default()).of_user()
     }
 
     /// Copies the file into the folder of a run, from where its `case.toml` reads it.

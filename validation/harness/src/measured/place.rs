@@ -1,11 +1,15 @@
 //! Figure panel that measurements belong to: the one whose axes match theirs, with its curves.
 
-use super::reading::same_kind;
-use super::{MeasuredColumn, Measurements};
+use super::Measurements;
+use super::reading::heading as of_column;
+use crate::evidence::NumberColumn;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::input::{FieldError, name_and_unit};
+use crate::input::{FieldError, parted, unit};
 use crate::statistics::{Extrapolation, interpolated};
 use std::collections::BTreeSet;
+
+/// Label of the band of a front whose section is half a row of particles more or less: its resolution.
+pub const HALF_A_ROW: &str = "half a row of particles more or less";
 
 /// A panel with the axes of the measurements.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,11 +59,11 @@ impl MatchingPanel {
     fn at(measurements: &Measurements, panel: &Panel) -> Option<Self> {
         let (over, what) = (&measurements.abscissa, &measurements.measured);
         let has_curves = panel.field.is_none() && panel.series.iter().any(is_ours);
-        let vertical = |y: &MeasuredColumn| {
+        let vertical = |y: &NumberColumn| {
             let of_curve = || panel.series.iter().any(|one| names(y, panel, one)).then(|| parted(&panel.y.label).1);
-            factor(y, &panel.y).or_else(|| same_kind(&y.unit, of_curve()?))
+            factor(y, &panel.y).or_else(|| unit::factor(&y.unit, of_curve()?))
         };
-        let fit = |x: &MeasuredColumn, y: &MeasuredColumn| Some((factor(x, &panel.x)?, vertical(y)?));
+        let fit = |x: &NumberColumn, y: &NumberColumn| Some((factor(x, &panel.x)?, vertical(y)?));
         let place = |is_across, factors| Self { figure: 0, panel: 0, is_across, factors };
         let upright = fit(over, what).map(|factors| place(false, factors));
         let across = fit(what, over).map(|(what, over)| place(true, (over, what)));
@@ -93,7 +97,10 @@ impl MatchingPanel {
             return Err(error.in_file(&measurements.path));
         }
         let residual = |series: &&Series| {
-            let (residual, compared) = self.residual(measurements, &series.points)?;
+            let half = |&(x, least, most): &(f64, f64, f64)| (x, 0.5 * (most - least).abs());
+            let band = panel.bands.iter().find(|band| band.label == HALF_A_ROW);
+            let resolution: Vec<(f64, f64)> = band.iter().flat_map(|band| &band.points).map(half).collect();
+            let (residual, compared) = self.residual(measurements, &series.points, &resolution)?;
             Some(CurveResidual { label: series.label.clone(), residual, compared })
         };
         let curves: Vec<CurveResidual> = series.iter().filter_map(residual).collect();
@@ -108,8 +115,14 @@ impl MatchingPanel {
         Ok(curves)
     }
 
-    /// The residual, and at how many measurements; none where all of them lie beyond the curve's ends.
-    fn residual(&self, measurements: &Measurements, points: &[(f64, f64)]) -> Option<(f64, usize)> {
+    /// The residual in uncertainties, which are no smaller than the curve's resolution, and at how many measurements; none where all of
+    /// them lie beyond the curve's ends.
+    fn residual(
+        &self,
+        measurements: &Measurements,
+        points: &[(f64, f64)],
+        resolution: &[(f64, f64)],
+    ) -> Option<(f64, usize)> {
         let mut curve: Vec<(f64, f64)> = points.iter().map(|point| self.turned(*point)).collect();
         curve.retain(|(x, _)| x.is_finite());
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -120,8 +133,10 @@ impl MatchingPanel {
         let squares: Vec<f64> = given
             .zip(&measurements.uncertainty)
             .filter_map(|((x, y), uncertainty)| {
-                let curve = interpolated(&curve, x * to_x, (Extrapolation::Nothing, Extrapolation::Nothing))?;
-                let residual = (curve - y * to_y) / (uncertainty * to_y);
+                let at =
+                    |of: &[(f64, f64)]| interpolated(of, x * to_x, (Extrapolation::Nothing, Extrapolation::Nothing));
+                let least = at(resolution).unwrap_or(0.0);
+                let residual = (at(&curve)? - y * to_y) / (uncertainty * to_y).max(least);
                 Some(residual * residual)
             })
             .collect();
@@ -135,11 +150,6 @@ fn is_ours(series: &Series) -> bool {
     series.mark != Mark::Reference && series.points.len() > 1
 }
 
-/// Name and unit of a label.
-fn parted(label: &str) -> (&str, &str) {
-    name_and_unit(label).unwrap_or((label.trim(), "-"))
-}
-
 /// Heading of a curve in the tables of results, where it is a column of a gauge: its legend with a unit, or of an only curve the axis.
 fn heading<'a>(panel: &'a Panel, series: &'a Series) -> Option<&'a str> {
     let label = if series.label.is_empty() { &panel.y.label } else { &series.label };
@@ -147,20 +157,20 @@ fn heading<'a>(panel: &'a Panel, series: &'a Series) -> Option<&'a str> {
 }
 
 /// Whether a column has the name of a curve in the tables of results, with or without the gauge in front.
-fn names(column: &MeasuredColumn, panel: &Panel, series: &Series) -> bool {
+fn names(column: &NumberColumn, panel: &Panel, series: &Series) -> bool {
     let of_gauge = column.name.strip_prefix(&panel.title).and_then(|name| name.strip_prefix(": "));
     heading(panel, series).is_some_and(|label| parted(label).0 == of_gauge.unwrap_or(&column.name))
 }
 
 /// The factor from a column's unit to that of an axis of its name; to a ratio also from the quantity that it is a ratio of.
-fn factor(column: &MeasuredColumn, axis: &Axis) -> Option<f64> {
-    let (name, unit) = parted(&axis.label);
+fn factor(column: &NumberColumn, axis: &Axis) -> Option<f64> {
+    let (name, own) = parted(&axis.label);
     if name == column.name {
-        return same_kind(&column.unit, unit);
+        return unit::factor(&column.unit, own);
     }
     let ratio = axis.ratio.as_ref().filter(|ratio| ratio.name == column.name)?;
-    let to_unit = same_kind("-", unit)?;
-    same_kind(&column.unit, &ratio.unit).map(|factor| factor * to_unit / ratio.scale)
+    let to_unit = unit::factor("-", own)?;
+    unit::factor(&column.unit, &ratio.unit).map(|factor| factor * to_unit / ratio.scale)
 }
 
 /// An axis as columns may name it.
@@ -172,8 +182,7 @@ fn named(axis: &Axis) -> String {
 }
 
 fn axes(measurements: &Measurements) -> String {
-    let heading = |column: &MeasuredColumn| format!("{} [{}]", column.name, column.unit);
-    format!("{} over {}", heading(&measurements.measured), heading(&measurements.abscissa))
+    format!("{} over {}", of_column(&measurements.measured), of_column(&measurements.abscissa))
 }
 
 fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {

@@ -1,88 +1,250 @@
-//! The file of measurements.
+//! The files of measurements: one form for figures, checks, calibrations, submissions and sweeps.
 
-use super::{MeasuredColumn, Measurements, Said};
+use super::{Measurements, Said};
 use crate::case::ParameterError;
-use crate::input::{DOCUMENT, FieldError, TextTable, is_mark, name_and_unit, plain_lines, read_text, unit};
+use crate::evidence::NumberColumn;
+use crate::input::{DOCUMENT, FieldError, MeasuredFiles, TableRows, name_and_unit, plain_lines, read_text, unit};
 use crate::metric::Confidence;
 use crate::output::FileError;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Keys of comments that mean something here.
 const KEYS: [&str; 6] = ["limit", "figure", "panel", "curve", "source", "confidence"];
 
-/// Keys of tables that are read elsewhere, such as by calibrations.
-const OTHER_KEYS: [&str; 5] = ["quantity", "unit", "kind", "uncertainty", "licence"];
+/// Words of a heading of standard uncertainties.
+const UNCERTAINTY: [&str; 5] = ["uncertainty", "sigma", "σ", "std", "stdev"];
 
-/// No measurement is larger, in whatever unit; squares of such numbers are still finite.
-const LARGEST: f64 = 1e30;
+/// The form of a file.
+const FORM: &str = "abscissa, measured quantity, and its uncertainty or repeats, with units";
 
-pub(super) fn read(path: &Path) -> Result<Measurements, ParameterError> {
-    let text = read_text(path, DOCUMENT).map_err(|error| FileError::unreadable(path, &error))?;
-    Ok(parse(path, &text).map_err(|error| error.in_file(path))?)
+/// A row of that form.
+const ROW: &str = "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`";
+
+/// Names of the columns that are meant.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WantedColumns<'a> {
+    /// What was varied; without a name the first column, or the number of the row.
+    pub over: Option<&'a str>,
+    /// What was measured, by any of these names; without one the only quantity.
+    pub quantity: &'a [&'a str],
 }
 
-fn parse(path: &Path, text: &str) -> Result<Measurements, FieldError> {
-    let text = &*plain_lines(text);
-    let table = TextTable::parse(text, path)?;
-    if table.headings.len() != 3 {
-        return Err(FieldError::new(
-            "columns",
-            format!("{} ({})", table.headings.len(), table.headings.join(", ")),
-            "three: what was varied, what was measured, and its standard uncertainty, each with its unit",
-            "such as y/h [-],u [m/s],uncertainty [m/s]",
-        ));
+impl WantedColumns<'_> {
+    /// Whether a column is what was measured, by its name with or without the gauge in front.
+    fn fits(&self, column: &NumberColumn) -> bool {
+        let name = repeated(&column.name);
+        let is_one = |wanted: &&str| name == *wanted || wanted.rsplit_once(": ").is_some_and(|(_, own)| own == name);
+        self.quantity.is_empty() || self.quantity.iter().any(is_one)
     }
-    let columns: Vec<MeasuredColumn> = table
-        .headings
-        .iter()
-        .zip(table.columns)
-        .map(|(heading, values)| column(heading, values))
-        .collect::<Result<_, _>>()?;
-    let Ok([abscissa, measured, uncertainty]) = <[MeasuredColumn; 3]>::try_from(columns) else {
-        unreachable!("there are three columns")
+}
+
+/// What one or several files give: columns of repeats and of their standard uncertainties.
+struct MeasuredColumns {
+    text: String,
+    over: NumberColumn,
+    repeats: Vec<NumberColumn>,
+    stated: Vec<NumberColumn>,
+    variants: Vec<String>,
+}
+
+pub(super) fn read(given: &MeasuredFiles, wanted: WantedColumns<'_>) -> Result<Measurements, ParameterError> {
+    let names = if let MeasuredFiles::Named { columns, .. } = given { Some(columns) } else { None };
+    let read = |path: &Path| -> Result<MeasuredColumns, ParameterError> {
+        let text = read_text(path, DOCUMENT).map_err(|error| FileError::unreadable(path, &error))?;
+        Ok(parse(path, &plain_lines(&text), names, wanted).map_err(|error| error.in_file(path))?)
     };
-    let factor = same_kind(&uncertainty.unit, &measured.unit).ok_or_else(|| {
-        if let Some(unknown) = [&measured, &uncertainty].into_iter().find(|own| !unit::is_known(&own.unit)) {
-            let (value, rule) = (format!("[{}]", unknown.unit), "a unit that is known, such as [cm/s] or [kPa]");
-            return FieldError::new(&unknown.name, value, rule, "mend the heading");
-        }
-        let rule = format!("a unit of the same kind as [{}], which is that of {}", measured.unit, measured.name);
-        FieldError::new(&uncertainty.name, format!("[{}]", uncertainty.unit), &rule, "mend the heading")
-    })?;
-    if let Some(row) = uncertainty.values.iter().position(|value| *value <= 0.0) {
-        let value = format!("{} in row {}", uncertainty.values[row], row + 1);
-        let remedy = "give a standard deviation; without one there is nothing to compare by";
-        return Err(FieldError::new(&uncertainty.name, value, "positive", remedy));
+    let [first, others @ ..] = given.files() else {
+        return Err(ParameterError::field("file", "[]", "at least one file", "name a CSV file with measurements"));
+    };
+    let mut whole = read(first)?;
+    for path in others {
+        whole.add(read(path)?).map_err(|error| error.in_file(path))?;
     }
-    Ok(Measurements {
-        path: path.to_owned(),
+    let is_as_it_stands = names.is_none() && others.is_empty();
+    Ok(whole.measurements(first, is_as_it_stands).map_err(|error| error.in_file(first))?)
+}
+
+fn parse(
+    path: &Path,
+    text: &str,
+    names: Option<&BTreeMap<String, toml::Value>>,
+    wanted: WantedColumns<'_>,
+) -> Result<MeasuredColumns, FieldError> {
+    let table = TableRows::of(text, path)?;
+    let listed = table.headings().join(", ");
+    let wrong = |defect: &str, missing: Option<&&str>| {
+        let (rule, remedy) = missing.map_or((FORM.to_owned(), ROW.to_owned()), |name| {
+            let columns = format!("columns = {{ \"{name}\" = \"HEADING [UNIT]\" }}");
+            (format!("headings with `{name}` among them"), format!("rename one, or give {{ files = […], {columns} }}"))
+        });
+        FieldError::new("columns", format!("{listed}{defect}"), &rule, &remedy)
+    };
+    if listed.is_empty() {
+        return Err(wrong("without a heading for each column", None));
+    }
+    let renamed = names.map(|names| renamed(table.headings(), names)).transpose()?;
+    let mut columns = Vec::new();
+    for (place, heading) in table.headings().iter().enumerate() {
+        let heading = renamed.as_ref().map_or(*heading, |renamed| &renamed[place]);
+        let is_number = |(_, words): &(usize, Vec<&str>)| words[place].parse::<f64>().is_ok();
+        match name_and_unit(heading) {
+            Some(named) => columns.push(NumberColumn::of(&table.rows, place, heading, named)?),
+            None if place == 0 && names.is_none() && wanted.over.is_none() && table.rows.iter().all(is_number) => {
+                let rule = "a heading with its unit in brackets";
+                return Err(FieldError::new(heading, format!("\"{heading}\""), rule, ROW));
+            }
+            // a label
+            None => {}
+        }
+    }
+    let is_meant = |own: &NumberColumn| !wanted.quantity.is_empty() && wanted.fits(own);
+    let is_stated = |own: &&NumberColumn| is_uncertainty(own) && !is_meant(own);
+    let (stated, values): (Vec<&NumberColumn>, Vec<_>) = columns.iter().partition(is_stated);
+    let is_over = |own: &&&NumberColumn| wanted.over.is_none_or(|name| own.name == name);
+    let over = *values.iter().find(is_over).ok_or_else(|| wrong("", wanted.over.as_ref()))?;
+    let has_rows_alone = wanted.over.is_none() && is_meant(over);
+    let others = || values.iter().copied().filter(|own| has_rows_alone || !std::ptr::eq(*own, over));
+    let first = others().find(|own| wanted.fits(own)).ok_or_else(|| wrong("", wanted.quantity.first()))?;
+    let is_repeat = |own: &&NumberColumn| repeated(&own.name) == repeated(&first.name);
+    let (repeats, rest): (Vec<_>, Vec<_>) = others().partition(is_repeat);
+    // a third column is the uncertainty, whatever its name
+    let third = rest.first().copied().filter(|_| columns.len() == 3);
+    if third.is_none() && !rest.is_empty() && wanted.quantity.is_empty() {
+        return Err(wrong(": several quantities", None));
+    }
+    let behind = columns.iter().skip_while(|own| !is_repeat(own)).find(is_stated);
+    let place = table.headings().iter().position(|heading| *heading == "variant");
+    let rows = (1..=table.rows.len()).map(|row| row as f64).collect();
+    let number = NumberColumn { name: "row".to_owned(), unit: "-".to_owned(), values: rows };
+    Ok(MeasuredColumns {
         text: text.to_owned(),
-        uncertainty: uncertainty.values.iter().map(|value| value * factor).collect(),
-        abscissa,
-        measured,
-        said: said(text)?,
+        over: if has_rows_alone { number } else { over.clone() },
+        repeats: repeats.into_iter().cloned().collect(),
+        stated: behind.or_else(|| stated.first().copied()).or(third).into_iter().cloned().collect(),
+        variants: place.map_or_else(Vec::new, |place| table.rows.iter().map(|row| row.1[place].to_owned()).collect()),
     })
 }
 
-fn column(heading: &str, values: Vec<f64>) -> Result<MeasuredColumn, FieldError> {
-    let Some((name, unit)) = name_and_unit(heading) else {
-        let rule = "a heading with its unit in brackets";
-        return Err(FieldError::new(heading, format!("\"{heading}\""), rule, "such as \"x [cm]\""));
-    };
-    if let Some(row) = values.iter().position(|value| is_mark(*value)) {
-        let defect = format!("{} in row {}, a mark of a missing value", values[row], row + 1);
-        return Err(FieldError::finding(heading, defect, "leave the row out"));
+/// The names and units that a plan gives the columns; empty for those that are not meant.
+fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<Vec<String>, FieldError> {
+    let mut renamed = vec![String::new(); headings.len()];
+    for (name, given) in names {
+        for one in given.as_array().map_or(std::slice::from_ref(given), Vec::as_slice) {
+            let text = one.as_str().unwrap_or_default();
+            let named = name_and_unit(text)
+                .and_then(|(bare, unit)| Some((headings.iter().position(|own| *own == text || *own == bare)?, unit)));
+            let (place, unit) = named.ok_or_else(|| {
+                let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
+                FieldError::new(&format!("columns.{name}"), one, &rule, "such as front = \"toe [cm]\"")
+            })?;
+            renamed[place] = format!("{name} [{unit}]");
+        }
     }
-    if let Some(row) = values.iter().position(|value| !value.is_finite() || value.abs() > LARGEST) {
-        let value = format!("{} in row {}", values[row], row + 1);
-        return Err(FieldError::new(heading, value, "finite numbers up to 1e30", "leave the row out or mend it"));
-    }
-    Ok(MeasuredColumn { name: name.to_owned(), unit: unit.to_owned(), values })
+    Ok(renamed)
 }
 
-/// The factor from one unit to another `[-]`; of the same text it is 1, also where the unit is unknown.
-pub(super) fn same_kind(from: &str, to: &str) -> Option<f64> {
-    if from == to { Some(1.0) } else { unit::factor(from, to) }
+/// Name of what was measured, without the number of a repeat: `front #2`.
+fn repeated(name: &str) -> &str {
+    let before = name.rsplit_once('#').filter(|(_, number)| number.parse::<u32>().is_ok());
+    before.map_or(name, |(name, _)| name.trim_end())
+}
+
+fn is_uncertainty(column: &NumberColumn) -> bool {
+    let name = column.name.to_lowercase();
+    name.split(|letter: char| !letter.is_alphanumeric()).any(|word| UNCERTAINTY.contains(&word))
+}
+
+/// Values of a column in another unit.
+pub(super) fn in_unit(column: &NumberColumn, to: &str) -> Result<Vec<f64>, FieldError> {
+    let factor = unit::factor(&column.unit, to).ok_or_else(|| {
+        let rule = match [to, &column.unit].into_iter().find(|own| !unit::is_known(own)) {
+            Some(unknown) => format!("in a unit that is known, such as [cm/s] or [kPa], and not in [{unknown}]"),
+            None => format!("a unit of the same kind as [{to}]"),
+        };
+        FieldError::new(&column.name, format!("[{}]", column.unit), &rule, "mend the heading")
+    })?;
+    Ok(column.values.iter().map(|value| value * factor).collect())
+}
+
+pub(super) fn heading(column: &NumberColumn) -> String {
+    format!("{} [{}]", column.name, column.unit)
+}
+
+impl MeasuredColumns {
+    /// Adds the repeats of another file.
+    fn add(&mut self, other: Self) -> Result<(), FieldError> {
+        let over = in_unit(&other.over, &self.over.unit)?;
+        let is_same = |(own, other): (&f64, &f64)| (own - other).abs() <= 1e-9 * own.abs().max(other.abs());
+        if over.len() != self.over.values.len() || !self.over.values.iter().zip(&over).all(is_same) {
+            let rule = format!("those of the first file in every repeat: {:?} [{}]", self.over.values, self.over.unit);
+            let remedy = "interpolate the repeats to the same places, or give them apart";
+            return Err(FieldError::new(&self.over.name, format!("{over:?}"), &rule, remedy));
+        }
+        self.repeats.extend(other.repeats);
+        self.stated.extend(other.stated);
+        Ok(())
+    }
+
+    /// Mean, scatter and standard uncertainty of each row. Repeats that agree by chance scatter as those of the other rows do.
+    fn measurements(self, path: &Path, is_as_it_stands: bool) -> Result<Measurements, FieldError> {
+        let (first, rows) = (&self.repeats[0], self.over.values.len());
+        let in_first = |own: &NumberColumn| in_unit(own, &first.unit);
+        let repeats: Vec<Vec<f64>> = self.repeats.iter().map(in_first).collect::<Result<_, _>>()?;
+        let stated: Vec<Vec<f64>> = self.stated.iter().map(in_first).collect::<Result<_, _>>()?;
+        for (own, values) in self.stated.iter().zip(&stated) {
+            if let Some(row) = values.iter().position(|value| *value <= 0.0) {
+                let value = format!("{} in row {}", own.values[row], row + 1);
+                let remedy = "give a standard deviation; without one there is nothing to compare by";
+                return Err(FieldError::new(&own.name, value, "positive", remedy));
+            }
+        }
+        let spread: Vec<(f64, f64)> =
+            (0..rows).map(|row| mean_and_variance(repeats.iter().map(|own| own[row]))).collect();
+        let pooled = spread.iter().map(|row| row.1).sum::<f64>() / rows as f64;
+        let uncertainty = |row: usize| {
+            let stated = stated.iter().map(|own| own[row]).fold(0.0, f64::max);
+            libm::hypot((spread[row].1.max(pooled) / repeats.len() as f64).sqrt(), stated)
+        };
+        let uncertainty: Vec<f64> = (0..rows).map(uncertainty).collect();
+        if uncertainty.contains(&0.0) {
+            let defect = if repeats.len() == 1 { "without uncertainty" } else { "equal in all repeats" };
+            let columns = format!("{}, {}, {defect}", heading(&self.over), heading(first));
+            return Err(FieldError::new("columns", columns, FORM, ROW));
+        }
+        Ok(Measurements {
+            path: path.to_owned(),
+            said: said(&self.text)?,
+            text: if is_as_it_stands { self.text.clone() } else { self.rewritten() },
+            measured: NumberColumn {
+                name: repeated(&first.name).to_owned(),
+                unit: first.unit.clone(),
+                values: spread.iter().map(|row| row.0).collect(),
+            },
+            uncertainty,
+            repeats: repeats.len(),
+            scatter: spread.iter().map(|row| row.1.sqrt()).collect(),
+            abscissa: self.over,
+            variants: self.variants,
+        })
+    }
+
+    /// A file that gives the same without names of columns and other files.
+    fn rewritten(&self) -> String {
+        let columns = || std::iter::once(&self.over).chain(&self.repeats).chain(&self.stated);
+        let line = |cell: &dyn Fn(&NumberColumn) -> String| columns().map(cell).collect::<Vec<_>>().join(",");
+        let comments = self.text.lines().filter(|line| line.trim_start().starts_with('#')).map(str::to_owned);
+        let rows = (0..self.over.values.len()).map(|row| line(&|own| own.values[row].to_string()));
+        comments.chain([line(&heading)]).chain(rows).map(|line| line + "\n").collect()
+    }
+}
+
+/// Mean and variance of a row's repeats; of a single one itself and 0.
+fn mean_and_variance(values: impl ExactSizeIterator<Item = f64> + Clone) -> (f64, f64) {
+    let count = values.len() as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    let squares: f64 = values.map(|value| (value - mean) * (value - mean)).sum();
+    (mean, squares / (count - 1.0).max(1.0))
 }
 
 /// Values that the comments give. A key with a slip of the pen is refused: a limit must not vanish.
@@ -91,7 +253,7 @@ fn said(text: &str) -> Result<Said, FieldError> {
     for line in text.lines().filter_map(|line| line.trim_start().strip_prefix('#')) {
         let Some((key, value)) = line.split_once(':') else { continue };
         let (key, value) = (key.trim().to_lowercase(), value.trim().to_owned());
-        if value.is_empty() || OTHER_KEYS.contains(&key.as_str()) {
+        if value.is_empty() {
             continue;
         }
         let wrong = |rule: &str, remedy: &str| Err(FieldError::new(&format!("# {key}"), &value, rule, remedy));

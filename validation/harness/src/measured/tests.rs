@@ -9,7 +9,8 @@ fn read(text: &str) -> Result<Measurements, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("mine.csv");
     std::fs::write(&path, text).expect("writable");
-    Measurements::read(&path).map_err(|error| error.to_string().replace(&path.display().to_string(), "mine.csv"))
+    Measurements::read(&MeasuredFiles::One(path.clone()), WantedColumns::default())
+        .map_err(|error| error.to_string().replace(&path.display().to_string(), "mine.csv"))
 }
 
 /// A front that moves 2 m/s in one panel, and a profile u = 3 y in another.
@@ -197,23 +198,23 @@ fn invalid_measurements_are_refused() {
     for (text, message) in [
         (
             "t [s],front [m]\n1,1\n",
-            "mine.csv: `columns` is 2 (t [s], front [m]), but must be three: what was varied, what was measured, and its standard uncertainty, each with its unit; such as y/h [-],u [m/s],uncertainty [m/s]",
+            "mine.csv: `columns` is t [s], front [m], without uncertainty, but must be abscissa, measured quantity, and its uncertainty or repeats, with units; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`",
         ),
         (
             "t,front [m],uncertainty [m]\n1,1,1\n",
-            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; such as \"x [cm]\"",
+            "mine.csv: `t` is \"t\", but must be a heading with its unit in brackets; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`",
         ),
         (
             "t [s],front [m],uncertainty [s]\n1,1,1\n",
-            "mine.csv: `uncertainty` is [s], but must be a unit of the same kind as [m], which is that of front; mend the heading",
+            "mine.csv: `uncertainty` is [s], but must be a unit of the same kind as [m]; mend the heading",
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,nan,1\n",
-            "mine.csv: `front [m]` is NaN in row 1, but must be finite numbers up to 1e30; leave the row out or mend it",
+            "mine.csv: `line 2` is \"nan\" in column front [m], but must be a finite measured value; write one with a decimal point, or drop the row",
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,-9999,1\n",
-            "mine.csv: `front [m]`: -9999 in row 1, a mark of a missing value; leave the row out",
+            "mine.csv: `line 2` is \"-9999\" in column front [m], but must be a finite measured value; write one with a decimal point, or drop the row",
         ),
         (
             "t [s],front [m],uncertainty [m]\n1,1,1\n2,1,0\n",
@@ -234,6 +235,73 @@ fn invalid_measurements_are_refused() {
     ] {
         assert_eq!(refused(text), message);
     }
+}
+
+/// Measurements of files `0.csv`, `1.csv`, … in a folder.
+fn read_of(texts: &[&str], columns: &str, wanted: WantedColumns<'_>) -> Result<Measurements, String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (number, text) in texts.iter().enumerate() {
+        std::fs::write(folder.path().join(format!("{number}.csv")), text).expect("writable");
+    }
+    let files: Vec<String> = (0..texts.len()).map(|number| format!("\"{number}.csv\"")).collect();
+    let plan = format!("files = {{ files = [{}], columns = {{ {columns} }} }}", files.join(", "));
+    let plan = if columns.is_empty() { format!("files = [{}]", files.join(", ")) } else { plan };
+    let plan: std::collections::BTreeMap<String, MeasuredFiles> = toml::from_str(&plan).expect("files");
+    let read = Measurements::read(&plan["files"].beside(folder.path()), wanted);
+    read.map_err(|error| error.to_string().replace(&format!("{}/", folder.path().display()), ""))
+}
+
+#[test]
+fn repeats_are_a_mean_with_the_scatter_of_the_mean() {
+    let columns = "t [s],front [cm],front [cm],front [mm]\n1,10,12,140\n2,20,20,200\n";
+    let [first, second, third] =
+        [[10, 20], [12, 20], [14, 20]].map(|[a, b]| format!("t [s],front [cm]\n1,{a}\n# so\n2,{b}\n"));
+    let numbered =
+        columns.replacen("front", "front #1", 1).replacen("front [cm],front [mm]", "front #2 [cm],front #3 [mm]", 1);
+    for texts in [vec![columns], vec![&numbered], vec![&first, &second, &third]] {
+        let own = read_of(&texts, "", WantedColumns::default()).expect("repeats");
+        assert_eq!(own.repeats, 3);
+        let points = own.in_units("s", "cm").expect("units");
+        // scatter 2 cm and none: √(4/3) cm of the mean, of both rows together √(2/3) cm
+        let expected = [[1.0, 12.0, (4.0 / 3.0_f64).sqrt()], [2.0, 20.0, (2.0 / 3.0_f64).sqrt()]];
+        let close = |(a, b): (&[f64; 3], &[f64; 3])| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+        assert!(points.iter().zip(&expected).all(close), "{points:?}");
+        assert_eq!(own.legend(), "0, mean of 3");
+        assert!(own.source().ends_with("mean of 3 repeats, which scatter by up to 2 cm"), "{}", own.source());
+        // the copy gives the same
+        let copy = read_of(&[&own.text], "", WantedColumns::default()).expect("a copy");
+        assert_eq!((copy.measured.values, copy.uncertainty), (own.measured.values, own.uncertainty));
+    }
+    let with = read_of(&["t [s],u [m],u [m],sigma [cm]\n1,1,3,100\n"], "", WantedColumns::default()).expect("both");
+    assert_eq!(with.uncertainty, [2f64.sqrt()]);
+    let equal = read_of(&["t [s],u [m],u [m]\n1,1,1\n"], "", WantedColumns::default()).expect_err("no scatter");
+    assert!(equal.starts_with("0.csv: `columns` is t [s], u [m], equal in all repeats, but must be"), "{equal}");
+    let apart =
+        read_of(&["t [s],u [m]\n1,1\n", "t [s],u [m]\n2,1\n"], "", WantedColumns::default()).expect_err("other times");
+    assert!(apart.contains("those of the first file in every repeat"), "{apart}");
+}
+
+#[test]
+fn columns_are_found_by_their_names_or_by_those_that_a_plan_gives() {
+    let wanted = WantedColumns { over: Some("t"), quantity: &["tip: front"] };
+    let text =
+        "# time depth\nnumber,depth [m],t [ms],uncertainty of depth [m],front [cm],sigma [mm]\n1,5,100,2,10,30\n";
+    let own = read_of(&[text], "", wanted).expect("by heading");
+    assert_eq!(own.in_units("s", "m").expect("units"), [[0.1, 0.1, 0.03]]);
+    let text = "toe;time;spread\n10;100;3\n";
+    let columns = "front = \"toe [cm]\", t = \"time [ms]\", uncertainty = \"spread [cm]\"";
+    let own = read_of(&[text], columns, wanted).expect("by name");
+    assert_eq!(own.in_units("s", "m").expect("units"), [[0.1, 0.1, 0.03]]);
+    assert_eq!(own.text, "t [ms],front [cm],uncertainty [cm]\n100,10,3\n");
+    let refused = |columns: &str| read_of(&[text], columns, wanted).expect_err("refused");
+    assert!(
+        refused("front = \"to [cm]\"")
+            .contains("`columns.front` is \"to [cm]\", but must be a heading of the file with its unit: toe, time")
+    );
+    assert!(
+        refused("t = \"time [ms]\", x = \"toe [cm]\"")
+            .contains("headings with `tip: front` among them; rename one, or")
+    );
 }
 
 #[test]

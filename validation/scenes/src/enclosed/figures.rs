@@ -7,6 +7,7 @@ use super::surfaces::Surfaces;
 use super::{Measurand, SceneFlow, SceneObservation, SceneRecord};
 use super::{series, shapes};
 use crate::figure::{Axis, Field, Figure, Mark, Panel, Series};
+use crate::measured::HALF_A_ROW;
 use bagnold_solver::vector::Vector;
 
 /// Margin of pictures around the material, over the size of its box in the direction of the axis `[-]`.
@@ -108,7 +109,7 @@ fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &
         if let (Measurand::Front(_), [_, least, most, ..]) = (&series.measure, series.values) {
             let points =
                 data.time.iter().zip(least.iter().zip(most)).map(|(&time, (&least, &most))| (time, least, most));
-            panel.band("half a row of particles more or less", points);
+            panel.band(HALF_A_ROW, points);
         }
         for (slot, column) in series.columns.iter().enumerate().filter(|(_, column)| column.axis == axis) {
             let values = series.values.get(slot).map_or(&[][..], Vec::as_slice);

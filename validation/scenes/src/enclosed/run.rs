@@ -7,7 +7,7 @@ use super::setting::{self, SceneBody, SceneInlet, SceneWall};
 use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
-use super::{BodyPreparation, SceneFlow, SceneObservation, shapes};
+use super::{BodyPreparation, SceneFlow, SceneObservation, series, shapes};
 use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, StartState};
 use crate::case::{Flow, ParameterError, Progress, RunCost, cost};
 use crate::checkpoint::Checkpoints;
@@ -127,6 +127,13 @@ where
                 * self.walls.iter().map(SceneWall::triangle_count).sum::<usize>() as f64,
             ..RunCost::weakly_compressible(self.flow_particles(Moment::End) + self.wall_particles(), 0.0)
         }
+    }
+
+    fn outline(&self) -> Option<SceneObservation<D>> {
+        let none = SceneObservation::default();
+        let columns = series::of_run(self, &none).iter().map(|one| one.columns.len()).sum();
+        let gauges = vec![vec![0.0; 2]; columns];
+        Some(SceneObservation { time: vec![0.0, self.duration], mass: vec![0.0; 2], gauges, ..none })
     }
 
     fn brief(&self) -> Option<String> {

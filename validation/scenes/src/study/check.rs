@@ -2,8 +2,9 @@
 
 use super::file::{CheckText, Distance, Reduction};
 use super::probe::{ColumnWindow, unit_of};
-use crate::input::{FieldError, check_text};
-use crate::measured::Measurements;
+use crate::case::ParameterError;
+use crate::input::{FieldError, MeasuredFiles, check_text, parted};
+use crate::measured::{Measurements, WantedColumns};
 use crate::metric::{Confidence, Limit, Metric, MetricKind, Origin, Variant};
 use std::path::Path;
 
@@ -67,7 +68,14 @@ impl StudyCheck {
         for (field, value) in [("source", &text.source), ("reason", &text.reason)] {
             value.as_ref().map_or(Ok(()), |value| check_text(field, value))?;
         }
-        let (limit, reason) = limit(text)?;
+        let stated = measured.filter(|_| confidence != Confidence::Unverified);
+        let (limit, reason) = match limit(text)? {
+            (None, _) if text.distance.is_none_or(|own| own == Distance::Residual) => {
+                let (limit, reason) = stated.and_then(Measurements::limit).unzip();
+                (limit, reason.unwrap_or_default())
+            }
+            own => own,
+        };
         if limit.is_some() && confidence == Confidence::Unverified {
             let remedy = "observe it without a limit, or say where the reference can be checked";
             return Err(FieldError::new("confidence", "unverified", "more than that beside a limit", remedy));
@@ -209,14 +217,20 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
                 let remedy = "the file has values and uncertainties of its own";
                 return Err(FieldError::new("reference", "given", "absent beside `compare`", remedy));
             }
-            let file = beside.join(text.compare.as_deref().unwrap_or(Path::new("")));
-            let measured = Measurements::read(&file).map_err(|error| {
-                let rule = "a table of three columns: what was varied, what was measured, its standard uncertainty";
-                FieldError::new("compare", format!("\"{}\"", file.display()), rule, &error.to_string())
-            })?;
+            let files = text.compare.clone().unwrap_or_else(|| MeasuredFiles::Repeats(Vec::new()));
+            let measured = measured(&files, &column, beside)
+                .map_err(|error| FieldError::finding("compare", error, "correct the measurements, or name others"))?;
             Ok(CheckedQuantity::Distance(column, Box::new(measured), text.distance.unwrap_or(Distance::Residual)))
         }
     }
+}
+
+/// The measurements that a column is compared with, by its name.
+fn measured(files: &MeasuredFiles, column: &ColumnWindow, beside: &Path) -> Result<Measurements, ParameterError> {
+    let name = parted(&column.column).0;
+    let over = column.over.as_deref().map(|over| parted(over).0);
+    let wanted = WantedColumns { over, quantity: if column.is_combined() { &[] } else { &[name] } };
+    Measurements::read(&files.beside(beside), wanted)
 }
 
 fn column(text: &CheckText) -> Result<ColumnWindow, FieldError> {

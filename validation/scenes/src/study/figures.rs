@@ -50,7 +50,7 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
     if let CheckedQuantity::Distance(column, measured, _) = &check.read {
         let points = measured.in_units(probe::unit_of(&first.over), probe::unit_of(&column.column))?;
         let cloud = points.iter().map(|point| (point[0], point[1]));
-        let series = panel.draw(&measured.name(), Mark::Points, colour, cloud);
+        let series = panel.draw(&measured.legend(), Mark::Points, colour, cloud);
         series.error = points.iter().map(|point| point[2]).collect();
         said = format!("points with their standard uncertainty: {}", measured.source());
     } else if let CheckedQuantity::Value(_, Reduction::Slope) = &check.read {

@@ -5,7 +5,7 @@ use super::drawn::{FigureText, NamesOfStudy};
 use crate::case::list::Fields;
 use crate::case::{ListOfRuns, NamedVariant, Tier, VariedParameter};
 use crate::figure::is_file_name;
-use crate::input::{FieldError, check_name, check_text};
+use crate::input::{FieldError, MeasuredFiles, check_name, check_text};
 use crate::metric::{Confidence, Variant};
 use bagnold_solver::parameter::{filled, positive, range_problem};
 use schemars::JsonSchema;
@@ -85,8 +85,8 @@ pub(super) struct CheckText {
     pub(super) to: Option<f64>,
     /// Value of the column that is judged.
     pub(super) value: Option<Reduction>,
-    /// CSV file with a measured series in three columns: what was varied, what was measured, its standard uncertainty.
-    pub(super) compare: Option<PathBuf>,
+    /// CSV file with what was varied, what was measured and its standard uncertainty, or those of repeats.
+    pub(super) compare: Option<MeasuredFiles>,
     /// Distance from the measured series.
     pub(super) distance: Option<Distance>,
     /// Name of an earlier check, an error whose order of convergence is judged.

@@ -45,12 +45,13 @@ use crate::case::{
 };
 use crate::evaluation::parse_plan;
 use crate::figure::Figure;
-use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
+use crate::input::{FieldError, MeasuredFiles, WRITTEN_BY_HAND, read_text};
 use crate::measured::Measurements;
 use crate::metric::Metric;
 use crate::output::FileError;
 use check::{CheckedQuantity, StudyCheck};
 use file::StudyText;
+use probe::ColumnWindow;
 use reading::{Reading, joined};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -88,16 +89,7 @@ impl Study {
         let in_file = |error: FieldError| error.in_file(file);
         text.check().map_err(in_file)?;
         let beside = file.parent().unwrap_or(Path::new(""));
-        let base = match (&text.case, &text.base) {
-            (Some(case), _) => CaseFile::of_parameters(file, case, text.tier, &text.set)?,
-            (None, Some(path)) => {
-                let mut base = CaseFile::read(&beside.join(path))?;
-                base.lay_over(&text.set);
-                base.tier = text.tier.or(base.tier);
-                base
-            }
-            (None, None) => unreachable!("checked above"),
-        };
+        let base = CaseFile::of_plan(file, text.case.as_deref(), text.base.as_deref(), text.tier, &text.set)?;
         let mut checks: Vec<StudyCheck> = Vec::new();
         for (place, own) in text.checks.iter().enumerate() {
             let within = |error: FieldError| in_file(error.within(&format!("checks[{place}]")));
@@ -193,7 +185,7 @@ impl Study {
             self.refuse_varied(setting)?;
         }
         let mut cases = self.prepare_variants(registry, tier, settings, limits)?;
-        self.refuse_late_measurements(&cases).map_err(|error| error.in_file(&self.file))?;
+        self.refuse_unknown_columns(&cases).map_err(|error| error.in_file(&self.file))?;
         cases.extend(self.prepare_controls(registry, tier, settings, limits)?);
         Ok(cases)
     }
@@ -222,22 +214,30 @@ impl Study {
         self.changes.iter().map(of_variant).collect()
     }
 
-    /// Refuses measurements that are compared after the end of every scene, before anything is simulated.
-    fn refuse_late_measurements(&self, cases: &[Box<dyn PreparedCase>]) -> Result<(), FieldError> {
-        let durations = cases.iter().filter_map(|case| case.run_parameters(0)["duration"].as_f64());
-        let Some(duration) = durations.max_by(f64::total_cmp) else { return Ok(()) };
+    /// Refuses tables, columns and units that no run will have and measurements after the end of every scene, where these are known before
+    /// anything is simulated.
+    fn refuse_unknown_columns(&self, cases: &[Box<dyn PreparedCase>]) -> Result<(), FieldError> {
+        let outlines: Vec<CaseResult> = cases.iter().filter_map(|case| case.outline()).collect();
         for (place, check) in self.checks.iter().enumerate() {
-            let CheckedQuantity::Distance(column, measured, _) = &check.read else { continue };
-            if column.over.is_some() || !column.table.starts_with("gauges") {
+            let (CheckedQuantity::Value(column, _) | CheckedQuantity::Distance(column, ..)) = &check.read else {
                 continue;
+            };
+            let within = |error: FieldError| error.within(&format!("checks[{place}]"));
+            let compared = column.window.0..=column.window.1;
+            let whole = ColumnWindow { window: (f64::NEG_INFINITY, f64::INFINITY), ..column.clone() };
+            let (mut last, mut end) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+            for outline in &outlines {
+                for curve in whole.curves(outline).map_err(within)? {
+                    let Some(measured) = check.read.measured() else { continue };
+                    let points = probe::in_units_of(measured, column, &curve)?;
+                    let times = points.iter().map(|point| point[0]).filter(|time| compared.contains(time));
+                    last = times.fold(last, f64::max);
+                    end = curve.points.last().map_or(end, |point| point.0.max(end));
+                }
             }
-            // units that do not fit are refused where the columns are known
-            let points = measured.in_units("s", probe::unit_of(&column.column)).unwrap_or_default();
-            let times =
-                points.iter().map(|point| point[0]).filter(|time| (column.window.0..=column.window.1).contains(time));
-            if let Some(last) = times.max_by(f64::total_cmp).filter(|last| *last > duration) {
+            if last > end && column.over.is_none() {
                 let rule = format!("at least {last}, the last time that `checks[{place}]` compares");
-                return Err(FieldError::new("duration", duration, &rule, "raise it, or end the comparison with `to`"));
+                return Err(FieldError::new("duration", end, &rule, "raise it, or end the comparison with `to`"));
             }
         }
         Ok(())
@@ -343,7 +343,7 @@ impl Study {
         };
         for (own, check) in text.checks.iter_mut().zip(&self.checks) {
             if let Some(measured) = check.read.measured() {
-                own.compare = Some(PathBuf::from(measured.kept()));
+                own.compare = Some(MeasuredFiles::One(PathBuf::from(measured.kept())));
             }
         }
         toml::to_string(&text).unwrap_or_else(|error| format!("# the study cannot be written as TOML: {error}\n"))

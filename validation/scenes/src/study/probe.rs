@@ -3,7 +3,8 @@
 
 use super::file::{Distance, Reduction};
 use crate::case::CaseResult;
-use crate::input::{FieldError, name_and_unit, nearest};
+use crate::input::{FieldError, is_same_heading, nearest, parted};
+use crate::measured::Measurements;
 use crate::metric::{Metric, Variant};
 use crate::output::Table;
 use crate::statistics::{Extrapolation, interpolated, linear_fit};
@@ -32,11 +33,13 @@ pub(super) struct RunCurve {
     pub(super) over: String,
     /// Points (abscissa, value) within the window, in ascending order; values that do not exist are not numbers.
     pub(super) points: Vec<(f64, f64)>,
+    /// Half the interval of a front at half a row of particles more or less, over the abscissa; empty for other columns.
+    pub(super) resolution: Vec<(f64, f64)>,
 }
 
 /// The unit at the end of a heading; `-` where there is none.
 pub(super) fn unit_of(heading: &str) -> &str {
-    name_and_unit(heading).map_or("-", |(_, unit)| unit)
+    parted(heading).1
 }
 
 impl ColumnWindow {
@@ -77,7 +80,7 @@ impl ColumnWindow {
     fn curve(&self, result: &CaseResult, table: &Table) -> Result<RunCurve, FieldError> {
         let headings: Vec<&str> = table.columns.iter().map(String::as_str).collect();
         let place = |field: &str, wanted: &str| {
-            table.columns.iter().position(|heading| heading == wanted).ok_or_else(|| {
+            table.columns.iter().position(|own| is_same_heading(own, wanted)).ok_or_else(|| {
                 let rule = format!("a heading of the table {}: {}", table.name, listed(&headings));
                 FieldError::new(field, format!("\"{wanted}\""), &rule, &did_you_mean(wanted, &headings))
             })
@@ -92,12 +95,18 @@ impl ColumnWindow {
         }
         let value = |row: &[f64]| others.iter().fold(row[measured], |sum, (other, sign)| sum + *sign * row[*other]);
         let rows = table.rows.iter().map(|row| (row[over], value(row)));
+        let (name, unit) = parted(&self.column);
+        let half = |word: &str| place("column", &format!("{name} at half a row {word} [{unit}]")).ok();
+        let bounds = half("more").zip(half("less")).filter(|_| !self.is_combined());
+        let resolution = bounds.map_or_else(Vec::new, |(more, less)| {
+            table.rows.iter().map(|row| (row[over], 0.5 * (row[more] - row[less]).abs())).collect()
+        });
         let (from, to) = self.window;
         let mut points: Vec<(f64, f64)> = rows.filter(|(x, _)| x.is_finite() && *x >= from && *x <= to).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let run = result.runs.iter().map(|run| &run.variant);
         let run = run.filter(|variant| !variant.is_empty()).find(|variant| table.name.ends_with(&variant.file_name()));
-        Ok(RunCurve { run: run.cloned().unwrap_or_default(), over: table.columns[over].clone(), points })
+        Ok(RunCurve { run: run.cloned().unwrap_or_default(), over: table.columns[over].clone(), points, resolution })
     }
 }
 
@@ -142,6 +151,11 @@ impl RunCurve {
         interpolated(&self.points, place, (Extrapolation::Nothing, Extrapolation::Nothing))
     }
 
+    /// Resolution at a place; 0 where none is known.
+    fn resolution_at(&self, place: f64) -> f64 {
+        interpolated(&self.resolution, place, (Extrapolation::Nothing, Extrapolation::Nothing)).unwrap_or(0.0)
+    }
+
     /// The first place at which the value reaches a level, from below or from above; none if it does not. What comes to a place where
     /// nothing was comes from zero, and reaches the level there at the earliest.
     fn reaches(&self, level: f64) -> Option<f64> {
@@ -163,7 +177,7 @@ impl RunCurve {
         let ends = self.points.first().zip(self.points.last());
         let is_whole = ends.is_some_and(|(first, last)| meant().all(|point| (first.0..=last.0).contains(&point[0])));
         let differences: Vec<[f64; 3]> =
-            meant().filter_map(|&[x, y, u]| self.at(x).map(|own| [own - y, y, u])).collect();
+            meant().filter_map(|&[x, y, u]| self.at(x).map(|own| [own - y, y, u.max(self.resolution_at(x))])).collect();
         if !is_whole || differences.is_empty() {
             return f64::NAN;
         }
@@ -190,10 +204,19 @@ pub(super) fn metrics<'a>(result: &'a CaseResult, name: &str) -> Result<Vec<&'a 
     Ok(found)
 }
 
+/// Measured points in the units of a curve.
+pub(super) fn in_units_of(
+    measured: &Measurements,
+    column: &ColumnWindow,
+    curve: &RunCurve,
+) -> Result<Vec<[f64; 3]>, FieldError> {
+    measured.in_units(unit_of(&curve.over), unit_of(&column.column))
+}
+
 fn did_you_mean(wanted: &str, known: &[&str]) -> String {
     match nearest(wanted, known.iter().copied()) {
         Some(guess) => format!("did you mean \"{guess}\"?"),
-        None => "the runs are kept: correct it and give the same command again".to_owned(),
+        None => "name one of these; runs that are done are kept".to_owned(),
     }
 }
 
@@ -215,7 +238,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     fn curve(points: &[(f64, f64)]) -> RunCurve {
-        RunCurve { run: Variant::default(), over: "t [s]".to_owned(), points: points.to_vec() }
+        RunCurve { run: Variant::default(), over: "t [s]".to_owned(), points: points.to_vec(), resolution: Vec::new() }
     }
 
     #[test]
@@ -310,6 +333,9 @@ mod tests {
         assert!((distance(Distance::Residual) - 2.0).abs() < 1e-12);
         assert!((distance(Distance::Largest) - 0.2).abs() < 1e-12);
         assert!((distance(Distance::Mean) - 0.2).abs() < 1e-12);
+        let coarse = RunCurve { resolution: vec![(0.0, 0.4), (1.0, 0.4)], ..curve.clone() };
+        let whole = (f64::NEG_INFINITY, f64::INFINITY);
+        assert!((coarse.distance(&measured, whole, Distance::Residual) - 0.5).abs() < 1e-12);
         let square: f64 = measured.iter().map(|point| point[1] * point[1]).sum::<f64>() / 3.0;
         assert!((distance(Distance::RelativeL2) - 100.0 * 0.2 / square.sqrt()).abs() < 1e-12);
     }

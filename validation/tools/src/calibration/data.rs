@@ -1,11 +1,10 @@
 //! Data of a calibration: single numbers, profiles from a CSV file, or synthetic data.
 
 use super::repeated::Repeated;
-use super::target::{Datum, DatumUncertainty, ProfileLocation, Target, parted};
+use super::target::{Datum, DatumUncertainty, ProfileLocation, Target};
 use crate::ToolError;
-use crate::evidence::{MeasuredData, ReferenceColumn};
-use crate::input::{DOCUMENT, FieldError, read_text};
-use crate::output::FileError;
+use crate::input::{FieldError, MeasuredFiles, parted};
+use crate::measured::{Measurements, WantedColumns};
 use crate::sampling::Random;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -29,7 +28,7 @@ pub(super) struct DatumText {
     /// Column of the table that is compared, with its unit
     y: Option<String>,
     /// CSV file with the data, beside the plan
-    file: Option<PathBuf>,
+    file: Option<MeasuredFiles>,
     /// A single measured value, in place of `file`
     value: Option<f64>,
     /// Unit of `value`
@@ -47,9 +46,9 @@ pub(super) struct DatumText {
 }
 
 impl DatumText {
-    /// CSV file of the data, beside the plan.
-    pub(super) fn file(&self) -> Option<&Path> {
-        self.file.as_deref()
+    /// CSV files of the data, beside the plan.
+    pub(super) fn files(&self) -> &[PathBuf] {
+        self.file.as_ref().map_or(&[], MeasuredFiles::files)
     }
 
     /// Checks what is given and what is missing; `field` names the table.
@@ -142,7 +141,8 @@ impl DatumText {
         }
     }
 
-    fn target(&self, at: f64) -> Target {
+    /// Where in the case's tables or metrics the data have their counterpart.
+    pub(super) fn target(&self, at: f64) -> Target {
         match (&self.metric, &self.table) {
             (Some(name), _) => Target::Metric { name: name.clone(), variant: self.variant.clone() },
             (None, table) => Target::Profile(ProfileLocation {
@@ -157,7 +157,7 @@ impl DatumText {
     /// Reads the data, unless they are synthetic; `plan` is the file that names a CSV file relative to itself.
     pub(super) fn read(&self, block: usize, plan: &Path) -> Result<Vec<Datum>, ToolError> {
         if let Some(file) = &self.file {
-            return self.of_file(block, &plan.parent().unwrap_or_else(|| Path::new("")).join(file));
+            return self.of_file(block, &file.beside(plan.parent().unwrap_or_else(|| Path::new(""))));
         }
         let datum = |value: f64| Datum {
             block,
@@ -220,72 +220,24 @@ impl DatumText {
         places.into_iter().map(datum).collect()
     }
 
-    fn of_file(&self, block: usize, path: &Path) -> Result<Vec<Datum>, ToolError> {
-        let text = read_text(path, DOCUMENT).map_err(|error| FileError::unreadable(path, &error))?;
-        let data = MeasuredData::parse(path, &text)?;
-        let source = data.metadata.source.clone();
-        let (values, unit) = match &self.table {
-            // a profile: the columns have the table's names
-            Some(_) => {
-                let y = self.y.as_deref().unwrap_or_default();
-                let (name, unit) = parted(y);
-                (numbers(&data, path, name, Some(unit))?.0, unit.to_owned())
-            }
-            None => numbers(&data, path, "value", None)?,
-        };
-        if data.numbers("uncertainty").is_err() {
-            let remedy = format!("add `uncertainty [{unit}]`; Bagnold does not invent one");
-            let error = FieldError::new("uncertainty", "missing", "a column of standard deviations", &remedy);
-            return Err(error.in_file(path).into());
-        }
-        let (sigmas, _) = numbers(&data, path, "uncertainty", Some(&unit))?;
-        if let Some(row) = sigmas.iter().position(|sigma| *sigma <= 0.0) {
-            let field = format!("uncertainty, row {}", row + 1);
-            return Err(FieldError::new(&field, sigmas[row], "positive", "give the standard deviation")
-                .in_file(path)
-                .into());
-        }
-        let datum = |row: usize, target: Target| Datum {
+    fn of_file(&self, block: usize, files: &MeasuredFiles) -> Result<Vec<Datum>, ToolError> {
+        let (over, column) = (self.x.as_deref().map(parted), self.y.as_deref().map(parted));
+        let quantity = column.map(|(name, _)| name).or(self.metric.as_deref()).unwrap_or_default();
+        let wanted = WantedColumns { over: over.map(|(name, _)| name), quantity: &[quantity, "value"] };
+        let data = Measurements::read(files, wanted)?;
+        let unit = column.map_or(&*data.measured.unit, |(_, unit)| unit);
+        let points = data.in_units(over.map_or("-", |(_, unit)| unit), unit)?;
+        let datum = |(row, [at, value, sigma]): (usize, [f64; 3])| Datum {
             block,
-            target,
-            value: values[row],
-            unit: unit.clone(),
-            uncertainty: DatumUncertainty::Absolute(sigmas[row]),
-            source: source.clone(),
+            target: match (self.target(at), data.variants.get(row)) {
+                (Target::Metric { name, .. }, Some(variant)) => Target::Metric { name, variant: Some(variant.clone()) },
+                (target, _) => target,
+            },
+            value,
+            unit: unit.to_owned(),
+            uncertainty: DatumUncertainty::Absolute(sigma),
+            source: data.source(),
         };
-        if self.table.is_some() {
-            let (name, unit) = parted(self.x.as_deref().unwrap_or_default());
-            let (places, _) = numbers(&data, path, name, Some(unit))?;
-            return Ok((0..values.len()).map(|row| datum(row, self.target(places[row]))).collect());
-        }
-        let variants = data.labels("variant").map(<[String]>::to_vec).unwrap_or_default();
-        let target = |row: usize| match (self.target(0.0), variants.get(row)) {
-            (Target::Metric { name, .. }, Some(variant)) => Target::Metric { name, variant: Some(variant.clone()) },
-            (target, _) => target,
-        };
-        Ok((0..values.len()).map(|row| datum(row, target(row))).collect())
-    }
-}
-
-/// Values and unit of a number column; the unit must be the expected one.
-fn numbers(
-    data: &MeasuredData,
-    path: &Path,
-    wanted: &str,
-    expected: Option<&str>,
-) -> Result<(Vec<f64>, String), ToolError> {
-    let values = data.numbers(wanted)?.to_vec();
-    let unit = data.columns.iter().find_map(|column| match column {
-        ReferenceColumn::Numbers { name, unit, .. } if name == wanted => Some(unit.clone()),
-        _ => None,
-    });
-    let unit = unit.unwrap_or_default();
-    match expected {
-        Some(expected) if expected != unit => {
-            let remedy = "convert the column, or correct the unit in the plan: units are not guessed";
-            let rule = format!("in [{expected}], as the plan names the simulated quantity");
-            Err(FieldError::new(wanted, format!("in [{unit}]"), &rule, remedy).in_file(path).into())
-        }
-        _ => Ok((values, unit)),
+        Ok(points.into_iter().enumerate().map(datum).collect())
     }
 }

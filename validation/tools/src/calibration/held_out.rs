@@ -22,7 +22,7 @@ impl CalibrationPlan {
     pub fn digest(&self) -> Result<String, FileError> {
         let folder = self.file.parent().unwrap_or_else(|| Path::new(""));
         let files =
-            self.blocks.iter().flat_map(|block| &block.data).filter_map(DatumText::file).map(|file| folder.join(file));
+            self.blocks.iter().flat_map(|block| &block.data).flat_map(DatumText::files).map(|file| folder.join(file));
         let mut digest = Sha256::new();
         for file in std::iter::once(self.file.clone()).chain(files) {
             digest.update(read_text(&file, WRITTEN_BY_HAND).map_err(|error| FileError::unreadable(&file, &error))?);

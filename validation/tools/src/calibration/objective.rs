@@ -8,7 +8,7 @@ use crate::ToolError;
 use crate::case::{PreparedCase, Registry, Silent, share_out};
 use crate::evaluation::{self, EvaluationRecord};
 use crate::inference::Evaluate;
-use crate::input::FieldError;
+use crate::input::{FieldError, unit};
 use crate::output::FileError;
 use crate::sampling::Random;
 use crate::store::Store;
@@ -97,7 +97,7 @@ impl Objective<'_> {
             let request = &self.plan.blocks[question.block].request;
             match request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits) {
                 Ok(prepared) => {
-                    let key = evaluation::key(prepared.as_ref());
+                    let key = evaluation::key(prepared.as_ref(), &[]);
                     // two questions of one batch may be the same
                     let asked = records.contains_key(&key) || waiting.iter().any(|(_, other, _)| *other == key);
                     if !asked {
@@ -116,7 +116,7 @@ impl Objective<'_> {
         let cost = |prepared: &dyn PreparedCase| prepared.estimate_of_all().particle_steps;
         waiting.sort_by(|a, b| cost(b.2.as_ref()).total_cmp(&cost(a.2.as_ref())).then(a.0.cmp(&b.0)));
         records.extend(share_out(waiting, |(_, key, prepared)| -> Result<_, ToolError> {
-            let record = evaluation::evaluate(prepared, self.store, &Silent)?;
+            let record = evaluation::evaluate(prepared, &[], self.store, &Silent)?;
             self.watch.evaluated(&record.case, record.failure.as_deref());
             let file = self.file(&key);
             record.write(&file).map_err(|error| FileError::unwritable(&file, &error))?;
@@ -189,18 +189,14 @@ impl Objective<'_> {
             if let Some(failure) = answer.failure() {
                 return Err(wrong(format!("no numbers: {failure}")));
             }
-            let (value, unit) = answer.predicted(&datum.target).map_err(wrong)?;
-            if unit != datum.unit {
-                let label = datum.target.label();
-                return Err(wrong(format!(
-                    "`{label}` in [{unit}], but the data are in [{}]; convert them",
-                    datum.unit
-                )));
-            }
+            let (value, own) = answer.predicted(&datum.target).map_err(wrong)?;
+            let label = || datum.target.label();
+            let other = || format!("`{}` in [{own}], but the data are in [{}]; convert them", label(), datum.unit);
+            let factor = unit::factor(&own, &datum.unit).ok_or_else(|| wrong(other()))?;
             if !value.is_finite() {
-                return Err(wrong(format!("{value} for `{}`", datum.target.label())));
+                return Err(wrong(format!("{value} for `{}`", label())));
             }
-            Ok(value)
+            Ok(value * factor)
         })
         .collect()
     }

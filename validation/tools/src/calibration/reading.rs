@@ -19,7 +19,10 @@ impl CalibrationPlan {
     /// in both fit and hold-out.
     pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, ToolError> {
         let text: CalibrationText = read_plan(file, "bagnold calibrate")?;
-        let plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
+        let mut plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
+        for block in &mut plan.blocks {
+            block.request = block.request.clone().based(file).map_err(|error| error.in_file(file))?;
+        }
         plan.check_cases(registry)?;
         plan.check_data()?;
         Ok(plan)
@@ -59,6 +62,12 @@ impl CalibrationPlan {
                 first.push(format!("{path}=1"));
                 prepared = prepare(&first)
                     .map_err(|_| self.repeats.seedless(&block.request.case, path).in_file(&self.file))?;
+            }
+            if let Some(outline) = prepared.outline() {
+                let mut places = block.data.iter().filter_map(|text| text.target(0.0).place());
+                places.try_for_each(|place| place.found(&outline.tables).map(drop)).map_err(|reason| {
+                    ToolError::at(&self.file, format!("`{}`: the case gives {reason}", block.field))
+                })?;
             }
             for run in 0..prepared.run_count() {
                 let Some(identity) = prepared.identity(run, &store) else { continue };

@@ -1,7 +1,8 @@
 //! Quantity of a case's record with which a datum is compared, and the comparison.
 
 use crate::evaluation::EvaluationRecord;
-use crate::input::{name_and_unit, nearest};
+use crate::input::{is_same_heading, nearest, parted};
+use crate::output::Table;
 use crate::statistics::{Extrapolation, interpolated};
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +20,22 @@ pub struct ProfileLocation {
     pub y: String,
     /// Abscissa.
     pub at: f64,
+}
+
+impl ProfileLocation {
+    /// Its table among others, with the places of its columns.
+    pub(super) fn found<'t>(&self, tables: &'t [Table]) -> Result<(&'t Table, usize, usize), String> {
+        let table = &self.table;
+        let found = tables.iter().find(|other| other.name == *table).ok_or_else(|| {
+            let names: Vec<&str> = tables.iter().map(|table| table.name.as_str()).collect();
+            format!("no table `{table}`; it has {}", names.join(", "))
+        })?;
+        let column = |name: &str| {
+            let place = found.columns.iter().position(|column| is_same_heading(column, name));
+            place.ok_or_else(|| format!("no column `{name}` in `{table}`; it has {}", found.columns.join(", ")))
+        };
+        Ok((found, column(&self.x)?, column(&self.y)?))
+    }
 }
 
 /// Quantity of a record with which a datum is compared.
@@ -101,18 +118,9 @@ impl Target {
                     None => Ok((first.value, first.unit.clone())),
                 }
             }
-            Self::Profile(ProfileLocation { table, x, y, at }) => {
-                let found = record.tables.iter().find(|other| other.name == *table).ok_or_else(|| {
-                    let names: Vec<&str> = record.tables.iter().map(|table| table.name.as_str()).collect();
-                    format!("no table `{table}`; it has {}", names.join(", "))
-                })?;
-                let column =
-                    |name: &str| {
-                        found.columns.iter().position(|column| column == name).ok_or_else(|| {
-                            format!("no column `{name}` in `{table}`; it has {}", found.columns.join(", "))
-                        })
-                    };
-                let (x, y) = (column(x)?, column(y)?);
+            Self::Profile(location) => {
+                let (found, x, y) = location.found(&record.tables)?;
+                let ProfileLocation { table, at, .. } = location;
                 let mut points: Vec<(f64, f64)> = found.rows.iter().map(|row| (row[x], row[y])).collect();
                 points.sort_by(|a, b| a.0.total_cmp(&b.0));
                 let unit = parted(&found.columns[y]).1.to_owned();
@@ -188,9 +196,4 @@ impl Datum {
             DatumUncertainty::Factor(factor) => (self.value / factor, self.value * factor),
         }
     }
-}
-
-/// Name and unit of a column such as `u [m/s]`.
-pub(super) fn parted(column: &str) -> (&str, &str) {
-    name_and_unit(column).unwrap_or((column, "-"))
 }

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// More evaluations than this are a slip of the pen.
 const MOST_EVALUATIONS: usize = 10_000;
@@ -54,11 +54,13 @@ struct ParameterText {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BlockText {
-    /// Case that is run
-    case: String,
-    /// Tier whose parameters fill what `with` leaves out
+    /// Case that is run; may be left out beside `base`
     #[serde(default)]
-    tier: Tier,
+    case: String,
+    /// A case file with the base values, beside the plan
+    base: Option<PathBuf>,
+    /// Tier whose parameters fill what `with` leaves out
+    tier: Option<Tier>,
     /// Parameters, as in a case file
     #[serde(default)]
     #[schemars(with = "BTreeMap<String, Value>")]
@@ -269,10 +271,10 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<Vec<DataBlock
                 }
             }
             block.check_conditions(&field, held_out)?;
-            let (conditions, same_within) = (block.conditions, block.same_within.unwrap_or(SAME_WITHIN));
-            let request =
-                CaseRequest { case: block.case, name: None, tier: block.tier, with: block.with, only: block.only };
-            blocks.push(DataBlock { request, held_out, conditions, same_within, field, data: block.data });
+            let BlockText { case, base, tier, with, only, conditions, same_within, data } = block;
+            let same_within = same_within.unwrap_or(SAME_WITHIN);
+            let request = CaseRequest { case, base, tier, with, only, ..CaseRequest::default() };
+            blocks.push(DataBlock { request, held_out, conditions, same_within, field, data });
         }
     }
     Ok(blocks)

@@ -5,7 +5,7 @@ use super::submission::{ForeignRun, ParticleFiles, TableFile, rising};
 use super::vtk::{self, NamedArrays, PLACES, PointArrays};
 use crate::case::ParameterError;
 use crate::case::{ExternalColumn, ExternalData, ExternalSchema, NamedColumns, ParticleFrame, RunScales};
-use crate::input::{self, FieldError, TextTable, did_you_mean, nearest};
+use crate::input::{self, FieldError, TextTable, did_you_mean, name_and_unit, nearest, unit};
 use crate::measured::ColumnSource;
 use crate::output::FileError;
 use std::collections::BTreeMap;
@@ -32,9 +32,11 @@ pub(super) fn read(
 ) -> Result<ExternalData, ParameterError> {
     let plan = |texts: &_, items, field: &str| plan(texts, items, scales, field);
     let columns = |table: &TableFile, items, field: &str| -> Result<NamedColumns, ParameterError> {
-        let plan = plan(&table.columns, items, field)?;
         let file = folder.join(&table.file);
-        Ok(of_table(&read_text_table(&file)?, &plan, &file)?)
+        let read = read_text_table(&file)?;
+        let by_headings = || by_headings(&read, items).map_err(|error| error.within(field));
+        let columns = if table.columns.is_empty() { &by_headings()? } else { &table.columns };
+        Ok(of_table(&read, &plan(columns, items, field)?, &file)?)
     };
     let mut given = ExternalData::default();
     if let Some(files) = &run.particles {
@@ -94,6 +96,24 @@ fn plan(
             Ok((item, source, factor, field))
         })
         .collect()
+}
+
+/// Columns that a file's headings name, with the first as what the others are given over.
+fn by_headings(table: &TextTable, items: &[ExternalColumn]) -> Result<BTreeMap<String, toml::Value>, FieldError> {
+    let of_heading = |(place, heading): (usize, &String)| {
+        let (name, unit) = name_and_unit(heading)?;
+        let is_over = |item: &&ExternalColumn| place == 0 && unit::factor(unit, item.unit).is_some();
+        let item = items.iter().find(|item| item.name == name).or_else(|| items.iter().find(is_over))?;
+        Some((item.name.to_owned(), heading.as_str().into()))
+    };
+    let columns: BTreeMap<_, _> = table.headings.iter().enumerate().filter_map(of_heading).collect();
+    if columns.len() > 1 {
+        return Ok(columns);
+    }
+    let names: Vec<String> = items.iter().map(|item| format!("{} [{}]", item.name, item.unit)).collect();
+    let rule = format!("given, or the headings be two or more of {}", names.join(", "));
+    let remedy = "rename them, or say which column is what: columns = { NAME = \"HEADING [UNIT]\" }";
+    Err(FieldError::new("columns", format!("missing beside the headings {}", table.headings.join(", ")), &rule, remedy))
 }
 
 /// Files that another one names, unless one of them is missing.
@@ -185,7 +205,7 @@ fn of_table(table: &TextTable, plan: &ColumnAssignments, file: &Path) -> Result<
         ColumnSource::Heading { text, name, .. } => {
             // the heading may hold its unit itself
             let heading = if table.headings.contains(text) { text } else { name };
-            table.column(heading, field, file).map(<[f64]>::to_vec)
+            table.column(heading, field, file)
         }
         ColumnSource::Constant { value, .. } => Ok(vec![*value; rows]),
     };

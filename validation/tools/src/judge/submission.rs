@@ -119,7 +119,8 @@ pub struct ParticleFiles {
 pub struct TableFile {
     /// The file, beside the submission.
     pub file: PathBuf,
-    /// Assignment of the file's columns to quantities.
+    /// Assignment of the file's columns to quantities; by their headings, if it is left out.
+    #[serde(default)]
     pub columns: BTreeMap<String, toml::Value>,
 }
 
@@ -137,21 +138,12 @@ impl Submission {
 
     /// The parameters: those of `base` with those of `with` laid over them.
     fn parameters(&self, path: &Path) -> Result<toml::Table, ParameterError> {
-        let own = CaseFile::of_parameters(path, &self.case, None, &self.with)?;
-        let Some(base) = &self.base else { return Ok(own.fields) };
-        let mut file = CaseFile::read(&path.parent().unwrap_or(Path::new("")).join(base))?;
-        let wrong = |field: &str, value: String, rule: String| {
-            let remedy = "name in both files what is judged";
-            Err(FieldError::new(field, value, &rule, remedy).in_file(path).into())
-        };
-        if file.case != self.case {
-            let rule = format!("the case of {}, \"{}\"", file.path.display(), file.case);
-            return wrong("case", format!("\"{}\"", self.case), rule);
-        }
+        let file = CaseFile::of_plan(path, Some(&self.case), self.base.as_deref(), None, &self.with)?;
         if let Some(tier) = file.tier.filter(|tier| *tier != self.tier) {
-            return wrong("tier", self.tier.to_string(), format!("the tier of {}, {tier}", file.path.display()));
+            let rule = format!("the tier of {}, {tier}", file.path.display());
+            let remedy = "name in both files what is judged";
+            return Err(FieldError::new("tier", self.tier, &rule, remedy).in_file(path).into());
         }
-        file.lay_over(&own.fields);
         Ok(file.fields)
     }
 

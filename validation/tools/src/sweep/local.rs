@@ -5,6 +5,7 @@ use super::manifest::{Manifest, SweepRun};
 use crate::ToolError;
 use crate::case::{CaseFile, Changes, Limits, Registry, Silent, share_out};
 use crate::evaluation::{self, EvaluationRecord};
+use crate::measured::with_overlay;
 use crate::output::{FileError, Owner, write_whole};
 use crate::result::pretty;
 use crate::store::Store;
@@ -34,14 +35,16 @@ pub fn run_entry(
     let unwritable = |error: std::io::Error| FileError::unwritable(&folder, &error);
     std::fs::create_dir_all(&folder).map_err(unwritable)?;
     let listed = folder.join("case.toml");
-    write_whole(&listed, entry.parameters_toml.as_bytes()).map_err(unwritable)?;
+    let overlay = sweep.manifest().overlay.get(&entry.label).map_or(&[][..], Vec::as_slice);
+    overlay.iter().try_for_each(|own| own.keep(&folder)).map_err(unwritable)?;
+    write_whole(&listed, with_overlay(&entry.parameters_toml, overlay).as_bytes()).map_err(unwritable)?;
     let file = CaseFile::read(&listed)?;
     // how much it may ask for was decided when it was planned
     let changes =
         Changes { file: Some((&listed, file.fields)), settings: &[], limits: Limits::NONE, only: &entry.only };
     let prepared = registry.find(&entry.case)?.prepare(entry.tier, &changes)?;
     let prepared = evaluation::chosen(prepared, &entry.only, &listed)?;
-    let record = evaluation::evaluate(prepared, store, &Silent)?;
+    let record = evaluation::evaluate(prepared, overlay, store, &Silent)?;
     // a folder that somebody has removed meanwhile is not made again for a part of the sweep
     let marker = sweep.path().join(Manifest::MARKER);
     marker.metadata().map_err(|error| FileError::unwritable(sweep.path(), &error))?;

@@ -3,9 +3,11 @@
 use crate::ToolError;
 use crate::case::Tier;
 use crate::input::FieldError;
+use crate::measured::Measurements;
 use crate::metric::Variant;
 use crate::output::Owner;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// One run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,6 +46,9 @@ pub struct Manifest {
     pub parameters: Vec<String>,
     /// Metrics to be drawn over the parameters; empty for the gated ones.
     pub metrics: Vec<String>,
+    /// Measurements that the figures of a case are compared with, by its label.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub overlay: BTreeMap<String, Vec<Measurements>>,
     /// The runs by number.
     pub entries: Vec<SweepRun>,
 }
@@ -95,6 +100,7 @@ mod tests {
             source_hash: String::new(),
             parameters: vec!["viscosity".to_owned()],
             metrics: Vec::new(),
+            overlay: BTreeMap::new(),
             entries: (1..=1000).map(entry).collect(),
         };
         let text = serde_json::to_string(&manifest).expect("writable");

@@ -6,11 +6,13 @@ use crate::case::list::ListedChange;
 use crate::case::{Limits, ListOfRuns, PreparedCase, Registry, VariedParameter};
 use crate::evaluation::{self, CaseRequest, Paths, read_plan};
 use crate::input::{FieldError, check_name};
+use crate::measured::read_overlay;
 use crate::metric::Variant;
 use crate::sampling::{Bounds, Spacing, design};
 use crate::store::identity_or_unique;
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::Value;
 
@@ -114,7 +116,11 @@ impl SweepPlan {
     /// # Errors
     /// A file that cannot be read or typed, or ranges that break a rule.
     pub fn read(file: &Path) -> Result<Self, ToolError> {
-        let plan = Self { file: file.to_owned(), text: read_plan(file, "bagnold sweep")? };
+        let mut text: SweepText = read_plan(file, "bagnold sweep")?;
+        for request in &mut text.cases {
+            *request = request.clone().based(file).map_err(|error| error.in_file(file))?;
+        }
+        let plan = Self { file: file.to_owned(), text };
         plan.check().map_err(|error| error.in_file(file))?;
         Ok(plan)
     }
@@ -216,10 +222,11 @@ impl SweepPlan {
             return Err(FieldError::new("vary", runs, &rule, "take fewer values").in_file(&self.file).into());
         }
         let mut entries = Vec::with_capacity(runs);
-        let mut refusal = None;
+        let (mut refusal, mut overlay) = (None, BTreeMap::new());
         for (index, (request, points)) in self.text.cases.iter().zip(points).enumerate() {
             let prepared = request.prepare(registry, &self.file, &[], limits);
-            prepared.map_err(|error| error.of_block(&format!("cases[{index}]")))?;
+            let prepared = prepared.map_err(|error| error.of_block(&format!("cases[{index}]")))?;
+            let measured = read_overlay(prepared.as_ref(), &request.overlay, &[])?;
             for point in points {
                 let settings: Vec<String> = point.settings().collect();
                 let number = entries.len() + 1;
@@ -228,7 +235,7 @@ impl SweepPlan {
                     number,
                     case: request.case.clone(),
                     label: request.label().to_owned(),
-                    tier: request.tier,
+                    tier: request.tier.unwrap_or_default(),
                     folder,
                     point: point.values.iter().map(|(.., value)| value.to_string()).collect(),
                     key: String::new(),
@@ -239,7 +246,7 @@ impl SweepPlan {
                 };
                 match request.prepare(registry, &self.file, &settings, limits) {
                     Ok(prepared) => {
-                        entry.key = evaluation::key(prepared.as_ref());
+                        entry.key = evaluation::key(prepared.as_ref(), &measured);
                         entry.particle_steps = cost(prepared.as_ref());
                         entry.parameters_toml = prepared.parameters_toml().to_owned();
                     }
@@ -252,6 +259,9 @@ impl SweepPlan {
                 }
                 entries.push(entry);
             }
+            if !measured.is_empty() {
+                overlay.insert(request.label().to_owned(), measured);
+            }
         }
         match refusal {
             Some(error) if entries.iter().all(|entry| entry.refusal.is_some()) => Err(error.into()),
@@ -259,6 +269,7 @@ impl SweepPlan {
                 source_hash: identity_or_unique(registry.origin()).to_owned(),
                 parameters: self.text.vary.iter().map(SweptParameter::name).collect(),
                 metrics: self.text.metrics.clone(),
+                overlay,
                 entries,
             }),
         }

@@ -68,6 +68,10 @@ pub trait Flow:
     fn laws(&self) -> Vec<Rheology> {
         Vec::new()
     }
+    /// An observation without content, whose tables and figures have the headings and axes of the run's; none, unless a case tells.
+    fn outline(&self) -> Option<Self::Observation> {
+        None
+    }
     /// One line on the run before it starts, for the terminal; nothing, unless a case tells.
     fn brief(&self) -> Option<String> {
         None

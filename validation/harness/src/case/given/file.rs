@@ -4,7 +4,7 @@ use super::changes::lay_over;
 use super::error::ParameterError;
 use super::{meshes, rates};
 use crate::case::{OutputPlan, Tier};
-use crate::input::{DOCUMENT, FieldError, nearest, read_text};
+use crate::input::{DOCUMENT, FieldError, MeasuredFiles, nearest, read_text};
 use crate::output::FileError;
 use bagnold_solver::parameter::shortened;
 use std::collections::BTreeMap;
@@ -21,7 +21,7 @@ pub struct CaseFile {
     /// The tier whose parameters fill what the file leaves out.
     pub tier: Option<Tier>,
     /// Files with measurements to be drawn into its figures; beside the file, unless they say otherwise.
-    pub overlay: Vec<PathBuf>,
+    pub overlay: Vec<MeasuredFiles>,
     /// States of its runs to be written on their way.
     pub output: Option<OutputPlan>,
     /// Everything else.
@@ -70,13 +70,13 @@ impl CaseFile {
         };
         let overlay = match fields.remove("overlay") {
             None => Vec::new(),
-            Some(value) => value.clone().try_into::<Vec<PathBuf>>().map_err(|_| {
+            Some(value) => value.clone().try_into::<Vec<MeasuredFiles>>().map_err(|_| {
                 let rule = "a list of CSV files with measurements";
                 wrong("overlay", &value, rule, "such as overlay = [\"mine.csv\"]; their paths begin at this file")
             })?,
         };
         let beside = path.parent().unwrap_or(Path::new(""));
-        let overlay = overlay.into_iter().map(|file| beside.join(file)).collect();
+        let overlay = overlay.iter().map(|files| files.beside(beside)).collect();
         let output = OutputPlan::taken(&mut fields, path)?;
         meshes::read_beside(&mut fields, path)?;
         rates::read_beside(&mut fields, path)?;
@@ -94,6 +94,34 @@ impl CaseFile {
         rates::read_beside(&mut fields, path)?;
         let case = shortened(case.to_owned());
         Ok(Self { path: path.to_owned(), case, tier, overlay: Vec::new(), output: None, fields })
+    }
+
+    /// Parameters of a plan: those of a case, or of the case file that it names as its base, under values of its own.
+    ///
+    /// # Errors
+    /// Neither a case nor a base, a base of another case, a file that cannot be read.
+    pub fn of_plan(
+        plan: &Path,
+        case: Option<&str>,
+        base: Option<&Path>,
+        tier: Option<Tier>,
+        own: &Table,
+    ) -> Result<Self, ParameterError> {
+        let base = base.map(|base| Self::read(&plan.parent().unwrap_or(Path::new("")).join(base))).transpose()?;
+        let Some(name) = case.or(base.as_ref().map(|base| &*base.case)) else {
+            let remedy = "add case = \"scene\", or base = \"my-case.toml\"";
+            return Err(FieldError::new("case", "missing", "the name of a case, or `base` a case file", remedy).into());
+        };
+        let own = Self::of_parameters(plan, name, tier, own)?;
+        let Some(mut base) = base else { return Ok(own) };
+        if own.case != base.case {
+            let rule = format!("the case of {}, \"{}\"", base.path.display(), base.case);
+            let remedy = "name in both files what is simulated";
+            return Err(ParameterError::field("case", format!("\"{}\"", own.case), &rule, remedy).in_file(plan));
+        }
+        base.lay_over(&own.fields);
+        base.tier = tier.or(base.tier);
+        Ok(base)
     }
 
     /// Lays fields over its own: tables field by field, everything else as a whole.
@@ -181,7 +209,8 @@ mod tests {
     fn measurements_are_files_beside_it() {
         let read = |text: &str| CaseFile::parse(Path::new("mine/case.toml"), text);
         let file = read("case = \"film\"\noverlay = [\"a.csv\", \"/b.csv\"]").expect("a case file");
-        assert_eq!(file.overlay, [Path::new("mine/a.csv"), Path::new("/b.csv")]);
+        let files: Vec<&PathBuf> = file.overlay.iter().flat_map(MeasuredFiles::files).collect();
+        assert_eq!(files, [Path::new("mine/a.csv"), Path::new("/b.csv")]);
         assert!(file.fields.is_empty());
         assert_eq!(
             read("case = \"film\"\noverlay = 3").expect_err("no list").to_string(),

@@ -95,7 +95,7 @@ mod tests {
             ("t,q\n", "a.csv: `line 1` is without numbers"),
             ("t,q\n0,inf\n", "a.csv: `q` is inf in row 1, but must be a finite number"),
             ("t [furlong],q\n0,1\n", "a.csv: `t [furlong]` is [furlong], but must be a unit of the kind of [s]"),
-            ("t,q [kg/(s m)]\n0,1\n", "a.csv: `q [kg/(s m)]` is [kg/(s m)], but must be a unit of the kind of [kg/s]"),
+            ("t,q [kg/(m s)]\n0,1\n", "a.csv: `q [kg/(m s)]` is [kg/(m s)], but must be a unit of the kind of [kg/s]"),
         ] {
             assert!(read(text).is_err_and(|message| message.starts_with(said)), "{said}");
         }

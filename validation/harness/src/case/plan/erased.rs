@@ -114,6 +114,10 @@ pub trait PreparedCase: Send + Sync {
     fn asked(&self) -> ExternalResult {
         ExternalResult::default()
     }
+    /// Tables and figures with the headings and axes of the runs' before these are simulated; none of a case that does not tell.
+    fn outline(&self) -> Option<CaseResult> {
+        None
+    }
     /// Boundaries and start of a run; none of a case that is not simulated by particles.
     fn conditions(&self, _run: usize) -> Option<Conditions> {
         None
@@ -373,6 +377,17 @@ impl<C: Case> PreparedCase for CasePlan<C> {
             Some((run.clone(), nothing.record(seen.observation)))
         };
         ExternalResult { tables: Vec::new(), ..self.said(self.slots.iter().filter_map(record).collect()) }
+    }
+
+    fn outline(&self) -> Option<CaseResult> {
+        let record = |(run, _): &Slot<C::Flow>| Some((run.clone(), ExternalData::default().record(run.outline()?)));
+        let records: Option<Vec<RecordOf<C::Flow>>> = self.slots.iter().map(record).collect();
+        let of_label = |(label, records): (Variant, Vec<RecordOf<C::Flow>>)| {
+            let (name, figures, tables) = (C::NAME.to_owned(), C::figures(&records), C::tables(&records));
+            CaseResult { name, figures, tables, ..CaseResult::default() }.labelled(&label, Variant::clone)
+        };
+        let parts = by_label(records?, |(run, _)| self.parameters.label(run));
+        parts.into_iter().map(of_label).reduce(CaseResult::and)
     }
 
     fn conditions(&self, run: usize) -> Option<Conditions> {

@@ -2,8 +2,9 @@
 
 use crate::case::given::error::ParameterError;
 use crate::case::{AnyCase, CaseFile, Changes, Limits, OutputPlan, PreparedCase, Registry, Tier};
+use crate::input::MeasuredFiles;
 use crate::metric::Variant;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A case with what is to differ from its tier's parameters.
 #[derive(Debug, Clone, Copy, Default)]
@@ -27,7 +28,7 @@ pub struct Requested {
     /// Its tier.
     pub tier: Tier,
     /// Files with measurements that its file names.
-    pub overlay: Vec<PathBuf>,
+    pub overlay: Vec<MeasuredFiles>,
     /// States of the runs that its file wants on their way.
     pub output: Option<OutputPlan>,
     /// Whether anything may be other than as the case comes.

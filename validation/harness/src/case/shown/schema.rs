@@ -19,7 +19,10 @@ pub(in crate::case) fn of_file(case: &str, summary: &str, tier: Tier, parameters
     fields.insert("case".to_owned(), json!({ "type": "string", "const": case, "description": summary }));
     fields.insert("tier".to_owned(), tiers);
     let overlay = "CSV files with measurements to be drawn into the case's figures; their paths begin at this file.";
-    let files = json!({ "type": "array", "items": { "type": "string" }, "default": [], "description": overlay });
+    let repeats = json!({ "type": ["string", "array"], "items": { "type": "string" } });
+    let named = json!({ "type": "object", "properties": { "files": repeats, "columns": { "type": "object" } }, "required": ["files", "columns"], "additionalProperties": false });
+    let one = json!({ "anyOf": [repeats, named] });
+    let files = json!({ "type": "array", "items": one, "default": [], "description": overlay });
     fields.insert("overlay".to_owned(), files);
     let states = json!({
         "type": "object",
