@@ -75,6 +75,7 @@ fn parse(
     let listed = table.headings().join(", ");
     let wrong = |defect: &str, missing: Option<&&str>| {
         let (rule, remedy) = missing.map_or((FORM.to_owned(), ROW.to_owned()), |name| {
+            let name = name.rsplit_once(": ").map_or(*name, |(_, own)| own);
             let columns = format!("columns = {{ \"{name}\" = \"HEADING [UNIT]\" }}");
             (format!("headings with `{name}` among them"), format!("rename one, or give {{ files = […], {columns} }}"))
         });
@@ -132,13 +133,15 @@ fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<V
     for (name, given) in names {
         for one in given.as_array().map_or(std::slice::from_ref(given), Vec::as_slice) {
             let text = one.as_str().unwrap_or_default();
-            let named = name_and_unit(text)
-                .and_then(|(bare, unit)| Some((headings.iter().position(|own| *own == text || *own == bare)?, unit)));
-            let (place, unit) = named.ok_or_else(|| {
+            let (bare, unit) = name_and_unit(text).unwrap_or_default();
+            let is_meant = |own: &str| !unit.is_empty() && (own == text || own == bare);
+            if !headings.iter().any(|own| is_meant(own)) {
                 let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
-                FieldError::new(&format!("columns.{name}"), one, &rule, "such as front = \"toe [cm]\"")
-            })?;
-            renamed[place] = format!("{name} [{unit}]");
+                return Err(FieldError::new(&format!("columns.{name}"), one, &rule, "such as front = \"toe [cm]\""));
+            }
+            for (new, _) in renamed.iter_mut().zip(headings).filter(|(_, own)| is_meant(own)) {
+                *new = format!("{name} [{unit}]");
+            }
         }
     }
     Ok(renamed)

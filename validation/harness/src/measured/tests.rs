@@ -293,14 +293,15 @@ fn columns_are_found_by_their_names_or_by_those_that_a_plan_gives() {
     let own = read_of(&[text], columns, wanted).expect("by name");
     assert_eq!(own.in_units("s", "m").expect("units"), [[0.1, 0.1, 0.03]]);
     assert_eq!(own.text, "t [ms],front [cm],uncertainty [cm]\n100,10,3\n");
+    let repeats = read_of(&["toe [cm],t [s],toe [cm]\n1,1,3\n"], "front = \"toe [cm]\", t = \"t [s]\"", wanted);
+    assert_eq!(repeats.expect("both columns").measured.values, [2.0]);
     let refused = |columns: &str| read_of(&[text], columns, wanted).expect_err("refused");
     assert!(
         refused("front = \"to [cm]\"")
             .contains("`columns.front` is \"to [cm]\", but must be a heading of the file with its unit: toe, time")
     );
     assert!(
-        refused("t = \"time [ms]\", x = \"toe [cm]\"")
-            .contains("headings with `tip: front` among them; rename one, or")
+        refused("t = \"time [ms]\", x = \"toe [cm]\"").contains("headings with `front` among them; rename one, or")
     );
 }
 

@@ -219,7 +219,7 @@ fn read(text: &CheckText, beside: &Path) -> Result<CheckedQuantity, FieldError> 
             }
             let files = text.compare.clone().unwrap_or_else(|| MeasuredFiles::Repeats(Vec::new()));
             let measured = measured(&files, &column, beside)
-                .map_err(|error| FieldError::finding("compare", error, "correct the measurements, or name others"))?;
+                .map_err(|error| FieldError::finding("compare", error, "or name another file"))?;
             Ok(CheckedQuantity::Distance(column, Box::new(measured), text.distance.unwrap_or(Distance::Residual)))
         }
     }
