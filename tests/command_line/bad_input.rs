@@ -53,4 +53,8 @@ fn invalid_command_lines() {
     for arguments in [&["run"][..], &["run", "film", "--tier", "papre"], &["run", "film", "--threads", "0"], &["fly"]] {
         place.bagnold(arguments).assert().code(2).stdout("");
     }
+    // far more threads than processors would take two hundred times as long
+    let refused = place.bagnold(&["run", "film"]).env("RAYON_NUM_THREADS", "100000").assert().code(2);
+    let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(text.contains("`--threads 100000`") && text.contains("eight times the processors"), "{text}");
 }

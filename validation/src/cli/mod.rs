@@ -229,6 +229,9 @@ fn perform(command: &Command, session: &mut Session<'_>) -> Result<Exit, Program
     }
 }
 
+/// Most threads for each processor.
+const MOST_THREADS: usize = 8;
+
 /// Calls inside a pool of so many threads, or of one a core.
 ///
 /// # Errors
@@ -237,7 +240,14 @@ pub fn in_pool<T: Send, E: From<ParameterError> + Send>(
     threads: Option<u16>,
     act: impl FnOnce() -> Result<T, E> + Send,
 ) -> Result<T, E> {
-    // For rayon, 0 threads means all cores.
+    // For rayon, 0 threads means all cores, or what its own variable says.
+    let of_variable = || std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok();
+    let asked = threads.map(usize::from).or_else(of_variable).unwrap_or(0);
+    let most = MOST_THREADS * std::thread::available_parallelism().map_or(1, usize::from);
+    if asked > most {
+        let reason = format!("above {most}, eight times the processors; RAYON_NUM_THREADS counts as well");
+        return Err(ParameterError::Threads { threads: asked, reason }.into());
+    }
     let threads = usize::from(threads.unwrap_or(0));
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)

@@ -20,9 +20,9 @@ pub(crate) fn all<S: Dimension<D>, const D: usize>(records: &[SceneRecord<S, D>]
     let of_run = |(parameters, record): &SceneRecord<S, D>| {
         // another code's front comes without pictures
         let pictures = (!record.frames.is_empty()).then(|| S::pictures(parameters, &record.frames));
-        [pictures, gauges(parameters, &record.data)]
+        pictures.into_iter().chain(gauges(parameters, &record.data))
     };
-    records.iter().flat_map(of_run).flatten().collect()
+    records.iter().flat_map(of_run).collect()
 }
 
 /// Axes of pictures: the material of all of them and the inlets with a margin, but nothing beyond the scene.
@@ -99,8 +99,12 @@ fn start<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>) -> (Stri
     (caption, S::setup(parameters, &sites))
 }
 
-/// A panel for each axis of a gauge, with a line for each column that has it.
-fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &SceneObservation<D>) -> Option<Figure> {
+/// Panels of a figure of gauges, and such figures of a scene at most: a sheet of 5000 panels takes 10 GB.
+const PANELS: usize = 12;
+const SHEETS: usize = 10;
+
+/// A panel for each axis of a gauge, with a line for each column that has it, by twelve on a sheet.
+fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &SceneObservation<D>) -> Vec<Figure> {
     let panel = |series: &series::GaugeSeries<'_, D>, axis: &str| {
         let mut panel = Panel::new(series.gauge, Axis::linear("t [s]"), Axis::linear(axis));
         for measured in series.measured.iter().filter(|_| series.columns[0].axis == axis) {
@@ -125,7 +129,17 @@ fn gauges<S: Dimension<D>, const D: usize>(parameters: &SceneFlow<S, D>, data: &
         axes.into_iter().map(|axis| panel(&series, axis)).collect::<Vec<_>>()
     };
     let panels: Vec<Panel> = series::of_run(parameters, data).into_iter().flat_map(panels).collect();
-    (!panels.is_empty()).then(|| Figure::new("gauges", "What the gauges of the scene measured.", panels).in_columns(2))
+    let all = panels.len();
+    let sheet = |(index, panels): (usize, &[Panel])| {
+        let name = if index == 0 { "gauges".to_owned() } else { format!("gauges-{}", index + 1) };
+        let mut caption = "What the gauges of the scene measured.".to_owned();
+        if all > PANELS {
+            let (first, last) = (index * PANELS + 1, index * PANELS + panels.len());
+            caption += &format!(" Panels {first} to {last} of {all}; the tables have all.");
+        }
+        Figure::new(&name, &caption, panels.to_vec()).in_columns(2)
+    };
+    panels.chunks(PANELS).take(SHEETS).enumerate().map(sheet).collect()
 }
 
 #[cfg(test)]
