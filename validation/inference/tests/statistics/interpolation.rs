@@ -25,5 +25,8 @@ fn each_end_gives_what_was_asked_for() {
     assert_eq!(at(-0.6, Extrapolation::Line(0.5), Extrapolation::Nothing), None);
     assert_eq!(at(4.0, Extrapolation::Nothing, Extrapolation::Line(0.5)), Some(4.5));
     assert_eq!(at(4.1, Extrapolation::Nothing, Extrapolation::Line(0.5)), None);
+    let gap = [(0.0, 1.0), (1.0, f64::NAN), (2.0, 3.0)];
+    let beside = |place| interpolated(&gap, place, (Extrapolation::EndValue, Extrapolation::EndValue));
+    assert_eq!([0.0, 0.5, 1.0, 1.5, 2.0].map(beside), [Some(1.0), None, None, None, Some(3.0)]);
     assert_eq!(interpolated(&POINTS[..1], 0.5, (Extrapolation::Line(9.0), Extrapolation::Line(9.0))), None);
 }
