@@ -4,10 +4,11 @@ use super::flow::Dimension;
 use super::geostatic::rankine_ratios;
 use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, shown, vector};
-use super::{Measurand, SceneFlow, names, shapes, sides::SceneSides};
+use super::{BodyPreparation, Measurand, SceneFlow, names, shapes, sides::SceneSides};
 use crate::case::ParameterError;
 use crate::setup::rules;
 use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::enclosure::facet::Facet;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::Motion;
 use bagnold_solver::weakly_compressible::numerics::Contact;
 use bagnold_solver::weakly_compressible::scene::pore_problem;
@@ -38,6 +39,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         }
         self.check_pore_liquid()?;
         self.check_scales()?;
+        self.check_preparation()?;
         self.check_lateral_pressure()?;
         self.check_inlets()?;
         self.check_gauges()?;
@@ -145,6 +147,58 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             return refused(&direction, "one that crosses the layer", remedy);
         }
         Ok(())
+    }
+
+    /// A preparation that the material has a stress for.
+    fn check_preparation(&self) -> Result<(), ParameterError> {
+        let value = match self.preparation {
+            BodyPreparation::None => return Ok(()),
+            BodyPreparation::Settled => "settled",
+            BodyPreparation::Stressed => "stressed",
+        };
+        let refused = |rule: &str, remedy: &str| Err(ParameterError::field("preparation", value, rule, remedy));
+        if self.bodies.is_empty() && self.from.is_none() {
+            return refused(
+                "\"none\" for a scene without bodies",
+                "what an inlet brings moves: leave the preparation out",
+            );
+        }
+        if self.preparation == BodyPreparation::Settled {
+            return Ok(());
+        }
+        if self.material.strength_at_rest(0.0).is_none() {
+            let rule = format!("\"none\" or \"settled\" for the law \"{}\"", self.material.name());
+            return refused(&rule, "it has no stress at rest: leave it out, or give a law such as \"mu-i\"");
+        }
+        let (across, along) = self.pulls();
+        if across.norm() == 0.0 {
+            return refused("\"none\" where no gravity acts across periodic sides", "no weight presses: leave it out");
+        }
+        if self.lateral_pressure_ratio != 1.0 {
+            let remedy = "a liquid at rest has 1: leave one of the two out, or give \"settled\"";
+            return Err(ParameterError::field(
+                "lateral_pressure_ratio",
+                self.lateral_pressure_ratio,
+                "1 beside `preparation` \"stressed\"",
+                remedy,
+            ));
+        }
+        if along.norm() > 0.0
+            && let Some(wall) = self.smooth_floor()
+        {
+            let rule = format!("\"none\" or \"settled\" on the smooth slope `{}`", wall.name());
+            return refused(&rule, "a smooth wall bears no shear stress: leave it out, or make the wall rough");
+        }
+        Ok(())
+    }
+
+    /// A wall that bears weight but no shear stress.
+    pub(super) fn smooth_floor(&self) -> Option<&S::Wall> {
+        self.walls.iter().find(|wall| {
+            let wall = wall.facet_wall();
+            let is_floor = |facet: &Facet<D>| facet.normal.dot(&self.down()) < -0.5;
+            wall.roughness == Surface::Smooth && wall.facets.iter().any(is_floor)
+        })
     }
 
     /// A ratio of horizontal to vertical stress that the material bears at rest.

@@ -1,10 +1,11 @@
-//! Lengths of a scene that are possible but unlikely, because they were given in millimetres.
+//! Lengths of a scene that are possible but unlikely, because they were given in millimetres, and a start that is.
 
-use super::SceneFlow;
 use super::flow::Dimension;
 use super::measure::Measurand;
+use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall};
 use super::sides::SceneSides;
+use super::{BodyPreparation, SceneFlow};
 
 use bagnold_number::four_digits;
 use bagnold_solver::vector::Vector;
@@ -17,10 +18,22 @@ const MOST_GRAINS: f64 = 1e5;
 const FARTHEST: f64 = 30.0;
 
 impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
-    /// Warnings of lengths that are probably in millimetres: all of them, or those of one part.
+    /// Warnings of lengths that are probably in millimetres, all of them or those of one part, and of a start without shear stress.
     pub(super) fn doubtful_units(&self) -> Vec<String> {
-        let found = self.stray().or_else(|| self.all_large());
-        found.map(|doubt| format!("scene `{}`: {doubt}", self.name)).into_iter().chain(self.wide_gauges()).collect()
+        let found = self.stray().or_else(|| self.all_large()).into_iter().chain(self.sudden_release());
+        found.map(|doubt| format!("scene `{}`: {doubt}", self.name)).chain(self.wide_gauges()).collect()
+    }
+
+    /// A layer at rest on a rough slope, whose shear stress grows from zero while it already moves.
+    fn sudden_release(&self) -> Option<String> {
+        let is_unprepared = self.preparation == BodyPreparation::None && self.from.is_none();
+        let rests = |body: &S::Body| body.velocity().norm() == 0.0;
+        let (_, along) = Periods::of(&self.sides.axes()).split(&self.pull());
+        let bears_shear = self.material.strength_at_rest(0.0).is_some() && self.smooth_floor().is_none();
+        (is_unprepared && bears_shear && along.norm() > 0.0 && self.bodies.iter().any(rests)).then(|| {
+            "a layer on a periodic slope starts without shear stress and moves too far at first; give `preparation = \"stressed\"`"
+                .to_owned()
+        })
     }
 
     /// The geometry as a whole: too many grains across it, or over before anything could fall.
@@ -139,6 +152,24 @@ mod tests {
         // each evidence alone: a long duration, and grains in the same wrong unit
         assert!(doubt([100.0, 150.0, 1.5], 0.7e-3, 20.0).is_some_and(|text| !text.contains("duration")));
         assert!(doubt([100.0, 150.0, 1.5], 0.7, 0.5).is_some_and(|text| !text.contains("grain")));
+    }
+
+    #[test]
+    fn a_layer_without_shear_stress_on_a_rough_slope_is_doubted() {
+        let (left, right) = (DomainSide::Periodic(0.0), DomainSide::Periodic(0.1));
+        let mut layer = SceneFlow {
+            gravity: (3.99, -8.96),
+            bodies: vec![PlaneBody::Box { lower: (0.0, 0.0), upper: (0.1, 0.1), velocity: (0.0, 0.0) }],
+            sides: PlaneSides { left, right, ..unbounded() },
+            walls: Vec::new(),
+            gauges: Vec::new(),
+            ..quick::<Plane, 2>()
+        };
+        assert!(layer.doubtful_units().concat().contains("starts without shear stress"));
+        layer.preparation = BodyPreparation::Stressed;
+        assert_eq!(layer.doubtful_units(), Vec::<String>::new());
+        let level = SceneFlow { gravity: (0.0, -9.81), preparation: BodyPreparation::None, ..layer };
+        assert_eq!(level.doubtful_units(), Vec::<String>::new());
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::lattice::{LatticeGroup, SiteLattice, groups};
 use super::setting::{SceneBody, SceneInlet, SceneWall};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, is_taken};
-use super::{SceneFlow, shapes};
+use super::{BodyPreparation, SceneFlow, shapes};
 use crate::case::ParameterError;
 use crate::checkpoint::is_interrupted;
 use crate::output::caution_about;
@@ -38,7 +38,9 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let subject = format!("bodies of scene `{}`", self.name);
             caution_about(&subject, &format!("scene `{}`: {}", self.name, remarks.join("; ")));
         }
-        let (up, pull) = self.uphill();
+        let (across, along) = self.pulls();
+        let pull = across.norm();
+        let up = if pull > 0.0 { -across / pull } else { -self.down() };
         let weight = equation_of_state.reference_density * pull;
         let (mut all, mut hidden, mut free) = (0, 0, Vec::new());
         for LatticeGroup { lattice, bodies: members } in &groups {
@@ -51,7 +53,9 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             free.extend(pairs.filter(|(site, behind)| !behind && is_free(site)).map(|(site, _)| (site, *lattice)));
         }
         let share = if all == 0 { 0.0 } else { hidden as f64 / all as f64 };
-        let start = GeostaticStress { lateral_ratio: self.lateral_pressure_ratio, up };
+        let is_stressed = self.preparation == BodyPreparation::Stressed;
+        let slope = if is_stressed { along / pull } else { Vector::zeros() };
+        let start = GeostaticStress { lateral_ratio: self.lateral_pressure_ratio, up, slope };
         // grains in a liquid have a share of the mixture's stiffness
         let (mut skeleton, grains) = (*equation_of_state, 1.0 - self.pore_pressure_ratio);
         if self.material.pore_liquid().is_some() {
@@ -70,7 +74,10 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         if self.pore_pressure_ratio > 0.0 {
             flow.field = loads.iter().map(|load| self.pore_pressure_ratio * load).collect();
         }
-        if self.lateral_pressure_ratio != 1.0 {
+        if is_stressed {
+            let strength = |load| self.material.strength_at_rest(self.pressure + load).unwrap_or(0.0);
+            flow.stress = loads.iter().map(|load| start.shear(*load, strength(*load))).collect();
+        } else if self.lateral_pressure_ratio != 1.0 {
             flow.stress = loads.iter().map(|load| start.deviator(grains * load)).collect();
         }
         flow.mass = free.iter().zip(&flow.density).map(|((_, lattice), density)| lattice.mass(*density)).collect();

@@ -3,6 +3,7 @@
 
 use super::given::PlainData;
 use super::measured::MeasuredSeries;
+use super::periods::Periods;
 use super::setting::{SceneBody, SceneGauge, SceneInlet, SceneWall, vector};
 use super::sides::SceneSides;
 use super::{BodyPreparation, Measurand, shapes};
@@ -10,7 +11,6 @@ use crate::figure::{Figure, Panel};
 use crate::metric::Variant;
 use crate::observation::Frame;
 use crate::setup::Bulk;
-use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::material::equation_of_state::Tension;
 use bagnold_solver::material::rheology::{MuI, Rheology};
 use bagnold_solver::parameter::{at_least, between, positive};
@@ -233,17 +233,14 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         vector::<D>(&self.gravity) * self.material.pore_liquid().map_or(1.0, |pore| pore.buoyant_share())
     }
 
-    /// Unit vector against what presses the material together at the start `[-]`, and its size `[m/s²]`: gravity, and of a layer of grains in a liquid
-    /// between periodic sides its part across them, so that the layer starts in balance on a slope.
-    pub(super) fn uphill(&self) -> (Vector<D>, f64) {
-        let (axes, mut pull) = (self.sides.axes(), self.pull());
-        if self.material.pore_liquid().is_none() || pull.norm() == 0.0 {
-            return (-self.down(), pull.norm());
+    /// Parts of the pull that press the material together at the start and that its shear stress bears `[m/s²]`: of grains in a liquid, and of
+    /// those that start with their stress, across and along periodic sides.
+    pub(super) fn pulls(&self) -> (Vector<D>, Vector<D>) {
+        if self.preparation == BodyPreparation::Stressed || self.material.pore_liquid().is_some() {
+            Periods::of(&self.sides.axes()).split(&self.pull())
+        } else {
+            (self.pull(), Vector::zeros())
         }
-        for (component, axis) in pull.iter_mut().zip(&axes) {
-            *component *= if matches!(axis, AxisBoundary::Periodic { .. }) { 0.0 } else { 1.0 };
-        }
-        (-pull / pull.norm().max(f64::MIN_POSITIVE), pull.norm())
     }
 
     /// The unit vector along gravity `[-]`; without gravity against the last axis.

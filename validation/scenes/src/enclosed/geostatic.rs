@@ -18,8 +18,10 @@ use bagnold_solver::vector::{Tensor, Vector};
 pub(super) struct GeostaticStress<const D: usize> {
     /// K_0, the ratio of the horizontal to the vertical stress `[-]`.
     pub(super) lateral_ratio: f64,
-    /// Unit vector against gravity `[-]`.
+    /// Unit vector against gravity, or against its part across periodic sides `[-]`.
     pub(super) up: Vector<D>,
+    /// Gravity along periodic sides over that across them `[-]`; zero of a body that starts without shear stress.
+    pub(super) slope: Vector<D>,
 }
 
 impl<const D: usize> GeostaticStress<D> {
@@ -31,6 +33,12 @@ impl<const D: usize> GeostaticStress<D> {
     /// Deviatoric stress `[Pa]` under a vertical stress `[Pa]`; tension is positive.
     pub(super) fn deviator(&self, vertical: f64) -> Tensor<D> {
         (Tensor::identity() / D as f64 - self.up * self.up.transpose()) * (vertical * (1.0 - self.lateral_ratio))
+    }
+
+    /// Shear stress `[Pa]` under a vertical stress `[Pa]` that holds a layer on its slope, as far as the strength `[Pa]` of its material.
+    pub(super) fn shear(&self, vertical: f64, strength: f64) -> Tensor<D> {
+        let shear = self.slope * vertical.min(strength / self.slope.norm().max(f64::MIN_POSITIVE));
+        self.up * shear.transpose() + shear * self.up.transpose()
     }
 }
 
@@ -55,7 +63,7 @@ mod tests {
 
     /// Stresses along and across gravity `[Pa]`, pressure positive, and shear stress over pressure `[-]`.
     fn start<const D: usize>(lateral_ratio: f64, up: Vector<D>, across: Vector<D>) -> ([f64; 2], f64) {
-        let geostatic = GeostaticStress { lateral_ratio, up };
+        let geostatic = GeostaticStress::<D> { lateral_ratio, up, slope: Vector::zeros() };
         let (pressure, deviator) = (geostatic.pressure(800.0), geostatic.deviator(800.0));
         assert!(deviator.trace().abs() < 1e-12);
         let along = |n: Vector<D>| pressure - (deviator * n).dot(&n);
@@ -71,6 +79,20 @@ mod tests {
                 assert!((vertical - 800.0).abs() < 1e-10 && (horizontal - 800.0 * ratio).abs() < 1e-10, "{ratio}");
             }
         }
+    }
+
+    #[test]
+    fn a_layer_on_a_slope_is_held_up_to_its_strength() {
+        let (up, downhill) = (Vector::<2>::new(-0.6, 0.8), Vector::<2>::new(0.8, 0.6));
+        let layer = GeostaticStress::<2> { lateral_ratio: 1.0, up, slope: downhill * 0.5 };
+        // on a plane across the layer, the material above is pushed downhill by its weight and the plane holds it
+        for (strength, held) in [(900.0, 400.0), (300.0, 300.0), (0.0, 0.0)] {
+            let stress = layer.shear(800.0, strength);
+            assert!((stress * up - downhill * held).norm() < 1e-12, "{strength}: {stress}");
+            assert!((equivalent_shear_stress(&stress) - held).abs() < 1e-12 && stress.trace().abs() < 1e-12);
+        }
+        let level = GeostaticStress::<2> { slope: Vector::zeros(), ..layer };
+        assert_eq!(level.shear(800.0, 900.0), Tensor::<2>::zeros());
     }
 
     #[test]

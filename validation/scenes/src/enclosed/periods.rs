@@ -30,6 +30,12 @@ impl<const D: usize> Periods<D> {
             || (0..D).any(|axis| self.0[axis].is_none() && direction[axis].abs() > ALONG_PERIODS * direction.norm())
     }
 
+    /// The parts of a vector across and along the periodic sides.
+    pub(super) fn split(&self, vector: &Vector<D>) -> (Vector<D>, Vector<D>) {
+        let along = Vector::from_fn(|axis, _| if self.0[axis].is_some() { vector[axis] } else { 0.0 });
+        (vector - along, along)
+    }
+
     /// Unwrapped end of a particle's way from `start` to `end`, beyond the periodic sides that it has crossed. It is the image of
     /// `end` that is nearest to where its velocities take it, `expected` `[m]`. The number of periods that it is beyond along each
     /// axis comes second.

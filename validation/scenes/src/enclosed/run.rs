@@ -111,10 +111,12 @@ where
 
     fn cost(&self) -> RunCost {
         let mean = self.flow_particles(Moment::Mean);
-        let settling = match self.preparation {
+        let crossings = match self.preparation {
             BodyPreparation::None => 0.0,
-            BodyPreparation::Settled => self.flow_particles(Moment::Start) * (settling::USUAL * self.crossing_time()),
+            BodyPreparation::Settled => settling::USUAL,
+            BodyPreparation::Stressed => settling::USUAL_OF_LIQUID,
         };
+        let settling = self.flow_particles(Moment::Start) * (crossings * self.crossing_time());
         let all_per_flow = (mean.max(1.0) + self.wall_particles()) / mean.max(1.0);
         let step = match self.numerics.viscous_step {
             ViscousStep::Explicit => 1.0,
@@ -292,16 +294,16 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     where
         Simulation<D>: Compiled<D>,
     {
-        match self.preparation {
-            BodyPreparation::None => Ok(scene),
-            BodyPreparation::Settled => {
-                let fall = self.fall_speed();
-                let rest = RestCriterion { speed: self.rest_speed * fall, fall, crossing: self.crossing_time() };
-                let (scene, elapsed) = settling::settled(scene, rest)?;
-                tracing::info!("bodies have settled within {elapsed:.4} s, before the clock starts");
-                Ok(scene)
-            }
-        }
+        let fall = self.fall_speed();
+        let (speed, peaks) = (self.rest_speed * fall, settling::LOW_PEAKS);
+        let rest = RestCriterion { speed, peaks, fall, crossing: self.crossing_time() };
+        let (scene, elapsed) = match self.preparation {
+            BodyPreparation::None => return Ok(scene),
+            BodyPreparation::Settled => settling::settled(scene, rest)?,
+            BodyPreparation::Stressed => settling::stressed(scene, self.pulls().0, rest)?,
+        };
+        tracing::info!("bodies have settled within {elapsed:.4} s, before the clock starts");
+        Ok(scene)
     }
 
     /// The scene, and the share of the sites of bodies that are behind walls `[-]`.

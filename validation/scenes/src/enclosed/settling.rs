@@ -10,9 +10,10 @@
 use super::periods::Periods;
 use crate::case::ParameterError;
 use crate::checkpoint::is_interrupted;
-use bagnold_solver::vector::Vector;
+use bagnold_solver::material::rheology::{Newtonian, Rheology};
+use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::enclosure::FeedRate;
-use bagnold_solver::weakly_compressible::scene::Scene;
+use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,16 +27,25 @@ pub enum BodyPreparation {
     /// Bodies come to rest on walls, which stay where they are at the start meanwhile, and by their friction; they then get their
     /// velocities.
     Settled,
+    /// Grains find their places as a liquid does, and start with the stress that holds them: the weight of the material above across
+    /// periodic sides and, along these, as much of its shear stress as the static friction bears.
+    Stressed,
 }
 
 /// Way of a particle from its start after which a body is not held, in spacings `[-]`.
 const FARTHEST: f64 = 1.0;
+/// Mean way of all particles below which bodies are held, though particles change places, in spacings `[-]`.
+const STIRRED: f64 = 0.1;
 /// Peaks in a row that have to be low, so that a short swing of some particles is not taken for rest.
-const LOW_PEAKS: usize = 3;
+pub(super) const LOW_PEAKS: usize = 3;
+/// Peaks after which a liquid counts as settled: without friction it swings for long.
+const PEAKS_OF_LIQUID: usize = 12;
 /// Time without a peak after which a speed below that of rest is taken for creep, in times that sound needs across the scene `[-]`.
 const LONGEST_SWING: f64 = 10.0;
 /// Usual settling, in times that sound needs across the scene `[-]`: for estimates.
 pub(super) const USUAL: f64 = 40.0;
+/// The same as a liquid `[-]`.
+pub(super) const USUAL_OF_LIQUID: f64 = 4.0;
 /// Longest settling, in times that sound needs across the scene `[-]`.
 const LONGEST: f64 = 400.0;
 
@@ -44,6 +54,8 @@ const LONGEST: f64 = 400.0;
 pub(super) struct RestCriterion {
     /// Root mean square of the speed at a peak of the kinetic energy `[m/s]`.
     pub(super) speed: f64,
+    /// Peaks in a row that have to be as low.
+    pub(super) peaks: usize,
     /// √(g H), by which the speed is given `[m/s]`.
     pub(super) fall: f64,
     /// Time that sound needs across the scene `[s]`.
@@ -58,10 +70,6 @@ pub(super) fn settled<const D: usize>(scene: Scene<D>, rest: RestCriterion) -> R
 where
     Simulation<D>: Compiled<D>,
 {
-    if scene.flow.position.is_empty() {
-        let remedy = "what an inlet brings moves: leave the preparation out";
-        return Err(refused_for("settled", "\"none\" for a scene without bodies", remedy));
-    }
     let mut resting = scene.clone();
     for wall in &mut resting.enclosure.walls {
         // it keeps its table, so that its corners are not joined to those of walls at rest
@@ -97,15 +105,36 @@ where
         }
         elapsed += simulation.time();
         let snapshot = simulation.snapshot();
-        check_held(&scene, &snapshot.position)?;
+        check_held(&scene, &snapshot.position, (peak, rest))?;
         let flow = &mut resting.flow;
         (flow.position, flow.density, flow.stress) = (snapshot.position, snapshot.density, snapshot.stress);
         low = if peak <= rest.speed { low + 1 } else { 0 };
-        if low == LOW_PEAKS {
+        if low == rest.peaks {
             resting.flow.velocity = scene.flow.velocity.clone();
             return Ok((Scene { flow: resting.flow, ..scene }, elapsed));
         }
     }
+}
+
+/// The scene with its particles in the places of a liquid that comes to rest under gravity `across` periodic sides alone `[m/s²]`, and the
+/// time that it took `[s]`. Their stress is that of the scene.
+///
+/// # Errors
+/// Those of [`settled`].
+pub(super) fn stressed<const D: usize>(
+    scene: Scene<D>,
+    across: Vector<D>,
+    rest: RestCriterion,
+) -> Result<(Scene<D>, f64), ParameterError>
+where
+    Simulation<D>: Compiled<D>,
+{
+    let rheology = Rheology::Newtonian(Newtonian { viscosity: 0.0 });
+    let mut liquid = Scene { rheology, gravity: across, ..scene.clone() };
+    liquid.flow.stress.fill(Tensor::zeros());
+    let (liquid, elapsed) = settled(liquid, RestCriterion { speed: f64::INFINITY, peaks: PEAKS_OF_LIQUID, ..rest })?;
+    let flow = Flow { stress: scene.flow.stress, ..liquid.flow };
+    Ok((Scene { flow, ..scene }, elapsed))
 }
 
 /// Root mean square of the speed of the flow `[m/s]`.
@@ -117,33 +146,48 @@ fn rms_speed<const D: usize>(simulation: &Simulation<D>) -> f64 {
     (squares / mass.iter().sum::<f64>()).sqrt()
 }
 
-/// Refuses bodies of which a particle has left or gone farther than a spacing.
-fn check_held<const D: usize>(scene: &Scene<D>, places: &[Vector<D>]) -> Result<(), ParameterError> {
+/// Refuses bodies of which a particle has left or gone farther than a spacing, at a root mean square of the speed `[m/s]`.
+fn check_held<const D: usize>(
+    scene: &Scene<D>,
+    places: &[Vector<D>],
+    (speed, rest): (f64, RestCriterion),
+) -> Result<(), ParameterError> {
     let starts = &scene.flow.position;
     if places.len() < starts.len() {
         let left = starts.len() - places.len();
-        return Err(not_held(&format!("{left} particles leave by open sides before the bodies rest")));
+        return Err(refused_for(&format!("{left} particles leave by open sides before the bodies rest"), "", SUPPORT));
     }
     let periods = Periods::of(&scene.domain.axes);
     // what has wrapped at periodic sides is near its start beyond them
-    let way = |(start, place): (&Vector<D>, &Vector<D>)| (periods.unwrapped(place, start).0 - start).norm();
-    let (index, farthest) = starts
-        .iter()
-        .zip(places)
-        .map(way)
-        .enumerate()
-        .fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
-    if farthest <= FARTHEST * scene.spacing {
+    let ways: Vec<_> =
+        starts.iter().zip(places).map(|(start, place)| periods.unwrapped(place, start).0 - start).collect();
+    let far = |one: &usize, other: &usize| ways[*one].norm().total_cmp(&ways[*other].norm());
+    let Some(index) = (0..ways.len()).max_by(far).filter(|index| ways[*index].norm() > FARTHEST * scene.spacing) else {
         return Ok(());
-    }
+    };
     let parts: Vec<String> = starts[index].iter().map(|part| format!("{part:.4}")).collect();
-    let place = parts.join(", ");
-    Err(not_held(&format!("the particle from ({place}) m moves by more than a spacing, {} m", scene.spacing)))
+    let moves = format!("the particle from ({}) m moves by more than a spacing, {} m", parts.join(", "), scene.spacing);
+    if rest.speed.is_infinite() {
+        let remedy = "support the bodies with walls, or give \"settled\"";
+        return Err(refused_for(&format!("{moves}, as a liquid"), "", remedy));
+    }
+    let (across, along) = periods.split(&scene.gravity);
+    let mean = ways.iter().sum::<Vector<D>>() / ways.len() as f64;
+    if along.norm() > 0.0 {
+        let pressure = rest.fall.powi(2) * scene.equation_of_state.reference_density;
+        let held = scene.rheology.strength_at_rest(pressure).map_or(0.0, |strength| strength / pressure);
+        let slope = along.norm() / across.norm();
+        let value = format!("{moves}: periodic slope {slope:.3}, static friction {held:.3}");
+        return Err(refused_for(&value, "", "give \"stressed\" for grains, or remove it"));
+    }
+    if mean.norm() < STIRRED * scene.spacing {
+        let value = format!("{moves}, stirred in place at {speed:.1e} m/s");
+        return Err(refused_for(&value, "", &raise(speed, rest)));
+    }
+    Err(refused_for(&moves, "", SUPPORT))
 }
 
-fn not_held(value: &str) -> ParameterError {
-    refused_for(value, "", "support the bodies with walls, or remove `preparation`")
-}
+const SUPPORT: &str = "support the bodies with walls, keep slopes below the static friction, or remove `preparation`";
 
 fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
     let value = format!(
@@ -151,8 +195,12 @@ fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
         LONGEST * rest.crossing,
         rest.speed
     );
-    let enough = 1.1 * speed / rest.fall;
-    refused_for(&value, "", &format!("raise `rest_speed` to {enough:.0e}, or remove `preparation`"))
+    refused_for(&value, "", &raise(speed, rest))
+}
+
+/// Remedy for bodies that keep a speed `[m/s]`.
+fn raise(speed: f64, rest: RestCriterion) -> String {
+    format!("raise `rest_speed` to {:.0e}, or remove `preparation`", 1.1 * speed / rest.fall)
 }
 
 fn refused_for(value: &str, rule: &str, remedy: &str) -> ParameterError {
