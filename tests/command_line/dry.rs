@@ -110,7 +110,7 @@ fn a_gate_on_a_place_that_nothing_reaches_is_not_judged_and_a_mean_counts_wet_ro
         ("falls-dry: pressure [Pa]", "value = { at = 0.28 }\nat_most = 1.0"),
         ("never: velocity along x [m/s]", "compare = \"never.csv\"\nat_most = 9.0"),
     ] {
-        place.file("never.csv", "t [s],u [m/s],uncertainty [m/s]\n0.1,0.0,0.05\n0.2,0.0,0.05\n");
+        place.file("never.csv", "t [s],velocity along x [m/s],uncertainty [m/s]\n0.1,0.0,0.05\n0.2,0.0,0.05\n");
         check(column, rest);
         let dry = metric(&place, &run, 1, "check");
         assert_eq!((dry.value, dry.verdict), (None, Verdict::Fail), "{column}");
