@@ -13,7 +13,7 @@ const MOST_STIFF: f64 = 1e5;
 impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// What the rate of a regularised yield stress does to the scene, with the rate to take.
     pub(super) fn doubtful_yield(&self) -> Option<String> {
-        let material = serde_json::to_value(&self.material).ok()?;
+        let material = serde_json::to_value(self.material).ok()?;
         let rate = material["regularisation_rate"].as_f64()?;
         let (density, fall) = (self.bulk.density(&self.material), self.fall());
         let (stress, frequency) = (density * fall, fall.sqrt() / self.height());
