@@ -258,7 +258,7 @@ fn wrong_data_are_refused_by_name() {
     assert_eq!(
         data(",uncertainty [m/s]", ",weight"),
         "error: mine.csv: `columns` is y [m], u [m/s], without uncertainty, but must be abscissa, measured quantity, and its \
-         uncertainty or repeats, with units; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`"
+         uncertainty or repeats, with units; add columns or { files = […] }"
     );
     assert_eq!(
         data("y [m],", "z [m],"),

@@ -213,7 +213,7 @@ impl MeasuredColumns {
         if uncertainty.contains(&0.0) {
             let defect = if repeats.len() == 1 { "without uncertainty" } else { "equal in all repeats" };
             let columns = format!("{}, {}, {defect}", heading(&self.over), heading(first));
-            return Err(FieldError::new("columns", columns, FORM, ROW));
+            return Err(FieldError::new("columns", columns, FORM, "add columns or { files = […] }"));
         }
         Ok(Measurements {
             path: path.to_owned(),

@@ -198,7 +198,7 @@ fn invalid_measurements_are_refused() {
     for (text, message) in [
         (
             "t [s],front [m]\n1,1\n",
-            "mine.csv: `columns` is t [s], front [m], without uncertainty, but must be abscissa, measured quantity, and its uncertainty or repeats, with units; write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`",
+            "mine.csv: `columns` is t [s], front [m], without uncertainty, but must be abscissa, measured quantity, and its uncertainty or repeats, with units; add columns or { files = […] }",
         ),
         (
             "t,front [m],uncertainty [m]\n1,1,1\n",
