@@ -10,7 +10,7 @@ pub struct FeedRate {
     rates: Vec<f64>,
     /// Integral from the first time to each of them `[kg]`.
     masses: Vec<f64>,
-    /// Whether the first and the last rate go on beyond the table.
+    /// The first and the last rate go on beyond the table.
     is_held: bool,
 }
 

@@ -10,7 +10,7 @@
 //! particle to particle, in a tank that stirs itself, Ma_γ is 0.48 to 0.75 Ma; in waves of 15 rows 0.3. Above a Mach number of 0.007
 //! no tank stirs itself. The share is the same in a moving frame.
 //!
-//! What is stiff stirs itself as one body, and needs no correction: its viscous stress s is large against what uncorrected forces add,
+//! A stiff liquid stirs itself as one body, and needs no correction: its viscous stress s is large against what uncorrected forces add,
 //! 0.02 ρ c Δ γ̇ in a vortex. β counts by clamp(2 − 2 |s|/(ρ c Δ γ̇), 0, 1) of root mean squares. Not in the paper.
 
 /// Ma_γ of disorder counts this often `[-]`.

@@ -50,7 +50,7 @@ pub fn parted(text: &str) -> (&str, &str) {
     name_and_unit(text).unwrap_or((text.trim(), "-"))
 }
 
-/// Whether two headings have the same name and the same unit, however that is spelt.
+/// Equality of two headings by name and by unit, however that is spelt.
 #[must_use]
 pub fn is_same_heading(one: &str, other: &str) -> bool {
     let of_one_unit = |((name, unit), (other, of))| name == other && unit::factor(unit, of) == Some(1.0);

@@ -61,7 +61,7 @@ struct Said {
 /// Draws measurements into a finished case and judges by them; its parameters then name the copies that [`Measurements::keep`] makes.
 ///
 /// # Errors
-/// What [`Measurements::draw`] refuses.
+/// Refusals of [`Measurements::draw`].
 pub fn draw_measured(result: &mut CaseResult, measurements: &[Measurements]) -> Result<(), ParameterError> {
     measurements.iter().try_for_each(|own| own.draw(result))?;
     if !measurements.is_empty() {

@@ -24,14 +24,14 @@ const ROW: &str = "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`"
 /// Names of the columns that are meant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WantedColumns<'a> {
-    /// What was varied; without a name the first column, or the number of the row.
+    /// Name of the abscissa; without one the first column, or the number of the row.
     pub over: Option<&'a str>,
-    /// What was measured, by any of these names; without one the only quantity.
+    /// Names of the measured quantity, of which any will do; without one the only quantity.
     pub quantity: &'a [&'a str],
 }
 
 impl WantedColumns<'_> {
-    /// Whether a column is what was measured, by its name with or without the gauge in front.
+    /// Test of a column for the measured quantity, by its name with or without the gauge in front.
     fn fits(&self, column: &NumberColumn) -> bool {
         let name = repeated(&column.name);
         let is_one = |wanted: &&str| name == *wanted || wanted.rsplit_once(": ").is_some_and(|(_, own)| own == name);
@@ -39,7 +39,7 @@ impl WantedColumns<'_> {
     }
 }
 
-/// What one or several files give: columns of repeats and of their standard uncertainties.
+/// Columns of one or several files: repeats and their standard uncertainties.
 struct MeasuredColumns {
     text: String,
     over: NumberColumn,

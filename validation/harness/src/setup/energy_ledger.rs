@@ -26,7 +26,7 @@ pub enum EnergyScale {
     /// The same, where a run may last as long as its user likes: more by what the length Δt of its steps leaves in a time
     /// √(H/g) of its height H, both in `[s]`, as often as all that work was kinetic energy for such a time, and by half of
     /// what the last step has changed. An impact leaves what two steps take of the motion while it is braked, for a time H/c at most.
-    /// What stands still does hardly any work: a tenth of the weight times H `[J]`, in two dimensions `[J/m]`, is the least that counts.
+    /// A body at rest does hardly any work: a tenth of the weight times H `[J]`, in two dimensions `[J/m]`, is the least that counts.
     WorkOver {
         /// √(H/g) `[s]`.
         fall_time: f64,

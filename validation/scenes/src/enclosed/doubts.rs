@@ -19,7 +19,7 @@ const FARTHEST: f64 = 30.0;
 
 impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Warnings of lengths that are probably in millimetres, all of them or those of one part, and of a start without shear stress.
-    pub(super) fn doubtful_units(&self) -> Vec<String> {
+    pub(super) fn doubtful_parts(&self) -> Vec<String> {
         let found = self.stray().or_else(|| self.all_large()).into_iter().chain(self.sudden_release());
         found.map(|doubt| format!("scene `{}`: {doubt}", self.name)).chain(self.wide_gauges()).collect()
     }
@@ -136,7 +136,7 @@ mod tests {
         if let Rheology::MuI(law) = &mut scene.material {
             law.grain_diameter = diameter;
         }
-        scene.doubtful_units().pop()
+        scene.doubtful_parts().pop()
     }
 
     #[test]
@@ -165,11 +165,11 @@ mod tests {
             gauges: Vec::new(),
             ..quick::<Plane, 2>()
         };
-        assert!(layer.doubtful_units().concat().contains("starts without shear stress"));
+        assert!(layer.doubtful_parts().concat().contains("starts without shear stress"));
         layer.preparation = BodyPreparation::Stressed;
-        assert_eq!(layer.doubtful_units(), Vec::<String>::new());
+        assert_eq!(layer.doubtful_parts(), Vec::<String>::new());
         let level = SceneFlow { gravity: (0.0, -9.81), preparation: BodyPreparation::None, ..layer };
-        assert_eq!(level.doubtful_units(), Vec::<String>::new());
+        assert_eq!(level.doubtful_parts(), Vec::<String>::new());
     }
 
     #[test]
@@ -188,7 +188,7 @@ mod tests {
         let gauge = "kind = \"front\"\nname = \"front\"\nfrom = [0.0, 0.0]\nto = [1.0, 0.0]\nthickness = 0.01";
         scene.gauges = vec![toml::from_str(gauge).expect("a gauge")];
         change(&mut scene);
-        scene.doubtful_units().join("\n")
+        scene.doubtful_parts().join("\n")
     }
 
     #[test]

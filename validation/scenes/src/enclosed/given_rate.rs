@@ -85,7 +85,7 @@ impl GivenRate<'_> {
         Ok(if self.ends == Some(TableEnds::Zero) { table.closed_beyond() } else { table })
     }
 
-    /// What the inlet of a name feeds beyond its rows in words, where a run of a duration `[s]` goes there; in the unit of rates.
+    /// Words for the inflow of a named inlet beyond its rows, where a run of a duration `[s]` goes there; in the unit of rates.
     pub(super) fn beyond(&self, name: &str, duration: f64, unit: &str) -> String {
         let told = |(time, rate): &(f64, f64), when: &str| {
             let rate = if self.ends == Some(TableEnds::Zero) { 0.0 } else { *rate };

@@ -102,7 +102,7 @@ where
     }
 
     fn doubts(&self) -> Vec<String> {
-        self.doubtful_units().into_iter().chain(self.doubtful_yield()).collect()
+        self.doubtful_parts().into_iter().chain(self.doubtful_yield()).chain(self.costly_viscosity()).collect()
     }
 
     fn variant(&self) -> Variant {

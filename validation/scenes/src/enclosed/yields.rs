@@ -1,4 +1,4 @@
-//! Regularised yield stresses of a scene that hold nothing, or that no step can solve: told before the run.
+//! Regularised yield stresses that hold nothing or that no step can solve, and viscosities that shorten the step: told before the run.
 
 use super::SceneFlow;
 use super::flow::Dimension;
@@ -10,8 +10,25 @@ const MOST_CREEP: f64 = 0.01;
 /// Largest viscosity over ρ Δ²/Δt that the implicit step is known to solve `[-]`: a block of mud of 20 rows at 5·10⁴.
 const MOST_STIFF: f64 = 1e5;
 
+/// Explicit viscous bound of the step over the acoustic one that is told `[-]`.
+const SHORTEST: f64 = 0.01;
+
 impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
-    /// What the rate of a regularised yield stress does to the scene, with the rate to take.
+    /// Warning of a viscosity that shortens explicit steps: a refusal of cost would blame the spacing alone.
+    pub(super) fn costly_viscosity(&self) -> Option<String> {
+        let bounds = self.step_bounds();
+        let shortened = bounds.viscous / bounds.acoustic;
+        (shortened < SHORTEST).then(|| {
+            format!(
+                "scene `{}`: the viscosity of `material` makes a step {} times as long as sound allows; lower it, or set \
+                 `numerics.viscous_step = \"implicit\"`",
+                self.name,
+                four_digits(shortened)
+            )
+        })
+    }
+
+    /// Warning of a rate of a regularised yield stress, with the rate to take.
     pub(super) fn doubtful_yield(&self) -> Option<String> {
         let material = serde_json::to_value(self.material).ok()?;
         let rate = material["regularisation_rate"].as_f64()?;
@@ -46,7 +63,7 @@ mod tests {
     use crate::enclosed::quick;
     use crate::scene::{Plane, PlaneBody};
 
-    /// What is told of a block of 5 cm over a second, of a law with a rate `[1/s]`.
+    /// Warning for a block of 5 cm over a second, of a law with a rate `[1/s]`.
     fn told(law: &str, rate: f64) -> String {
         let mut scene = quick::<Plane, 2>();
         (scene.walls, scene.inlets, scene.duration, scene.spacing) = (Vec::new(), Vec::new(), 1.0, 0.0025);
@@ -73,5 +90,17 @@ mod tests {
              reference_inertia = 0.279\ngrain_diameter = 0.001\ngrain_density = 2500.0";
         assert_eq!(told(grains, 0.005), "");
         assert!(told(grains, 1000.0).ends_with("set at most 0.005"), "{}", told(grains, 1000.0));
+    }
+
+    #[test]
+    fn a_viscosity_that_shortens_explicit_steps_is_told() {
+        let mut scene = quick::<Plane, 2>();
+        scene.numerics.viscous_step = ViscousStep::Explicit;
+        assert_eq!(scene.costly_viscosity(), None);
+        scene.material = toml::from_str("law = \"newtonian\"\nviscosity = 1e9").expect("a law");
+        (scene.bulk.solid_fraction, scene.bulk.bulk_density) = (1.0, 1000.0);
+        assert!(scene.costly_viscosity().is_some_and(|told| told.contains("the viscosity of `material`")));
+        scene.numerics.viscous_step = ViscousStep::Implicit;
+        assert_eq!(scene.costly_viscosity(), None);
     }
 }

@@ -141,7 +141,7 @@ impl DatumText {
         }
     }
 
-    /// Where in the case's tables or metrics the data have their counterpart.
+    /// Place in the case's tables or metrics of the data's counterpart.
     pub(super) fn target(&self, at: f64) -> Target {
         match (&self.metric, &self.table) {
             (Some(name), _) => Target::Metric { name: name.clone(), variant: self.variant.clone() },

@@ -59,14 +59,11 @@ impl<'a, F: Flow> Guard<'a, F> {
         leaves(&self.asked)
             .into_iter()
             .filter(|path| self.is_given(path) && find(&self.asked, path) != find(&self.defaults, path))
-            .map(|path| self.asked_for(path))
+            .map(|path| {
+                let value = find(&self.asked, &path).map(ToString::to_string).unwrap_or_default();
+                (path, shortened(value.replace('\n', " ")))
+            })
             .collect()
-    }
-
-    /// A field with its value as the user asks for it.
-    fn asked_for(&self, path: String) -> (String, String) {
-        let value = find(&self.asked, &path).map(ToString::to_string).unwrap_or_default();
-        (path, shortened(value.replace('\n', " ")))
     }
 
     /// Whether a field is the user's: the list of runs also changes where another field is set for all of them.
@@ -88,22 +85,16 @@ impl<'a, F: Flow> Guard<'a, F> {
         (!chosen.is_empty() && chosen.iter().all(|flow| flow.check().is_ok())).then(|| of_runs(&chosen))
     }
 
-    /// Check of memory and time against the limits; the field is the one that, as the tier has it, saves most, or the table of fields
-    /// that the tier has not.
+    /// Check of memory and time against the limits; the field is the one that, as the tier has it, saves most.
     fn check_cost(&self, estimate: &Estimate) -> Result<(), ParameterError> {
         let limits = &self.changes.limits;
         let Some((rule, remedy)) = estimate.problem(limits) else { return Ok(()) };
         let (changed, tier) = (self.changed(), ("tier".to_owned(), self.tier.name().to_owned()));
-        let saving = |field: &(String, String)| {
-            let excess = |path: &str| Some(self.without(path)?.excess(limits));
-            let table = field.0.split('.').next().unwrap_or_default();
-            let whole = || Some((excess(table)?, self.asked_for(table.to_owned())));
-            excess(&field.0).map(|saved| (saved, field.clone())).or_else(whole)
-        };
-        let saved = changed.iter().filter_map(saving).filter(|(excess, _)| *excess < estimate.excess(limits));
+        let saved = changed.iter().filter_map(|field| Some((self.without(&field.0)?.excess(limits), field)));
+        let saved = saved.filter(|(excess, _)| *excess < estimate.excess(limits));
         let most = saved.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, field)| field);
-        let (field, value) = most.or(changed.first().cloned()).unwrap_or(tier);
-        Err(ParameterError::field(&field, value, &rule, &remedy))
+        let (field, value) = most.or(changed.first()).unwrap_or(&tier);
+        Err(ParameterError::field(field, value, &rule, &remedy))
     }
 }
 
