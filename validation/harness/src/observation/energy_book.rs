@@ -26,8 +26,8 @@ pub struct EnergyBook {
     pub motion: f64,
     /// Time `[s]` and kinetic energy at the last sample.
     pub last: (f64, f64),
-    /// Largest loss of kinetic energy from one sample to the next, and the time between them `[s]`.
-    pub braking: (f64, f64),
+    /// Largest loss of kinetic energy from one sample to the next, the time between them `[s]`, and the kinetic energy before.
+    pub braking: (f64, f64, f64),
 }
 
 impl EnergyBook {
@@ -39,7 +39,7 @@ impl EnergyBook {
             self.exchanged.1 += (ledger.walls - self.walls).abs();
             self.motion += 0.5 * (account.kinetic + self.last.1) * (time - self.last.0);
             if self.last.1 - account.kinetic > self.braking.0 {
-                self.braking = (self.last.1 - account.kinetic, time - self.last.0);
+                self.braking = (self.last.1 - account.kinetic, time - self.last.0, self.last.1);
             }
         } else {
             self.entered.0 = account.kinetic;
@@ -148,7 +148,7 @@ mod tests {
             book.enter(time, &EnergyAccount { kinetic, elastic: 0.0, ledger }, 0.0);
         }
         assert_eq!((book.exchanged, book.motion), ((5.0, 1.5), 1.0 + 3.0));
-        assert_eq!(book.braking, (1.0, 2.0));
+        assert_eq!(book.braking, (1.0, 2.0, 2.0));
         assert_eq!(book.turnover(), 5.0);
         // what was in motion at the start, and what an inlet brought
         book.entered = (4.0, 2.0);

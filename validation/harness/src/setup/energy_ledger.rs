@@ -25,7 +25,7 @@ pub enum EnergyScale {
     Work,
     /// The same, where a run may last as long as its user likes: more by what the length Δt of its steps leaves in a time
     /// √(H/g) of its height H, both in `[s]`, as often as all that work was kinetic energy for such a time, and by half of
-    /// what the last step has changed. An impact leaves what two steps take of the motion while it is braked, for a time H/c at most.
+    /// what the last step has changed. An impact, faster than gravity brakes, leaves what two steps take of the motion, for a time H/c at most.
     /// A body at rest does hardly any work: a tenth of the weight times H `[J]`, in two dimensions `[J/m]`, is the least that counts.
     WorkOver {
         /// √(H/g) `[s]`.
@@ -52,8 +52,10 @@ impl EnergyScale {
             Self::WorkOver { fall_time, weight_by_height, time_step, crossing_time } => {
                 let work = book.turnover().max(LEAST_WORK * weight_by_height);
                 let falls = book.motion / (work * fall_time);
-                let (lost, interval) = book.braking;
-                let impact = if lost > 0.0 { lost / (work * interval.min(crossing_time)) } else { 0.0 };
+                let (lost, interval, before) = book.braking;
+                // gravity alone takes 2 K/√(H/g) in a time
+                let sudden = (lost - 2.0 * before * interval / fall_time).max(0.0);
+                let impact = if sudden > 0.0 { sudden / (work * interval.min(crossing_time)) } else { 0.0 };
                 let open = time_step * (STEPS * falls / fall_time + 1.0 / book.last.0 + STEPS_OF_IMPACT * impact);
                 (work, WORK_OR_WEIGHT, (OPEN + 100.0 * open, OPEN_REASON_OVER_TIME))
             }
