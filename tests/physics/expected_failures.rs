@@ -4,7 +4,7 @@ use crate::physics::verdict::complaints;
 use bagnold_harness::case::{CaseResult, Changes, RunSummary, Tier};
 use bagnold_harness::metric::{Confidence, Limit, Metric, Variant};
 use bagnold_harness::observation::Outcome;
-use bagnold_report::{ExpectedFailure, ExpectedFailures};
+use bagnold_report::{ExpectedFailure, ExpectedFailures, FailureKind};
 use bagnold_validation::REGISTRY;
 use std::path::Path;
 
@@ -76,6 +76,14 @@ fn every_expected_failure_is_of_a_quantity_that_its_case_declares() {
     }
 }
 
+#[test]
+fn reasons_of_expected_failures_are_short_and_attempts_stand_apart() {
+    for entry in read().failures {
+        let words = entry.reason.split_whitespace().count();
+        assert!(words <= 20 && !entry.tried.trim().is_empty(), "{} {}: {words} words", entry.case, entry.metric);
+    }
+}
+
 fn entry(metric: &str, variant: &str, best_value: f64) -> ExpectedFailure {
     ExpectedFailure {
         case: "film".to_owned(),
@@ -84,6 +92,8 @@ fn entry(metric: &str, variant: &str, best_value: f64) -> ExpectedFailure {
         best_value,
         date: "2025-01-31".to_owned(),
         reason: "for the test".to_owned(),
+        kind: FailureKind::Defect,
+        tried: String::new(),
     }
 }
 

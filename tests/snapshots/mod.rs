@@ -50,6 +50,9 @@ fn assert_as_in_baseline(name: &'static str) {
             .map(|metric| format!("{} [{}]", metric.name, metric.unit))
             .collect();
         assert!(strangers.is_empty(), "{name} does not declare {}", strangers.join(", "));
+        let list = GateList::read(&folder(), Tier::Quick).unwrap_or_else(|error| panic!("failed to {error}"));
+        let moved = list.moved_limits(name, &result.metrics);
+        assert!(moved.is_empty(), "{}", moved.join("\n"));
         let mut settings = Settings::clone_current();
         settings.set_snapshot_path("quick");
         settings.set_prepend_module_to_snapshot(false);

@@ -12,5 +12,5 @@ pub mod water_column;
 
 use bagnold_figure as figure;
 use bagnold_harness::{case, checkpoint, evidence, input, metric, observation, output, setup, store};
-use bagnold_inference::statistics;
+use bagnold_inference::{sampling, statistics};
 use bagnold_reference as reference;

@@ -23,8 +23,39 @@ pub struct ExpectedFailure {
     pub best_value: f64,
     /// Day of that value, `YYYY-MM-DD`.
     pub date: String,
-    /// Reason why the gate fails, and the attempts to reach it.
+    /// What fails.
+    #[serde(default)]
+    pub kind: FailureKind,
+    /// Reason why the gate fails.
     pub reason: String,
+    /// What was tried, with figures; may be empty.
+    #[serde(default)]
+    pub tried: String,
+}
+
+/// What an expected failure says of whom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FailureKind {
+    /// A defect of ours.
+    #[default]
+    Defect,
+    /// The law, or the closures, that the run takes: solved rightly, they contradict the reference.
+    Law,
+    /// Green on finer particles.
+    Resolution,
+}
+
+impl FailureKind {
+    /// It in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Defect => "defect",
+            Self::Law => "the law fails here",
+            Self::Resolution => "too coarse at this tier",
+        }
+    }
 }
 
 /// The list of `tests/snapshots/expected_failures.toml`.

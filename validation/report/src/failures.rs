@@ -115,7 +115,7 @@ fn short_note(judged: &JudgedMetric<'_>) -> String {
     let whole = judged.note();
     match &judged.listed {
         ListStatus::AsListed(entry) => {
-            whole.strip_suffix(&entry.reason).map_or(whole.clone(), |short| short.trim_end_matches(": ").to_owned())
+            whole.split_once(&entry.reason).map_or(whole.clone(), |(short, _)| short.trim_end_matches(": ").to_owned())
         }
         _ => whole,
     }

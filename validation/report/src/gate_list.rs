@@ -1,26 +1,31 @@
-//! The list of gates, `tests/snapshots/gates/TIER.txt`: every gate that a tier has ever had, a line each. A gate that is no longer
-//! judged stays in the list, and `gates_removed.toml` has to say why it went: a limit cannot be lost in a change of something else.
+//! The list of gates, `tests/snapshots/gates/TIER.txt`: every gate that a tier has ever had, a line each, with its limit. A gate that is no
+//! longer judged stays in the list, and `gates_removed.toml` has to say why it went: a limit cannot be lost or moved in a change of
+//! something else.
 
 use super::baseline::{Baseline, MetricKey};
 use super::error::{damaged, read_if_there};
 use super::put;
 use crate::case::{ParameterError, Tier};
 use crate::input::{DOCUMENT, WRITTEN_BY_HAND};
-use crate::metric::Variant;
+use crate::metric::{Metric, Variant, Verdict};
+use crate::number::four_digits;
 use serde::Deserialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// File of the gates that went, in the folder of all baseline values.
 const REMOVED: &str = "gates_removed.toml";
 
-const HEAD: &str = "# Every gate that this tier has ever had: case | metric | variant. `bagnold report --accept` adds to it. No line is taken\n\
-    # away: a gate that went is an entry of tests/snapshots/gates_removed.toml.\n";
+const HEAD: &str = "# Every gate that this tier has ever had: case | metric | variant | limit. `bagnold report --accept` adds to it. No line is\n\
+    # taken away: a gate that went is an entry of tests/snapshots/gates_removed.toml.\n";
+
+/// What stands for a limit that has not been accepted yet.
+const UNKNOWN: &str = "?";
 
 /// The gates of a tier.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GateList {
-    gates: BTreeSet<MetricKey>,
+    gates: BTreeMap<MetricKey, String>,
 }
 
 impl GateList {
@@ -39,15 +44,27 @@ impl GateList {
         let Some(text) = read_if_there(&path, DOCUMENT)? else { return Ok(Self::default()) };
         let mut list = Self::default();
         for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')) {
-            let reason = || format!("line {} is {line:?} instead of `case | metric | variant`", index + 1);
-            list.gates.insert(gate(line).ok_or_else(|| damaged(&path, reason()))?);
+            let reason = || format!("line {} is {line:?} instead of `case | metric | variant | limit`", index + 1);
+            let (key, limit) = gate(line).ok_or_else(|| damaged(&path, reason()))?;
+            list.gates.insert(key, limit);
         }
         Ok(list)
     }
 
-    /// Adds the gates of a baseline.
-    pub fn add(&mut self, baseline: &Baseline) {
-        self.gates.extend(baseline.gates().cloned());
+    /// Adds the gates of a case with their limits.
+    pub fn add(&mut self, case: &str, metrics: &[Metric]) {
+        self.gates.extend(limits(case, metrics));
+    }
+
+    /// Limits of a case's gates that differ from the accepted ones, a line each.
+    #[must_use]
+    pub fn moved_limits(&self, case: &str, metrics: &[Metric]) -> Vec<String> {
+        let moved = limits(case, metrics).filter_map(|(key, limit)| {
+            let accepted = self.gates.get(&key).filter(|own| **own != UNKNOWN && **own != limit)?;
+            let name = format!("{} {} [{}]", key.case, key.metric, key.variant);
+            Some(format!("{name}: its limit was {accepted} and is {limit}; `bagnold report --accept` takes it"))
+        });
+        moved.collect()
     }
 
     /// Writes the list, sorted.
@@ -55,8 +72,8 @@ impl GateList {
     /// # Errors
     /// If the folder or file cannot be written.
     pub fn write(&self, folder: &Path, tier: Tier) -> Result<(), ParameterError> {
-        let text = self.gates.iter().fold(HEAD.to_owned(), |text, MetricKey { case, metric, variant }| {
-            text + &format!("{case} | {metric} | {variant}\n")
+        let text = self.gates.iter().fold(HEAD.to_owned(), |text, (MetricKey { case, metric, variant }, limit)| {
+            text + &format!("{case} | {metric} | {variant} | {limit}\n")
         });
         Ok(put(&Self::path(folder, tier), text)?)
     }
@@ -68,21 +85,31 @@ impl GateList {
         let now: BTreeSet<&MetricKey> = baseline.gates().collect();
         let is_explained = |gate: &MetricKey| removed.removed.iter().any(|removed| removed.names(gate, tier));
         let name = |gate: &MetricKey| format!("{} {} [{}]", gate.case, gate.metric, gate.variant);
-        let gone = self.gates.iter().filter(|gate| !now.contains(gate) && !is_explained(gate));
+        let gone = self.gates.keys().filter(|gate| !now.contains(gate) && !is_explained(gate));
         let gone = gone.map(|gate| {
             format!("{} is no longer judged: restore the gate, or add it to {REMOVED} with the reason", name(gate))
         });
-        let new = now.iter().filter(|gate| !self.gates.contains(**gate));
+        let new = now.iter().filter(|gate| !self.gates.contains_key(**gate));
         let new =
             new.map(|gate| format!("{} is not in the list of gates: `bagnold report --accept` adds it", name(gate)));
         gone.chain(new).collect()
     }
 }
 
-fn gate(line: &str) -> Option<MetricKey> {
+/// The gates that judged a case, with their limits.
+fn limits<'m>(case: &'m str, metrics: &'m [Metric]) -> impl Iterator<Item = (MetricKey, String)> {
+    let judged = metrics.iter().filter(|metric| metric.verdict() != Verdict::Observed);
+    judged.filter_map(move |metric| {
+        let limit = metric.gate.as_ref()?.limit.in_words(four_digits);
+        Some((MetricKey::of(case, metric), limit))
+    })
+}
+
+fn gate(line: &str) -> Option<(MetricKey, String)> {
     let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-    let &[case, metric, variant] = cells.as_slice() else { return None };
-    Some(MetricKey { case: case.to_owned(), metric: metric.to_owned(), variant: variant.parse().ok()? })
+    let &[case, metric, variant, limit] = cells.as_slice() else { return None };
+    let key = MetricKey { case: case.to_owned(), metric: metric.to_owned(), variant: variant.parse().ok()? };
+    Some((key, limit.to_owned()))
 }
 
 /// The gates that went.
@@ -130,7 +157,7 @@ impl RemovedGate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::metric::{Limit, Metric};
+    use crate::metric::Limit;
 
     fn metric(name: &str, variant: &str) -> Metric {
         Metric::observed(name, &variant.parse().expect("a variant"), 0.5, "-").gated(Limit::AtMost(1.0), "a reason")
@@ -145,7 +172,7 @@ mod tests {
         let (one, other) =
             (metric("flux", "fluid=water,resolution=20"), metric("velocity", "fluid=water,resolution=20"));
         let mut list = GateList::default();
-        list.add(&baseline(&[one.clone(), other.clone()]));
+        list.add("film", &[one.clone(), other.clone()]);
         let none = RemovedGates::default();
         assert_eq!(list.differences(Tier::Quick, &baseline(&[one.clone(), other.clone()]), &none), [""; 0]);
 
@@ -185,12 +212,18 @@ mod tests {
     fn a_list_is_read_back_and_keeps_what_went() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut list = GateList::read(folder.path(), Tier::Quick).expect("nothing there");
-        list.add(&baseline(&[metric("flux", "fluid=water"), metric("shift", "")]));
+        list.add("film", &[metric("flux", "fluid=water"), metric("shift", "")]);
         list.write(folder.path(), Tier::Quick).expect("written");
         let mut read = GateList::read(folder.path(), Tier::Quick).expect("readable");
         assert_eq!(read, list);
-        read.add(&baseline(&[metric("velocity", "")]));
+        read.add("film", &[metric("velocity", "")]);
         assert_eq!(read.gates.len(), 3);
+        let wider = metric("velocity", "").gated(Limit::AtMost(2.0), "a reason");
+        let moved = read.moved_limits("film", &[wider, metric("flux", "fluid=water"), metric("new", "")]);
+        assert!(
+            moved.len() == 1 && moved[0].starts_with("film velocity []: its limit was ≤ 1 and is ≤ 2"),
+            "{moved:?}"
+        );
         std::fs::write(GateList::path(folder.path(), Tier::Quick), "film | flux\n").expect("written");
         let error = GateList::read(folder.path(), Tier::Quick).expect_err("damaged").to_string();
         assert!(error.contains("line 1 is \"film | flux\""), "{error}");

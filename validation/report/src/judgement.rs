@@ -121,7 +121,9 @@ impl<'r> JudgedMetric<'r> {
             ListStatus::AsListed(entry) => {
                 let (now, best) = (with_unit(self.metric.value, &self.metric.unit), best(entry.best_value));
                 let best = if now == best { String::new() } else { format!(" (best {best})") };
-                format!("Expected since {}{best}: {}", entry.date, entry.reason)
+                let tried =
+                    if entry.tried.is_empty() { String::new() } else { format!(" Tried: {}", entry.tried.trim()) };
+                format!("Expected since {}{best}, {}: {}{tried}", entry.date, entry.kind.words(), entry.reason)
             }
             ListStatus::PassesAgain(_) => {
                 "Listed as an expected failure, but the gate passes: remove the entry.".to_owned()

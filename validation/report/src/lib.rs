@@ -50,7 +50,7 @@ pub use baseline::{Baseline, Change, MetricKey};
 pub use committed::CommittedValues;
 pub use error::ReportError;
 pub use exit::Exit;
-pub use expected_failures::{ExpectedFailure, ExpectedFailures, ListStatus};
+pub use expected_failures::{ExpectedFailure, ExpectedFailures, FailureKind, ListStatus};
 pub use gate_list::{GateList, RemovedGates};
 pub use judgement::{JudgedCase, JudgedMetric, Judgement, Rank, Severity, Tally, judge};
 pub use junit::{check_junit, put_refusal};

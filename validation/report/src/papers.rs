@@ -4,7 +4,7 @@ use super::CaseReport;
 use super::width::share_of_gate;
 use crate::case::RunSummary;
 use crate::evidence::{Element, MetricName, PAPERS, Paper, RunName};
-use crate::metric::{Metric, Verdict};
+use crate::metric::{COVERAGE, Metric, Verdict};
 use crate::observation::Outcome;
 
 /// Status of an element; the worst of several metrics is the first here.
@@ -14,10 +14,10 @@ pub enum Status {
     Contradicted,
     /// A gate on it fails, or our number falls short of what the paper shows.
     NotReproduced,
-    /// It would count as reproduced with wrong physics or a wrong input as well, by a control that it is meant to feel, or two standard
-    /// uncertainties of its value exceed the gate's half width.
+    /// It would count as reproduced with wrong physics or a wrong input as well, by a control that it is meant to feel, no control makes it
+    /// fall, or two standard uncertainties of its value reach out of what is printed or exceed the gate's half width.
     NotShown,
-    /// Gates pass, numbers agree, or tests hold it, and every control that it is meant to feel makes it fall.
+    /// Gates pass, numbers agree, or tests hold it, and a control makes it fall, as does every control that it is meant to feel.
     Reproduced,
     /// Nothing here speaks of it, for a stated reason or because its metrics or runs are not part of the tier.
     NotCovered,
@@ -44,7 +44,12 @@ impl Status {
     /// gate; none for an observed metric.
     #[must_use]
     pub fn of(name: &MetricName, metric: &Metric) -> Option<Self> {
-        let is_uncertain = name.printed.is_none() && share_of_gate(metric).is_some_and(|share| share > 1.0);
+        let is_uncertain = match name.printed {
+            Some(printed) => {
+                metric.uncertainty.standard().is_some_and(|own| !printed.tells(metric.value, COVERAGE * own))
+            }
+            None => share_of_gate(metric).is_some_and(|share| share > 1.0),
+        };
         match Self::of_value(name, metric.value, metric.verdict()) {
             Some(Self::Reproduced) if is_uncertain => Some(Self::NotShown),
             status => status,
@@ -81,15 +86,25 @@ pub struct Ended<'r> {
     pub name: &'r RunName,
     /// The run.
     pub run: &'r RunSummary,
-    /// Reproduced, or not where it diverged, whether the case declares that or not.
-    pub status: Status,
+    /// Not reproduced where it diverged, whether the case declares that or not; else none, for an end shows nothing.
+    pub status: Option<Status>,
 }
 
 impl<'r> Ended<'r> {
     fn of(name: &'r RunName, run: &'r RunSummary) -> Self {
         let diverged = matches!(run.outcome, Outcome::Diverged { .. });
-        Self { name, run, status: if diverged { Status::NotReproduced } else { Status::Reproduced } }
+        Self { name, run, status: diverged.then_some(Status::NotReproduced) }
     }
+}
+
+/// What an element says of a control.
+struct Tried<'r> {
+    /// The control, by case and name.
+    control: (&'r str, &'r str),
+    /// Whether the element names a metric that is meant to feel it.
+    is_meant: bool,
+    /// Whether the element still says what it says of the right runs.
+    stands: bool,
 }
 
 /// Status of one element, with the metrics and runs that show it.
@@ -105,6 +120,8 @@ pub struct ElementOutcome<'r> {
     pub ended: Vec<Ended<'r>>,
     /// Controls that it is meant to feel and stands under, by case and name.
     pub accepts: Vec<(&'r str, &'r str)>,
+    /// Whether a control makes it fall by a value; tests have controls of their own.
+    pub falls: bool,
 }
 
 impl<'r> ElementOutcome<'r> {
@@ -125,43 +142,48 @@ impl<'r> ElementOutcome<'r> {
             None if element.metrics.is_empty() && element.runs.is_empty() => Status::Reproduced,
             None => Self::computed(element, &shown, &ended),
         };
-        let accepts = Self::accepted(&shown, cases);
-        let status = if status == Status::Reproduced && !accepts.is_empty() { Status::NotShown } else { status };
-        Self { element, status, shown, ended, accepts }
+        let trials = Self::tried(&shown, cases);
+        let accepts: Vec<_> =
+            trials.iter().filter(|tried| tried.is_meant && tried.stands).map(|tried| tried.control).collect();
+        let falls = trials.iter().any(|tried| !tried.stands);
+        let is_shown = accepts.is_empty() && (falls || shown.is_empty());
+        let status = if status == Status::Reproduced && !is_shown { Status::NotShown } else { status };
+        Self { element, status, shown, ended, accepts, falls }
     }
 
-    /// Controls of which the element names a metric that is meant to feel them, and under which all that it names says what it says of the
-    /// right runs.
-    fn accepted(shown: &[Shown<'r>], cases: &'r [CaseReport]) -> Vec<(&'r str, &'r str)> {
-        let mut accepted = Vec::new();
+    /// The controls that have values of what the element names, with what it says of them.
+    fn tried(shown: &[Shown<'r>], cases: &'r [CaseReport]) -> Vec<Tried<'r>> {
+        let mut trials = Vec::new();
         for case in cases {
             let own: Vec<&Shown<'r>> = shown.iter().filter(|shown| shown.name.case == case.name).collect();
             for trial in &case.controls {
-                let found = |shown: &&Shown<'r>| {
+                let found = |shown: &&&Shown<'r>| {
                     trial.found(&shown.metric.name, &shown.metric.variant).filter(|found| !trial.is_lost(found))
                 };
                 let tried: Vec<&&Shown<'r>> = own.iter().filter(|shown| found(shown).is_some()).collect();
-                let is_meant = tried.iter().any(|shown| trial.control.is_named_by(&shown.metric.name));
                 let stands = |shown: &&&Shown<'r>| {
                     let status =
                         found(shown).and_then(|found| Status::of_value(shown.name, found.value, found.verdict?));
                     status == Some(Status::Reproduced)
                 };
-                if is_meant && tried.iter().all(stands) {
-                    accepted.push((case.name.as_str(), trial.control.name.as_str()));
+                if !tried.is_empty() {
+                    trials.push(Tried {
+                        control: (case.name.as_str(), trial.control.name.as_str()),
+                        is_meant: tried.iter().any(|shown| trial.control.is_named_by(&shown.metric.name)),
+                        stands: tried.iter().all(stands),
+                    });
                 }
             }
         }
-        accepted
+        trials
     }
 
     /// The worst of all that the element names; where none of it is bad and some of it is not run, or not judged, at this tier, that
     /// is what is said: half of a statement does not reproduce it.
     fn computed(element: &Element, shown: &[Shown<'_>], ended: &[Ended<'_>]) -> Status {
-        let judged = shown.iter().filter_map(|shown| shown.status).chain(ended.iter().map(|ended| ended.status));
+        let judged = shown.iter().filter_map(|shown| shown.status).chain(ended.iter().filter_map(|ended| ended.status));
         let is_judged = |name: &MetricName| shown.iter().any(|shown| shown.name == name && shown.status.is_some());
-        let has_run = |name: &RunName| ended.iter().any(|ended| ended.name == name);
-        let is_whole = element.metrics.iter().all(is_judged) && element.runs.iter().all(has_run);
+        let is_whole = element.metrics.iter().all(is_judged);
         match judged.min() {
             Some(Status::Reproduced) | None if !is_whole => Status::NotCovered,
             Some(worst) => worst,

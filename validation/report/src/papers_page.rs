@@ -98,8 +98,10 @@ fn reason(fate: &ElementOutcome<'_>) -> String {
         (None, Status::NotCovered) => {
             "a metric or run that shows it is not part of this tier, or not judged".to_owned()
         }
-        _ if names.is_empty() => String::new(),
-        _ => format!("it stands with wrong physics as well: {}", names.join(", ")),
+        _ if !names.is_empty() => format!("it stands with wrong physics as well: {}", names.join(", ")),
+        (None, Status::NotShown) if !fate.falls => "no control makes it fall by a value".to_owned(),
+        (None, Status::NotShown) => "its uncertainty reaches out of what is printed or of the gate".to_owned(),
+        _ => String::new(),
     }
 }
 
@@ -128,7 +130,7 @@ fn run(ended: &Ended<'_>) -> Value {
         _ => format!("ran to its end, {}\u{202f}s", four_digits(run.simulated_time)),
     };
     json!({
-        "mark": mark(*status),
+        "mark": status.map_or(VerdictMark::OBSERVED, mark),
         "link": link(&name.case, "runs", "run"),
         "variant": run.variant.to_string().replace(',', ", "),
         "value": outcome,

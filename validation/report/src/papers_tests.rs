@@ -5,7 +5,7 @@ use super::super::{Report, Severity, judge, papers_page, tests};
 use super::*;
 use crate::control::{Control, ControlTrial, Found};
 use crate::figure::Figure;
-use crate::metric::{Limit, MetricKind, Variant};
+use crate::metric::{Limit, MetricKind, Origin, Variant};
 use crate::store::Drawings;
 
 const ROWS: &str = r#"
@@ -68,6 +68,8 @@ fn report(metrics: Vec<Metric>) -> Report {
     let figure = Figure { name: "operators".to_owned(), caption: String::new(), panels: Vec::new(), columns: 1 };
     let mut film = tests::case("film", metrics);
     film.result.figures = vec![figure];
+    film.controls =
+        vec![trial("velocity_l2", &gated(2.0)), trial("other", &thickness(9.0)), trial("other", &thickness(4.0))];
     Report { papers: vec![paper].leak(), ..tests::report(vec![film]) }
 }
 
@@ -96,7 +98,7 @@ fn statuses_are_computed_from_gates_and_printed_numbers() {
 }
 
 #[test]
-fn a_run_that_diverges_reproduces_nothing() {
+fn a_run_that_ends_shows_nothing_and_one_that_diverges_fails() {
     let rows = r#"
 title = "A paper"
 source = "its text"
@@ -123,7 +125,7 @@ runs = [{ case = "film", variant = "numerics=paper" }]
     let papers: &[Paper] = vec![Paper::parse("made-up", rows).expect("readable")].leak();
     for (runs, expected) in [
         (Vec::new(), Status::NotCovered),
-        (vec![run(Outcome::Finished)], Status::Reproduced),
+        (vec![run(Outcome::Finished)], Status::NotCovered),
         (vec![run(diverged(true))], Status::NotReproduced),
         (vec![run(Outcome::Finished), run(diverged(false))], Status::NotReproduced),
     ] {
@@ -204,9 +206,18 @@ fn an_element_that_stands_under_a_control_of_its_metric_is_not_shown() {
     };
     assert_eq!(status(trial("velocity_l2", &gated(2.0))), Status::Reproduced, "it falls");
     assert_eq!(status(trial("velocity_l2", &gated(0.6))), Status::NotShown);
-    assert_eq!(status(trial("flux", &gated(0.6))), Status::Reproduced, "no control of its metric");
+    assert_eq!(status(trial("flux", &gated(0.6))), Status::NotShown, "no control makes it fall");
     let diverged = ControlTrial { diverged: true, ..trial("velocity_l2", &gated(f64::NAN)) };
-    assert_eq!(status(diverged), Status::Reproduced, "a run that diverged shows nothing");
+    assert_eq!(status(diverged), Status::NotShown, "a run that diverged shows nothing");
+}
+
+#[test]
+fn a_value_that_is_known_too_badly_shows_nothing() {
+    let known = |standard| thickness(5.2).known_to(Origin::Input, Some(standard), "draws");
+    let status = |metric: Metric, element: usize| statuses(vec![gated(0.5), metric])[element];
+    // between 4.5 and 5.5, and at least 5
+    assert_eq!([status(known(0.2), 1), status(known(0.3), 1)], ["reproduced", "not shown"]);
+    assert_eq!([status(known(0.09), 2), status(known(0.2), 2)], ["reproduced", "not shown"]);
 }
 
 #[test]

@@ -157,18 +157,34 @@ impl ReportProcess {
         }));
         let moved: Vec<MovedValue> = moved(judgement).into_iter().filter(|own| own.is_beyond).collect();
         text.extend(moved.iter().map(|moved| format!("moved: {moved}\n")));
+        let limits = self.moved_limits(report);
+        text.extend(limits.iter().map(|moved| format!("moved: {moved}\n")));
         let mut exit = judgement.exit();
-        if exit == Exit::Held && !moved.is_empty() {
+        if exit == Exit::Held && moved.len() + limits.len() > 0 {
             if self.request.deny_moved {
                 exit = Exit::GateFailed;
             } else {
-                let values =
-                    if moved.len() == 1 { "1 value has".to_owned() } else { format!("{} values have", moved.len()) };
+                let number = moved.len() + limits.len();
+                let values = if number == 1 { "1 value has".to_owned() } else { format!("{number} values have") };
                 text +=
                     &format!("{values} moved without a new failure: the exit code is 0 unless --deny moved is given\n");
             }
         }
         (exit, text)
+    }
+}
+
+impl ReportProcess {
+    /// Limits that differ from the accepted ones; none beside an earlier report or for a suite, which has no list.
+    fn moved_limits(&self, report: &Report) -> Vec<String> {
+        if self.request.against.is_some() || self.request.committed != CommittedValues::OfCases {
+            return Vec::new();
+        }
+        let of_case = |case: &CaseReport| {
+            let list = GateList::read(&self.request.committed.folder(), case.tier).ok()?;
+            Some(list.moved_limits(&case.name, &case.metrics))
+        };
+        report.cases.iter().filter_map(of_case).flatten().collect()
     }
 }
 
@@ -181,7 +197,7 @@ fn accept(committed: &CommittedValues, cases: &[CaseReport]) -> Result<Baseline,
         fresh.write(&folder, &case.name, case.tier, provenance::commit())?;
         if *committed == CommittedValues::OfCases {
             let mut gates = GateList::read(&folder, case.tier)?;
-            gates.add(&fresh);
+            gates.add(&case.name, &case.metrics);
             gates.write(&folder, case.tier)?;
             let path = folder.join("comparisons").join(format!("{}.csv", case.tier));
             accept_comparisons(&path, case).map_err(|error| FileError::unwritable(&path, &error))?;

@@ -49,6 +49,8 @@ pub(super) fn known(case: &str, metric: &str, best_value: f64) -> ExpectedFailur
             best_value,
             date: "2025-01-31".to_owned(),
             reason: "two attempts".to_owned(),
+            kind: FailureKind::Defect,
+            tried: String::new(),
         }],
     }
 }

@@ -138,6 +138,9 @@ pub struct BedLoad1dFlow {
     pub start: LayerStart,
     /// Closures.
     pub closures: Closures,
+    /// Number of draws of the closures from the ranges of the literature, each a layer and the same bed at rest; 0 for none.
+    #[schemars(transform = between(0.0, 4096.0, "64 give a deviation to a tenth of it; 0 for none"))]
+    pub closure_draws: usize,
     /// Change of a step, of velocities over u_* and of fractions, below which a layer counts as steady `[-]`.
     #[schemars(transform = positive("1e-11 is hardly more than rounding; 1e-3 stops on the way"))]
     pub steady_change: f64,
@@ -162,6 +165,7 @@ impl Default for BedLoad1dFlow {
             motion: BedMotion::Dilating,
             start: LayerStart::Rest,
             closures: Closures::default(),
+            closure_draws: 0,
             steady_change: STEADY,
         }
     }
@@ -324,12 +328,7 @@ impl BedLoad1dFlow {
 
     /// Whether it is one of the layers that are judged: on a slope, from rest.
     pub(super) fn is_from_rest(&self) -> bool {
-        self.is_on_slope(BedMotion::Dilating) && self.start == LayerStart::Rest
-    }
-
-    /// Whether it is beside such a layer, with another input.
-    pub(super) fn is_sensitivity(&self) -> bool {
-        self.is_on_slope(BedMotion::Dilating) && self.start == LayerStart::Both && !self.is_suspended()
+        self.is_on_slope(BedMotion::Dilating) && self.start == LayerStart::Rest && self.closure_draws == 0
     }
 
     /// A variant with what differs from the usual inputs, and the height of a cell where nothing else does or it differs as well.

@@ -1,5 +1,6 @@
 //! Steady bed load in one dimension: water over grains that dilate, with closures of the literature.
 
+mod draws;
 mod figures;
 mod flow;
 mod laws;
@@ -9,6 +10,7 @@ mod quantities;
 mod records;
 mod run;
 
+pub use draws::{DrawnLayer, Draws};
 pub use flow::{BedLoad1dFlow, BedMotion, GrainUnits, LayerStart, LayerStream, SimilarStream, SlopedStream};
 pub use run::BedLoadLayerObservation;
 

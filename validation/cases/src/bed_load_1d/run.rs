@@ -1,5 +1,6 @@
 //! Runs: the steady state of a layer from one start or two, and transports about the onset of motion.
 
+use super::draws::Draws;
 use super::flow::{BedLoad1dFlow, BedMotion, LayerStart, LayerStream};
 use super::onset_criterion::moves_by_some_criterion;
 use crate::case::{Flow, ParameterError, Progress, RunCost};
@@ -36,6 +37,8 @@ pub struct BedLoadLayerObservation {
     pub scan: Vec<(f64, f64)>,
     /// The same with half the rate of the regularisation: what differs is the creep of a bed that should rest.
     pub scan_at_half_rate: Vec<(f64, f64)>,
+    /// Layers of drawn closures.
+    pub draws: Draws,
 }
 
 impl Flow for BedLoad1dFlow {
@@ -70,6 +73,7 @@ impl Flow for BedLoad1dFlow {
         match (self.motion, self.start) {
             (BedMotion::AtRest, _) => layer.and("grains", "at-rest"),
             (BedMotion::Frozen, _) => layer.and("grains", "frozen").and("cell_height", self.cell_height()),
+            _ if self.closure_draws > 0 => layer.and("closures", "drawn"),
             (_, LayerStart::Rest) => layer.and("start", "rest"),
             (_, LayerStart::Moving { .. }) => layer.and("start", "fast"),
             (_, LayerStart::Both) if self.is_suspended() => layer.and("grains", "suspended"),
@@ -84,7 +88,7 @@ impl Flow for BedLoad1dFlow {
             // both starts, and one of half the rate
             _ if self.seeks_onset() => 3.0 * SCANNED.len() as f64,
             LayerStart::Both => 2.0,
-            _ => 1.0,
+            _ => 1.0 + 2.0 * self.closure_draws as f64,
         };
         RunCost { seconds_per_particle_step: 0.5e-6, ..RunCost::weakly_compressible(cells, layers * USUAL_STEPS) }
     }
@@ -147,6 +151,7 @@ fn solve(flow: &BedLoad1dFlow, progress: &Progress) -> Result<Recorded<BedLoadLa
             second,
             scan,
             scan_at_half_rate,
+            draws: Draws::of(flow)?,
             state: approach.state,
         },
     })
@@ -176,7 +181,7 @@ impl Done {
 }
 
 /// The steps of a layer from a start to its steady state.
-fn approach(layer: &BedLoadLayer, start: InitialVelocity) -> Result<Approach, ParameterError> {
+pub(super) fn approach(layer: &BedLoadLayer, start: InitialVelocity) -> Result<Approach, ParameterError> {
     layer.approach_unless(start, &is_interrupted).map_err(refused)
 }
 

@@ -43,7 +43,7 @@ pub struct Element {
     /// Metrics that show it.
     #[serde(default)]
     pub metrics: Vec<MetricName>,
-    /// Runs that have to end without diverging.
+    /// Runs that have to end without diverging; that they do reproduces nothing.
     #[serde(default)]
     pub runs: Vec<RunName>,
     /// Figures that draw it: `case/beginning of the figure's name`.
@@ -102,6 +102,18 @@ impl Printed {
     pub fn agrees(&self, value: f64) -> bool {
         let is_above = self.at_least.is_none_or(|bound| value >= bound);
         is_above && self.at_most.is_none_or(|bound| value <= bound)
+    }
+}
+
+impl Printed {
+    /// Whether a number known to ± `expanded` is told from what would not agree: within a range half as wide, or as far from its one end.
+    #[must_use]
+    pub fn tells(&self, value: f64, expanded: f64) -> bool {
+        match (self.at_least, self.at_most) {
+            (Some(low), Some(high)) => low == high || expanded <= 0.5 * (high - low),
+            (Some(end), None) | (None, Some(end)) => expanded <= (value - end).abs(),
+            (None, None) => true,
+        }
     }
 }
 

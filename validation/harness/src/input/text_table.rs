@@ -119,6 +119,10 @@ impl<'t> TableRows<'t> {
             while separator.is_some() && words.len() > least && words.last().is_some_and(|word| word.is_empty()) {
                 words.pop();
             }
+            // quotes around nothing
+            if words.is_empty() {
+                continue;
+            }
             if is_first && words.iter().any(|word| word.parse::<f64>().is_err()) {
                 table.heading = Some((number, if is_list { vec![line.trim()] } else { words }));
                 continue;
@@ -253,6 +257,7 @@ mod tests {
         assert_eq!(message("x,y\n1,2\n\"3,4\n"), "a.csv: `line 3`: unclosed quote; close the quote, or remove it");
         assert!(message("x,y\n1,5,2,5\n").ends_with("write 1.5 for 1,5, or complete or shorten the row"));
         assert!(message("x,y\n1,\u{202e}2\n").contains("U+202E"));
+        assert!(message("\t\"\"").contains("without numbers"));
         assert_eq!(parse("\u{feff}x,y\n1,2\n").expect("a table").headings, ["x", "y"]);
         let table = parse("x,velocity\n1,2\n").expect("a table");
         assert_eq!(

@@ -44,7 +44,7 @@ pub(super) struct StudyCheck {
     standard_uncertainty: Option<f64>,
     source: Option<String>,
     confidence: Confidence,
-    limit: Option<Limit>,
+    pub(super) limit: Option<Limit>,
     reason: String,
     /// Half width of the limit where the reference's own uncertainty sets it.
     scatter: Option<f64>,

@@ -27,6 +27,7 @@
 mod canonical;
 mod check;
 mod control;
+mod doubts;
 mod drawn;
 mod figures;
 mod file;
@@ -79,6 +80,9 @@ impl Study {
             let value = format!("\"{}\"", study.name());
             let remedy = "choose another name: pages and the baseline are kept by it";
             return Err(FieldError::new("study", value, "unlike the name of a case", remedy).in_file(file).into());
+        }
+        for doubt in study.doubts() {
+            tracing::warn!("study `{}`: {doubt}", study.name());
         }
         Ok(study)
     }

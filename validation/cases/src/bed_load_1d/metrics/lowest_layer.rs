@@ -81,9 +81,8 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, speed: f64) -> Ve
     metrics
 }
 
-/// Transport against the runs of flumes at about the same Shields number, with the uncertainty of the ratio to the formula by the
-/// closures; none where there are too few.
-pub(super) fn beside_measured(run: &BedLoad1dFlow, state: &LayerState, input: f64, words: &str) -> Option<Metric> {
+/// Transport against the runs of flumes at about the same Shields number; none where there are too few.
+pub(super) fn beside_measured(run: &BedLoad1dFlow, state: &LayerState) -> Option<Metric> {
     let shields = run.stream().shields_number();
     let MeasuredRates { median, bounds, deviation, number, source, confidence } = measured_rates_about(shields)?;
     let expected = median * TransportFormula::WongParker.transport(shields);
@@ -96,7 +95,6 @@ pub(super) fn beside_measured(run: &BedLoad1dFlow, state: &LayerState, input: f6
             "half of the width of the middle two thirds of the runs within a factor of 1.3 in the Shields number, each over Wong & \
              Parker's formula",
         )
-        .known_to(Origin::Input, Some(input / median), words)
         .gated(
             Limit::Within(bounds.0 / median, bounds.1 / median),
             "nine tenths of the measured runs within a factor of 1.3 in the Shields number lie there, each over Wong & Parker's formula",
