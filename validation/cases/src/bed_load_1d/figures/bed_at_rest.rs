@@ -2,7 +2,7 @@
 
 use super::super::BedLoad1dRecord;
 use super::super::draws::{DrawnLayer, nine_tenths};
-use super::super::flow::{BedLoad1dFlow, BedMotion};
+use super::super::flow::BedMotion;
 use super::super::records::{SolvedLayer, on_slope};
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::one_dimension::bed_load::LayerState;
@@ -34,21 +34,21 @@ pub(super) fn figure(records: &[BedLoad1dRecord], layers: &[SolvedLayer<'_>]) ->
         panel
     };
     let mut panels: Vec<Panel> = layers.iter().map(panel).collect();
-    panels.extend(layers.iter().filter_map(|(run, _)| open_panel(records, run)));
+    panels.extend(layers.iter().filter_map(|layer| open_panel(records, layer)));
     let caption = format!(
         "Velocity of the water over moving grains and over the same bed at rest in half-logarithmic axes. Figures 7 and 8 of the bed-load \
          paper (3 %) and its figure 9 (5 %) are drawn so; their measured points are lost. The paper prints τ* = 0.173 and 0.288, which \
          follow from the set-up. In the paper the water is slower near the bed and equal above (3 %). {} The closures are the literature's; \
          the paper's yield stress of 1220 Pa and viscosity of 0.26 Pa·s are not used. Below: what the closures leave open of the \
          difference, by 64 draws of five drag laws, the length over which the bed's roughness fades, friction, dilation and κ; dashed \
-         with the drag law of the paper.",
+         with the drag law of the paper, Morsi & Alexander's.",
         compared.join(" ")
     );
     Figure::new("with-and-without-motion", &caption, panels).in_columns(3)
 }
 
 /// The difference of the water over moving and over resting grains, with what the closures leave open; none without draws.
-fn open_panel(records: &[BedLoad1dRecord], run: &BedLoad1dFlow) -> Option<Panel> {
+fn open_panel(records: &[BedLoad1dRecord], &(run, state): &SolvedLayer<'_>) -> Option<Panel> {
     let of_slope =
         |(other, _): &&BedLoad1dRecord| other.closure_draws > 0 && other.stream().slope == run.stream().slope;
     let (flow, record) = records.iter().find(of_slope)?;
@@ -60,7 +60,7 @@ fn open_panel(records: &[BedLoad1dRecord], run: &BedLoad1dFlow) -> Option<Panel>
         (0..record.data.state.height.len()).filter(|&k| record.data.state.height[k] > 0.0).collect();
     let place = |k: usize| record.data.state.height[k] / stream.grain_diameter;
     let mut panel = Panel::new(
-        "",
+        &format!("{}, moving less at rest", percent(stream.slope)),
         Axis::logarithmic("z/d [-]").between(0.02, 12.0),
         Axis::linear("difference of u_f, over u_* [-]"),
     );
@@ -72,8 +72,13 @@ fn open_panel(records: &[BedLoad1dRecord], run: &BedLoad1dFlow) -> Option<Panel>
     });
     panel.band("nine tenths of the draws", band);
     let paper = record.data.draws.paper.as_ref()?;
-    panel.reference(paper.closures.drag.name(), heights.iter().map(|&k| (place(k), difference(paper, k))));
-    panel.line("equal", 1, [(0.02, 0.0), (12.0, 0.0)]);
+    for (_, rest) in on_slope(records, run, |other| other.is_on_slope(BedMotion::AtRest)) {
+        let above = (0..state.height.len()).filter(|&k| state.height[k] > 0.0);
+        let own = |k: usize| (state.fluid_velocity[k] - rest.fluid_velocity[k]) / stream.shear_velocity();
+        panel.line("usual closures", 0, above.map(|k| (state.height[k] / stream.grain_diameter, own(k))));
+    }
+    panel.reference("the paper's drag law", heights.iter().map(|&k| (place(k), difference(paper, k))));
+    panel.line("as fast", 1, [(0.02, 0.0), (12.0, 0.0)]);
     Some(panel)
 }
 

@@ -3,7 +3,7 @@
 use super::quantities::*;
 use super::{Measure, RESULTS};
 use crate::collapse::{Alteration, CollapseRecord, Material};
-use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
+use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Value, Variant};
 use crate::reference::collapse::{CollapseLawSource, PLANAR_COLLAPSE};
 use crate::shared::range;
 use crate::statistics::{Exponent, power_law, student_quantile};
@@ -30,7 +30,12 @@ fn within_reach(range: Limit, half_width: f64) -> Limit {
 type Family = (Material, f64, Option<Limit>, Option<Limit>);
 
 const FAMILIES: [Family; 3] = [
-    (Material::SAND, 5.0, Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), None),
+    (
+        Material::SAND,
+        5.0,
+        Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)),
+        Some(Limit::Within(0.35, 0.45)),
+    ),
     (Material::LAGREE, 7.0, Some(Limit::Within(0.65, 0.75)), Some(Limit::Within(0.3, 0.45))),
     (Material { altered: Alteration::ReferenceInertia, value: 0.279, ..Material::SAND }, 5.0, None, None),
 ];
@@ -78,6 +83,15 @@ fn half_width(law: &Exponent, points: usize) -> f64 {
     law.standard_error * student_quantile(CONFIDENCE, points - 2)
 }
 
+/// Power law of the run-outs of shallow columns; none for fewer than three.
+fn shallow_law<const D: usize>(records: &[&CollapseRecord<D>], material: Material) -> Option<(Exponent, Value)> {
+    let shallow = columns(records, material, 0.0, SHALLOW);
+    let points = shallow.iter().map(|(run, record)| (run.initial_height(), record.data.run_out()));
+    let points: Vec<(f64, f64)> = points.collect();
+    let ratios = Value::list(shallow.iter().map(|(run, _)| run.aspect_ratio));
+    (points.len() >= 3).then(|| power_law(&points)).flatten().map(|law| (law, ratios))
+}
+
 /// Mean of the run-out over the aspect ratio of shallow columns `[-]`; none without any.
 fn shallow_coefficient<const D: usize>(records: &[&CollapseRecord<D>], material: Material) -> Option<f64> {
     let shallow = columns(records, material, 0.0, SHALLOW);
@@ -90,13 +104,14 @@ fn break_point(shallow: f64, tall: &Exponent) -> f64 {
     libm::pow(tall.coefficient / shallow, 1.0 / (1.0 - tall.value))
 }
 
-/// A break point against the middle of the gap between Lube's branches.
-fn against_lube(metric: Metric) -> Metric {
+/// A break point against the gap between Lube's branches, judged where the columns are of a measured material.
+fn against_lube(metric: Metric, is_judged: bool) -> Metric {
     let lube = CollapseLawSource::Lube.law(&PLANAR_COLLAPSE.run_out);
     let [shallow, tall] = lube.branches.as_slice() else { return metric };
     let source =
         format!("between the branches of Lube et al. 2005, which end at {} and begin at {}", shallow.to, tall.from);
-    metric.against(Some(0.5 * (shallow.to + tall.from)), &source, lube.confidence)
+    let gate = is_judged.then_some(Limit::Within(shallow.to, tall.from));
+    metric.against(Some(0.5 * (shallow.to + tall.from)), &source, lube.confidence).gated_by(gate, "the gap itself")
 }
 
 pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Metric> {
@@ -130,8 +145,21 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
             if quantity == RUN_OUT.name
                 && let Some(shallow) = shallow_coefficient(records, material)
             {
-                metrics.push(against_lube(observed(BREAK_POINT, break_point(shallow, &scaling.law))));
+                metrics.push(against_lube(observed(BREAK_POINT, break_point(shallow, &scaling.law)), gate.is_some()));
             }
+        }
+        if let Some((law, ratios)) = shallow_law(records, material) {
+            let variant = Variant::of("quantity", RUN_OUT.name).and("material", material.to_string());
+            let gate = run_out_gate.and(Some(Limit::Within(0.9, 1.1)));
+            let lube = CollapseLawSource::Lube.law(&PLANAR_COLLAPSE.run_out);
+            metrics.push(
+                SCALING_EXPONENT
+                    .of(&variant.and("aspect_ratio", ratios), law.value)
+                    .against(Some(1.0), &lube.source, lube.confidence)
+                    .known_to(Origin::Numerical, Some(law.standard_error), "scatter about the fit")
+                    .gated_by(gate, "low columns run out in proportion to their aspect ratio; a tenth of the exponent")
+                    .with_snapshot_tolerance(1e-2, 5e-3),
+            );
         }
     }
     metrics
