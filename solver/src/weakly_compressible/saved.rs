@@ -35,6 +35,7 @@ pub struct SavedSimulation<'a, const D: usize> {
     time: f64,
     steps: u64,
     largest_speed: f64,
+    relative_speed: f64,
     diffusivity: f64,
     displacement: f64,
 }
@@ -57,6 +58,7 @@ impl<const D: usize> Simulation<D> {
             time: self.state.time,
             steps: self.state.steps,
             largest_speed: self.state.largest_speed,
+            relative_speed: self.state.relative_speed,
             diffusivity: self.state.diffusivity,
             displacement: self.state.displacement,
         }
@@ -119,6 +121,7 @@ impl<const D: usize> Simulation<D> {
         state.time = saved.time;
         state.steps = saved.steps;
         state.largest_speed = saved.largest_speed;
+        state.relative_speed = saved.relative_speed;
         state.diffusivity = saved.diffusivity;
         state.displacement = saved.displacement;
         state.enclosure.restore(books, saved.time);

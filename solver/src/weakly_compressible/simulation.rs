@@ -269,6 +269,12 @@ impl<const D: usize> Simulation<D> {
         &self.state.enclosure.displacements
     }
 
+    /// Velocity that speeds are relative to `[m/s]`.
+    #[must_use]
+    pub fn frame(&self) -> Vector<D> {
+        self.state.enclosure.frame
+    }
+
     /// The facet walls of the scene, then the rows of each inlet, where they were at the start.
     #[must_use]
     pub fn facet_walls(&self) -> &[FacetWall<D>] {

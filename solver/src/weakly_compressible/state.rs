@@ -48,6 +48,8 @@ pub struct State<const D: usize> {
     pub(crate) time: f64,
     pub(crate) steps: u64,
     pub(crate) largest_speed: f64,
+    /// Largest speed of a particle relative to the frame of the boundaries `[m/s]`.
+    pub(crate) relative_speed: f64,
     /// Largest diffusivity that bounds an explicit step `[m²/s]`.
     pub(crate) diffusivity: f64,
     /// Upper bound of any particle's displacement since the neighbour search `[m]`.
@@ -102,6 +104,7 @@ impl<const D: usize> State<D> {
             time: 0.0,
             steps: 0,
             largest_speed: 0.0,
+            relative_speed: 0.0,
             diffusivity: 0.0,
             displacement: f64::INFINITY,
         }
@@ -143,7 +146,7 @@ impl<const D: usize> State<D> {
             &self.model.numerics,
             self.model.kernel.smoothing_length(),
             self.model.equation_of_state.sound_speed(),
-            self.largest_speed + self.enclosure.largest_speed(),
+            self.relative_speed + self.enclosure.largest_speed(),
             diffusivity,
         )
     }

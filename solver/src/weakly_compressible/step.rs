@@ -31,7 +31,10 @@ impl<const D: usize> State<D> {
         self.update_pressure();
         self.extend_stress_to_walls();
         geometry::run(&self.model, &mut self.particles, &mut self.pairs);
-        self.largest_speed = self.particles.velocity.iter().fold(0.0_f64, |most, v| most.max(v.norm()));
+        let (velocity, frame) = (&self.particles.velocity, self.enclosure.frame);
+        self.largest_speed = velocity.iter().fold(0.0, |most, v| v.norm().max(most));
+        let flow = &velocity[..self.particles.flow_count()];
+        self.relative_speed = flow.iter().fold(0.0, |most, v| (v - frame).norm().max(most));
         self.extend_velocity_to_walls();
         self.update_density_and_stress(0.0)
     }

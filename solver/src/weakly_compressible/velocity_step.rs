@@ -1,6 +1,6 @@
 //! Velocities in a step: the kick, the contact with walls, and the work of both. Eight particles at once, as in the passes.
 
-use crate::lanes::algebra::{accumulate, dot, load, load_vector, scaled, store_vector, sum_of, zero_vector};
+use crate::lanes::algebra::{accumulate, difference, dot, load, load_vector, scaled, store_vector, splat_vector, sum_of, zero_vector};
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::run::Divergence;
@@ -28,28 +28,28 @@ impl<const D: usize> State<D> {
         };
         let contact = Touch { walls: &self.walls, range, friction: self.model.contact_friction };
         self.pairs.open_ledger(flow);
-        let (gravity, set) = (self.model.gravity, self.model.instruction_set);
+        let (gravity, set, frame) = (self.model.gravity, self.model.instruction_set, self.enclosure.frame);
         let mut velocity = std::mem::take(&mut self.particles.velocity);
         let mut support_impulse = std::mem::take(&mut self.particles.support_impulse);
         let particles = &self.particles;
-        let (largest, bad) =
+        let (largest, relative, bad) =
             (velocity[..flow].par_chunks_mut(BLOCK), support_impulse.par_chunks_mut(BLOCK), &mut self.pairs.energy)
                 .into_par_iter()
                 .with_min_len(16)
                 .enumerate()
                 .map(|(block, (velocity, support_impulse, energy))| {
-                    let mut extremes = (0.0_f64, usize::MAX);
+                    let mut extremes = (0.0_f64, 0.0_f64, usize::MAX);
                     let (first, extremes_of_block) = (block * BLOCK, &mut extremes);
                     let out = Output { velocity, support_impulse, energy, extremes: extremes_of_block };
-                    set.run(Kick { particles, contact, gravity, time_step, limit, first, out });
+                    set.run(Kick { particles, contact, gravity, frame, time_step, limit, first, out });
                     extremes
                 })
-                .reduce(|| (0.0, usize::MAX), |a, b| (a.0.max(b.0), a.1.min(b.1)));
+                .reduce(|| (0.0, 0.0, usize::MAX), |a, b| (a.0.max(b.0), a.1.max(b.1), a.2.min(b.2)));
         (self.particles.velocity, self.particles.support_impulse) = (velocity, support_impulse);
         self.pairs.close_ledger(&mut self.energy);
-        self.largest_speed = largest.sqrt();
+        (self.largest_speed, self.relative_speed) = (largest.sqrt(), relative.sqrt());
         if bad != usize::MAX {
-            let speed = self.particles.velocity[bad].norm();
+            let speed = (self.particles.velocity[bad] - frame).norm();
             return Err(self.divergence(bad, Quantity::Speed { limit: largest_speed }, speed));
         }
         Ok(())
@@ -96,8 +96,8 @@ struct Output<'a, const D: usize> {
     velocity: &'a mut [Vector<D>],
     support_impulse: &'a mut [Vector<D>],
     energy: &'a mut EnergyLedger,
-    /// Largest speed squared `[m²/s²]`, and the first particle beyond the limit.
-    extremes: &'a mut (f64, usize),
+    /// Largest speed squared, and relative to the frame `[m²/s²]`; the first particle beyond the limit.
+    extremes: &'a mut (f64, f64, usize),
 }
 
 /// A block of particles from `first` on.
@@ -105,8 +105,10 @@ struct Kick<'a, const D: usize> {
     particles: &'a Particles<D>,
     contact: Touch<'a, D>,
     gravity: Vector<D>,
+    /// Velocity that speeds are relative to `[m/s]`.
+    frame: Vector<D>,
     time_step: f64,
-    /// Largest speed squared that is no divergence `[m²/s²]`.
+    /// Largest relative speed squared that is no divergence `[m²/s²]`.
     limit: f64,
     first: usize,
     out: Output<'a, D>,
@@ -115,10 +117,11 @@ struct Kick<'a, const D: usize> {
 impl<const D: usize> LanePass for Kick<'_, D> {
     #[inline(always)]
     fn run<V: Lanes>(self) {
-        let Self { particles, contact, gravity, time_step, limit, first, out } = self;
+        let Self { particles, contact, gravity, frame, time_step, limit, first, out } = self;
         let step = V::splat(time_step);
         let mut work = VelocityWork::<V>::new();
-        let mut largest = V::splat(0.0);
+        let frame = splat_vector(&frame);
+        let (mut largest, mut largest_relative) = (V::splat(0.0), V::splat(0.0));
         for (group, (velocity, support_impulse)) in
             out.velocity.chunks_mut(LANES).zip(out.support_impulse.chunks_mut(LANES)).enumerate()
         {
@@ -151,19 +154,24 @@ impl<const D: usize> LanePass for Kick<'_, D> {
                 by_wall_control: &load_vector::<V, D>(&particles.by_wall_control[here]),
             }
             .add_to(&mut work);
-            let square = dot(&end, &end);
-            largest = square.max(largest);
+            largest = dot(&end, &end).max(largest);
+            let relative = difference(&end, &frame);
+            let square = dot(&relative, &relative);
+            largest_relative = square.max(largest_relative);
             // a NaN is bad as well
             let fine = square.less_mask(V::splat(limit)) | ((1 << LANES) - (1 << velocity.len()));
-            if fine != (1 << LANES) - 1 && out.extremes.1 == usize::MAX {
+            if fine != (1 << LANES) - 1 && out.extremes.2 == usize::MAX {
                 let squares = square.to_array();
                 let bad = (0..velocity.len()).find(|&lane| squares[lane].is_nan() || squares[lane] > limit);
-                out.extremes.1 = bad.map_or(usize::MAX, |lane| start + lane);
+                out.extremes.2 = bad.map_or(usize::MAX, |lane| start + lane);
             }
         }
         work.add_to(out.energy);
         for square in largest.to_array() {
             out.extremes.0 = out.extremes.0.max(square);
+        }
+        for square in largest_relative.to_array() {
+            out.extremes.1 = out.extremes.1.max(square);
         }
     }
 }

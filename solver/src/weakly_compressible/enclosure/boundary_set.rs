@@ -9,7 +9,7 @@ use crate::weakly_compressible::numerics::Numerics;
 use serde::{Deserialize, Serialize};
 
 /// Facet walls, open sides and inlets of a scene; by default there are none.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct BoundarySet<const D: usize> {
     /// Walls of facets.
     pub walls: Vec<FacetWall<D>>,
@@ -17,6 +17,14 @@ pub struct BoundarySet<const D: usize> {
     pub exits: Exits<D>,
     /// Openings by which material comes in.
     pub inlets: Vec<Inlet<D>>,
+    /// Velocity that speeds are relative to `[m/s]`: the length of a step and the largest speed are those of the flow seen from there.
+    pub frame: Vector<D>,
+}
+
+impl<const D: usize> Default for BoundarySet<D> {
+    fn default() -> Self {
+        Self { walls: Vec::new(), exits: Exits::default(), inlets: Vec::new(), frame: Vector::zeros() }
+    }
 }
 
 impl<const D: usize> BoundarySet<D> {
@@ -50,7 +58,7 @@ impl<const D: usize> BoundarySet<D> {
     /// Problem of numerics that go neither with facet walls nor with exits or inlets: only the single divergence books forces of walls.
     #[must_use]
     pub fn numerics_problem(&self, numerics: &Numerics) -> Option<ParameterProblem> {
-        if *self == Self::default() {
+        if *self == (Self { frame: self.frame, ..Self::default() }) {
             return None;
         }
         let operator = numerics.pairwise_operator()?;

@@ -22,6 +22,8 @@ pub(crate) struct BoundaryState<const D: usize> {
     pub(super) range: f64,
     pub(super) exits: Exits<D>,
     pub(crate) inlets: Vec<Inlet<D>>,
+    /// Velocity that speeds are relative to `[m/s]`.
+    pub(crate) frame: Vector<D>,
     /// First particle of each inlet's rows among all wall particles.
     pub(super) first_particles: Vec<usize>,
     /// Particles of the flow at the start.
@@ -60,7 +62,7 @@ impl<const D: usize> BoundaryState<D> {
         flow: usize,
         backing: &[Vec<BackingParticle<D>>],
     ) -> Self {
-        let BoundarySet { mut walls, exits, inlets } = enclosure;
+        let BoundarySet { mut walls, exits, inlets, frame } = enclosure;
         walls.extend(inlets.iter().map(Inlet::wall));
         let before = |wall: usize| plane + backing[..wall].iter().map(Vec::len).sum::<usize>();
         let first_particles = (walls.len() - inlets.len()..walls.len()).map(before).collect();
@@ -87,6 +89,7 @@ impl<const D: usize> BoundaryState<D> {
                 unsolved: Vector::zeros(),
             },
             inlets,
+            frame,
             walls,
         }
     }
@@ -99,10 +102,10 @@ impl<const D: usize> BoundaryState<D> {
         }
     }
 
-    /// Largest speed of any facet wall at any time `[m/s]`.
+    /// Largest speed of any facet wall at any time, relative to the frame `[m/s]`.
     pub(crate) fn largest_speed(&self) -> f64 {
-        let inlets = self.inlets.iter().map(Inlet::largest_speed);
-        self.walls.iter().map(|wall| wall.motion.largest_speed()).chain(inlets).fold(0.0, f64::max)
+        let inlets = self.inlets.iter().map(|inlet| inlet.largest_speed() + self.frame.norm());
+        self.walls.iter().map(|wall| wall.motion.largest_speed(&self.frame)).chain(inlets).fold(0.0, f64::max)
     }
 
     /// Whether there is nothing, neither facet walls nor open sides.

@@ -68,10 +68,11 @@ impl<const D: usize> Motion<D> {
         (self.displacements[k] - self.displacements[k - 1]) / (self.times[k] - self.times[k - 1])
     }
 
-    /// The largest speed that it ever has `[m/s]`.
+    /// The largest speed that it ever has relative to a velocity `[m/s]`, between the first and the last of its times.
     #[must_use]
-    pub fn largest_speed(&self) -> f64 {
-        (1..self.times.len()).map(|k| self.slope(k).norm()).fold(0.0, f64::max)
+    pub fn largest_speed(&self, frame: &Vector<D>) -> f64 {
+        let rest = if self.is_rest() { frame.norm() } else { 0.0 };
+        (1..self.times.len()).map(|k| (self.slope(k) - frame).norm()).fold(rest, f64::max)
     }
 
     /// Whether times rise and all is finite.
@@ -122,7 +123,8 @@ mod tests {
             assert!((motion.displacement(time) - up(place)).norm() < 1e-15, "{time}");
             assert!((motion.velocity(time) - up(speed)).norm() < 1e-14, "{time}");
         }
-        assert!((motion.largest_speed() - 3.0).abs() < 1e-14);
+        assert!((motion.largest_speed(&up(0.0)) - 3.0).abs() < 1e-14);
+        assert!((motion.largest_speed(&up(2.0)) - 2.0).abs() < 1e-14, "where it rests");
         let backwards = Motion { times: vec![0.2, 0.1], displacements: vec![up(0.0); 2] };
         assert!(!backwards.is_sound() && Motion::<2>::default().is_rest());
     }

@@ -26,7 +26,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Walls, open sides and inlets for the solver.
     pub(super) fn enclosure(&self) -> BoundarySet<D> {
         let walls = self.walls.iter().map(SceneWall::facet_wall).collect();
-        BoundarySet { walls, exits: self.sides.exits(), inlets: self.feeds() }
+        BoundarySet { walls, exits: self.sides.exits(), inlets: self.feeds(), frame: self.frame() }
     }
 
     /// Depth of the dummy particles behind walls and of the rows of inlets `[m]`.

@@ -117,7 +117,8 @@ pub struct SceneObservation<const D: usize> {
     /// The same without directions, Σ m |v| `[kg m/s]`.
     #[serde(default)]
     pub motion_at_start: f64,
-    /// Largest speed of the slower 99.5 % of the particles at any sample `[m/s]`: single grains do not decide it.
+    /// Largest speed of the slower 99.5 % of the particles at any sample `[m/s]`, relative to the wall from which all are slowest: single grains
+    /// do not decide it.
     pub largest_speed: f64,
     /// Particles that are behind a wall at the end.
     pub behind: u64,
@@ -168,12 +169,7 @@ impl<const D: usize> SceneObservation<D> {
         let squares: f64 = snapshot.velocity.iter().zip(&snapshot.mass).map(|(v, m)| v.norm_squared() * m).sum();
         // before the first row of an inlet there is nothing that moves
         self.rms_speed.push(if inside > 0.0 { (squares / inside).sqrt() } else { 0.0 });
-        let mut speeds: Vec<f64> = snapshot.velocity.iter().map(Vector::norm_squared).collect();
-        if let Some(last) = speeds.len().checked_sub(1) {
-            let place = (SLOWER_SHARE * last as f64) as usize;
-            let (_, speed, _) = speeds.select_nth_unstable_by(place, f64::total_cmp);
-            self.largest_speed = self.largest_speed.max(speed.sqrt());
-        }
+        self.largest_speed = self.largest_speed.max(largest_speed(simulation, snapshot));
         for (series, value) in self.gauges.iter_mut().zip(gauges) {
             series.push(value);
         }
@@ -209,4 +205,25 @@ impl<const D: usize> SceneObservation<D> {
         let begun = if self.mass.is_empty() { f64::NAN } else { self.before.mass };
         begun + self.fed.iter().map(|fed| fed.mass).sum::<f64>()
     }
+}
+
+/// Largest speed of the slower particles, relative to the wall from which it is smallest `[m/s]`; without walls relative to the frame.
+fn largest_speed<const D: usize>(simulation: &Simulation<D>, snapshot: &Snapshot<D>) -> f64 {
+    let mut frames: Vec<Vector<D>> = Vec::new();
+    for wall in simulation.facet_walls() {
+        let velocity = wall.motion.velocity(snapshot.time);
+        if !frames.contains(&velocity) {
+            frames.push(velocity);
+        }
+    }
+    if frames.is_empty() {
+        frames.push(simulation.frame());
+    }
+    let Some(last) = snapshot.velocity.len().checked_sub(1) else { return 0.0 };
+    let place = (SLOWER_SHARE * last as f64) as usize;
+    let from = |frame: Vector<D>| {
+        let mut speeds: Vec<f64> = snapshot.velocity.iter().map(|velocity| (velocity - frame).norm_squared()).collect();
+        speeds.select_nth_unstable_by(place, f64::total_cmp).1.sqrt()
+    };
+    frames.into_iter().map(from).fold(f64::INFINITY, f64::min)
 }

@@ -15,7 +15,6 @@ use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
 use bagnold_number::four_digits;
 use bagnold_solver::domain::Domain;
-use bagnold_solver::weakly_compressible::enclosure::Inlet;
 use bagnold_solver::weakly_compressible::enclosure::boundary_set::Exits;
 use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -249,11 +248,9 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let squared = self.fall();
         let equation_of_state = self.equation_of_state_over(squared);
         let (density, fall) = (equation_of_state.reference_density, squared.sqrt());
-        let (walls, inlets) = (self.fastest_wall(), self.fastest_inlet());
-        let speed = (2.0_f64.sqrt() * fall).max(self.fastest_body()).max(inlets) + walls.max(inlets);
         let viscosity = material.largest_viscosity(density * fall * fall) / density;
         let smoothing_length = numerics.smoothing_ratio * spacing;
-        TimeStepBounds::new(numerics, smoothing_length, equation_of_state.sound_speed(), speed, viscosity)
+        TimeStepBounds::new(numerics, smoothing_length, equation_of_state.sound_speed(), self.expected_speed(), viscosity)
     }
 
     /// √(g H) with the height of the scene, and more under pressure `[m/s]`.
@@ -264,21 +261,6 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Largest speed that falling, and bodies, walls and inlets relative to each other give `[m/s]`.
     pub(super) fn expected_speed(&self) -> f64 {
         self.relative_speed().max(2.0_f64.sqrt() * self.fall_speed())
-    }
-
-    /// Largest speed of a wall `[m/s]`.
-    fn fastest_wall(&self) -> f64 {
-        self.walls.iter().map(|wall| wall.motion().largest_speed()).fold(0.0, f64::max)
-    }
-
-    /// Largest speed of an inlet `[m/s]`.
-    fn fastest_inlet(&self) -> f64 {
-        self.feeds().iter().map(Inlet::largest_speed).fold(0.0, f64::max)
-    }
-
-    /// Speed at the start of the fastest body `[m/s]`.
-    fn fastest_body(&self) -> f64 {
-        self.bodies.iter().map(|body| body.velocity().norm()).fold(0.0, f64::max)
     }
 
     /// Time that sound needs across the height of the scene `[s]`.

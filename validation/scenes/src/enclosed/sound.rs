@@ -4,6 +4,7 @@
 use super::SceneFlow;
 use super::flow::Dimension;
 use super::setting::{SceneBody, SceneInlet, SceneWall};
+use super::shapes;
 use super::sides::SceneSides;
 use bagnold_number::four_digits;
 use bagnold_solver::domain::AxisBoundary;
@@ -84,6 +85,22 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             others.map(|other| largest_difference(one, other))
         });
         pairs.chain(of_images).fold(0.0, f64::max)
+    }
+
+    /// Velocity in the middle of those that walls have during the run, of bodies where nothing bounds them `[m/s]`: speeds are relative to it.
+    /// Openings and planes of symmetry rest.
+    pub(super) fn frame(&self) -> Vector<D> {
+        let mut motions = self.motions_of_walls();
+        motions.extend(self.sides.has_mirror().then(Motion::default));
+        if motions.is_empty() {
+            motions = self.motions_of_material();
+        }
+        let velocities = motions.iter().flat_map(|motion| {
+            let later = motion.times.iter().copied().filter(|time| *time < self.duration);
+            std::iter::once(0.0).chain(later).map(|time| motion.velocity(time))
+        });
+        let (lower, upper) = shapes::around(velocities);
+        if motions.is_empty() { Vector::zeros() } else { (lower + upper) * 0.5 }
     }
 
     /// Motions of bodies and of the inflow, as they start.
@@ -173,7 +190,8 @@ fn largest_difference<const D: usize>(one: &Motion<D>, other: &Motion<D>) -> f64
 
 /// Whether two motions are one.
 fn is_common<const D: usize>(one: &Motion<D>, other: &Motion<D>) -> bool {
-    largest_difference(one, other) <= ROUNDING * one.largest_speed().max(other.largest_speed()).powi(2)
+    let fastest = [one, other].map(|motion| motion.largest_speed(&Vector::zeros())).into_iter().fold(0.0, f64::max);
+    largest_difference(one, other) <= ROUNDING * fastest.powi(2)
 }
 
 #[cfg(test)]
