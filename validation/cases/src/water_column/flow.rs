@@ -243,7 +243,7 @@ impl WaterColumnFlow {
     /// The first place from the symmetry plane outwards where less than [`FRONT_THICKNESS`] of the width stands `[m]`.
     fn front(&self, snapshot: &Snapshot<2>) -> f64 {
         let (from, to) = (Vector::<2>::zeros(), Vector::<2>::new(BED_END * self.width, 0.0));
-        let line = FrontLine { from, to, section: FRONT_THICKNESS * self.width, strip: None };
+        let line = FrontLine { from, to, section: FRONT_THICKNESS * self.width, strip: None, side: None };
         line.reached(self.spacing(), snapshot)
     }
 }

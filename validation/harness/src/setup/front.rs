@@ -6,6 +6,10 @@ use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 
 /// Parts that a particle's volume is spread in over a spacing to either side.
 const PARTS: usize = 8;
+/// Length of a bin along a line, in spacings `[-]`.
+const BIN: f64 = 0.25;
+/// Cosine between a line and a direction, of unit length across it, below which it has no side there `[-]`.
+const PARALLEL: f64 = 1e-3;
 
 /// A line along which material reaches up to where less than a section stands across it.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +22,8 @@ pub struct FrontLine<const D: usize> {
     pub section: f64,
     /// The unit vector across it and gravity, and how far from it along that material counts `[m]`; none where all counts.
     pub strip: Option<(Vector<D>, f64)>,
+    /// The unit vector across it to the side on which material counts; none where both count.
+    pub side: Option<Vector<D>>,
 }
 
 impl<const D: usize> FrontLine<D> {
@@ -36,8 +42,23 @@ impl<const D: usize> FrontLine<D> {
         self.first_below([self.section, self.section + half_a_row, less], spacing, snapshot)
     }
 
-    fn first_below<const N: usize>(&self, sections: [f64; N], spacing: f64, snapshot: &Snapshot<D>) -> [f64; N] {
-        let (bin, length) = (0.25 * spacing, (self.to - self.from).norm());
+    /// The line for the material on one side of it; none where it runs along that direction.
+    pub fn on_side(&self, direction: &Vector<D>) -> Option<Self> {
+        let along = (self.to - self.from).normalize();
+        let across = (direction - along * direction.dot(&along)).try_normalize(PARALLEL)?;
+        Some(Self { side: Some(across), ..self.clone() })
+    }
+
+    /// Whether as much as the section stands along more than half of it.
+    pub fn is_covered(&self, spacing: f64, snapshot: &Snapshot<D>) -> bool {
+        let areas = self.areas(spacing, snapshot);
+        let covered = areas.iter().filter(|area| **area >= self.section * BIN * spacing);
+        2 * covered.count() > areas.len()
+    }
+
+    /// Volumes of the material along it `[m^D]`, in bins.
+    fn areas(&self, spacing: f64, snapshot: &Snapshot<D>) -> Vec<f64> {
+        let (bin, length) = (BIN * spacing, (self.to - self.from).norm());
         let along = (self.to - self.from) / length;
         let bins = (length / bin).ceil() as usize;
         let shifts: [f64; PARTS] =
@@ -45,7 +66,8 @@ impl<const D: usize> FrontLine<D> {
         let mut shares = vec![[0.0; PARTS]; bins];
         for ((place, mass), density) in snapshot.position.iter().zip(&snapshot.mass).zip(&snapshot.density) {
             let way = place - self.from;
-            if self.strip.is_some_and(|(across, half)| way.dot(&across).abs() >= half) {
+            let is_beside = self.strip.is_some_and(|(across, half)| way.dot(&across).abs() >= half);
+            if is_beside || self.side.is_some_and(|side| way.dot(&side) < 0.0) {
                 continue;
             }
             let (middle, volume) = (way.dot(&along), mass / density);
@@ -59,7 +81,12 @@ impl<const D: usize> FrontLine<D> {
                 }
             }
         }
-        let area: Vec<f64> = shares.iter().map(|parts| parts.iter().map(|part| part / PARTS as f64).sum()).collect();
+        shares.iter().map(|parts| parts.iter().map(|part| part / PARTS as f64).sum()).collect()
+    }
+
+    fn first_below<const N: usize>(&self, sections: [f64; N], spacing: f64, snapshot: &Snapshot<D>) -> [f64; N] {
+        let (bin, length) = (BIN * spacing, (self.to - self.from).norm());
+        let area = self.areas(spacing, snapshot);
         sections.map(|section| {
             let stands = |area: &f64| *area >= section * bin;
             let Some(first) = area.iter().position(stands) else { return ABSENT };
@@ -93,7 +120,7 @@ mod tests {
         let position: Vec<Vector<2>> = thick.chain(thin).map(Vector::from).collect();
         let ones = vec![1.0; position.len()];
         let snapshot = Snapshot { mass: ones.clone(), density: ones, position, ..Snapshot::default() };
-        let line = FrontLine { from: Vector::<2>::zeros(), to: Vector::<2>::new(40.0, 0.0), section, strip: None };
+        let line = FrontLine { from: Vector::<2>::zeros(), to: Vector::<2>::new(40.0, 0.0), section, strip: None, side: None };
         line.interval(1.0, &snapshot)
     }
 

@@ -2,6 +2,7 @@
 
 use super::Measurand;
 use super::periods::Periods;
+use crate::setup::front::FrontLine;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::simulation::Simulation;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
@@ -18,6 +19,8 @@ pub(crate) struct Memory<const D: usize> {
     impulses: Vec<Vector<D>>,
     /// Mass that has crossed each gauge's opening `[kg]`.
     crossed: Vec<f64>,
+    /// Side of a front gauge's line on which material counts, where a bed lies on the other; gauge by gauge.
+    above_beds: Vec<Option<Vector<D>>>,
 }
 
 impl<const D: usize> Memory<D> {
@@ -33,8 +36,27 @@ impl<const D: usize> Memory<D> {
         self.crossed.resize(measures.len(), 0.0);
         let read = |(k, measure)| self.read((k, measure), simulation, snapshot, periods);
         let values = measures.iter().enumerate().flat_map(read).collect();
-        *self = Self { crossed: std::mem::take(&mut self.crossed), ..Self::of(simulation, known) };
+        let (crossed, above_beds) = (std::mem::take(&mut self.crossed), std::mem::take(&mut self.above_beds));
+        *self = Self { crossed, above_beds, ..Self::of(simulation, known) };
         values
+    }
+
+    /// Finds the fronts along a bed: those under most of whose lines, against gravity that pulls `down`, material lies now. They follow what
+    /// lies above their lines. Returns whether each gauge is one.
+    pub(crate) fn find_beds(
+        &mut self,
+        measures: &[Measurand<'_, D>],
+        down: &Vector<D>,
+        simulation: &Simulation<D>,
+        snapshot: &Snapshot<D>,
+    ) -> impl Iterator<Item = bool> {
+        let above = |measure: &Measurand<'_, D>| {
+            let Measurand::Front(line) = measure else { return None };
+            let below = line.on_side(down)?;
+            below.is_covered(simulation.spacing(), snapshot).then(|| below.side.map(|side| -side))?
+        };
+        self.above_beds = measures.iter().map(above).collect();
+        self.above_beds.iter().map(Option::is_some)
     }
 
     /// The present state, of which `known` particles have been there so far.
@@ -45,7 +67,7 @@ impl<const D: usize> Memory<D> {
             places[identity as usize] = (particles.position[index], particles.velocity[index]);
         }
         let impulses = simulation.facet_wall_impulses().to_vec();
-        Self { time: simulation.time(), places, impulses, crossed: Vec::new() }
+        Self { time: simulation.time(), places, impulses, crossed: Vec::new(), above_beds: Vec::new() }
     }
 
     /// The values of the gauge at this place among all, one a column.
@@ -59,7 +81,10 @@ impl<const D: usize> Memory<D> {
         let elapsed = simulation.time() - self.time;
         let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
         match measure {
-            Measurand::Front(line) => line.interval(simulation.spacing(), snapshot).to_vec(),
+            Measurand::Front(line) => {
+                let side = self.above_beds.get(gauge).copied().flatten();
+                FrontLine { side, ..line.clone() }.interval(simulation.spacing(), snapshot).to_vec()
+            }
             Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
             Measurand::Probe(probe) => probe.values(simulation, periods, snapshot),
             Measurand::Force { wall } => {

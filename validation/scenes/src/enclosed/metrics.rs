@@ -142,6 +142,16 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                         ),
                     );
                 }
+                if first.len() > 1 && first.iter().all(|front| *front >= (line.to - line.from).norm()) {
+                    let subject = format!("front `{}` of scene `{}`", series.gauge, parameters.name);
+                    caution_about(
+                        &subject,
+                        &format!(
+                            "{subject} is at the end of its line throughout: along a bed, draw the line on its surface; \
+                             elsewhere lengthen it or raise `thickness`"
+                        ),
+                    );
+                }
                 let why = || "nowhere on its line stands as much as `thickness` at the end".to_owned();
                 FRONT
                     .of(&own, last)

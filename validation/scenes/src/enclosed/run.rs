@@ -3,7 +3,7 @@
 use super::flow::{Dimension, SceneStart};
 use super::gauges::Memory;
 use super::periods::Periods;
-use super::setting::{self, SceneBody, SceneInlet, SceneWall};
+use super::setting::{self, SceneBody, SceneGauge, SceneInlet, SceneWall};
 use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
 use super::surfaces::{Surfaces, behind};
@@ -156,7 +156,7 @@ where
             let remedy = "widen a body, reduce the spacing, or reverse a wall";
             return Err(ParameterError::field("bodies", defect, "", remedy));
         }
-        let (gravity, measures) = (self.pull(), self.measures());
+        let (gravity, down, measures) = (self.pull(), self.down(), self.measures());
         // of grains in a liquid the whole weight, that of both, for the liquid bears its part
         let pull = (self.fall() / self.height()).max(setting::vector::<D>(&self.gravity).norm());
         let (likeness, state) = (self.likeness(), self.stored_state()?);
@@ -181,7 +181,12 @@ where
                 if let Some(SceneStart { file, .. }) = &self.from {
                     progress.tell(&format!("starts at t = {} s, from {file}", four_digits(simulation.time())));
                 }
-                (simulation.snapshot(), begin(simulation))
+                let (snapshot, mut watch) = (simulation.snapshot(), begin(simulation));
+                let beds = watch.memory.find_beds(&measures, &down, simulation, &snapshot);
+                for (gauge, _) in self.gauges.iter().zip(beds).filter(|(_, is_above)| *is_above) {
+                    progress.tell(&format!("front `{}` is that of the material above its line: below it is a bed", gauge.name()));
+                }
+                (snapshot, watch)
             },
             |(last_good, watch): &mut (Snapshot<D>, SceneObserver<D>), simulation| {
                 *last_good = simulation.snapshot();

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum PlaneGauge {
     /// Front of the material along a line: the first place behind its start where less than a thickness stands
-    /// across it.
+    /// across it. Where material lies below more than half of the line at the start, a bed, only what is above the line counts.
     Front {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
@@ -92,7 +92,8 @@ impl setting::SceneGauge<2> for PlaneGauge {
     fn measure(&self, down: &Vector<2>) -> Measurand<'_, 2> {
         match self {
             Self::Front { from, to, thickness, .. } => {
-                Measurand::Front(FrontLine { from: vector(from), to: vector(to), section: *thickness, strip: None })
+                let (from, to) = (vector(from), vector(to));
+                Measurand::Front(FrontLine { from, to, section: *thickness, strip: None, side: None })
             }
             Self::Depth { at, width, .. } => {
                 Measurand::Depth(DepthGauge { at: vector(at), direction: *down, width: *width, section: *width })
@@ -179,6 +180,32 @@ mod tests {
         // three columns of eight particles of 0.1 kg/m
         assert!((end[4] - 2.4).abs() < 1e-9 && (end[5] - 2.4 / way).abs() < 1e-6, "{end:?}");
         assert_eq!(end[6..], [0.0; 2], "nothing crosses beside the line");
+    }
+
+    #[test]
+    fn a_front_along_a_bed_is_that_of_what_lies_above_it() {
+        // a column of 5 by 4 particles of 1 cm on a bed of 40 by 4
+        let site = |k: usize| if k < 160 { (k % 40, k / 40) } else { ((k - 160) % 5, 4 + (k - 160) / 5) };
+        let place = |(x, y): (usize, usize)| Vector::<2>::new(x as f64 + 0.5, y as f64 + 0.5) * 0.01;
+        let mut scene = block_scene();
+        scene.flow = Flow::at_rest((0..180).map(|k| place(site(k))).collect(), 1000.0, 0.01);
+        let simulation = Simulation::new(scene).expect("a scene");
+        let (down, unbounded) = (Vector::<2>::new(0.0, -1.0), Periods::of(&[AxisBoundary::Open; 2]));
+        let front = |from: &str, to: &str| {
+            let text = format!("kind = \"front\"\nname = \"front\"\nfrom = {from}\nto = {to}\nthickness = 0.02");
+            let gauge = toml::from_str::<PlaneGauge>(&text).expect("a gauge");
+            let (measures, snapshot) = ([gauge.measure(&down)], simulation.snapshot());
+            let mut memory = Memory::default();
+            let follows = memory.find_beds(&measures, &down, &simulation, &snapshot).any(|is_above| is_above);
+            (follows, memory.read_all(&measures, &simulation, &snapshot, (180, &unbounded))[0])
+        };
+        let (above, on_surface) = front("[0.0, 0.04]", "[0.4, 0.04]");
+        assert!(above && (on_surface - 0.05).abs() < 0.01, "{on_surface} m");
+        // along the floor all counts, and against gravity there is no bed
+        let (above, on_floor) = front("[0.0, 0.0]", "[0.6, 0.0]");
+        assert!(!above && (on_floor - 0.4).abs() < 0.01, "{on_floor} m");
+        let (above, upwards) = front("[0.02, 0.0]", "[0.02, 0.2]");
+        assert!(!above && (upwards - 0.08).abs() < 0.01, "{upwards} m");
     }
 
     /// Velocities that are linear in space, on which the fit is exact also at a corner.

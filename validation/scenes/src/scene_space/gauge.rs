@@ -16,7 +16,8 @@ use serde::{Deserialize, Serialize};
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum SpaceGauge {
     /// Front of the material along a line: the first place behind its start where, on the mean over a width, less
-    /// than a thickness stands across it.
+    /// than a thickness stands across it. Where material lies below more than half of the line at the start, a bed, only what is above the line
+    /// counts.
     Front {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,
@@ -96,7 +97,8 @@ impl setting::SceneGauge<3> for SpaceGauge {
             Self::Front { from, to, thickness, width, .. } => {
                 let (from, to): (Vector<3>, Vector<3>) = (vector(from), vector(to));
                 let across = down.cross(&(to - from)).normalize();
-                Measurand::Front(FrontLine { from, to, section: thickness * width, strip: Some((across, 0.5 * width)) })
+                let strip = Some((across, 0.5 * width));
+                Measurand::Front(FrontLine { from, to, section: thickness * width, strip, side: None })
             }
             Self::Depth { at, width, .. } => {
                 let section = std::f64::consts::FRAC_PI_4 * width * width;
