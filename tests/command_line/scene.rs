@@ -291,6 +291,26 @@ fn a_staircase_of_rates_is_fed_as_its_rows_stand_and_ends_as_it_is_told() {
     fed(&format!("{late}\"hold\""), "feeds 2 kg/(m s) before 0.1 s; inlet `feed` feeds 6 kg/(m s) after 0.2 s", 1.2);
     fed(&format!("{late}\"zero\""), "feeds 0 kg/(m s) before 0.1 s; inlet `feed` feeds 0 kg/(m s) after 0.2 s", 0.4);
     fed("rates = [[0.0, 2.0], [0.3, 2.0]]\nends = \"error\"", "spacing 0.005 m", 0.6);
+    // plateaux on both sides of a jump, by the mass of 11 and 32 rows
+    let fine = scene.replace("0.005", "0.00125").replace("duration = 0.3", "duration = 0.4");
+    place.file("feed.csv", "t [s],rate [kg/(m s)]\n0,2\n0.2,2\n0.2,6\n0.4,6\n");
+    place.file("fine.toml", &format!("{fine}table = \"feed.csv\"\n"));
+    place.run(&["fine.toml", "--quiet"]).code(0);
+    let table = std::fs::read_to_string(place.path("out/tables/gauges-scene-staircase.csv")).expect("written");
+    let rows = table.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect());
+    let rows: Vec<Vec<f64>> = rows.collect();
+    for (from, to, rate) in [(0.0, 0.2, 2.0), (0.2, 0.4, 6.0)] {
+        let points: Vec<(f64, f64)> =
+            rows.iter().filter(|row| (from..=to).contains(&row[0])).map(|row| (row[0], row[1])).collect();
+        let mean = |of: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+        let (x, y) = (mean(&|point| point.0), mean(&|point| point.1));
+        let slope = mean(&|point| (point.0 - x) * (point.1 - y)) / mean(&|point| (point.0 - x).powi(2));
+        assert!((slope / rate - 1.0).abs() < 0.03, "{slope} of {rate} kg/(m s) from {from} to {to} s");
+    }
+    // the rows of another file would not be read
+    let other = place.run(&["fine.toml", "--quiet", "--set", "inlets[0].table=\"other.csv\""]).code(2);
+    let said = String::from_utf8_lossy(&other.get_output().stderr).into_owned();
+    assert!(said.contains("`inlets[0].table` is \"other.csv\", but must be read with the case file"), "{said}");
 }
 
 #[test]

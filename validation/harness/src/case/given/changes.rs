@@ -110,6 +110,7 @@ pub(in crate::case) fn checked(
     let mut settings = Table::new();
     for (index, argument) in changes.settings.iter().enumerate() {
         refuse_twice(&changes.settings[..index], argument)?;
+        refuse_beside_read(changes, argument)?;
         add_setting(defaults, &mut settings, argument)?;
     }
     let file = changes.file.as_ref().map(|(file, fields)| (Some(*file), fields));
@@ -133,6 +134,25 @@ pub(in crate::case) fn checked(
     unlikely.iter().for_each(|warning| caution(warning));
     let Value::Table(table) = value else { return Ok(Table::new()) };
     Ok(table)
+}
+
+/// Fields by which an entry of a list names a file that is read with the case file, each with those that the file is read by.
+const READ_WITH_THE_FILE: [(&str, &[&str]); 2] =
+    [("table", &["table"]), ("mesh", &["mesh", "unit", "scale", "rotate", "move"])];
+
+/// Refuses a setting of how a file is read that has been read with the case file: its contents would stay.
+fn refuse_beside_read(changes: &Changes<'_>, argument: &str) -> Result<(), FieldError> {
+    let named = || {
+        let ((path, value), (_, fields)) = (parts(argument)?, changes.file.as_ref()?);
+        let (place, field) = path.rsplit_once('.')?;
+        let (list, index) = place.strip_suffix(']')?.split_once('[')?;
+        let entry = fields.get(list)?.as_array()?.get(index.parse::<usize>().ok()?)?.as_table()?;
+        let is_read = |name: &str| entry.get(name).and_then(Value::as_str).is_some_and(|name| !name.is_empty());
+        READ_WITH_THE_FILE.iter().find(|(name, with)| with.contains(&field) && is_read(name))?;
+        let remedy = "change it in the case file, or in a copy";
+        Some(FieldError::new(path, value, "read with the case file that gives it", remedy).set_by(argument.to_owned()))
+    };
+    named().map_or(Ok(()), Err)
 }
 
 /// Refuses lists of values that are runs of one flow now.
