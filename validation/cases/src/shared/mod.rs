@@ -11,9 +11,27 @@ pub(crate) use metrics::printed_laws;
 
 use crate::case::{ExternalObservation, Flow};
 use crate::input::FieldError;
+use bagnold_number::four_digits;
+use crate::reference::one_dimension::bed_load::Stream;
 
 /// Observation of a run from what another code gives of it; none without columns that tell one.
 pub(crate) type FromExternal<F> = Result<Option<ExternalObservation<<F as Flow>::Observation>>, FieldError>;
+
+/// Transport of bed load in the units of flumes with its 95 % interval, from q* and its standard uncertainty `[-]`; none without a value.
+pub(crate) fn transport_in_units(stream: &Stream, transport: f64, uncertainty: f64) -> Option<String> {
+    let within = |unit: f64| {
+        let bounds = [transport, (transport - 1.96 * uncertainty).max(0.0), transport + 1.96 * uncertainty];
+        bounds.map(|bound| four_digits(bound * unit))
+    };
+    let area = stream.transport_unit();
+    let [[mass, least, most], [volume, low, high], [own, lower, upper]] =
+        [stream.grain_density * area, area, 1.0].map(within);
+    transport.is_finite().then(|| {
+        format!(
+            "bed load of {mass} kg/(m s) (95 %: {least} … {most}), {volume} m²/s ({low} … {high}), q* = {own} ({lower} … {upper})"
+        )
+    })
+}
 
 /// Values in the order in which they come, each once.
 pub(crate) fn distinct<T: PartialEq>(values: impl IntoIterator<Item = T>) -> Vec<T> {

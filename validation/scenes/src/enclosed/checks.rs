@@ -256,10 +256,14 @@ fn check_motion<const D: usize>(motion: &Motion<D>, given_by: &str) -> Result<()
         let remedy = format!("the {given_by} are where the wall is at the start");
         return Err(ParameterError::field("motion[0]", value, &rest, &remedy));
     }
-    if motion.times.len() == 1 || !motion.is_sound() {
-        let value = format!("{} rows", motion.times.len());
-        let rule = "rows with rising times, two or more";
-        return Err(ParameterError::field("motion", value, rule, "sort the rows by their times"));
+    if motion.times.len() == 1 {
+        return Err(ParameterError::field("motion", "one row", "two rows or more", "leave it out for a wall at rest"));
+    }
+    if let Some(row) = motion.times.windows(2).position(|pair| pair[1] <= pair[0]).map(|row| row + 1) {
+        let (field, before) = (format!("motion[{row}]"), motion.times[row - 1]);
+        let (value, rule) = (format!("at {} s", motion.times[row]), format!("later than the row above it, at {before} s"));
+        let remedy = "sort the rows by their times; a wall that jumps takes a step's time or more for it";
+        return Err(ParameterError::field(&field, value, &rule, remedy));
     }
     Ok(())
 }

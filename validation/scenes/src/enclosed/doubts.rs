@@ -8,12 +8,15 @@ use super::sides::SceneSides;
 use super::{BodyPreparation, SceneFlow};
 
 use bagnold_number::four_digits;
+use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
 
 /// Size `[m]` of a scene in which a duration shorter than a fall is doubted.
 const LARGE: f64 = 10.0;
 /// Most grains across a scene that is not doubted: 50 m of sand.
 const MOST_GRAINS: f64 = 1e5;
+/// Way of a body beyond a periodic side that is not told, in spacings `[-]`.
+const ON_THE_SIDE: f64 = 0.5;
 /// Farthest that one part of a scene reaches, over the farthest of all others `[-]`: a slip by 1000 is seen of parts down to a thirtieth.
 const FARTHEST: f64 = 30.0;
 
@@ -21,6 +24,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     /// Warnings of lengths that are probably in millimetres, all of them or those of one part, and of a start without shear stress.
     pub(super) fn doubtful_parts(&self) -> Vec<String> {
         let found = self.stray().or_else(|| self.all_large()).into_iter().chain(self.sudden_release());
+        let found = found.chain(self.cut_by_periods());
         found.map(|doubt| format!("scene `{}`: {doubt}", self.name)).chain(self.wide_gauges()).collect()
     }
 
@@ -34,6 +38,28 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             "a layer on a periodic slope starts without shear stress and moves too far at first; give `preparation = \"stressed\"`"
                 .to_owned()
         })
+    }
+
+    /// Bodies of which a part is beyond a periodic side, and is left out without being an image of what is inside.
+    fn cut_by_periods(&self) -> impl Iterator<Item = String> {
+        let (axes, told) = (self.sides.axes(), ON_THE_SIDE * self.spacing);
+        let of_body = move |(body, own): (usize, &S::Body)| {
+            let (lower, upper) = own.extent();
+            axes.into_iter().enumerate().filter_map(move |(axis, boundary)| {
+                let AxisBoundary::Periodic { lower: left, upper: right } = boundary else { return None };
+                let [before, after] = [left - lower[axis], upper[axis] - right].map(|way| way.max(0.0));
+                // what fills the period may be drawn wider
+                let is_whole = lower[axis] <= left && upper[axis] >= right;
+                let beyond = four_digits(before.max(after));
+                (!is_whole && before.max(after) > told).then(|| {
+                    format!(
+                        "{beyond} m of `bodies[{body}]` are beyond a periodic side and are left out; end it there, and add a body at the \
+                         other side"
+                    )
+                })
+            })
+        };
+        self.bodies.iter().enumerate().flat_map(of_body)
     }
 
     /// The geometry as a whole: too many grains across it, or over before anything could fall.

@@ -6,7 +6,7 @@ use super::series;
 use super::setting::SceneInlet;
 use super::sides::SceneSides;
 use super::{FedMass, Measurand, MeasuredSeries, SceneFlow, SceneObservation, SceneRecord};
-use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
+use crate::metric::{Confidence, Limit, Metric, Origin, Quantity, Variant, quantities};
 use crate::output::caution_about;
 use crate::setup::energy_ledger::{self, CORRECTION_WORK, ENERGY_RESIDUAL, ENERGY_RISE, EnergyScale, WALL_WORK};
 use crate::statistics::{Extrapolation, interpolated};
@@ -25,6 +25,8 @@ const MOST_NUMERICAL: f64 = 0.25;
 const REST: f64 = 0.02;
 /// Least loss over the energy that went through a liquid `[-]`: a smaller one moves nothing that is measured.
 const LEAST_LOSS: f64 = 1e-3;
+/// Times of equal length from which the error of a mean is taken.
+const BLOCKS: usize = 4;
 /// Least way of a front, in particle spacings, from which its return is said `[-]`.
 const FRONT_ROWS: f64 = 5.0;
 
@@ -68,9 +70,15 @@ const fn mass_fed<S: Dimension<D>, const D: usize>() -> Quantity {
     Quantity::accounted("mass_fed", S::MASS_UNIT, "inflow through an inlet until the end")
 }
 
+const fn discharge_of<S: Dimension<D>, const D: usize>() -> Quantity {
+    let description = "mean mass per time through the line or parallelogram of a gauge, while 20 to 80 % of the mass crosses that has at the end";
+    Quantity::accounted("discharge", S::FLUX_UNIT, description)
+}
+
 /// All quantities of a case of scenes.
-pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 23] {
-    let mut all = [mass_fed::<S, D>(); 23];
+pub(crate) const fn quantities_of<S: Dimension<D>, const D: usize>() -> [Quantity; 24] {
+    let mut all = [mass_fed::<S, D>(); 24];
+    all[22] = discharge_of::<S, D>();
     (all[20], all[21]) = (mean_force::<S, D>(), mass_crossed::<S, D>());
     let mut place = 0;
     while place < QUANTITIES.len() {
@@ -170,7 +178,17 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
             }
             // what it reads has no one quantity: studies take its columns
             Measurand::Probe(_) => continue,
-            Measurand::Flux(_) => mass_crossed::<S, D>().of(&own, last),
+            Measurand::Flux(_) => {
+                let steady = discharge(&data.time, first).map(|(mean, error)| {
+                    discharge_of::<S, D>().of(&own, mean).with_snapshot_tolerance(0.1, 0.0).known_to(
+                        Origin::Repeat,
+                        Some(error),
+                        "standard error of the mean of four equal times",
+                    )
+                });
+                metrics.extend(steady);
+                mass_crossed::<S, D>().of(&own, last)
+            }
         };
         metrics.push(metric.with_snapshot_tolerance(0.1, 0.1 * largest(first)));
         metrics.extend(errors(&own, &data.time, first, &series.measured));
@@ -319,6 +337,20 @@ fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&Measured
     measured.iter().map(error).collect()
 }
 
+/// Mean mass per time while 20 to 80 % of the mass crosses that has at the end, from its series, and the standard error of the mean of four
+/// equal times; none with fewer rows.
+fn discharge(time: &[f64], crossed: &[f64]) -> Option<(f64, f64)> {
+    let whole = *crossed.last()?;
+    let row = |share: f64| crossed.iter().position(|mass| mass / whole >= share);
+    let (from, to) = (row(0.2)?, row(0.8)?);
+    let length = (to.checked_sub(from)?) / BLOCKS;
+    let rate = |from: usize, to: usize| (crossed[to] - crossed[from]) / (time[to] - time[from]);
+    let rates = (0..BLOCKS).map(|block| rate(from + block * length, from + (block + 1) * length));
+    let mean = (length > 0).then(|| rate(from, to))?;
+    let square: f64 = rates.map(|rate| (rate - mean).powi(2)).sum();
+    Some((mean, (square / (BLOCKS * (BLOCKS - 1)) as f64).sqrt()))
+}
+
 /// Size of a vector of some components; of two, as `hypot` rounds it.
 fn size(components: &[f64]) -> f64 {
     match *components {
@@ -359,6 +391,18 @@ fn error(time: &[f64], series: &[f64], points: &[(f64, f64)]) -> (f64, usize) {
 mod tests {
     use super::*;
     use crate::output::ABSENT;
+
+    #[test]
+    fn a_discharge_is_the_rate_between_its_start_and_its_end() {
+        // 1 s of nothing, 8 s of 3 kg/s, 1 s of nothing
+        let time: Vec<f64> = (0..=100).map(|k| 0.1 * f64::from(k)).collect();
+        let crossed: Vec<f64> = time.iter().map(|time| 3.0 * (time - 1.0).clamp(0.0, 8.0)).collect();
+        let (rate, error) = discharge(&time, &crossed).expect("rows");
+        assert!((rate - 3.0).abs() < 1e-9 && error < 1e-9, "{rate} ± {error} kg/s");
+        let back: Vec<f64> = crossed.iter().map(|mass| -mass).collect();
+        assert!(discharge(&time, &back).is_some_and(|(rate, _)| (rate + 3.0).abs() < 1e-9));
+        assert_eq!([discharge(&time, &[0.0; 101]), discharge(&time[..3], &[0.0, 1.0, 2.0])], [None, None]);
+    }
 
     #[test]
     fn the_error_is_that_at_the_measured_times() {

@@ -2,6 +2,7 @@
 
 use super::flow::Dimension;
 use super::measure::DepthGauge;
+use super::setting::SceneWall;
 use super::setting::{SceneBody, vector};
 use super::{SceneFlow, SceneObservation};
 use crate::evidence::{ValidationSet, WAY_OF_FRONT};
@@ -28,8 +29,8 @@ struct Column {
     front: f64,
 }
 
-/// The body that a front along a line comes from, which stood at a place `[m]` at the start. None for liquids, for scenes that are fed, and
-/// for several bodies, of which nothing of the kind was measured.
+/// The body that a front along a line comes from, which stood at a place `[m]` at the start. None for liquids, for scenes that are fed, for
+/// bodies that are thrown or stand on no wall at rest, and for several bodies, of which nothing of the kind was measured.
 fn column<S: Dimension<D>, const D: usize>(
     parameters: &SceneFlow<S, D>,
     data: &SceneObservation<D>,
@@ -39,7 +40,8 @@ fn column<S: Dimension<D>, const D: usize>(
     let diameter = parameters.material.grain_diameter()?;
     let [body] = &parameters.bodies[..] else { return None };
     let holds = parameters.doubtful_yield().is_none();
-    if !parameters.inlets.is_empty() || parameters.material.pore_liquid().is_some() || !holds {
+    let stands = body.velocity().norm() == 0.0 && parameters.walls.iter().any(|wall| wall.motion().is_rest());
+    if !stands || !parameters.inlets.is_empty() || parameters.material.pore_liquid().is_some() || !holds {
         return None;
     }
     let gravity = vector::<D>(&parameters.gravity).norm();

@@ -6,7 +6,7 @@ use super::periods::Periods;
 use super::setting::{self, SceneBody, SceneGauge, SceneInlet, SceneWall};
 use super::settling::{self, RestCriterion};
 use super::sides::SceneSides;
-use super::surfaces::{Surfaces, behind};
+use super::surfaces::{Surfaces, behind, first_behind};
 use super::{BodyPreparation, SceneFlow, SceneObservation, series, shapes};
 use crate::case::recording::{self, Ending, RestartableRun, SimulationStage, StartState};
 use crate::case::{Flow, ParameterError, Progress, RunCost, cost};
@@ -15,6 +15,8 @@ use crate::metric::Variant;
 use crate::observation::{Frame, Recorded};
 use bagnold_number::four_digits;
 use bagnold_solver::domain::Domain;
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::enclosure::BoundarySet;
 use bagnold_solver::weakly_compressible::enclosure::boundary_set::Exits;
 use bagnold_solver::weakly_compressible::numerics::ViscousStep;
 use bagnold_solver::weakly_compressible::scene::Scene;
@@ -293,6 +295,16 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         Ok(scene)
     }
 
+    /// Refuses material right behind a wall where another one is nearer: there the wall has no thickness to keep it away.
+    fn check_backs(&self, enclosure: &BoundarySet<D>, places: &[Vector<D>]) -> Result<(), ParameterError> {
+        let Some((wall, place)) = first_behind(&enclosure.walls, places, self.spacing) else { return Ok(()) };
+        let place: Vec<String> = place.iter().map(|coordinate| four_digits(*coordinate)).collect();
+        let (name, place) = (self.walls[wall].name(), place.join(", "));
+        let defect = format!("material right behind the wall `{name}`, at ({place}) m, where another wall meets it");
+        let remedy = "draw a wall between two bodies as a closed one that is a spacing thick or more, or leave room behind it";
+        Err(ParameterError::field(&format!("walls[{wall}]"), defect, "", remedy))
+    }
+
     /// The scene, and the share of the sites of bodies that are behind walls `[-]`.
     ///
     /// # Errors
@@ -303,6 +315,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let surfaces = Surfaces::of(&enclosure, self.depth_of_walls());
         self.check_openings(&enclosure.inlets, &surfaces)?;
         let (flow, cut_off) = self.fill(&surfaces, &equation_of_state)?;
+        self.check_backs(&enclosure, &flow.position)?;
         let mut scene = Scene::unbounded(flow, spacing, equation_of_state, material);
         (scene.enclosure, scene.numerics, scene.side_walls) = (enclosure, numerics, self.side_walls);
         scene.domain = Domain { axes: self.sides.axes() };

@@ -66,6 +66,19 @@ impl<const D: usize> Surfaces<D> {
     }
 }
 
+/// The first of some places that is behind a wall at the start by less than half a spacing `[m]`, and the number of the wall.
+pub(super) fn first_behind<const D: usize>(
+    walls: &[FacetWall<D>],
+    places: &[Vector<D>],
+    spacing: f64,
+) -> Option<(usize, Vector<D>)> {
+    let each = walls.iter().enumerate().map(|one| FacetSurface::of(std::iter::once(one), PASSED * spacing));
+    each.enumerate().find_map(|(wall, surface)| {
+        let is_behind = |place: &&Vector<D>| surface.nearest(place).is_some_and(|wall| wall.distance < 0.0);
+        places.iter().find(is_behind).map(|place| (wall, *place))
+    })
+}
+
 /// Whether a site of a lattice at a spacing `[m]` is too near to its nearest wall for a particle, or behind it.
 pub(super) fn is_taken(nearest: &NearestWall, spacing: f64) -> bool {
     nearest.distance <= FREE * spacing

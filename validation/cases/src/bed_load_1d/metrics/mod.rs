@@ -22,6 +22,7 @@ use crate::case::Flow;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Value, Variant};
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
 use crate::reference::one_dimension::bed_load::{LayerState, SAME_STATE};
+use crate::shared::transport_in_units;
 use crate::statistics::curvature;
 
 /// Speed above which a grain counts as moving `[m/s]`.
@@ -72,8 +73,23 @@ pub(super) fn all(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     metrics.extend(measured::metrics(records));
     metrics.extend(suspension::metrics(records));
     let draws = of_draws(records, &judged);
-    with_slope(&mut metrics, judged);
-    known_to_closures(metrics, &draws)
+    with_slope(&mut metrics, judged.clone());
+    in_units(known_to_closures(metrics, &draws), &judged)
+}
+
+/// Adds the transport in the units of flumes, with what the closures leave open of it; nothing where no closures were drawn.
+fn in_units(metrics: Vec<Metric>, judged: &[SolvedLayer<'_>]) -> Vec<Metric> {
+    let with_units = |metric: Metric| {
+        let is_own = |(run, _): &&SolvedLayer<'_>| is_bed_load(run) && metric.variant == run.variant();
+        let Some((run, state)) = judged.iter().find(is_own).filter(|_| metric.name == TRANSPORT_RATIO.name) else {
+            return metric;
+        };
+        let rate = state.transport();
+        let uncertainty = metric.uncertainty.standard().map(|own| own * rate / metric.value);
+        let words = uncertainty.and_then(|own| transport_in_units(&run.stream(), rate, own));
+        metric.remarked(words)
+    };
+    metrics.into_iter().map(with_units).collect()
 }
 
 /// The metrics that draws of the closures have as well: those of each number, over all slopes.

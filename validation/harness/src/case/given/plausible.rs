@@ -26,7 +26,7 @@ const USUAL: &[Usual] = &[
     Usual {
         field: "grain_density", range: 500.0..=12e3, unit: "kg/m³", slip: (-ANY..12.0, thousandfold, "in g/cm³")
     },
-    Usual { field: "bulk_density", range: 100.0..=8e3, unit: "kg/m³", slip: (-ANY..8.0, thousandfold, "in g/cm³") },
+    Usual { field: "bulk_density", range: 100.0..=2e4, unit: "kg/m³", slip: (-ANY..8.0, thousandfold, "in g/cm³") },
     Usual { field: "fluid_density", range: 500.0..=3e3, unit: "kg/m³", slip: (0.5..3.0, thousandfold, "in g/cm³") },
     Usual { field: "gravity", range: 1.0..=300.0, unit: "m/s²", slip: (900.0..1100.0, hundredth, "in cm/s²") },
     Usual { field: "gravity", range: 1.0..=300.0, unit: "m/s²", slip: (9e3..11e3, thousandth, "in mm/s²") },

@@ -13,6 +13,7 @@ use crate::channel;
 use crate::metric::{Confidence, Limit, Metric, Quantity, Variant, quantities};
 use crate::observation::Recorded;
 use crate::reference::bed_load::{MEASURED_BAND, TransportFormula};
+use crate::shared::transport_in_units;
 use crate::statistics::mean;
 
 quantities! {
@@ -124,7 +125,9 @@ fn by_formula(metric: Metric, run: &BedLoadFlow) -> Metric {
 
 /// The transport, beside the formula where the run has forgotten its start.
 fn transport((run, record): &BedLoadRecord, forgotten: bool) -> Metric {
-    let rate = channel::observed(TRANSPORT, &run.variant(), record.data.mean_transport(), 1.0);
+    let mean = record.data.mean_transport();
+    let in_units = transport_in_units(&run.stream(), mean.value, mean.standard_error);
+    let rate = channel::observed(TRANSPORT, &run.variant(), mean, 1.0).remarked(in_units);
     if forgotten { by_formula(rate, run) } else { rate }
 }
 
