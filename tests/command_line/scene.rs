@@ -313,6 +313,39 @@ fn a_staircase_of_rates_is_fed_as_its_rows_stand_and_ends_as_it_is_told() {
     assert!(said.contains("`inlets[0].table` is \"other.csv\", but must be read with the case file"), "{said}");
 }
 
+/// The front of a block that is thrown is that of no column, and has no interval of one.
+#[test]
+fn only_a_block_that_stands_has_an_interval_of_its_front() {
+    let place = Place::new();
+    let quoted = |velocity: &str| {
+        let scene = format!(
+            "case = \"scene\"\nname = \"block\"\nspacing = 0.01\nduration = 0.2\ninterval = 0.02\n\
+             sides = {{ left = \"none\", right = \"none\", bottom = \"none\", top = \"none\" }}\n\
+             bodies = [{{ shape = \"box\", lower = [0.0, 0.0], upper = [0.1, 0.1], velocity = {velocity} }}]\n\
+             walls = [{{ name = \"floor\", points = [[-0.5, 0.0], [0.7, 0.0]] }}]\n\
+             gauges = [{{ kind = \"front\", name = \"front\", from = [0.0, 0.0], to = [0.6, 0.0], thickness = 0.02 }}]\n"
+        );
+        place.file("block.toml", &scene);
+        let finished = place.run(&["block.toml", "--quiet"]).code(0);
+        String::from_utf8_lossy(&finished.get_output().stdout).contains("`front` to quote")
+    };
+    assert_eq!([quoted("[0.0, 0.0]"), quoted("[1.0, 0.0]")], [true, false]);
+}
+
+/// The impact of a fall is over within a fifth of such a sample.
+#[test]
+fn a_fall_that_is_sampled_coarsely_keeps_its_ledger() {
+    let place = Place::new();
+    let drop = "case = \"scene\"\nname = \"drop\"\nspacing = 0.01\nduration = 0.5\ninterval = 0.05\ngauges = []\n\
+        sides = { left = \"none\", right = \"none\", bottom = \"none\", top = \"none\" }\n\
+        bodies = [{ shape = \"box\", lower = [0.0, 0.2], upper = [0.1, 0.3] }]\n\
+        walls = [{ name = \"floor\", points = [[-0.5, 0.0], [0.6, 0.0]] }]\n";
+    place.file("drop.toml", drop);
+    for settings in [&[][..], &["--set", "interval=0.1"], &["--set", "interval=0.004"]] {
+        place.run(&[&["drop.toml", "--quiet"], settings].concat()).code(0);
+    }
+}
+
 #[test]
 fn a_syrup_by_implicit_steps_collapses_as_by_explicit_ones_in_fewer() {
     let place = Place::new();

@@ -1,6 +1,8 @@
 //! Velocities in a step: the kick, the contact with walls, and the work of both. Eight particles at once, as in the passes.
 
-use crate::lanes::algebra::{accumulate, difference, dot, load, load_vector, scaled, store_vector, splat_vector, sum_of, zero_vector};
+use crate::lanes::algebra::{
+    accumulate, difference, dot, load, load_vector, scaled, splat_vector, store_vector, sum_of, zero_vector,
+};
 use crate::lanes::{LANES, LanePass, Lanes};
 use crate::parallel::prelude::*;
 use crate::run::Divergence;

@@ -11,8 +11,8 @@ pub(crate) use metrics::printed_laws;
 
 use crate::case::{ExternalObservation, Flow};
 use crate::input::FieldError;
-use bagnold_number::four_digits;
 use crate::reference::one_dimension::bed_load::Stream;
+use bagnold_number::four_digits;
 
 /// Observation of a run from what another code gives of it; none without columns that tell one.
 pub(crate) type FromExternal<F> = Result<Option<ExternalObservation<<F as Flow>::Observation>>, FieldError>;

@@ -28,9 +28,26 @@ pub struct EnergyBook {
     pub last: (f64, f64),
     /// Largest loss of kinetic energy from one sample to the next, the time between them `[s]`, and the kinetic energy before.
     pub braking: (f64, f64, f64),
+    /// Time `[s]` and kinetic energy when it was last seen between samples, or at one after that.
+    seen: (f64, f64),
+    /// Loss of kinetic energy by an impact, the time that it took `[s]`, and the energy before: a quarter or more between two times that it
+    /// was seen.
+    pub impact: (f64, f64, f64),
 }
 
+/// Least share of the kinetic energy that an impact takes `[-]`.
+const IMPACT: f64 = 0.25;
+
 impl EnergyBook {
+    /// Enters the kinetic energy at a time `[s]` between samples that are so far apart that an impact is over in between.
+    pub fn see(&mut self, time: f64, kinetic: f64) {
+        let lost = self.seen.1 - kinetic;
+        if lost > self.impact.0.max(IMPACT * self.seen.1) {
+            self.impact = (lost, time - self.seen.0, self.seen.1);
+        }
+        self.seen = (time, kinetic);
+    }
+
     /// Enters a sample at a time `[s]`, the last of which is the end, with the energy that has left with particles.
     pub fn enter(&mut self, time: f64, account: &EnergyAccount, left: f64) {
         let ledger = &account.ledger;
@@ -43,6 +60,9 @@ impl EnergyBook {
             }
         } else {
             self.entered.0 = account.kinetic;
+        }
+        if self.seen.0 > self.last.0 {
+            self.see(time, account.kinetic);
         }
         self.last = (time, account.kinetic);
         self.total.push(account.total() + left);

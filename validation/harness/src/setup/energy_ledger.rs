@@ -52,10 +52,12 @@ impl EnergyScale {
             Self::WorkOver { fall_time, weight_by_height, time_step, crossing_time } => {
                 let work = book.turnover().max(LEAST_WORK * weight_by_height);
                 let falls = book.motion / (work * fall_time);
-                let (lost, interval, before) = book.braking;
-                // gravity alone takes 2 K/√(H/g) in a time
-                let sudden = (lost - 2.0 * before * interval / fall_time).max(0.0);
-                let impact = if sudden > 0.0 { sudden / (work * interval.min(crossing_time)) } else { 0.0 };
+                let power = |(lost, interval, before): (f64, f64, f64)| {
+                    // gravity alone takes 2 K/√(H/g) in a time
+                    let sudden = (lost - 2.0 * before * interval / fall_time).max(0.0);
+                    if sudden > 0.0 { sudden / (work * interval.min(crossing_time)) } else { 0.0 }
+                };
+                let impact = power(book.braking).max(power(book.impact));
                 let open = time_step * (STEPS * falls / fall_time + 1.0 / book.last.0 + STEPS_OF_IMPACT * impact);
                 (work, WORK_OR_WEIGHT, (OPEN + 100.0 * open, OPEN_REASON_OVER_TIME))
             }

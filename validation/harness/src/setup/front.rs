@@ -120,7 +120,8 @@ mod tests {
         let position: Vec<Vector<2>> = thick.chain(thin).map(Vector::from).collect();
         let ones = vec![1.0; position.len()];
         let snapshot = Snapshot { mass: ones.clone(), density: ones, position, ..Snapshot::default() };
-        let line = FrontLine { from: Vector::<2>::zeros(), to: Vector::<2>::new(40.0, 0.0), section, strip: None, side: None };
+        let line =
+            FrontLine { from: Vector::<2>::zeros(), to: Vector::<2>::new(40.0, 0.0), section, strip: None, side: None };
         line.interval(1.0, &snapshot)
     }
 

@@ -261,8 +261,10 @@ fn check_motion<const D: usize>(motion: &Motion<D>, given_by: &str) -> Result<()
     }
     if let Some(row) = motion.times.windows(2).position(|pair| pair[1] <= pair[0]).map(|row| row + 1) {
         let (field, before) = (format!("motion[{row}]"), motion.times[row - 1]);
-        let (value, rule) = (format!("at {} s", motion.times[row]), format!("later than the row above it, at {before} s"));
-        let remedy = "sort the rows by their times; a wall that jumps takes a step's time or more for it";
+        let (value, rule) =
+            (format!("at {} s", motion.times[row]), format!("later than the row above it, at {before} s"));
+        let is_jump = motion.times[row] == before;
+        let remedy = if is_jump { "give the jump a time" } else { "sort the rows by their times" };
         return Err(ParameterError::field(&field, value, &rule, remedy));
     }
     Ok(())

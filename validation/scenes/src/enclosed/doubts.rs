@@ -199,6 +199,19 @@ mod tests {
     }
 
     #[test]
+    fn a_body_across_a_periodic_side_is_doubted_unless_it_fills_the_period() {
+        let doubt = |lower: f64, upper: f64| {
+            doubts(|scene| {
+                (scene.sides.left, scene.sides.right) = (DomainSide::Periodic(0.0), DomainSide::Periodic(0.2));
+                scene.bodies = vec![PlaneBody::Box { lower: (lower, 0.0), upper: (upper, 0.1), velocity: (0.0, 0.0) }];
+            })
+        };
+        assert!(doubt(-0.1, 0.1).contains("0.1 m of `bodies[0]` are beyond a periodic side and are left out"));
+        assert!(doubt(0.05, 0.25).contains("0.05 m of `bodies[0]`"));
+        assert_eq!([doubt(0.0, 0.2), doubt(-0.1, 0.3), doubt(0.05, 0.15)].concat(), "");
+    }
+
+    #[test]
     fn a_landslide_and_a_column_in_the_laboratory_are_not_doubted() {
         assert_eq!(doubt([400.0, 150.0, 2.0], 0.3, 30.0), None);
         assert_eq!(doubt([0.1, 0.15, 0.0015], 0.7e-3, 0.01), None);

@@ -41,6 +41,36 @@ struct SceneObserver<const D: usize> {
     observation: SceneObservation<D>,
     memory: Memory<D>,
     pictures: Pictures,
+    /// Time of the start `[s]`, and multiples of the interval that have passed since at the last sample; none before the first.
+    passed: Option<(f64, u64)>,
+}
+
+/// Times H/c between two samples from which on the kinetic energy is seen in between `[-]`.
+const COARSE: f64 = 1.25;
+/// Times between two samples at which the kinetic energy is seen, at most.
+const MOST_LOOKS: f64 = 64.0;
+
+impl<const D: usize> SceneObserver<D> {
+    /// Whether a sample is due now: at the start, at the first step after every multiple of an interval, and at the end `[s]`. Sees the kinetic
+    /// energy if not.
+    fn is_due(&mut self, simulation: &Simulation<D>, (end, interval): (f64, f64)) -> bool
+    where
+        Simulation<D>: Compiled<D>,
+    {
+        let (time, step) = (simulation.time(), simulation.time_step_bounds().step());
+        let (origin, before) = self.passed.map_or((time, None), |(origin, number)| (origin, Some(number)));
+        let number = ((time - origin) / interval + 1e-9).floor() as u64;
+        let is_due = before.is_none_or(|before| number > before) || time >= end - 0.5 * step;
+        if is_due {
+            self.passed = Some((origin, number));
+        } else {
+            let particles = simulation.particles();
+            let moving = particles.velocity[..particles.flow_count()].iter().zip(&particles.mass);
+            let twice = moving.fold(0.0, |sum, (velocity, mass)| sum + mass * velocity.norm_squared());
+            self.observation.energy.see(time, 0.5 * twice);
+        }
+        is_due
+    }
 }
 
 /// Pictures on the way, at multiples of a period that is a power of two of intervals: of two runs that differ in their duration, the longer
@@ -163,14 +193,18 @@ where
         let pull = (self.fall() / self.height()).max(setting::vector::<D>(&self.gravity).norm());
         let (likeness, state) = (self.likeness(), self.stored_state()?);
         let periods = Periods::of(&self.sides.axes());
-        let stage =
-            SimulationStage { progress, end: self.duration, interval: self.interval, window: 0.0, context: &likeness };
+        // an impact takes about a time H/c
+        let crossings = self.interval / self.crossing_time();
+        let looks = if crossings < COARSE { 1.0 } else { (2.0 * crossings).ceil().min(MOST_LOOKS) };
+        let interval = self.interval / looks;
+        let stage = SimulationStage { progress, end: self.duration, interval, window: 0.0, context: &likeness };
         let pictures = || Pictures::new(self.duration, self.interval, self.pictures);
         let known = |simulation: &Simulation<D>| begun + simulation.inflow().particles() as usize;
         let begin = |simulation: &Simulation<D>| SceneObserver {
             observation: SceneObservation::default(),
             memory: Memory::of(simulation, known(simulation)),
             pictures: pictures(),
+            passed: None,
         };
         let RestartableRun { simulation, stop, kept: (last_good, watch), started } = recording::follow_on(
             stage,
@@ -186,11 +220,17 @@ where
                 let (snapshot, mut watch) = (simulation.snapshot(), begin(simulation));
                 let beds = watch.memory.find_beds(&measures, &down, simulation, &snapshot);
                 for (gauge, _) in self.gauges.iter().zip(beds).filter(|(_, is_above)| *is_above) {
-                    progress.tell(&format!("front `{}` is that of the material above its line: below it is a bed", gauge.name()));
+                    progress.tell(&format!(
+                        "front `{}` is that of the material above its line: below it is a bed",
+                        gauge.name()
+                    ));
                 }
                 (snapshot, watch)
             },
             |(last_good, watch): &mut (Snapshot<D>, SceneObserver<D>), simulation| {
+                if looks > 1.0 && !watch.is_due(simulation, (self.duration, self.interval)) {
+                    return ControlFlow::Continue(());
+                }
                 *last_good = simulation.snapshot();
                 let steps = simulation.steps() as f64 * last_good.mass.len() as f64;
                 progress.advance(last_good.time, self.duration, steps);
@@ -257,7 +297,13 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let (density, fall) = (equation_of_state.reference_density, squared.sqrt());
         let viscosity = material.largest_viscosity(density * fall * fall) / density;
         let smoothing_length = numerics.smoothing_ratio * spacing;
-        TimeStepBounds::new(numerics, smoothing_length, equation_of_state.sound_speed(), self.expected_speed(), viscosity)
+        TimeStepBounds::new(
+            numerics,
+            smoothing_length,
+            equation_of_state.sound_speed(),
+            self.expected_speed(),
+            viscosity,
+        )
     }
 
     /// √(g H) with the height of the scene, and more under pressure `[m/s]`.
@@ -301,7 +347,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let place: Vec<String> = place.iter().map(|coordinate| four_digits(*coordinate)).collect();
         let (name, place) = (self.walls[wall].name(), place.join(", "));
         let defect = format!("material right behind the wall `{name}`, at ({place}) m, where another wall meets it");
-        let remedy = "draw a wall between two bodies as a closed one that is a spacing thick or more, or leave room behind it";
+        let remedy =
+            "draw a wall between two bodies as a closed one that is a spacing thick or more, or leave room behind it";
         Err(ParameterError::field(&format!("walls[{wall}]"), defect, "", remedy))
     }
 
