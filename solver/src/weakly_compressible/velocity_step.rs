@@ -169,11 +169,8 @@ impl<const D: usize> LanePass for Kick<'_, D> {
             }
         }
         work.add_to(out.energy);
-        for square in largest.to_array() {
-            out.extremes.0 = out.extremes.0.max(square);
-        }
-        for square in largest_relative.to_array() {
-            out.extremes.1 = out.extremes.1.max(square);
+        for (square, relative) in largest.to_array().into_iter().zip(largest_relative.to_array()) {
+            (out.extremes.0, out.extremes.1) = (out.extremes.0.max(square), out.extremes.1.max(relative));
         }
     }
 }

@@ -47,16 +47,14 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             let (lower, upper) = own.extent();
             axes.into_iter().enumerate().filter_map(move |(axis, boundary)| {
                 let AxisBoundary::Periodic { lower: left, upper: right } = boundary else { return None };
-                let [before, after] = [left - lower[axis], upper[axis] - right].map(|way| way.max(0.0));
+                let beyond = (left - lower[axis]).max(upper[axis] - right);
                 // what fills the period may be drawn wider
                 let is_whole = lower[axis] <= left && upper[axis] >= right;
-                let beyond = four_digits(before.max(after));
-                (!is_whole && before.max(after) > told).then(|| {
-                    format!(
-                        "{beyond} m of `bodies[{body}]` are beyond a periodic side and are left out; end it there, and add a body at the \
-                         other side"
-                    )
-                })
+                let what = format!(
+                    "{} m of `bodies[{body}]` are beyond a periodic side and are left out",
+                    four_digits(beyond)
+                );
+                (!is_whole && beyond > told).then(|| what + "; end it there, and add a body at the other side")
             })
         };
         self.bodies.iter().enumerate().flat_map(of_body)

@@ -138,8 +138,8 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
             Measurand::Front(line) => {
                 let farthest = largest(first);
                 let absent = last.is_nan();
+                let subject = format!("front `{}` of scene `{}`", series.gauge, parameters.name);
                 if (absent || last < 0.5 * farthest) && farthest > FRONT_ROWS * parameters.spacing {
-                    let subject = format!("front `{}` of scene `{}`", series.gauge, parameters.name);
                     let far = four_digits(farthest);
                     let near = if absent { "nothing".to_owned() } else { format!("{} m", four_digits(last)) };
                     caution_about(
@@ -151,14 +151,9 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                     );
                 }
                 if first.len() > 1 && first.iter().all(|front| *front >= (line.to - line.from).norm()) {
-                    let subject = format!("front `{}` of scene `{}`", series.gauge, parameters.name);
-                    caution_about(
-                        &subject,
-                        &format!(
-                            "{subject} is at the end of its line throughout: along a bed, draw the line on its surface; \
-                             elsewhere lengthen it or raise `thickness`"
-                        ),
-                    );
+                    let remedy =
+                        "along a bed, draw the line on its surface; elsewhere lengthen it or raise `thickness`";
+                    caution_about(&subject, &format!("{subject} is at the end of its line throughout: {remedy}"));
                 }
                 let why = || "nowhere on its line stands as much as `thickness` at the end".to_owned();
                 FRONT

@@ -209,16 +209,10 @@ impl<const D: usize> SceneObservation<D> {
 
 /// Largest speed of the slower particles, relative to the wall from which it is smallest `[m/s]`; without walls relative to the frame.
 fn largest_speed<const D: usize>(simulation: &Simulation<D>, snapshot: &Snapshot<D>) -> f64 {
-    let mut frames: Vec<Vector<D>> = Vec::new();
-    for wall in simulation.facet_walls() {
-        let velocity = wall.motion.velocity(snapshot.time);
-        if !frames.contains(&velocity) {
-            frames.push(velocity);
-        }
-    }
-    if frames.is_empty() {
-        frames.push(simulation.frame());
-    }
+    let walls = simulation.facet_walls();
+    let own = walls.is_empty().then(|| simulation.frame());
+    let mut frames: Vec<_> = walls.iter().map(|wall| wall.motion.velocity(snapshot.time)).chain(own).collect();
+    frames.dedup();
     let Some(last) = snapshot.velocity.len().checked_sub(1) else { return 0.0 };
     let place = (SLOWER_SHARE * last as f64) as usize;
     let from = |frame: Vector<D>| {

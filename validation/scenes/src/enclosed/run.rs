@@ -346,9 +346,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let Some((wall, place)) = first_behind(&enclosure.walls, places, self.spacing) else { return Ok(()) };
         let place: Vec<String> = place.iter().map(|coordinate| four_digits(*coordinate)).collect();
         let (name, place) = (self.walls[wall].name(), place.join(", "));
-        let defect = format!("material right behind the wall `{name}`, at ({place}) m, where another wall meets it");
-        let remedy =
-            "draw a wall between two bodies as a closed one that is a spacing thick or more, or leave room behind it";
+        let defect = format!("material right behind `{name}`, at ({place}) m, where another wall meets it");
+        let remedy = "draw it as a closed wall, a spacing thick or more";
         Err(ParameterError::field(&format!("walls[{wall}]"), defect, "", remedy))
     }
 
