@@ -289,6 +289,13 @@ mod tests {
         let late = checked(&[[0.5, 0.0, 0.0, 0.0]]).expect_err("starts late");
         assert!(late.starts_with("`motion[0]` is (0.5, 0, 0, 0)"), "{late}");
         let alone = checked(&[[0.0; 4]]).expect_err("one row");
-        assert!(alone.starts_with("`motion` is 1 rows, but must be rows with rising times, two or more"), "{alone}");
+        assert!(alone.starts_with("`motion` is one row, but must be two rows or more"), "{alone}");
+        let last =
+            |time: f64| checked(&[[0.0; 4], [1.0, 0.5, 0.0, 0.0], [time, 0.0, 0.0, 0.5]]).expect_err("no later row");
+        assert!(
+            last(1.0).starts_with("`motion[2]` is at 1 s, but must be later than")
+                && last(1.0).ends_with("give the jump a time")
+        );
+        assert!(last(0.5).ends_with("sort the rows by their times"), "{}", last(0.5));
     }
 }
