@@ -252,3 +252,25 @@ fn a_report_that_nothing_has_changed_says_again_what_it_said() {
     let [_, told] = report(&["--deny", "moved"]);
     assert!(!told.contains(unchanged), "{told}");
 }
+
+#[test]
+fn a_setting_of_a_report_changes_the_cases_that_have_its_field_and_says_so() {
+    let place = Place::new();
+    let arguments =
+        ["report", "--cases", "water-film,water-column,scene", "--set", "material.viscosity=2", "--out", "out"];
+    let estimate = place.bagnold(&["run", "water-film", "--estimate"]).assert().code(0);
+    let estimate = String::from_utf8_lossy(&estimate.get_output().stdout).into_owned();
+    assert!(["particles", "GiB of memory", "core hours"].iter().all(|word| estimate.contains(word)), "{estimate}");
+    assert!(!place.path("store").exists());
+    let refused = place.bagnold(&arguments).assert().code(2);
+    let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(text.contains("`material.viscosity`: a field of no case of this report"), "{text}");
+    let arguments = ["report", "--cases", "water-film,scene", "--set", "spacing=0.04", "--out", "out", "-q"];
+    let done = place.bagnold(&arguments).assert();
+    let text = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
+    assert!(text.contains("with --set spacing=0.04: 1 of 2 cases (scene)"), "{text}");
+    let rows = std::fs::read_to_string(place.path("out/metrics.csv")).expect("metrics.csv");
+    assert!(rows.lines().any(|row| row.starts_with("water-film,")) && rows.contains(",pass,"), "{rows}");
+    let page = std::fs::read_to_string(place.path("out/index.html")).expect("a page");
+    assert!(page.contains("Bagnold validation report with --set spacing=0.04"), "{}", &page[..2000]);
+}

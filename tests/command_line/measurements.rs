@@ -117,6 +117,12 @@ fn wrong_headings_and_units_are_refused_before_anything_is_simulated() {
         }
         assert!(!place.path("store").exists() && !place.path("out").exists(), "{:?}", place.names());
     }
+    // a case that is no scene
+    let place = place("y/h [-],v [m/s],uncertainty [m/s]\n0.5,0.1,0.01\n");
+    let refused = place.bagnold(&["-q", "run", "bagnold", "--overlay", "front.csv", "--out", "out"]).assert().code(2);
+    let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    assert!(text.contains("v [m/s] over y/h [-]") && text.contains("velocity-profile: u [m/s] and y/h [-]"), "{text}");
+    assert!(!place.path("store").exists() && !place.path("out").exists(), "{:?}", place.names());
 }
 
 #[test]

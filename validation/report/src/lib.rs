@@ -55,7 +55,7 @@ pub use gate_list::{GateList, RemovedGates};
 pub use judgement::{JudgedCase, JudgedMetric, Judgement, Rank, Severity, Tally, judge};
 pub use junit::{check_junit, put_refusal};
 pub use power::Doubt;
-pub use process::{ReportOutcome, ReportProcess, ReportRequest};
+pub use process::{ChangedCases, ReportOutcome, ReportProcess, ReportRequest};
 pub use single::{SingleOutcome, SingleRun};
 pub use snapshot_text::description;
 pub use summary::{of_case, of_metrics};
@@ -72,7 +72,7 @@ use evidence::Paper;
 use figure::{Figure, FigureError};
 use input::FieldError;
 use measured::Measurements;
-use metric::Quantity;
+use metric::{Metric, Quantity};
 use output::FileError;
 use rayon::prelude::*;
 use result::MetricsDocument;
@@ -177,6 +177,11 @@ impl CaseReport {
         let quantities = registry.find(&result.name).map_or(&[][..], |case| case.quantities());
         Self { result, quantities, not_judged: Vec::new(), controls: Vec::new(), measured: Vec::new() }
     }
+
+    /// Its metric of a key.
+    fn metric(&self, key: &MetricKey) -> Option<&Metric> {
+        self.metrics.iter().find(|metric| MetricKey::of(&self.name, metric) == *key)
+    }
 }
 
 impl Deref for CaseReport {
@@ -202,7 +207,7 @@ struct DrawnFigure {
 
 /// Writes a report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,pdf,csv,gif}`, in
 /// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
-/// together as `metrics.json`, small pictures in `figures/overview/CASE.png` and `figures/scatter/QUANTITY.{svg,png,pdf,csv}`. Files of the same names are replaced, others are left
+/// together as `metrics.json`, all metrics as `metrics.csv`, small pictures in `figures/overview/CASE.png` and `figures/scatter/QUANTITY.{svg,png,pdf,csv}`. Files of the same names are replaced, others are left
 /// alone.
 ///
 /// Earlier drawings are taken from `drawings`. A figure that cannot be drawn does not spoil the report: the page says
@@ -247,6 +252,7 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
     let quantities = scatter::quantities(report);
     let compared = draw_in(scatter::FOLDER, &scatter::figures(&quantities))?;
     put(&folder.join("metrics.json"), scatter::json(&quantities))?;
+    put(&folder.join("metrics.csv"), overview::csv(judgement))?;
     let comparisons = scatter::rows(&quantities, &compared);
     let small = draw_small(report, &figures.join(overview::FOLDER), drawings)?;
     let overview = page::render(judgement, (&drawn, &small), comparisons)?;

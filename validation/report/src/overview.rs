@@ -1,4 +1,4 @@
-//! Cases on the first page: a line with a picture each, and every gate in one table.
+//! Cases on the first page: a line with a picture each, and every gate in one table; `metrics.csv` with all metrics.
 
 use super::DrawnFigure;
 use super::case_page::case_statement;
@@ -6,6 +6,7 @@ use super::judgement::{JudgedCase, JudgedMetric, Judgement, Rank};
 use super::rows::{margin_share, row, whole};
 use super::view::VerdictMark;
 use crate::metric::MetricKind;
+use crate::output::csv_text;
 use serde_json::{Value, json};
 
 /// Folder of the small pictures.
@@ -44,4 +45,27 @@ fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> (f64, Value) {
 pub(super) fn gates(judgement: &Judgement<'_>) -> Vec<Value> {
     let judged = judgement.metrics().filter(|(_, judged)| judged.rank() != Rank::Observed);
     judged.map(|(case, judged)| json!({ "case": case.case.name, "row": row(&case.case.name, judged) })).collect()
+}
+
+/// All metrics of all cases as CSV, with the word of each verdict.
+pub(super) fn csv(judgement: &Judgement<'_>) -> String {
+    let heading = ["case", "run", "metric", "value", "unit", "limit", "margin", "verdict", "reference"];
+    let number =
+        |value: Option<f64>| value.filter(|value| value.is_finite()).map_or_else(String::new, |own| own.to_string());
+    let rows = judgement.metrics().map(|(case, judged)| {
+        let metric = judged.metric;
+        let limit = metric.gate.as_ref().map(|gate| gate.limit);
+        [
+            case.case.name.clone(),
+            metric.variant.to_string(),
+            metric.name.clone(),
+            number(Some(metric.value)),
+            metric.unit.clone(),
+            limit.map_or_else(String::new, |limit| limit.in_words(|bound| bound.to_string())),
+            number(limit.map(|limit| limit.margin(metric.value))),
+            VerdictMark::of(judged.severity).word.to_owned(),
+            number(metric.reference.as_ref().and_then(|reference| reference.value)),
+        ]
+    });
+    csv_text(std::iter::once(heading.map(str::to_owned)).chain(rows)).expect("rows of one length always serialise")
 }

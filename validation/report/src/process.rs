@@ -6,16 +6,20 @@ use super::error::ReportError;
 use super::judgement::{Judgement, judge};
 use super::moved::{MovedValue, moved};
 use super::{
-    CaseReport, CommittedValues, Exit, ExpectedFailures, GateList, Report, ReportProvenance, junit, papers, put_junit,
-    summary, unchanged,
+    CaseReport, CommittedValues, Exit, ExpectedFailures, GateList, MetricKey, Report, ReportProvenance, junit, papers,
+    put_junit, summary, unchanged,
 };
 use crate::case::{Features, Tier};
 use crate::evidence::{ValidatedComparison, ValidationSet};
+use crate::metric::Verdict;
 use crate::output::{FileError, OutputFolder, write_whole};
 use crate::store::{Drawings, provenance};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Settings of a report, each with the cases that have its field.
+pub type ChangedCases = Vec<(String, Vec<String>)>;
 
 /// What a report is made of, and what is asked of it.
 #[derive(Debug, Clone)]
@@ -26,6 +30,8 @@ pub struct ReportRequest {
     pub committed: CommittedValues,
     /// Names of the cases or studies, with their tiers.
     pub named: Vec<(String, Tier)>,
+    /// Settings that make cases differ from their baselines.
+    pub changed: ChangedCases,
     /// The options whose coverage is shown; none for a suite.
     pub features: Option<Features>,
     /// Folder of an earlier report to compare with instead.
@@ -124,10 +130,20 @@ impl ReportProcess {
     }
 
     fn report(&mut self, mut cases: Vec<CaseReport>) -> Report {
-        for case in &mut cases {
+        let request = &self.request;
+        let is_changed = |case: &str| request.changed.iter().any(|(_, cases)| cases.iter().any(|own| own == case));
+        // references of other parameters take gates away, and other values pass
+        for case in cases.iter_mut().filter(|case| !is_changed(&case.name)) {
             case.not_judged = self.baseline.not_judged(&case.name, &case.metrics);
         }
-        let request = &self.request;
+        let fails = |key: &MetricKey| {
+            let own = cases.iter().find(|case| case.name == key.case);
+            own.and_then(|case| case.metric(key)).is_some_and(|metric| metric.verdict() == Verdict::Fail)
+        };
+        let listed = &mut self.expected_failures.failures;
+        listed.retain(|failure| !is_changed(&failure.case) || fails(&failure.key()));
+        let with = request.changed.iter().map(|(setting, _)| format!(" with --set {setting}"));
+        let title = request.title.clone() + &with.collect::<String>();
         // a suite may have several
         let tiers = request.named.iter().map(|(_, tier)| *tier);
         let tier = tiers.min_by_key(|tier| *tier != Tier::Quick).unwrap_or(Tier::Quick);
@@ -139,7 +155,7 @@ impl ReportProcess {
             against: request.against.as_ref().map(|folder| folder.display().to_string()),
             listed_in_vain: request.committed.listed_in_vain(&self.expected_failures),
             expected_failures: std::mem::take(&mut self.expected_failures),
-            ..Report::of(request.title.clone(), tier, cases)
+            ..Report::of(title, tier, cases)
         }
     }
 
@@ -148,6 +164,14 @@ impl ReportProcess {
         let report = judgement.report;
         let judged = |case: &CaseReport| judgement.cases.iter().find(|judged| std::ptr::eq(judged.case, case));
         let mut text: String = report.cases.iter().filter_map(judged).map(summary::failures).collect();
+        for (setting, cases) in &self.request.changed {
+            let (own, all) = (cases.len(), report.cases.len());
+            text += &format!(
+                "with --set {setting}: {own} of {all} cases ({}), beside baselines without it; ",
+                cases.join(", ")
+            );
+            text += "the others lack the field or vary it themselves\n";
+        }
         text += &format!("written to {}\n", self.request.folder.join("index.html").display());
         text.extend(report.cases.iter().map(|case| summary::not_judged(&case.not_judged)));
         let file = self.request.committed.list_of_failures();

@@ -59,7 +59,7 @@ impl SingleRun {
         drawings: &Drawings,
     ) -> Result<SingleOutcome, ReportError> {
         if self.has_own_parameters {
-            let fails = |key: &MetricKey| metric(&case, key).is_some_and(|own| own.verdict() == Verdict::Fail);
+            let fails = |key: &MetricKey| case.metric(key).is_some_and(|own| own.verdict() == Verdict::Fail);
             self.expected_failures.failures.retain(|failure| fails(&failure.key()));
         }
         let folder = claimed.folder().to_owned();
@@ -104,15 +104,11 @@ impl SingleRun {
     }
 }
 
-fn metric<'r>(case: &'r CaseReport, key: &MetricKey) -> Option<&'r Metric> {
-    case.metrics.iter().find(|metric| MetricKey::of(&case.name, metric) == *key)
-}
-
 /// Whether a metric is measured, and by a steady run, but without a gate: its reference does not hold for these parameters.
 fn loses_its_gate_by_parameters(case: &CaseReport, key: &MetricKey) -> bool {
     let is_unsteady = |metric: &Metric| {
         metric.reason_of_absence().is_some()
             && (key.variant.includes(&metric.variant) || metric.variant.includes(&key.variant))
     };
-    metric(case, key).is_some_and(|metric| metric.gate.is_none()) && !case.metrics.iter().any(is_unsteady)
+    case.metric(key).is_some_and(|metric| metric.gate.is_none()) && !case.metrics.iter().any(is_unsteady)
 }

@@ -2,7 +2,7 @@
 
 use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
 use super::{CaseReport, ListStatus, MetricKey};
-use crate::metric::{Metric, PredictionInterval, Variant, Verdict};
+use crate::metric::{GateOwner, Metric, PredictionInterval, Variant, Verdict};
 use crate::number::{aligned_digits, in_unit};
 use crate::observation::Outcome;
 use std::collections::{BTreeMap, BTreeSet};
@@ -50,17 +50,22 @@ fn predictions(metrics: &[Metric]) -> String {
     metrics.iter().filter_map(line).collect::<String>() + &without_interval(metrics)
 }
 
-/// Observed values of gauges without an interval, in a line; of several runs their mean and standard deviation.
+/// Observed values of gauges without an interval, in a line; of several runs their mean and standard deviation, also of a user's checks
+/// over seeds.
 fn without_interval(metrics: &[Metric]) -> String {
     let mut of_gauge: BTreeMap<String, (Vec<f64>, &str)> = BTreeMap::new();
-    for metric in metrics
-        .iter()
-        .filter(|metric| metric.reference.is_none() && metric.prediction.is_none() && metric.value.is_finite())
-    {
-        if let Some(gauge) = metric.variant.get("gauge") {
-            let name = format!("`{}` of {}", metric.name, gauge.text());
-            of_gauge.entry(name).or_insert_with(|| (Vec::new(), &metric.unit)).0.push(metric.value);
-        }
+    for metric in metrics.iter().filter(|metric| metric.value.is_finite()) {
+        let is_open = metric.reference.is_none() && metric.prediction.is_none();
+        let name = match metric.variant.get("gauge").filter(|_| is_open) {
+            Some(gauge) => format!("`{}` of {}", metric.name, gauge.text()),
+            None if metric.gate_owner() == GateOwner::User && metric.variant.get("seed").is_some() => {
+                let others = metric.variant.parts().filter(|(key, _)| *key != "seed");
+                let others = others.fold(Variant::default(), |others, (key, value)| others.and(key, value.clone()));
+                format!("`{}` {others}", metric.name).trim_end().to_owned()
+            }
+            None => continue,
+        };
+        of_gauge.entry(name).or_insert_with(|| (Vec::new(), &metric.unit)).0.push(metric.value);
     }
     let (single, several): (Vec<_>, Vec<_>) = of_gauge.iter().partition(|(_, (values, _))| values.len() == 1);
     let over_runs = several.iter().map(|(name, (values, unit))| {

@@ -82,6 +82,7 @@ const REPORT_EXAMPLES: &str = "Examples:
   bagnold report
   bagnold report --tier paper --cases film,bagnold --out paper-report
   bagnold report --against yesterday --deny moved
+  bagnold report --set material.reference_inertia=0.3      in every case that has it
   bagnold report --figure 85mm,9pt,300dpi      figures for a column of a journal
   bagnold report --suite my-flume
 
@@ -237,6 +238,9 @@ pub struct RunArguments {
     /// Folder to write [default: reports/runs/CASE-TIER].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Print particles, memory and hours of each run instead of simulating it.
+    #[arg(long, conflicts_with_all = ["json", "junit"])]
+    pub estimate: bool,
     /// Print only metrics.json on standard output.
     #[arg(long)]
     pub json: bool,
@@ -290,6 +294,9 @@ pub struct ReportArguments {
     /// Folder of user-defined studies that replace the cases.
     #[arg(long, value_name = "DIR", conflicts_with = "cases")]
     pub suite: Option<PathBuf>,
+    /// Change one parameter of every case that has it; may be repeated.
+    #[arg(long = "set", value_name = "path=value", conflicts_with_all = ["accept", "suite"])]
+    pub settings: Vec<String>,
     /// Folder to write [default: reports, or reports/suites/NAME].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

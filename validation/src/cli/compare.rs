@@ -8,6 +8,7 @@ use crate::compare::{self, Difference, PairedKey, Results};
 use crate::number::four_digits;
 use crate::output::OutputFolder;
 use crate::result::MetricEntry;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Numbers that differ, the largest difference first, on the terminal; the page has all.
@@ -37,9 +38,15 @@ pub(super) fn compare(command: &CompareArguments, session: &mut Session<'_>) -> 
     for PairedKey { case, key, values } in all.iter().flat_map(|results| &results.paired) {
         session.say(&format!("{case}: runs with {key}={} beside those with {key}={}\n", values[1], values[0]));
     }
-    let apart = compare::differences(&all).iter().filter(|one| one.entries.iter().any(Option::is_none)).count();
-    if apart > 0 {
-        session.say(&format!("{apart} numbers are not in every folder, so not compared\n"));
+    let numbers = compare::differences(&all);
+    let (common, apart): (Vec<_>, Vec<_>) = numbers.iter().partition(|one| one.entries.iter().all(Option::is_some));
+    let of_cases = |numbers: &[&Difference]| {
+        let cases: BTreeSet<&str> = numbers.iter().map(|one| one.case.as_str()).collect();
+        format!("{} numbers of {}", numbers.len(), cases.into_iter().collect::<Vec<_>>().join(", "))
+    };
+    session.say(&format!("compared: {}\n", of_cases(&common)));
+    if !apart.is_empty() {
+        session.say(&format!("not in every folder, so not compared: {}\n", of_cases(&apart)));
     }
     let shown = match moved.len() {
         0..=MOST_SHOWN => "",

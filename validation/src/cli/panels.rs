@@ -13,8 +13,10 @@ pub(super) fn add_panels(figures: &mut Vec<Figure>, wanted: &[String]) -> Result
         let Some((_, figure)) = alone.iter().find(|(own, _)| own == name) else {
             let names: Vec<&str> = alone.iter().map(|(own, _)| own.as_str()).collect();
             let (rule, remedy) = match names[..] {
-                [] => ("absent where no figure has several panels".to_owned(), "leave it out"),
-                _ => (format!("one of {}", names.join(", ")), "name the figure and the letter of its panel"),
+                [] => ("absent where each figure has one panel".to_owned(), "leave it out: all figures are drawn"),
+                _ => {
+                    (format!("one of {}", names.join(", ")), "name a panel; a figure of one panel is drawn without it")
+                }
             };
             return Err(ParameterError::field("--panel", name, &rule, remedy));
         };
@@ -74,9 +76,9 @@ mod tests {
         let message = add_panels(&mut figures, &["deposit:c".to_owned()]).expect_err("unknown").to_string();
         assert_eq!(
             message,
-            "`--panel` is deposit:c, but must be one of deposit:a, deposit:b; name the figure and the letter of its panel"
+            "`--panel` is deposit:c, but must be one of deposit:a, deposit:b; name a panel; a figure of one panel is drawn without it"
         );
         let message = add_panels(&mut figures[1..2].to_vec(), &["single:a".to_owned()]).expect_err("one").to_string();
-        assert!(message.contains("absent where no figure has several panels"), "{message}");
+        assert!(message.contains("absent where each figure has one panel"), "{message}");
     }
 }

@@ -5,8 +5,9 @@ use super::error::ProgramError;
 use super::profile::StageTimer;
 use super::simulation::{announce, simulate};
 use super::{Exit, controls, say, tell};
-use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier};
-use crate::report::{CaseReport, CommittedValues, ReportRequest};
+use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier, untaken};
+use crate::output::caution_of_shipped;
+use crate::report::{CaseReport, ChangedCases, CommittedValues, ReportRequest};
 use crate::study::Suite;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -18,12 +19,13 @@ pub(super) fn report(
     quiet: bool,
     output: &mut (dyn Write + Send),
 ) -> Result<Exit, ProgramError> {
+    caution_of_shipped(command.suite.is_none());
     let suite = command.suite.as_ref().map(|folder| Suite::read(folder, registry)).transpose()?;
-    let cases = match &suite {
-        Some(suite) => suite.prepare(registry, command.tier, command.allowance.limits())?,
+    let (cases, changed) = match &suite {
+        Some(suite) => (suite.prepare(registry, command.tier, command.allowance.limits())?, ChangedCases::new()),
         None => prepare(command, registry)?,
     };
-    let process = match request(command, registry, suite.as_ref(), &cases)?.begin()? {
+    let process = match (ReportRequest { changed, ..request(command, registry, suite.as_ref(), &cases)? }).begin()? {
         Ok(process) => process,
         Err(earlier) => {
             if !quiet {
@@ -94,6 +96,7 @@ fn request(
         title,
         committed,
         named,
+        changed: ChangedCases::new(),
         features: suite.is_none().then(|| Features::of(registry)),
         against: command.against.clone(),
         accept: command.accept,
@@ -120,7 +123,11 @@ fn name_of(folder: &Path) -> String {
     whole.file_name().map_or_else(|| "suite".to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
-fn prepare(command: &ReportArguments, registry: Registry) -> Result<Vec<Box<dyn PreparedCase>>, ParameterError> {
+/// The cases, and for each setting those that have its field.
+fn prepare(
+    command: &ReportArguments,
+    registry: Registry,
+) -> Result<(Vec<Box<dyn PreparedCase>>, ChangedCases), ParameterError> {
     for (place, name) in command.cases.iter().enumerate() {
         if command.cases[..place].iter().any(|other| other.trim() == name.trim()) {
             let remedy = "name each case once: every case has one page";
@@ -132,9 +139,37 @@ fn prepare(command: &ReportArguments, registry: Registry) -> Result<Vec<Box<dyn 
     } else {
         command.cases.iter().map(|name| registry.find(name.trim())).collect::<Result<Vec<_>, _>>()?
     };
-    let changes = Changes { limits: command.allowance.limits(), ..Changes::default() };
-    let tier = command.tier.unwrap_or(Tier::Quick);
-    wanted.into_iter().map(|case| case.prepare(tier, &changes)).collect()
+    let (tier, limits) = (command.tier.unwrap_or(Tier::Quick), command.allowance.limits());
+    let mut changed: ChangedCases = command.settings.iter().map(|setting| (setting.clone(), Vec::new())).collect();
+    let mut refusals: Vec<(String, ParameterError)> = Vec::new();
+    let mut prepared = Vec::new();
+    for case in wanted {
+        let mut settings = command.settings.clone();
+        let prepare = |settings: &[String]| case.prepare(tier, &Changes { settings, limits, ..Changes::default() });
+        let mut own = loop {
+            match prepare(&settings) {
+                Ok(own) => break own,
+                Err(error) => {
+                    let Some(place) = untaken(&error, &settings) else { return Err(error.in_case(case.name())) };
+                    refusals.push((settings.remove(place), error));
+                }
+            }
+        };
+        if !settings.is_empty() {
+            // now it is the user's, with its warnings
+            caution_of_shipped(false);
+            own = prepare(&settings)?;
+            caution_of_shipped(true);
+        }
+        prepared.push(own);
+        for (_, cases) in changed.iter_mut().filter(|(setting, _)| settings.contains(setting)) {
+            cases.push(case.name().to_owned());
+        }
+    }
+    let Some((vain, _)) = changed.iter().find(|(_, cases)| cases.is_empty()) else { return Ok((prepared, changed)) };
+    // the refusal that suggests a field
+    refusals.sort_by_key(|(setting, error)| (setting != vain, !error.to_string().contains("did you mean")));
+    Err(refusals.swap_remove(0).1.in_no_case())
 }
 
 /// The command that makes the same report again.
@@ -149,6 +184,7 @@ fn repeated(command: &ReportArguments) -> String {
     if !command.cases.is_empty() {
         words += &format!(" --cases {}", command.cases.join(","));
     }
+    words.extend(command.settings.iter().map(|setting| format!(" --set '{setting}'")));
     if let Some(folder) = &command.against {
         words += &format!(" --against {}", folder.display());
     }

@@ -6,14 +6,15 @@ use super::error::ProgramError;
 use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
-use super::simulation::{announce, introduce, reject_fast, simulate_showing};
+use super::say;
+use super::simulation::{announce, estimate, introduce, reject_fast, simulate_showing};
 use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, Tier, settings_to_vary};
 use crate::checkpoint::{BULK_MODULUS, Checkpoints, StoredState};
 use crate::measured::{draw_measured, read_overlay};
-use crate::output::{FileError, OutputFolder};
+use crate::output::{FileError, OutputFolder, caution_of_shipped};
 use crate::report::{Baseline, CommittedValues, SingleRun};
 use crate::result::States;
-use crate::store::StorePolicy;
+use crate::store::{CodeOrigin, StorePolicy};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -65,6 +66,8 @@ pub(super) fn run(
     let start = command.from.as_deref().map(|given| start_setting(given, command, registry)).transpose()?;
     let vary = settings_to_vary(&command.vary).map_err(ParameterError::from)?;
     let settings: Vec<String> = command.settings.iter().cloned().chain(vary).chain(start).collect();
+    let is_shipped = registry.find(&command.target).is_ok_and(|case| case.origin() == CodeOrigin::PACKAGE);
+    caution_of_shipped(settings.is_empty() && is_shipped);
     let request = Request {
         target: &command.target,
         tier: command.tier,
@@ -85,11 +88,15 @@ pub(super) fn run(
         None => wanted,
     };
     let overlay = read_overlay(prepared.as_ref(), &overlay, &command.overlay)?;
+    let store = command.work.open_store().with_ends();
+    if command.estimate {
+        say(output, &estimate(std::slice::from_ref(&prepared), &store));
+        return Ok(Exit::Held);
+    }
     let folder =
         command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", prepared.name())));
     introduce(std::slice::from_ref(&prepared), quiet || command.json, command.deny_warnings)?;
     let claimed = OutputFolder::claim(&folder)?;
-    let store = command.work.open_store().with_ends();
     let expectation = announce("run", std::slice::from_ref(&prepared), &store, quiet || command.json);
     let judged_by = judged_by(prepared.name(), tier, changed, command, registry)?;
     let judged_by = SingleRun { has_own_parameters, ..judged_by };

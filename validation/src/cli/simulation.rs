@@ -4,7 +4,7 @@ use super::error::ProgramError;
 use super::expectation::Expectation;
 use super::progress::RunsBar;
 use super::tell;
-use crate::case::{CaseResult, ParameterError, PreparedCase, execute};
+use crate::case::{CaseResult, Estimate, ParameterError, PreparedCase, execute};
 use crate::output::{caution, cautions};
 use crate::result::States;
 use crate::store::{Store, provenance};
@@ -24,6 +24,18 @@ pub(super) fn introduce(cases: &[Box<dyn PreparedCase>], quiet: bool, is_denied:
         }
     }
     reject_warnings(is_denied)
+}
+
+/// What each run needs and all of them together, in lines.
+pub(super) fn estimate(cases: &[Box<dyn PreparedCase>], store: &Store) -> String {
+    let threads = rayon::current_num_threads();
+    let lines = cases.iter().flat_map(|case| {
+        let line = |run| format!("{} {}: {}\n", case.name(), case.variant(run), case.estimate(run).in_words(1));
+        (0..case.run_count()).map(line).collect::<Vec<_>>()
+    });
+    let all = cases.iter().map(|case| case.estimate_of_all()).fold(Estimate::default(), Estimate::and);
+    let time = Expectation::of("run", cases).in_words(store.root(), threads);
+    format!("{}all: {}\n{time}\n", lines.collect::<String>(), all.in_words(threads))
 }
 
 /// Says on standard error what the runs of a command are expected to need.

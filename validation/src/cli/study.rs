@@ -3,9 +3,11 @@
 use super::Exit;
 use super::arguments::RunArguments;
 use super::error::ProgramError;
+use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
-use super::simulation::{announce, introduce, reject_fast, simulate};
+use super::say;
+use super::simulation::{announce, estimate, introduce, reject_fast, simulate};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
 use crate::report::{Baseline, CommittedValues, SingleRun};
@@ -32,10 +34,14 @@ pub(super) fn run(
     let study = Study::read(file, registry)?;
     let tier = command.tier.unwrap_or(study.tier());
     let cases = study.prepare(registry, command.tier, &command.settings, command.allowance.limits())?;
+    let store = command.work.open_store();
+    if command.estimate {
+        say(output, &estimate(&cases, &store));
+        return Ok(Exit::Held);
+    }
     let folder = command.out.clone().unwrap_or_else(|| PathBuf::from(format!("reports/runs/{}-{tier}", study.name())));
     introduce(&cases, quiet || command.json, command.deny_warnings)?;
     let claimed = OutputFolder::claim(&folder)?;
-    let store = command.work.open_store();
     let expectation = announce("run", &cases, &store, quiet || command.json);
     let committed = CommittedValues::OfSuite(file.parent().unwrap_or(Path::new("")).to_owned());
     // the baseline is that of the study as it stands
@@ -55,7 +61,8 @@ pub(super) fn run(
     let results = simulate(cases, &store, quiet, Some(&expectation))?;
     reject_fast(&results, command.deny_warnings)?;
     profile.over("runs and their figures");
-    let result = study.judge(results)?;
+    let mut result = study.judge(results)?;
+    add_panels(&mut result.figures, &command.panels)?;
     let measured = study.measurements().cloned().collect();
     let publication = Publication { command, registry, claimed, store: &store, expectation: None, profile, measured };
     publication.publish(judged_by, result, output)

@@ -14,7 +14,7 @@ pub use flow::list::{ListOfRuns, NamedVariant, VariedParameter, settings_to_vary
 pub use flow::{Flow, RunList};
 pub use flow::{cost, list};
 pub use given::changes::Changes;
-pub use given::changes::{leaves, table_of_settings, twice_given};
+pub use given::changes::{leaves, table_of_settings, twice_given, untaken};
 pub use given::error::ParameterError;
 pub use given::file::CaseFile;
 pub use given::output::{OUTPUT_FIELDS, OutputPlan, StateOutput};

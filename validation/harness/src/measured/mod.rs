@@ -33,6 +33,8 @@ pub struct Measurements {
     uncertainty: Vec<f64>,
     /// Number of repeats.
     repeats: usize,
+    /// Number of their files.
+    files: usize,
     /// Standard deviation of the repeats of each row, in that unit.
     scatter: Vec<f64>,
     /// Words of a column `variant`; empty without one.
@@ -80,7 +82,7 @@ pub fn with_overlay(case_file: &str, measurements: &[Measurements]) -> String {
 }
 
 /// Reads the measurements that are drawn into a case's figures: those of its file and further ones. Where its figures are known before it is simulated, headings that fit
-/// none of them are refused.
+/// none of them are refused: those of scenes, and of cases that tell their axes.
 ///
 /// # Errors
 /// Two files of one name, and what [`Measurements::read`] and [`Measurements::draw`] refuse.
@@ -93,6 +95,7 @@ pub fn read_overlay(
     let further = further.iter().cloned().map(MeasuredFiles::One);
     let measurements: Vec<Measurements> = of_case.iter().cloned().chain(further).map(read).collect::<Result<_, _>>()?;
     let outline = if measurements.is_empty() { None } else { case.outline() };
+    let axes = if measurements.is_empty() || outline.is_some() { Vec::new() } else { case.axes() };
     for (number, own) in measurements.iter().enumerate() {
         if let Some(twin) = measurements[..number].iter().find(|twin| twin.kept() == own.kept()) {
             let rule = format!("of another name than {}", twin.path.display());
@@ -101,6 +104,8 @@ pub fn read_overlay(
         }
         if let Some(CaseResult { figures, .. }) = &outline {
             MatchingPanel::of(own, figures)?.curves(own, figures)?;
+        } else if !axes.is_empty() {
+            MatchingPanel::check_axes(own, &axes)?;
         }
     }
     Ok(measurements)
@@ -125,7 +130,12 @@ impl Measurements {
     /// Name of their points in a legend.
     #[must_use]
     pub fn legend(&self) -> String {
-        if self.repeats == 1 { self.name() } else { format!("{}, mean of {}", self.name(), self.repeats) }
+        if self.repeats == 1 { self.name() } else { format!("{}, mean of {}", self.name(), self.repeated()) }
+    }
+
+    /// Repeats in words: what their mean is named after is the first of several files.
+    fn repeated(&self) -> String {
+        if self.files == 1 { format!("{} repeats", self.repeats) } else { format!("{} files", self.files) }
     }
 
     /// Source of the measurements: as the file states it, else the path of the file; with the scatter of repeats.
@@ -135,7 +145,7 @@ impl Measurements {
             return source;
         }
         let scatter = four_digits(self.scatter.iter().copied().fold(0.0, f64::max));
-        format!("{source}; mean of {} repeats, which scatter by up to {scatter} {}", self.repeats, self.measured.unit)
+        format!("{source}; mean of {}, which scatter by up to {scatter} {}", self.repeated(), self.measured.unit)
     }
 
     /// Limit of the residuals' root mean square that the file states `[-]`, with its reason.

@@ -44,7 +44,8 @@ impl MatchingPanel {
                 let said = &measurements.said;
                 let is_meant = said.figure.as_ref().is_none_or(|name| *name == own.name)
                     && said.panel.as_ref().is_none_or(|title| *title == drawn.title);
-                if let Some(place) = Self::at(measurements, drawn).filter(|_| is_meant) {
+                let has_curves = drawn.field.is_none() && drawn.series.iter().any(is_ours);
+                if let Some(place) = Self::at(measurements, drawn).filter(|_| is_meant && has_curves) {
                     found.push(Self { figure, panel, ..place });
                 }
             }
@@ -56,9 +57,15 @@ impl MatchingPanel {
         }
     }
 
+    /// Refuses headings that are the axes of no panel, of figures without curves.
+    pub(super) fn check_axes(measurements: &Measurements, figures: &[Figure]) -> Result<(), FieldError> {
+        let fits = |panel: &Panel| panel.field.is_none() && Self::at(measurements, panel).is_some();
+        let is_there = figures.iter().flat_map(|figure| &figure.panels).any(fits);
+        if is_there { Ok(()) } else { Err(none(measurements, figures)) }
+    }
+
     fn at(measurements: &Measurements, panel: &Panel) -> Option<Self> {
         let (over, what) = (&measurements.abscissa, &measurements.measured);
-        let has_curves = panel.field.is_none() && panel.series.iter().any(is_ours);
         let vertical = |y: &NumberColumn| {
             let of_curve = || panel.series.iter().any(|one| names(y, panel, one)).then(|| parted(&panel.y.label).1);
             factor(y, &panel.y).or_else(|| unit::factor(&y.unit, of_curve()?))
@@ -67,7 +74,7 @@ impl MatchingPanel {
         let place = |is_across, factors| Self { figure: 0, panel: 0, is_across, factors };
         let upright = fit(over, what).map(|factors| place(false, factors));
         let across = fit(what, over).map(|(what, over)| place(true, (over, what)));
-        upright.or(across).filter(|_| has_curves)
+        upright.or(across)
     }
 
     /// A point of a curve or measurement as (abscissa, value).
@@ -187,7 +194,7 @@ fn axes(measurements: &Measurements) -> String {
 
 fn none(measurements: &Measurements, figures: &[Figure]) -> FieldError {
     let panels = figures.iter().flat_map(|figure| figure.panels.iter().map(move |panel| (figure, panel)));
-    let drawn = panels.filter(|(_, panel)| panel.field.is_none() && panel.series.iter().any(is_ours));
+    let drawn = panels.filter(|(_, panel)| panel.field.is_none());
     let heads = |panel: &Panel| -> String {
         let heads = panel.series.iter().filter_map(|one| heading(panel, one));
         heads.map(|head| format!(" or {}: {head}", panel.title)).collect()

@@ -62,7 +62,8 @@ pub(super) fn read(given: &MeasuredFiles, wanted: WantedColumns<'_>) -> Result<M
         whole.add(read(path)?).map_err(|error| error.in_file(path))?;
     }
     let is_as_it_stands = names.is_none() && others.is_empty();
-    Ok(whole.measurements(first, is_as_it_stands).map_err(|error| error.in_file(first))?)
+    let measurements = whole.measurements(first, is_as_it_stands).map_err(|error| error.in_file(first))?;
+    Ok(Measurements { files: 1 + others.len(), ..measurements })
 }
 
 fn parse(
@@ -226,6 +227,7 @@ impl MeasuredColumns {
             },
             uncertainty,
             repeats: repeats.len(),
+            files: 1,
             scatter: spread.iter().map(|row| row.1.sqrt()).collect(),
             abscissa: self.over,
             variants: self.variants,

@@ -266,8 +266,10 @@ fn repeats_are_a_mean_with_the_scatter_of_the_mean() {
         let expected = [[1.0, 12.0, (4.0 / 3.0_f64).sqrt()], [2.0, 20.0, (2.0 / 3.0_f64).sqrt()]];
         let close = |(a, b): (&[f64; 3], &[f64; 3])| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
         assert!(points.iter().zip(&expected).all(close), "{points:?}");
-        assert_eq!(own.legend(), "0, mean of 3");
-        assert!(own.source().ends_with("mean of 3 repeats, which scatter by up to 2 cm"), "{}", own.source());
+        let repeated = if texts.len() == 1 { "3 repeats" } else { "3 files" };
+        assert_eq!(own.legend(), format!("0, mean of {repeated}"));
+        let source = format!("mean of {repeated}, which scatter by up to 2 cm");
+        assert!(own.source().ends_with(&source), "{}", own.source());
         // the copy gives the same
         let copy = read_of(&[&own.text], "", WantedColumns::default()).expect("a copy");
         assert_eq!((copy.measured.values, copy.uncertainty), (own.measured.values, own.uncertainty));

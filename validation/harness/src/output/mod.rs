@@ -16,5 +16,5 @@ pub use folder::OutputFolder;
 pub use lock::FolderLock;
 pub(crate) use sealed::{Refused, SealedFormat};
 pub use table::{ABSENT, Table, csv_text};
-pub use warning::{caution, caution_about, cautions};
+pub use warning::{caution, caution_about, caution_of_shipped, cautions};
 pub use whole::write_whole;

@@ -5,6 +5,7 @@ use super::file::Reduction;
 use super::{Reading, probe};
 use crate::figure::{Axis, Figure, Mark, Panel};
 use crate::input::FieldError;
+use crate::measured::HALF_A_ROW;
 
 /// Adds the figure of a check's column, or draws its reference into that which an earlier check has made.
 pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Reading]) -> Result<(), FieldError> {
@@ -43,6 +44,15 @@ pub(super) fn add(figures: &mut Vec<Figure>, check: &StudyCheck, readings: &[Rea
         if !curve.wet().all(|point| is_drawn(&point)) {
             let label = if same_run.is_some() { "" } else { &label };
             panel.line(label, slot, curve.points.iter().copied());
+            // the width that a residual is counted in where it exceeds the measurement's
+            let points = curve.points.iter().filter_map(|(x, y)| {
+                let (_, half) = curve.resolution.iter().find(|(other, _)| other == x)?;
+                Some((*x, y - half, y + half))
+            });
+            let points: Vec<_> = points.filter(|point| point.1.is_finite()).collect();
+            if !points.is_empty() {
+                panel.band(HALF_A_ROW, points);
+            }
         }
     }
     let colour = next(panel);

@@ -90,7 +90,15 @@ pub fn calibrate(
     }
     let asked = posterior.as_ref().filter(|_| plan.method == Method::Posterior);
     let calibrated = assembly::calibrated(&objective, &values)?;
-    Ok(assembly::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked))
+    let mut outcome = assembly::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked);
+    let failed = outcome.evaluations.iter().filter(|evaluation| evaluation.chi_squared.is_none()).count();
+    if let Some(reason) = objective.last_failure().filter(|_| failed > 0) {
+        let beyond = "lines and regions of agreement are the emulator's and may end where this holds";
+        outcome
+            .findings
+            .push(format!("the box is cut: {failed} evaluations failed, the last with: {reason}; {beyond}"));
+    }
+    Ok(outcome)
 }
 
 /// Data that were held out beside the model at these values of the parameters, without a search.

@@ -247,6 +247,17 @@ pub(in crate::case) fn is_set(settings: &[String], field: &str) -> bool {
     settings.iter().filter_map(|argument| parts(argument)).any(|(path, _)| is_within(field, path))
 }
 
+/// Place of the setting that a case does not take: it lacks the field, or a study gives it values itself.
+#[must_use]
+pub fn untaken(error: &ParameterError, settings: &[String]) -> Option<usize> {
+    let ParameterError::Field(FieldError { field, value, .. }) = error else { return None };
+    let is_at_fault = |setting: &String| match field.as_str() {
+        "--set" => setting == value,
+        _ => value == fault::UNKNOWN_FIELD && is_set(std::slice::from_ref(setting), field),
+    };
+    settings.iter().position(is_at_fault)
+}
+
 /// Whether a field is another, or lies within it.
 fn is_within(field: &str, other: &str) -> bool {
     field.strip_prefix(other).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))

@@ -85,6 +85,24 @@ impl ParameterError {
         matches!(self, Self::Field(FieldError { origin: Some(Origin::Setting(_)), .. }))
     }
 
+    /// Says which of the cases of a report refuses a setting.
+    #[must_use]
+    pub fn in_case(mut self, case: &str) -> Self {
+        if let Self::Field(FieldError { remedy, .. }) = &mut self {
+            *remedy = format!("{remedy} (refused by {case}, which --cases may leave out)").into();
+        }
+        self
+    }
+
+    /// Says that no case of a report has a field.
+    #[must_use]
+    pub fn in_no_case(mut self) -> Self {
+        if let Self::Field(FieldError { value, .. }) = &mut self {
+            "a field of no case of this report".clone_into(value);
+        }
+        self
+    }
+
     /// Says in which file the parameter at fault stands, unless that is already known.
     #[must_use]
     pub fn in_file(mut self, path: &Path) -> Self {

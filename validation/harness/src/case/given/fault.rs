@@ -5,6 +5,9 @@ use crate::case::shown::notes::remark;
 use crate::input::{FieldError, did_you_mean, nearest};
 use bagnold_solver::parameter::{Fault, ParameterProblem};
 
+/// Defect of a path that the parameters of a case do not have.
+pub(in crate::case) const UNKNOWN_FIELD: &str = "unknown field";
+
 /// A parameter that is out of its range, or excludes another choice.
 impl From<ParameterProblem> for ParameterError {
     fn from(problem: ParameterProblem) -> Self {
@@ -47,7 +50,7 @@ pub(in crate::case) fn in_parameters(fault: Fault, case: &str, known: &[String])
 /// A path that the parameters of a case do not have; `known` are those that it has, the ones beside it first.
 pub(in crate::case) fn unknown_field(path: &str, known: &[&[String]], case: &str) -> FieldError {
     let guess = did_you_mean(&nearest_path(path, known));
-    FieldError::finding(path, "unknown field", &format!("{guess}`bagnold show {case}` prints all fields"))
+    FieldError::finding(path, UNKNOWN_FIELD, &format!("{guess}`bagnold show {case}` prints all fields"))
 }
 
 /// The rule that a value breaks: that it has no unit, where a word of a few letters stands behind a number.

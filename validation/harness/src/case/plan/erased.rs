@@ -25,6 +25,10 @@ use bagnold_solver::parameter::schema_of;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
+/// Cases with figures whose axes only runs tell: headings of measurements are checked behind these.
+const DRAWN_BY_RUNS: [&str; 6] =
+    ["column-planar", "column-round", "flow-thickness", "nonlocal-shear", "settling", "bed-load-1d"];
+
 /// A case whose types are hidden; every [`Case`] is one.
 pub trait AnyCase: Sync {
     /// Name on the command line and in files.
@@ -117,6 +121,10 @@ pub trait PreparedCase: Send + Sync {
     /// Tables and figures with the headings and axes of the runs' before these are simulated; none of a case that does not tell.
     fn outline(&self) -> Option<CaseResult> {
         None
+    }
+    /// Figures with all axes of those of the runs, perhaps without curves; empty where only runs tell them.
+    fn axes(&self) -> Vec<Figure> {
+        Vec::new()
     }
     /// Boundaries and start of a run; none of a case that is not simulated by particles.
     fn conditions(&self, _run: usize) -> Option<Conditions> {
@@ -388,6 +396,11 @@ impl<C: Case> PreparedCase for CasePlan<C> {
         };
         let parts = by_label(records?, |(run, _)| self.parameters.label(run));
         parts.into_iter().map(of_label).reduce(CaseResult::and)
+    }
+
+    fn axes(&self) -> Vec<Figure> {
+        let is_told = C::ORIGIN == CodeOrigin::PACKAGE && !DRAWN_BY_RUNS.contains(&C::NAME);
+        if is_told { self.asked().figures } else { Vec::new() }
     }
 
     fn conditions(&self, run: usize) -> Option<Conditions> {

@@ -67,6 +67,14 @@ impl Estimate {
         (self.running * at_once).min(self.all_running) + self.all_particles * BYTES_KEPT
     }
 
+    /// Particles, memory and time on one core in words, with so many runs at once.
+    #[must_use]
+    pub fn in_words(&self, threads: usize) -> String {
+        let (memory, hours) = (self.memory(threads) / GIBIBYTE, self.core_seconds / 3600.0);
+        let [particles, memory, hours] = [self.all_particles, memory, hours].map(rounded);
+        format!("{particles} particles, {memory} GiB of memory, {hours} core hours")
+    }
+
     /// Ratio of the estimate to the limits; above 1 if it exceeds them. One run at a time must fit into the memory.
     pub(in crate::case) fn excess(&self, limits: &Limits) -> f64 {
         let excess = (self.memory(1) / limits.memory).max(self.core_seconds / 3600.0 / limits.core_hours);
