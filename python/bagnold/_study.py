@@ -38,14 +38,15 @@ class Judgement:
 
     @property
     def codes(self) -> pd.DataFrame:
-        """A row a code: gates that pass, that fail, and that are not judged."""
-        keys = ["name", "version", "passing", "failing", "not_judged"]
-        return pd.DataFrame([{key: code[key] for key in keys} for code in self.document["codes"]])
+        """A row a code: the number of gates of each severity."""
+        rows = [{"name": code["name"], "version": code["version"], **code["tally"]} for code in self.document["codes"]]
+        return pd.DataFrame(rows)
 
     def __repr__(self) -> str:
         verdicts = [
             f"{code['name']} {code['version']}".strip()
-            + f" {code['passing']} gates pass, {code['failing']} fail, {code['not_judged']} not judged"
+            + ": "
+            + ", ".join(f"{number} {word}" for word, number in code["tally"].items() if number)
             for code in self.document["codes"]
         ]
         return f"<{self.case}: {'; '.join(verdicts)}>"

@@ -5,6 +5,7 @@ use bagnold_harness::case::{Silent, execute};
 use bagnold_harness::metric::{Metric, Verdict};
 use bagnold_harness::store::{Store, StorePolicy};
 use bagnold_reference::collapse::{AT_REST, CodeQuantity, PLANAR_CODES};
+use bagnold_report::{Severity, Tally};
 use bagnold_tools::judge::{LawOrigin, judge};
 use bagnold_tools::league::{
     League, LeagueRow, ORDER_HEADINGS, WIDTH_HEADINGS, blind, league, orders, read, split, submissions, widths,
@@ -137,8 +138,12 @@ fn the_page_on_other_codes_is_that_of_the_stored_results() {
     let _ = writeln!(text, "| code | {} |\n|---|{}", league.cases.join(" | "), "---|".repeat(league.cases.len()));
     for (code, name) in league.codes.iter().enumerate() {
         let cells = (0..league.cases.len()).map(|case| {
-            let counts = league.count(code, case);
-            counts.map_or_else(String::new, |(pass, fail, open)| format!("{pass} / {fail} / {open}"))
+            let of =
+                |tally: Tally| [Severity::Pass, Severity::NewFailure, Severity::NotJudged].map(|own| tally.of(own));
+            league
+                .tally(code, case)
+                .map(of)
+                .map_or_else(String::new, |[pass, fail, open]| format!("{pass} / {fail} / {open}"))
         });
         let _ = writeln!(text, "| {name} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }

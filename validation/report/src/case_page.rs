@@ -1,7 +1,7 @@
 //! The page of one case: what fails, its figures, then verdicts, parameters and runs. `run` writes it alone, `report` among others.
 
 use super::failures;
-use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
+use super::judgement::{JudgedCase, JudgedMetric, Rank};
 use super::origin::{provenance, seconds};
 use super::rows::{rows, vanished};
 use super::template::fill;
@@ -142,26 +142,20 @@ fn figure(metric: &Metric, drawn: &[DrawnFigure], runs: &[&Variant]) -> String {
     best.filter(|best| is_enough(fit(best))).map(|best| best.name.clone()).unwrap_or_default()
 }
 
-/// Numbers of a case's metrics by severity, in words.
+/// The gates of a case and its other metrics, in words.
 pub(super) fn case_statement(judged: &JudgedCase<'_>) -> String {
     let tally = judged.tally();
     let observed = judged.metrics.iter().filter(|metric| metric.rank() == Rank::Observed).count();
     let moved = judged.metrics.iter().filter(|metric| metric.change.has_moved()).count();
-    let of = |severity: Severity| (tally.of(severity), severity.word());
-    let parts = [
-        of(Severity::NewFailure),
-        (tally.of(Severity::NotJudged) + judged.case.not_judged.len(), Severity::NotJudged.word()),
-        of(Severity::ExpectedFailure),
-        of(Severity::Inconclusive),
-        of(Severity::Pass),
+    let others = [
         (observed, "observed"),
         (moved, "moved"),
         (judged.vanished.len(), "vanished"),
         (judged.diverged.len(), "diverged"),
     ];
-    let words: Vec<String> =
-        parts.iter().filter(|(number, _)| *number > 0).map(|(number, word)| format!("{number} {word}")).collect();
-    if words.is_empty() { "no metrics".to_owned() } else { words.join(" · ") }
+    let others = others.iter().filter(|(number, _)| *number > 0).map(|(number, word)| format!("{number} {word}"));
+    let words: Vec<String> = (tally.all() > 0).then(|| tally.in_words()).into_iter().chain(others).collect();
+    if words.is_empty() { "no metrics".to_owned() } else { words.join("; ") }
 }
 
 fn run(run: &RunSummary) -> Value {

@@ -5,7 +5,7 @@ use super::comparison_figure::verdict;
 use super::rows::signed;
 use super::template::fill;
 use super::view::{VerdictMark, anchor};
-use super::{DrawnFigure, Report, scatter};
+use super::{DrawnFigure, Report};
 use crate::evidence::StatedUncertainty;
 use crate::metric::{ComparisonPart, Metric, UncertaintyComponent};
 use crate::number::{two_digits, with_unit};
@@ -14,7 +14,11 @@ use serde_json::{Value, json};
 const NOT_KNOWN: &str = "not known";
 
 /// Fills the template of the page; none where nothing is compared with measurements.
-pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Option<Result<String, minijinja::Error>> {
+pub(super) fn render(
+    report: &Report,
+    drawn: &[DrawnFigure],
+    scatter: Vec<Value>,
+) -> Option<Result<String, minijinja::Error>> {
     let groups = comparison::comparisons(report);
     let all = || groups.iter().flat_map(|(_, own)| own);
     let count = |place: usize| all().filter(|compared| verdict(compared) == place).count();
@@ -28,7 +32,7 @@ pub(super) fn render(report: &Report, drawn: &[DrawnFigure]) -> Option<Result<St
         "unknown": count(3),
         "without_input": all().filter(|compared| compared.input.is_none()).count(),
         "levels": levels(all()),
-        "has_scatter": !scatter::quantities(report).is_empty(),
+        "scatter": scatter,
         "quantities": quantities.collect::<Vec<_>>(),
     });
     (!groups.is_empty()).then(|| fill("comparisons.html", &page))

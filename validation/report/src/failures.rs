@@ -1,30 +1,26 @@
-//! Failures in two lines each, the furthest off first: case, quantity and variant, then the value beside its reference and limit. Why an
-//! expected failure fails stands in the metric's row on the page of its case.
+//! Failures, the furthest off first, each with quantity, parameters, value, reference and limit. Why an expected failure fails stands in
+//! the metric's row on the page of its case.
 
 use super::expected_failures::ListStatus;
 use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
 use super::rows::{signed, statement};
 use super::view::{VerdictMark, anchor};
-use crate::metric::{GateOwner, Limit, Metric, Quantity};
+use crate::metric::{GateOwner, Limit, Metric, Quantity, Value, Variant};
 use crate::number::with_unit;
-use serde_json::{Value, json};
-
-/// Most results that the banner names.
-const MOST_NAMED: usize = 3;
+use serde_json::json;
 
 /// Runs that diverged, then gates: unexpected failures first, the user's own gates before those of the case.
-pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<Value> {
-    let mut items: Vec<((Severity, GateOwner), f64, Value)> = Vec::new();
+pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<serde_json::Value> {
+    let mut items: Vec<((Severity, GateOwner), f64, serde_json::Value)> = Vec::new();
     for case in cases {
         for &(variant, message) in &case.diverged {
             let item = json!({
                 "mark": VerdictMark { word: "diverged", ..VerdictMark::FAIL },
                 "case": case.case.name,
                 "anchor": "runs",
-                "title": title(&case.case.summary),
-                "what": "a run diverged",
+                "what": format!("A run diverged{}", parameters(variant)),
                 "metric": "",
-                "variant": variant.to_string(),
+                "description": "",
                 "statement": message,
             });
             items.push(((Severity::NewFailure, GateOwner::User), f64::INFINITY, item));
@@ -35,12 +31,11 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<Value> {
                 "mark": VerdictMark::of(Some(severity)),
                 "case": case.case.name,
                 "anchor": anchor(&case.case.name, &judged.metric.name, &judged.metric.variant),
-                "title": title(&case.case.summary),
-                "what": in_words(case.case.quantities, &judged.metric.name),
+                "what": in_words(&judged.metric.name) + &parameters(&judged.metric.variant),
                 "metric": judged.metric.name,
                 "variant": judged.metric.variant.to_string(),
-                "statement": statement(judged),
-                "off": off(judged.metric),
+                "description": description(case.case.quantities, &judged.metric.name),
+                "statement": statement(judged).replacen(", ", &off(judged.metric), 1),
                 "note": short_note(judged),
             });
             // canonical studies are judged as a user's own are, and fail no louder than cases
@@ -56,24 +51,24 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<Value> {
     items.into_iter().map(|(.., item)| item).collect()
 }
 
-/// The flow that a case's line names, without its details and its reference.
-fn title(summary: &str) -> &str {
-    // a list may begin with a single word
-    let ends = [": ", ", ", " against "].into_iter().filter_map(|end| summary.find(end));
-    let ends = ends.filter(|end| summary[..*end].contains(' '));
-    &summary[..ends.min().unwrap_or(summary.len())]
+/// The name of a quantity in words.
+fn in_words(name: &str) -> String {
+    let words = name.replace('_', " ");
+    words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
 }
 
-/// The description of a quantity that its case declares, or else its name.
-fn in_words(quantities: &[Quantity], name: &str) -> String {
-    let declared = quantities.iter().find(|quantity| quantity.name == name);
-    declared.map_or_else(|| name.replace('_', " "), |quantity| quantity.description.to_owned())
+/// The parameters of a run in words, numbers with their names.
+fn parameters(variant: &Variant) -> String {
+    let word = |(key, value): (&str, &Value)| match value.number() {
+        Some(_) => format!(", {} = {}", key.replace('_', " "), value.text()),
+        None => format!(", {}", value.text()),
+    };
+    variant.parts().map(word).collect()
 }
 
-/// The furthest off of as many cases.
-pub(super) fn weakest(items: &[Value]) -> Vec<usize> {
-    let is_first = |place: &usize| items[..*place].iter().all(|before| before["case"] != items[*place]["case"]);
-    (0..items.len()).filter(is_first).take(MOST_NAMED).collect()
+/// The definition of a quantity that its case declares.
+fn description(quantities: &[Quantity], name: &str) -> &'static str {
+    quantities.iter().find(|quantity| quantity.name == name).map_or("", |quantity| quantity.description)
 }
 
 /// Right value: the reference, or the bound of the limit that it breaks where there is none, or none but zero.
@@ -100,14 +95,14 @@ fn distance(metric: &Metric) -> f64 {
     }
 }
 
-/// Distance from the reference in words.
+/// The reference, and the distance from it, between value and limit.
 fn off(metric: &Metric) -> String {
     let reference = metric.reference.as_ref().and_then(|reference| reference.value);
     let Some(expected) = reference.filter(|value| *value != 0.0 && metric.value.is_finite()) else {
-        return String::new();
+        return ", ".to_owned();
     };
     let share = 100.0 * (metric.value / expected - 1.0);
-    format!("{} is right ({} %)", with_unit(expected, &metric.unit), signed(share))
+    format!("; reference {} ({} %), ", with_unit(expected, &metric.unit), signed(share))
 }
 
 /// Entry of the list of expected failures in words, without its reason.

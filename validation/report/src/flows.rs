@@ -2,12 +2,12 @@
 
 use super::comparison::{Comparison, comparisons};
 use super::comparison_figure;
-use super::judgement::{Judgement, KINDS, Severity};
+use super::judgement::{JudgedCase, Judgement, KINDS, Tally};
 use super::power::rejected_inputs;
 use super::view::VerdictMark;
 use super::{CaseReport, DrawnFigure};
 use crate::figure::Figure;
-use crate::metric::{Metric, MetricKind, Origin, Variant};
+use crate::metric::{Metric, Origin, Variant};
 use crate::number::two_digits;
 use serde_json::{Value, json};
 
@@ -208,21 +208,12 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport], judgement: &Judg
     if all == 0 {
         add(VerdictMark::OBSERVED, "no comparison whose uncertainty is known".to_owned());
     }
-    let own = judgement.metrics().filter(|(judged, _)| cases.iter().any(|case| case.name == judged.case.name));
-    let gates: Vec<(MetricKind, Severity)> =
-        own.filter_map(|(_, judged)| Some((judged.metric.kind, judged.severity?))).collect();
-    let number = |kind, severities: &[Severity]| {
-        gates.iter().filter(|(own, severity)| *own == kind && severities.contains(severity)).count()
-    };
-    for (kind, what) in
-        KINDS.into_iter().zip(["experiments", "statements of the papers", "exact solutions and other codes"])
-    {
-        let (all, passing) = (number(kind, &Severity::ALL), number(kind, &[Severity::Pass]));
-        let inconclusive = number(kind, &[Severity::Inconclusive]);
-        let inconclusive = if inconclusive > 0 { format!(", {inconclusive} inconclusive") } else { String::new() };
-        if all > 0 {
-            let mark = if passing == all { VerdictMark::PASS } else { VerdictMark::EXPECTED };
-            add(mark, format!("{passing} of {all} gates against {what} pass{inconclusive}"));
+    let is_own = |judged: &JudgedCase<'_>| cases.iter().any(|case| case.name == judged.case.name);
+    for (kind, name) in &KINDS[..3] {
+        let own = judgement.metrics().filter(|(judged, own)| is_own(judged) && own.metric.kind == *kind);
+        let tally = Tally(own.filter_map(|(_, judged)| judged.severity).collect());
+        if tally.all() > 0 {
+            add(VerdictMark::of(tally.0.iter().min().copied()), format!("{name}, {}", tally.in_words()));
         }
     }
     lines

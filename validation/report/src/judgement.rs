@@ -9,6 +9,7 @@ use super::{CaseReport, Exit, Report};
 use crate::metric::{Metric, MetricKind, Variant, Verdict};
 use crate::number::with_unit;
 use crate::observation::Outcome;
+use std::collections::BTreeMap;
 
 /// Severity of a gate, the one that weighs most first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -61,9 +62,13 @@ impl Severity {
     }
 }
 
-/// Kinds of gate in the order of a page.
-pub(super) const KINDS: [MetricKind; 4] =
-    [MetricKind::Validation, MetricKind::Statement, MetricKind::Verification, MetricKind::Bookkeeping];
+/// Kinds of gate in the order of a page, with their names.
+pub(super) const KINDS: [(MetricKind, &str); 4] = [
+    (MetricKind::Validation, "against measurements"),
+    (MetricKind::Statement, "statements of the papers"),
+    (MetricKind::Verification, "exact solutions and other codes"),
+    (MetricKind::Bookkeeping, "bookkeeping"),
+];
 
 /// Rank of a metric or a case on a page: the severities that fail, then values that have moved, other gates, and what is only
 /// observed.
@@ -160,7 +165,7 @@ impl<'r> JudgedCase<'r> {
         metrics.sort_by_key(|judged| {
             let (metric, rank) = (judged.metric, judged.rank());
             let is_behind = rank >= Rank::Moved && !metric.leads;
-            let kind = KINDS.iter().position(|kind| *kind == metric.kind);
+            let kind = KINDS.iter().position(|(kind, _)| *kind == metric.kind);
             (is_behind, rank, metric.gate_owner(), kind, first_of_name(&metric.name))
         });
         let diverged = case.runs.iter().filter_map(|run| match &run.outcome {
@@ -184,16 +189,17 @@ impl<'r> JudgedCase<'r> {
         }
     }
 
-    /// Its gates.
+    /// Its gates, with those of the baseline that it does not judge.
     #[must_use]
     pub fn tally(&self) -> Tally {
-        Tally(self.metrics.iter().filter_map(|judged| judged.severity).collect())
+        let gone = self.case.not_judged.iter().map(|_| Severity::NotJudged);
+        Tally(self.metrics.iter().filter_map(|judged| judged.severity).chain(gone).collect())
     }
 }
 
 /// Severities of some gates.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Tally(Vec<Severity>);
+pub struct Tally(pub Vec<Severity>);
 
 impl Tally {
     /// Number of all.
@@ -207,6 +213,29 @@ impl Tally {
     pub fn of(&self, severity: Severity) -> usize {
         self.0.iter().filter(|own| **own == severity).count()
     }
+
+    /// The gates and their number in each severity, without those that have none; the new failures always.
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let counts = Severity::ALL.into_iter().rev().map(|severity| (severity, self.of(severity)));
+        let shown = counts.filter(|(severity, number)| *number > 0 || *severity == Severity::NewFailure);
+        let words = shown.map(|(severity, number)| match severity {
+            Severity::NewFailure | Severity::ExpectedFailure => plural(number, severity.word()),
+            _ => format!("{number} {}", severity.word()),
+        });
+        format!("{}: {}", plural(self.all(), "gate"), words.collect::<Vec<_>>().join(", "))
+    }
+
+    /// Numbers by the words of their severities.
+    #[must_use]
+    pub fn by_word(&self) -> BTreeMap<String, usize> {
+        Severity::ALL.into_iter().map(|severity| (severity.word().to_owned(), self.of(severity))).collect()
+    }
+}
+
+/// A number of things.
+pub(super) fn plural(number: usize, word: &str) -> String {
+    if number == 1 { format!("1 {word}") } else { format!("{number} {word}s") }
 }
 
 /// A judged report.
@@ -230,18 +259,31 @@ impl<'r> Judgement<'r> {
         self.cases.iter().flat_map(|case| case.metrics.iter().map(move |judged| (case, judged)))
     }
 
-    /// Gates of one kind, or of all.
+    /// All gates.
     #[must_use]
-    pub fn tally(&self, kind: Option<MetricKind>) -> Tally {
-        let own = self.metrics().filter(|(_, judged)| kind.is_none_or(|kind| kind == judged.metric.kind));
+    pub fn tally(&self) -> Tally {
+        Tally(self.cases.iter().flat_map(|case| case.tally().0).collect())
+    }
+
+    /// Gates of one kind.
+    #[must_use]
+    pub fn tally_of(&self, kind: MetricKind) -> Tally {
+        let own = self.metrics().filter(|(_, judged)| kind == judged.metric.kind);
         Tally(own.filter_map(|(_, judged)| judged.severity).collect())
     }
 
-    /// Gates without a verdict: those of this report, and those of the baseline that it does not judge.
+    /// The verdict in a line: all gates, and how many values have moved from the baseline.
     #[must_use]
-    pub fn not_judged(&self) -> usize {
-        let gone: usize = self.cases.iter().map(|case| case.case.not_judged.len()).sum();
-        self.tally(None).of(Severity::NotJudged) + gone
+    pub fn in_words(&self) -> String {
+        let (moved, diverged) = (self.moved(), self.diverged());
+        let mut text = self.tally().in_words();
+        if moved + self.unchanged() > 0 {
+            text += &format!("; {moved} of {} moved", plural(moved + self.unchanged(), "value"));
+        }
+        if diverged > 0 {
+            text += &format!("; {} diverged", plural(diverged, "run"));
+        }
+        text
     }
 
     /// Runs that diverged without having declared it.
@@ -256,6 +298,12 @@ impl<'r> Judgement<'r> {
     pub fn moved(&self) -> usize {
         let vanished: usize = self.cases.iter().map(|case| case.vanished.len()).sum();
         vanished + self.metrics().filter(|(_, judged)| judged.change.has_moved()).count()
+    }
+
+    /// Values that are as in the baseline.
+    #[must_use]
+    pub fn unchanged(&self) -> usize {
+        self.metrics().filter(|(_, judged)| matches!(judged.change, Change::Unchanged { .. })).count()
     }
 
     /// The exit code. A divergence weighs more than a gate, since its metrics mean nothing. Moved values do not count: they are

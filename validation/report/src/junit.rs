@@ -50,6 +50,7 @@ pub(super) fn text(judgement: &Judgement<'_>) -> String {
         suite.set_time(Duration::try_from_secs_f64(seconds).unwrap_or_default());
         suite.add_property(Property::new("tier", judgement.report.tier.name()));
         suite.add_property(Property::new("command", typed(&case.case.command)));
+        suite.add_property(Property::new("tally", case.tally().in_words()));
         suite.add_test_cases(cases(case));
         document.add_test_suite(suite);
     }

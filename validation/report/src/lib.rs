@@ -58,7 +58,7 @@ pub use power::Doubt;
 pub use process::{ChangedCases, ReportOutcome, ReportProcess, ReportRequest};
 pub use single::{SingleOutcome, SingleRun};
 pub use snapshot_text::description;
-pub use summary::{of_case, of_metrics};
+pub use summary::{Terminal, of_case, of_metrics};
 
 use bagnold_figure as figure;
 use bagnold_harness::{
@@ -226,7 +226,7 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
     for judged in &judgement.cases {
         let name = &judged.case.name;
         let place = folder.join("cases").join(name);
-        put_case(judged.case, &place)?;
+        put_case(judged, &place)?;
         let pictures = page::pictures(report, &drawn, judged.case);
         let text = case_page::render(report, judged, pictures, Some(neighbours(report, name)))?;
         chapters.push(Chapter::of(format!("case-{name}"), &text));
@@ -245,17 +245,17 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
         let maps = draw_in(validated_page::FOLDER, &validated_page::figures())?;
         add("validated", validated_page::render(report, &maps)?)?;
     }
-    let beside = draw_in(comparison_figure::FOLDER, &comparison_figure::figures(report))?;
-    if let Some(text) = comparison_page::render(report, &beside) {
-        add("comparisons", text?)?;
-    }
     let quantities = scatter::quantities(report);
     let compared = draw_in(scatter::FOLDER, &scatter::figures(&quantities))?;
-    put(&folder.join("metrics.json"), scatter::json(&quantities))?;
+    let beside = draw_in(comparison_figure::FOLDER, &comparison_figure::figures(report))?;
+    if let Some(text) = comparison_page::render(report, &beside, scatter::rows(&quantities, &compared)) {
+        add("comparisons", text?)?;
+    }
+    add("gates", page::gates(judgement)?)?;
+    put(&folder.join("metrics.json"), scatter::json(judgement, &quantities))?;
     put(&folder.join("metrics.csv"), overview::csv(judgement))?;
-    let comparisons = scatter::rows(&quantities, &compared);
     let small = draw_small(report, &figures.join(overview::FOLDER), drawings)?;
-    let overview = page::render(judgement, (&drawn, &small), comparisons)?;
+    let overview = page::render(judgement, (&drawn, &small))?;
     chapters.insert(0, Chapter::of("index", &overview));
     put(&folder.join("print.html"), print::render(&report.title, &chapters)?)?;
     Ok(put(&folder.join("index.html"), overview)?)
@@ -266,7 +266,7 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
 fn write_alone(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Result<(), ReportError> {
     for judged in &judgement.cases {
         let drawn = draw(judged.case, &folder.join("figures"), drawings)?;
-        put_case(judged.case, folder)?;
+        put_case(judged, folder)?;
         put(&folder.join("index.html"), case_page::render(judgement.report, judged, &drawn, None)?)?;
     }
     Ok(())
@@ -282,8 +282,11 @@ pub fn put_junit(path: &Path, text: &str) -> Result<(), FieldError> {
 }
 
 /// A case's numbers, parameters and measurements, and the tables of reference data that it has.
-fn put_case(case: &CaseReport, folder: &Path) -> Result<(), ReportError> {
-    put(&folder.join("metrics.json"), MetricsDocument::of(case, rayon::current_num_threads()).text())?;
+fn put_case(judged: &JudgedCase<'_>, folder: &Path) -> Result<(), ReportError> {
+    let case = judged.case;
+    let mut document = MetricsDocument::of(case, rayon::current_num_threads());
+    document.tally = judged.tally().by_word();
+    put(&folder.join("metrics.json"), document.text())?;
     put(&folder.join("case.toml"), &case.parameters_toml)?;
     for (name, text) in case_page::tables(&case.name) {
         put(&folder.join("reference").join(name), text)?;

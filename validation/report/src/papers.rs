@@ -221,12 +221,6 @@ impl<'r> PaperSummary<'r> {
     }
 }
 
-/// Number of elements with this status, over all papers.
-#[must_use]
-pub fn count(accounts: &[PaperSummary<'_>], status: Status) -> usize {
-    accounts.iter().map(|account| account.count(status)).sum()
-}
-
 /// The papers that a report of these cases accounts for: none where no element names any of the cases.
 #[must_use]
 pub fn accounted(cases: &[CaseReport]) -> &'static [Paper] {

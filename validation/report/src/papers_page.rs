@@ -1,6 +1,6 @@
-//! The page of the papers: every element, what became of it, and where that is shown; and its card on the overview.
+//! The page of the papers: every element, what became of it, and where that is shown.
 
-use super::papers::{self, ElementOutcome, Ended, PaperSummary, Shown, Status};
+use super::papers::{ElementOutcome, Ended, PaperSummary, Shown, Status};
 use super::template::fill;
 use super::view::{VerdictMark, anchor};
 use super::{CaseReport, Report};
@@ -20,26 +20,6 @@ fn mark(status: Status) -> VerdictMark {
         Status::Contradicted => of(VerdictMark::FAIL, "✗"),
         Status::NotCovered => of(VerdictMark::OBSERVED, "–"),
     }
-}
-
-/// The card of the papers among the counts of the overview; none without papers.
-pub(super) fn count(accounts: &[PaperSummary<'_>]) -> Option<Value> {
-    let all: usize = accounts.iter().map(|account| account.elements.len()).sum();
-    let of = |status| papers::count(accounts, status);
-    let open = of(Status::NotReproduced) + of(Status::Contradicted);
-    let rest = Status::ALL.into_iter().filter(|status| *status != Status::Reproduced && of(*status) > 0);
-    let details: Vec<String> = rest.map(|status| format!("{} {}", of(status), status.word())).collect();
-    (all > 0).then(|| {
-        json!({
-            "mark": if open > 0 { VerdictMark::EXPECTED } else { VerdictMark::PASS },
-            "name": "Papers",
-            "meaning": "both papers, element by element",
-            "statement": format!("{} of {all} elements reproduced", of(Status::Reproduced)),
-            "detail": details.join(" · "),
-            // page that has more of it
-            "link": "papers.html",
-        })
-    })
 }
 
 /// Fills the template of the page.

@@ -117,7 +117,7 @@ fn sizes(case: &CaseReport, series: &[&ErrorSeries], sized: &[&ControlTrial]) ->
     metrics.filter_map(row).collect()
 }
 
-/// Most deliberate errors that a panel names.
+/// Most controls that a panel names.
 const MOST_NAMED: usize = 3;
 
 /// Number of wrong inputs that the gates of a case reject, and the names of a few that they do not, for its panel on the first page; none
@@ -130,7 +130,7 @@ pub(super) fn rejected_inputs(case: &CaseReport) -> Option<String> {
     let escaped: Vec<&str> = escaped.collect();
     let names = (1..=MOST_NAMED).contains(&escaped.len()).then(|| format!("; not rejected: {}", escaped.join(", ")));
     let (rejected, all, names) = (named.len() - escaped.len(), named.len(), names.unwrap_or_default());
-    (all > 0).then(|| format!("{}: {rejected} of {all} deliberate errors are rejected{names}", case.name))
+    (all > 0).then(|| format!("{}: {rejected} of {all} negative controls are rejected{names}", case.name))
 }
 
 /// Cell of a gate and a control.

@@ -5,6 +5,7 @@ use super::baseline::Baseline;
 use super::error::ReportError;
 use super::judgement::{Judgement, judge};
 use super::moved::{MovedValue, moved};
+use super::summary::Terminal;
 use super::{
     CaseReport, CommittedValues, Exit, ExpectedFailures, GateList, MetricKey, Report, ReportProvenance, junit, papers,
     put_junit, summary, unchanged,
@@ -17,6 +18,9 @@ use crate::store::{Drawings, provenance};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// Most values that have moved on the terminal.
+const MOST_MOVED: usize = 10;
 
 /// Settings of a report, each with the cases that have its field.
 pub type ChangedCases = Vec<(String, Vec<String>)>;
@@ -44,6 +48,8 @@ pub struct ReportRequest {
     pub junit: Option<PathBuf>,
     /// Folder to write.
     pub folder: PathBuf,
+    /// What is shown of the verdicts.
+    pub terminal: Terminal,
     /// The command that makes it again.
     pub command: String,
     /// Every option, where a report that was made by the same from the same need not be made again.
@@ -163,7 +169,31 @@ impl ReportProcess {
     fn said(&self, judgement: &Judgement<'_>) -> (Exit, String) {
         let report = judgement.report;
         let judged = |case: &CaseReport| judgement.cases.iter().find(|judged| std::ptr::eq(judged.case, case));
-        let mut text: String = report.cases.iter().filter_map(judged).map(summary::failures).collect();
+        let terminal = self.request.terminal;
+        let failures = report.cases.iter().filter_map(judged).map(|case| summary::failures(case, terminal));
+        let mut text: String = failures.collect();
+        text.extend(report.cases.iter().map(|case| summary::not_judged(&case.not_judged)));
+        let file = self.request.committed.list_of_failures();
+        text.extend(judgement.contradictions.iter().map(|(failure, words)| {
+            let (case, metric, variant) = (&failure.case, &failure.metric, &failure.variant);
+            format!("EXPECTED FAILURE: {file}: {case} {metric} {variant}: {words}\n")
+        }));
+        let moved: Vec<MovedValue> = moved(judgement).into_iter().filter(|own| own.is_beyond).collect();
+        let shown = if terminal.is_verbose { moved.len() } else { moved.len().min(MOST_MOVED) };
+        text.extend(moved[..shown].iter().map(|moved| format!("moved: {moved}\n")));
+        if shown < moved.len() {
+            text += &format!("moved: {} more, shown with -v\n", moved.len() - shown);
+        }
+        let limits = self.moved_limits(report);
+        text.extend(limits.iter().map(|moved| format!("moved: {moved}\n")));
+        let mut exit = judgement.exit();
+        if exit == Exit::Held && moved.len() + limits.len() > 0 {
+            if self.request.deny_moved {
+                exit = Exit::GateFailed;
+            } else {
+                text += "moved without a new failure: the exit code is 0 unless --deny moved is given\n";
+            }
+        }
         for (setting, cases) in &self.request.changed {
             let (own, all) = (cases.len(), report.cases.len());
             text += &format!(
@@ -172,28 +202,9 @@ impl ReportProcess {
             );
             text += "the others lack the field or vary it themselves\n";
         }
-        text += &format!("written to {}\n", self.request.folder.join("index.html").display());
-        text.extend(report.cases.iter().map(|case| summary::not_judged(&case.not_judged)));
-        let file = self.request.committed.list_of_failures();
-        text.extend(judgement.contradictions.iter().map(|(failure, words)| {
-            let (case, metric, variant) = (&failure.case, &failure.metric, &failure.variant);
-            format!("EXPECTED FAILURE: {file}: {case} {metric} {variant}: {words}\n")
-        }));
-        let moved: Vec<MovedValue> = moved(judgement).into_iter().filter(|own| own.is_beyond).collect();
-        text.extend(moved.iter().map(|moved| format!("moved: {moved}\n")));
-        let limits = self.moved_limits(report);
-        text.extend(limits.iter().map(|moved| format!("moved: {moved}\n")));
-        let mut exit = judgement.exit();
-        if exit == Exit::Held && moved.len() + limits.len() > 0 {
-            if self.request.deny_moved {
-                exit = Exit::GateFailed;
-            } else {
-                let number = moved.len() + limits.len();
-                let values = if number == 1 { "1 value has".to_owned() } else { format!("{number} values have") };
-                text +=
-                    &format!("{values} moved without a new failure: the exit code is 0 unless --deny moved is given\n");
-            }
-        }
+        let page = self.request.folder.join("index.html");
+        text += &format!("runs: {}\n", summary::runs(report.cases.iter().flat_map(|case| &case.runs)));
+        text += &format!("{}. Report: {}\n", judgement.in_words(), page.display());
         (exit, text)
     }
 }
@@ -201,7 +212,8 @@ impl ReportProcess {
 impl ReportProcess {
     /// Limits that differ from the accepted ones; none beside an earlier report or for a suite, which has no list.
     fn moved_limits(&self, report: &Report) -> Vec<String> {
-        if self.request.against.is_some() || self.request.committed != CommittedValues::OfCases {
+        let is_compared = self.request.against.is_none() && self.request.changed.is_empty();
+        if !is_compared || self.request.committed != CommittedValues::OfCases {
             return Vec::new();
         }
         let of_case = |case: &CaseReport| {

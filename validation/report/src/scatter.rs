@@ -1,5 +1,6 @@
 //! Bias and scatter of every quantity that is compared with experiments or published fits often enough.
 
+use super::judgement::{Judgement, KINDS};
 use super::{DrawnFigure, Report, with_numbers};
 use crate::evidence::StatedUncertainty;
 use crate::figure::{Axis, Figure, Panel};
@@ -137,8 +138,8 @@ pub(super) fn rows(quantities: &[QuantityBias], drawn: &[DrawnFigure]) -> Vec<Va
     quantities.iter().enumerate().map(row).collect()
 }
 
-/// The text of the report's `metrics.json`: what its cases say together.
-pub(super) fn json(quantities: &[QuantityBias]) -> String {
+/// The text of the report's `metrics.json`: what its cases say together, with the gates by kind.
+pub(super) fn json(judgement: &Judgement<'_>, quantities: &[QuantityBias]) -> String {
     let entry = |of: &QuantityBias| {
         let found = &of.found;
         let experimental_deviation = match found.deviation {
@@ -159,7 +160,14 @@ pub(super) fn json(quantities: &[QuantityBias]) -> String {
             "experimental_deviation": experimental_deviation,
         })
     };
-    crate::result::pretty(&json!({ "quantities": quantities.iter().map(entry).collect::<Vec<_>>() }))
+    let kinds = KINDS.map(|(kind, name)| (name.to_owned(), judgement.tally_of(kind).by_word()));
+    let gates: BTreeMap<String, _> =
+        kinds.into_iter().chain([("all".to_owned(), judgement.tally().by_word())]).collect();
+    crate::result::pretty(&json!({
+        "gates": gates,
+        "values_moved": judgement.moved(),
+        "quantities": quantities.iter().map(entry).collect::<Vec<_>>(),
+    }))
 }
 
 #[cfg(test)]

@@ -74,7 +74,7 @@ fn the_page_and_the_numbers_have_it() {
     assert_eq!((run_out["quantity"].as_str(), run_out["comparisons"].as_u64()), (Some("run_out"), Some(3)));
     assert!(run_out["bias"].as_f64().is_some_and(|bias| (bias - 1.0).abs() < 1e-12));
     assert!(run_out["model_deviation"].is_null());
-    let page = read("index.html");
+    let page = read("comparisons.html");
     assert!(page.contains("id=\"scatter-run-out\"") && page.contains("figures/scatter/run-out.png"));
     assert!(folder.path().join("figures/scatter/run-out.svg").exists());
 }

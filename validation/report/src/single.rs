@@ -3,6 +3,7 @@
 use super::baseline::{Baseline, MetricKey};
 use super::error::ReportError;
 use super::judgement::judge;
+use super::summary::Terminal;
 use super::{CaseReport, Exit, ExpectedFailures, Report, ReportProvenance, junit, put_junit, summary};
 use crate::metric::{Metric, Variant, Verdict};
 use crate::output::{FileError, OutputFolder};
@@ -30,6 +31,8 @@ pub struct SingleRun {
     pub has_own_parameters: bool,
     /// File for the verdicts as JUnit's XML.
     pub junit: Option<PathBuf>,
+    /// What is shown of the verdicts.
+    pub terminal: Terminal,
 }
 
 /// A finished run.
@@ -43,6 +46,8 @@ pub struct SingleOutcome {
     pub text: String,
     /// Gates that are not judged, in words.
     pub remarks: String,
+    /// The verdict in a line.
+    pub verdict: String,
     /// The case.
     pub case: CaseReport,
 }
@@ -63,8 +68,6 @@ impl SingleRun {
             self.expected_failures.failures.retain(|failure| fails(&failure.key()));
         }
         let folder = claimed.folder().to_owned();
-        let document = MetricsDocument::of(&case, rayon::current_num_threads());
-        write_case(claimed.staging(), &case, &document).map_err(|error| FileError::unwritable(&folder, &error))?;
         let remarks;
         (case.not_judged, remarks) = self.not_judged(&case);
         let mut report = Report {
@@ -74,20 +77,25 @@ impl SingleRun {
             ..Report::of(case.name.clone(), case.tier, vec![case])
         };
         let judgement = judge(&report);
+        let mut document = MetricsDocument::of(judgement.cases[0].case, rayon::current_num_threads());
+        document.tally = judgement.tally().by_word();
+        write_case(claimed.staging(), judgement.cases[0].case, &document)
+            .map_err(|error| FileError::unwritable(&folder, &error))?;
         super::write_alone(&judgement, claimed.staging(), drawings)?;
         claimed.publish()?;
         if let Some(path) = &self.junit {
             put_junit(path, &junit::text(&judgement))?;
         }
-        let mut text: String = judgement.cases.iter().map(summary::of_case).collect();
+        let mut text: String = judgement.cases.iter().map(|case| summary::of_case(case, self.terminal)).collect();
         if judgement.diverged() > 0 {
             let states =
                 "of a run that diverged, NAME.pvd ends with the last good state, NAME-first-bad.pvd is the one after";
             text += &format!("{}: {states}\n", folder.join("snapshots").display());
         }
-        text += &format!("written to {}\n", folder.join("index.html").display());
+        let page = folder.join("index.html");
+        let verdict = format!("{}. Report: {}\n", judgement.in_words(), page.display());
         let exit = judgement.exit();
-        Ok(SingleOutcome { exit, json: document.text(), text, remarks, case: report.cases.remove(0) })
+        Ok(SingleOutcome { exit, json: document.text(), text, remarks, verdict, case: report.cases.remove(0) })
     }
 
     /// Gates that the runs of a case had to judge, with what took each away; and remarks on all gates that they do not judge.

@@ -1,29 +1,50 @@
 //! Results as a compact table for the terminal.
 
-use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
+use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity, plural};
 use super::{CaseReport, ListStatus, MetricKey};
+use crate::case::RunSummary;
 use crate::metric::{GateOwner, Metric, PredictionInterval, Variant, Verdict};
 use crate::number::{aligned_digits, in_unit};
 use crate::observation::Outcome;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
+/// What a terminal shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Terminal {
+    /// Columns of a line.
+    pub width: usize,
+    /// Whether rows that pass and cases without failures are shown.
+    pub is_verbose: bool,
+}
+
+impl Terminal {
+    /// Everything in lines of any length.
+    pub const ALL: Self = Self { width: usize::MAX, is_verbose: true };
+}
+
 /// A case's metrics, one per line, what went wrong in its runs, and what is predicted.
 #[must_use]
-pub fn of_case(judged: &JudgedCase<'_>) -> String {
+pub fn of_case(judged: &JudgedCase<'_>, terminal: Terminal) -> String {
     let case = judged.case;
     let is_sound = case.runs.iter().all(|run| !matches!(run.outcome, Outcome::Diverged { .. }));
     let predictions = if is_sound { predictions(&case.metrics) } else { String::new() };
-    heading(case) + &table(rows(judged, |_| true)) + &predictions
+    let is_shown = |own: &JudgedMetric<'_>| terminal.is_verbose || own.severity != Some(Severity::Pass);
+    let hidden = judged.metrics.iter().filter(|own| !is_shown(own)).count();
+    let hidden =
+        if hidden > 0 { format!("{} that pass: shown with -v\n", plural(hidden, "row")) } else { String::new() };
+    heading(case, terminal) + &table(rows(judged, is_shown), terminal) + &hidden + &predictions
 }
 
-/// What went wrong in the runs of a case, and its gates that fail.
-pub(super) fn failures(judged: &JudgedCase<'_>) -> String {
-    heading(judged.case) + &table(rows(judged, |judged| matches!(judged.rank(), Rank::Failing(_))))
+/// What went wrong in the runs of a case, and its gates that fail; nothing of a case without failures.
+pub(super) fn failures(judged: &JudgedCase<'_>, terminal: Terminal) -> String {
+    let table = table(rows(judged, |judged| matches!(judged.rank(), Rank::Failing(_))), terminal);
+    let is_quiet = table.is_empty() && judged.diverged.is_empty() && !terminal.is_verbose;
+    if is_quiet { String::new() } else { heading(judged.case, terminal) + &table }
 }
 
 /// Rows of metrics in the order of their case.
-fn rows(judged: &JudgedCase<'_>, is_shown: impl Fn(&JudgedMetric<'_>) -> bool) -> Vec<[String; 7]> {
+fn rows(judged: &JudgedCase<'_>, is_shown: impl Fn(&JudgedMetric<'_>) -> bool) -> Vec<[String; 6]> {
     let mut shown: Vec<&JudgedMetric<'_>> = judged.metrics.iter().filter(|judged| is_shown(judged)).collect();
     shown.sort_by_key(|judged| std::ptr::from_ref(judged.metric));
     shown.into_iter().map(|judged| row(judged.metric, judged.severity)).collect()
@@ -85,9 +106,9 @@ fn without_interval(metrics: &[Metric]) -> String {
 }
 
 /// Metrics of another code as a table.
-pub fn of_metrics<'a>(metrics: impl Iterator<Item = &'a Metric>) -> String {
+pub fn of_metrics<'a>(metrics: impl Iterator<Item = &'a Metric>, terminal: Terminal) -> String {
     let severity = |metric: &Metric| Severity::of(metric, &ListStatus::Unlisted, None);
-    table(metrics.map(|metric| row(metric, severity(metric))).collect())
+    table(metrics.map(|metric| row(metric, severity(metric))).collect(), terminal)
 }
 
 /// Gates of a case that are no longer judged, a line each.
@@ -109,37 +130,52 @@ pub(super) fn without_reference(gates: impl Iterator<Item = MetricKey>) -> Strin
     }
 }
 
-fn table(mut rows: Vec<[String; 7]>) -> String {
+/// Rows under their heading; cells that do not fit into the width go on in the next line.
+fn table(mut rows: Vec<[String; 6]>, terminal: Terminal) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    rows.insert(0, ["verdict", "metric", "variant", "value", "unit", "limit", "margin"].map(str::to_owned));
-    let mut text = String::new();
-    let widths: [usize; 7] =
+    rows.insert(0, ["verdict", "metric", "value", "limit", "margin", "variant"].map(str::to_owned));
+    let widths: [usize; 6] =
         std::array::from_fn(|column| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0));
+    let mut text = String::new();
     for row in rows {
-        let cells: Vec<String> = row.iter().zip(widths).map(|(cell, width)| format!("{cell:width$}")).collect();
-        text.push_str(cells.join("  ").trim_end());
+        let mut line = String::new();
+        for (cell, width) in row.iter().zip(widths) {
+            if !line.is_empty() && line.chars().count() + cell.chars().count() > terminal.width {
+                text += line.trim_end();
+                line = "\n    ".to_owned();
+            }
+            line += &format!("{cell:width$}  ");
+        }
+        text += line.trim_end();
         text.push('\n');
     }
     text
 }
 
+/// Runs that were computed, with their seconds, and those from the store.
+pub(super) fn runs<'r>(runs: impl Iterator<Item = &'r RunSummary>) -> String {
+    let (stored, computed): (Vec<_>, Vec<_>) = runs.partition(|run| run.from_store);
+    let seconds: f64 = computed.iter().map(|run| run.wall_seconds).sum();
+    let computed = (!computed.is_empty()).then(|| format!("{} computed in {seconds:.1} s", computed.len()));
+    let stored = (!stored.is_empty()).then(|| format!("{} from the store", stored.len()));
+    computed.into_iter().chain(stored).collect::<Vec<_>>().join(", ")
+}
+
 /// One line about a case, and one for each run that did not end as it should.
-fn heading(result: &CaseReport) -> String {
-    let stored = result.runs.iter().filter(|run| run.from_store).count();
-    let mut text = format!("{}, {} tier: {} runs", result.name, result.tier, result.runs.len());
-    // Writing to a string cannot fail.
-    if stored > 0 {
-        let _ = write!(text, " ({stored} from the store)");
-    }
-    let _ = write!(text, ", {:.1} s of computing", result.wall_seconds());
-    if let Some(time) = result.microseconds_per_particle_step() {
+fn heading(result: &CaseReport, terminal: Terminal) -> String {
+    let mut text = format!("{}, {} tier, runs: {}", result.name, result.tier, runs(result.runs.iter()));
+    let is_computed = result.runs.iter().any(|run| !run.from_store);
+    if let Some(time) = result.microseconds_per_particle_step().filter(|_| is_computed) {
+        // Writing to a string cannot fail.
         let _ = write!(text, ", {time:.3} µs per particle and step");
     }
     text.push('\n');
     for run in &result.runs {
-        if let Outcome::Diverged { message, expected } = &run.outcome {
+        if let Outcome::Diverged { message, expected } = &run.outcome
+            && (terminal.is_verbose || !expected)
+        {
             let how = if *expected { "diverged, as expected" } else { "DIVERGED" };
             let _ = writeln!(text, "{how}: {} {message}", run.variant);
         }
@@ -154,7 +190,7 @@ fn heading(result: &CaseReport) -> String {
     text
 }
 
-fn row(metric: &Metric, severity: Option<Severity>) -> [String; 7] {
+fn row(metric: &Metric, severity: Option<Severity>) -> [String; 6] {
     let verdict = severity.map_or("observed", Severity::word);
     // what changes the exit code is seen first
     let verdict = if severity.is_some_and(Severity::is_error) { verdict.to_uppercase() } else { verdict.to_owned() };
@@ -163,11 +199,10 @@ fn row(metric: &Metric, severity: Option<Severity>) -> [String; 7] {
     [
         verdict,
         metric.name.clone(),
-        metric.variant.to_string(),
-        metric.without_value().map_or_else(|| aligned_digits(metric.value), str::to_owned),
-        metric.unit.clone(),
+        metric.without_value().map_or_else(|| in_unit(&aligned_digits(metric.value), &metric.unit), str::to_owned),
         limit.map_or_else(String::new, |limit| limit.in_words(aligned_digits)),
         limit.map_or_else(String::new, |limit| aligned_digits(limit.margin(metric.value))),
+        metric.variant.to_string(),
     ]
 }
 
@@ -179,10 +214,10 @@ mod tests {
     #[test]
     fn an_observed_metric_shows_no_limit() {
         let metric = Metric::observed("run_out", &Variant::of("a", 1), 0.5, "m");
-        assert_eq!(row(&metric, None), ["observed", "run_out", "a=1", "0.5000", "m", "", ""].map(str::to_owned));
+        assert_eq!(row(&metric, None), ["observed", "run_out", "0.5000\u{202f}m", "", "", "a=1"].map(str::to_owned));
         let failed = metric.gated(Limit::AtMost(0.25), "reason");
         assert_eq!(row(&failed, Some(Severity::NewFailure))[0], "NEW FAILURE");
         let expected = row(&failed, Some(Severity::ExpectedFailure));
-        assert_eq!(expected[..], ["expected failure", "run_out", "a=1", "0.5000", "m", "≤ 0.2500", "-0.2500"]);
+        assert_eq!(expected[..], ["expected failure", "run_out", "0.5000\u{202f}m", "≤ 0.2500", "-0.2500", "a=1"]);
     }
 }

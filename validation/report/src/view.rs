@@ -19,7 +19,7 @@ impl VerdictMark {
     pub(super) const NOT_JUDGED: Self = Self { class: "fail", symbol: "–", word: Severity::NotJudged.word() };
     pub(super) const EXPECTED: Self = Self { class: "expected", symbol: "✗", word: Severity::ExpectedFailure.word() };
     pub(super) const INCONCLUSIVE: Self =
-        Self { class: "expected", symbol: "○", word: Severity::Inconclusive.word() };
+        Self { class: "inconclusive", symbol: "○", word: Severity::Inconclusive.word() };
     pub(super) const PASS: Self = Self { class: "pass", symbol: "✓", word: Severity::Pass.word() };
     pub(super) const MOVED: Self = Self { class: "moved", symbol: "≠", word: "moved" };
     pub(super) const OBSERVED: Self = Self { class: "observed", symbol: "○", word: "observed" };

@@ -45,7 +45,11 @@ pub(super) fn run(command: &CalibrateArguments, session: &mut Session<'_>) -> Re
     let simulations = std::fs::read_dir(kept.evaluations()).map_or(0, Iterator::count);
     let needed = format!("{} for the search, {beyond} for intervals; simulations: {simulations}", outcome.searched);
     session.say(&format!("evaluations: {needed}\n"));
-    session.say(&format!("written to {}\n", folder.join("index.html").display()));
+    let open = outcome.findings.len();
+    let found = outcome.parameters.iter().map(|found| format!("{} = {}", found.name, aligned_digits(found.best)));
+    let found: Vec<String> =
+        found.chain(outcome.trials.first().map(|best| format!("best of the choices: {}", best.name))).collect();
+    session.say(&format!("{}; findings: {open}. Report: {}\n", found.join(", "), folder.join("index.html").display()));
     Ok(Exit::Held)
 }
 

@@ -61,7 +61,7 @@ pub(super) fn compare(command: &CompareArguments, session: &mut Session<'_>) -> 
             "limits of {limits} gates differ: other versions of the gates, or limits that follow from the runs\n"
         ));
     }
-    session.say(&format!("written to {}\n", command.out.join("index.html").display()));
+    session.say(&format!("Report: {}\n", command.out.join("index.html").display()));
     Ok(if !moved.is_empty() && command.deny_differences { Exit::GateFailed } else { Exit::Held })
 }
 

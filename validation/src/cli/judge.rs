@@ -2,13 +2,13 @@
 
 use super::arguments::{ExportArguments, JudgeArguments, LeagueArguments};
 use super::error::ProgramError;
-use super::{Exit, Session, decks, simulation};
+use super::{Exit, Session, decks, simulation, terminal};
 use crate::case::{Changes, ParameterError};
 use crate::judge::{self, CaseSubmissions, CodeComparison};
 use crate::league;
 use crate::metric::Verdict;
 use crate::output::{FileError, OutputFolder, write_whole};
-use crate::report;
+use crate::report::{self, Severity, Tally};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -31,10 +31,11 @@ pub(super) fn judge(command: &JudgeArguments, session: &mut Session<'_>) -> Resu
     judge::write(&judgement, claimed.staging(), command.junit.as_deref())?;
     claimed.publish()?;
     session.say(&verdicts(&judgement));
-    session.say(&format!("written to {}\n", folder.join("index.html").display()));
+    let all = Tally(judgement.codes.iter().flat_map(|judged| judged.tally().0).collect());
+    session.say(&format!("{}. Report: {}\n", all.in_words(), folder.join("index.html").display()));
     // what was not judged is no success either
-    let mut counts = judgement.codes.iter().map(judge::JudgedCode::counts);
-    let fails = counts.any(|(held, failed, open)| failed > 0 || (held == 0 && open > 0));
+    let mut tallies = judgement.codes.iter().map(judge::JudgedCode::tally);
+    let fails = tallies.any(|own| own.of(Severity::NewFailure) > 0 || own.all() > 0 && own.of(Severity::Pass) == 0);
     Ok(if exit == Exit::Held && fails { Exit::GateFailed } else { exit })
 }
 
@@ -68,19 +69,19 @@ pub(super) fn league(command: &LeagueArguments, session: &mut Session<'_>) -> Re
         }
         session.say(&verdicts(judgement));
     }
-    session.say(&format!("written to {}\n", command.out.join("index.html").display()));
+    session.say(&format!("Report: {}\n", command.out.join("index.html").display()));
     Ok(Exit::Held)
 }
 
 /// A line for each code, and a table of its gates that fail.
 fn verdicts(judgement: &CodeComparison) -> String {
     let line = |judged: &judge::JudgedCode| {
-        let (passing, failing, not_judged) = judged.counts();
+        let tally = judged.tally();
         let name = format!("{} {}", judged.submission.code.name, judged.submission.code.version);
         let failed =
             judged.metrics.iter().filter_map(|one| one.foreign.as_ref()).filter(|own| own.verdict() == Verdict::Fail);
-        let table = report::of_metrics(failed);
-        let nothing = if passing + failing == 0 && not_judged > 0 {
+        let table = report::of_metrics(failed, terminal::shape());
+        let nothing = if tally.all() > 0 && tally.of(Severity::NotJudged) == tally.all() {
             "no gate was judged: the page names the data that each needs\n"
         } else {
             ""
@@ -90,12 +91,9 @@ fn verdicts(judgement: &CodeComparison) -> String {
             gated.filter(|one| one.verdict().is_none()).map(|one| one.own.name.as_str()).collect();
         let more = if open.len() > MOST_NAMES { ", …" } else { "" };
         let open: Vec<&str> = open.into_iter().take(MOST_NAMES).collect();
-        let open = if open.is_empty() { String::new() } else { format!(" ({}{more})", open.join(", ")) };
+        let open = if open.is_empty() { String::new() } else { format!("; not judged: {}{more}", open.join(", ")) };
         let moved = judged.moved.as_ref().map(|notice| format!("{notice}\n")).unwrap_or_default();
-        format!(
-            "{}: {passing} gates pass, {failing} fail, {not_judged} are not judged{open}\n{moved}{nothing}{table}",
-            name.trim()
-        )
+        format!("{}, {}{open}\n{moved}{nothing}{table}", name.trim(), tally.in_words())
     };
     judgement.codes.iter().map(line).collect()
 }

@@ -1,6 +1,6 @@
 //! Log lines on standard error, above the progress bar.
 
-use super::terminal::{moves_its_cursor, tell_raw};
+use super::terminal::tell_raw;
 use crate::input::escaped_lines;
 use std::fmt::Debug;
 use std::io::{self, Write};
@@ -18,7 +18,7 @@ pub(super) fn start(verbose: u8, quiet: bool) {
     };
     let started = tracing_subscriber::fmt()
         .with_writer(|| AboveBars)
-        .with_ansi(moves_its_cursor())
+        .with_ansi(console::colors_enabled_stderr())
         .fmt_fields(debug_fn(field))
         .with_max_level(level)
         .with_target(false)

@@ -51,9 +51,9 @@ impl Publication<'_> {
             tell(profile.in_words(&results, threads).trim_end_matches('\n'));
         }
         match outcome.remarks.trim_end() {
-            "" => {}
+            "" if command.json => {}
             remarks if command.json => tell(remarks),
-            _ => say(output, &outcome.remarks),
+            _ => say(output, &(outcome.remarks + &outcome.verdict)),
         }
         Ok(outcome.exit)
     }

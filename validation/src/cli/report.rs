@@ -4,7 +4,7 @@ use super::arguments::{Denied, ReportArguments};
 use super::error::ProgramError;
 use super::profile::StageTimer;
 use super::simulation::{announce, simulate};
-use super::{Exit, controls, say, tell};
+use super::{Exit, controls, say, tell, terminal};
 use crate::case::{CaseResult, Changes, Features, ParameterError, PreparedCase, Registry, Tier, untaken};
 use crate::output::caution_of_shipped;
 use crate::report::{CaseReport, ChangedCases, CommittedValues, ReportRequest};
@@ -103,8 +103,9 @@ fn request(
         deny_moved: command.deny == Some(Denied::Moved),
         junit: command.junit.clone(),
         folder: folder(command),
+        terminal: terminal::shape(),
         command: repeated(command),
-        options: is_repeated.then(|| format!("{command:?}")),
+        options: is_repeated.then(|| format!("{command:?} {}", terminal::shape().is_verbose)),
     })
 }
 

@@ -6,8 +6,8 @@ use super::error::ProgramError;
 use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
-use super::say;
 use super::simulation::{announce, estimate, introduce, reject_fast, simulate_showing};
+use super::{say, terminal};
 use crate::case::{Changes, OutputPlan, ParameterError, Registry, Request, Requested, Tier, settings_to_vary};
 use crate::checkpoint::{BULK_MODULUS, Checkpoints, StoredState};
 use crate::measured::{draw_measured, read_overlay};
@@ -143,5 +143,6 @@ fn judged_by(
         is_whole: !changed,
         has_own_parameters: false,
         junit: command.junit.clone(),
+        terminal: terminal::shape(),
     })
 }

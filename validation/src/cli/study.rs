@@ -6,8 +6,8 @@ use super::error::ProgramError;
 use super::panels::add_panels;
 use super::profile::StageTimer;
 use super::publication::Publication;
-use super::say;
 use super::simulation::{announce, estimate, introduce, reject_fast, simulate};
+use super::{say, terminal};
 use crate::case::{ParameterError, Registry};
 use crate::output::OutputFolder;
 use crate::report::{Baseline, CommittedValues, SingleRun};
@@ -56,6 +56,7 @@ pub(super) fn run(
         is_whole: true,
         has_own_parameters: false,
         junit: command.junit.clone(),
+        terminal: terminal::shape(),
     };
     let mut profile = StageTimer::begin();
     let results = simulate(cases, &store, quiet, Some(&expectation))?;

@@ -5,6 +5,8 @@
 
 use super::error::ProgramError;
 use crate::input::escaped_lines;
+use crate::report::{Severity, Terminal};
+use console::{Style, Term};
 use indicatif::{MultiProgress, ProgressDrawTarget};
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::LazyLock;
@@ -13,6 +15,32 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Whether standard error is a terminal that understands escape codes.
 pub(super) fn moves_its_cursor() -> bool {
     io::stderr().is_terminal() && std::env::var_os("TERM").is_none_or(|name| name != "dumb")
+}
+
+/// Width of standard output, and whether `-v` was given.
+pub(super) fn shape() -> Terminal {
+    let width = Term::stdout().size_checked().map_or(usize::MAX, |(_, columns)| columns.into());
+    Terminal { width, is_verbose: tracing::enabled!(tracing::Level::INFO) }
+}
+
+/// Words at the beginning of lines on what changes the exit code.
+const ERRORS: [&str; 4] = ["NEW FAILURE", "NOT JUDGED", "EXPECTED FAILURE", "DIVERGED"];
+
+/// Lines in the colours of their verdicts.
+fn coloured(text: &str) -> String {
+    let colour = |line: &str| match line {
+        _ if line.contains(" gates: ") || line.starts_with("1 gate: ") => {
+            let is_sound = line.contains(" 0 new failures") && !line.contains(Severity::NotJudged.word());
+            Some(if is_sound { Style::new().green() } else { Style::new().red() })
+        }
+        _ if ERRORS.iter().any(|word| line.starts_with(word)) => Some(Style::new().red()),
+        _ if line.starts_with(Severity::ExpectedFailure.word()) => Some(Style::new().yellow()),
+        _ if line.starts_with(Severity::Inconclusive.word()) => Some(Style::new().dim()),
+        _ if line.starts_with("moved") => Some(Style::new().magenta()),
+        _ => None,
+    };
+    let styled = |line: &str| colour(line).map_or_else(|| line.to_owned(), |style| style.apply_to(line).to_string());
+    text.split('\n').map(styled).collect::<Vec<_>>().join("\n")
 }
 
 /// All progress bars of the program; whatever else is said appears above them.
@@ -81,7 +109,8 @@ impl Write for StandardOutput<'_> {
 
 /// Prints, and escapes what would control a terminal.
 pub(super) fn say(output: &mut (dyn Write + Send), text: &str) {
-    print(output, &escaped_lines(text));
+    let text = escaped_lines(text);
+    print(output, &if console::colors_enabled() { coloured(&text).into() } else { text });
 }
 
 /// Prints a document that a program reads, as it stands.

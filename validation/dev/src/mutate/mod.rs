@@ -12,7 +12,7 @@ use crate::mutation::{
     table,
 };
 use crate::output::{FileError, OutputFolder};
-use crate::report::{self, CaseReport, Report};
+use crate::report::{self, CaseReport, Report, Terminal};
 use crate::store::provenance::workspace;
 use bagnold_validation::cli::{CountBar, Exit, Session, in_pool};
 use drawn::going_on;
@@ -47,7 +47,7 @@ pub(crate) fn mutate(command: &MutateArguments, session: &mut Session<'_>) -> Re
                 let judgement = report::judge(&report);
                 match result {
                     Some(file) => sighting.write(file).map_err(|error| FileError::unwritable(file, &error))?,
-                    None => judgement.cases.iter().for_each(|case| session.say(&report::of_case(case))),
+                    None => judgement.cases.iter().for_each(|case| session.say(&report::of_case(case, Terminal::ALL))),
                 }
                 Ok(judgement.exit())
             })

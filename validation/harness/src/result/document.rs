@@ -5,6 +5,7 @@ use crate::metric::{Confidence, Limit, Metric, MetricKind, PredictionInterval, U
 use crate::store;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 
 /// The whole file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -20,6 +21,9 @@ pub struct MetricsDocument {
     pub gates: String,
     /// Provenance of the numbers.
     pub provenance: Provenance,
+    /// Number of gates by the words of their severities; empty where no report judged them.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub tally: BTreeMap<String, usize>,
     /// The runs and how they ended.
     pub runs: Vec<RunSummary>,
     /// The numbers.
@@ -155,6 +159,7 @@ impl MetricsDocument {
             state_hash: result.state_hash.clone(),
             gates: gates_digest(&result.metrics),
             provenance: Provenance::of(result, threads),
+            tally: BTreeMap::new(),
             runs: result.runs.clone(),
             metrics: result.metrics.iter().map(MetricEntry::from).collect(),
         }

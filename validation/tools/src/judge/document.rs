@@ -27,7 +27,7 @@ pub(super) fn given(judged: &JudgedCode) -> impl Iterator<Item = &Metric> {
 pub(super) fn document(judgement: &CodeComparison) -> Value {
     let case = &judgement.own.name;
     let code = |judged: &JudgedCode| {
-        let (passing, failing, not_judged) = judged.counts();
+        let tally = judged.tally();
         let bias = |bias: &QuantityBias| {
             json!({
                 "quantity": bias.quantity,
@@ -44,9 +44,7 @@ pub(super) fn document(judgement: &CodeComparison) -> Value {
             "law": judged.submission.law,
             // null where it was made for today's gates, or does not say
             "moved": judged.moved,
-            "passing": passing,
-            "failing": failing,
-            "not_judged": not_judged,
+            "tally": tally.by_word(),
             "quantities": biases(case, given(judged)).iter().map(bias).collect::<Vec<_>>(),
             "metrics": judged.metrics.iter().map(entry).collect::<Vec<_>>(),
         })

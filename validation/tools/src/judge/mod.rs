@@ -27,6 +27,7 @@ use crate::case::{CaseResult, Changes, ExternalData, ExternalResult, PreparedCas
 use crate::figure::Figure;
 use crate::input::{FieldError, shown};
 use crate::metric::{Metric, Variant, Verdict};
+use crate::report::{Severity, Tally};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -98,17 +99,18 @@ pub struct CodeComparison {
 }
 
 impl JudgedCode {
-    /// Gates that pass, that fail, and that are not judged, for nothing was given.
+    /// Its gates; for those that are not judged nothing was given.
     #[must_use]
-    pub fn counts(&self) -> (usize, usize, usize) {
+    pub fn tally(&self) -> Tally {
         let gated = self.metrics.iter().filter(|one| one.own.verdict() != Verdict::Observed);
-        gated.fold((0, 0, 0), |(held, failed, open), one| match one.verdict() {
-            Some(Verdict::Pass) => (held + 1, failed, open),
-            Some(Verdict::Fail) => (held, failed + 1, open),
+        let severity = |one: &MetricComparison| match one.verdict() {
+            Some(Verdict::Pass) => Some(Severity::Pass),
+            Some(Verdict::Fail) => Some(Severity::NewFailure),
             // of another law: given, but not asked
-            Some(Verdict::Observed) => (held, failed, open),
-            None => (held, failed, open + 1),
-        })
+            Some(Verdict::Observed) => None,
+            None => Some(Severity::NotJudged),
+        };
+        Tally(gated.filter_map(severity).collect())
     }
 }
 

@@ -49,16 +49,16 @@ fn render(judgement: &CodeComparison, pictures: Vec<PageFigure>) -> Result<Strin
 }
 
 fn code_row(judged: &JudgedCode) -> Value {
-    let (passing, failing, not_judged) = judged.counts();
+    let tally = judged.tally();
+    let (passing, failing) = (tally.of(Severity::Pass), tally.of(Severity::NewFailure));
     json!({
         "name": judged.submission.code.name,
         "version": judged.submission.code.version,
         "law": judged.submission.law,
         "file": judged.submission.path.display().to_string(),
         "moved": judged.moved,
-        "passing": passing,
         "failing": failing,
-        "not_judged": not_judged,
+        "tally": tally.in_words(),
         "class": if failing > 0 { "fail" } else if passing > 0 { "pass" } else { "observed" },
     })
 }

@@ -16,6 +16,7 @@ use crate::case::{PreparedCase, Registry, Tier};
 use crate::judge::{CaseSubmissions, CodeComparison, JudgedCode, LawOrigin, MetricComparison, Submission};
 use crate::metric::{Metric, MetricKind, Variant};
 use crate::output::FileError;
+use crate::report::Tally;
 use std::path::{Path, PathBuf};
 
 /// Name of a submission's file.
@@ -149,11 +150,11 @@ fn enter(rows: &mut Vec<LeagueRow>, case: &str, code: usize, submission: &Submis
 }
 
 impl League {
-    /// Gates of a code and a case that pass, that fail, and that lack data; none without a submission.
+    /// Gates of a code and a case; none without a submission.
     #[must_use]
-    pub fn count(&self, code: usize, case: usize) -> Option<(usize, usize, usize)> {
+    pub fn tally(&self, code: usize, case: usize) -> Option<Tally> {
         let own = self.judged.iter().filter(|(own, of, _)| (*own, *of) == (code, case));
-        own.map(|(_, _, judged)| judged.counts()).reduce(|sum, more| (sum.0 + more.0, sum.1 + more.1, sum.2 + more.2))
+        own.map(|(_, _, judged)| judged.tally()).reduce(|sum, more| Tally([sum.0, more.0].concat()))
     }
 }
 

@@ -8,7 +8,7 @@ use crate::metric::Metric;
 use crate::number::{four_digits, two_digits};
 use crate::output::FileError;
 use crate::page;
-use crate::report::{ReportError, put};
+use crate::report::{ReportError, Severity, Tally, put};
 use crate::result::pretty;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -63,8 +63,8 @@ pub fn orders(league: &League) -> Vec<[String; 8]> {
 
 fn document(league: &League, blind: &[BlindComparison]) -> Value {
     let count = |code: usize, case: usize| {
-        let counts = league.count(code, case);
-        counts.map(|(passing, failing, open)| json!({ "passing": passing, "failing": failing, "not_judged": open }))
+        let of = |tally: Tally| [Severity::Pass, Severity::NewFailure, Severity::NotJudged].map(|own| tally.of(own));
+        league.tally(code, case).map(of).map(|of| json!({ "passing": of[0], "failing": of[1], "not_judged": of[2] }))
     };
     let matrix = league.codes.iter().enumerate().map(|(code, name)| {
         json!({ "code": name, "cells": (0..league.cases.len()).map(|case| count(code, case)).collect::<Vec<_>>() })
