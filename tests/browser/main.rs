@@ -13,6 +13,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Largest number of repeated requests for a document that the driver did not get in its time.
 const PRINTING_RETRIES: u32 = 5;
+/// Height of the overview on a laptop `[px]`.
+const HIGHEST: u64 = 10_000;
 /// Pages that an overview of two dozen cases may take on paper.
 const MOST_PRINTED: usize = 24;
 
@@ -70,7 +72,7 @@ async fn every_link_lands_where_it_says() {
     assert!(number > 50, "{number} places");
 }
 
-/// Rows of the overview's table of gates that are shown: verdict, case and relative margin.
+/// Rows of the table of gates that are shown: verdict, case and relative margin.
 async fn shown(browser: &Browser) -> Vec<(String, String, Option<f64>)> {
     let script = "return [...document.querySelectorAll('#gates-table > tbody:not([hidden])')].map((row) => \
                   [row.querySelector('.verdict').textContent.trim(), row.querySelector('td.case').textContent, row.dataset.margin])";
@@ -94,7 +96,7 @@ async fn choose(browser: &Browser, field: &str, value: &str) {
 #[tokio::test]
 async fn filters_and_sorting_do_what_they_say() {
     let browser = Browser::open(1280, 720).await;
-    browser.client.goto(&address(&folder().join("index.html"))).await.expect("the overview");
+    browser.client.goto(&address(&folder().join("gates.html"))).await.expect("the gates");
     let all = shown(&browser).await;
     assert!(all.len() > 10, "{} gates", all.len());
 
@@ -160,14 +162,37 @@ async fn nothing_overflows_on_a_phone_or_a_laptop() {
 async fn the_overview_opens_with_the_four_flows() {
     let browser = Browser::open(1280, 720).await;
     browser.client.goto(&address(&folder().join("index.html"))).await.expect("the overview");
-    let script = "return [...document.querySelectorAll('.banner, .flow img')].map((part) => part.getBoundingClientRect().bottom)";
+    let script = "return [...document.querySelectorAll('.banner, .counts, .flow img')].map((part) => part.getBoundingClientRect().bottom)";
     let bottoms = browser.ask(script).await;
     let bottoms: Vec<f64> = bottoms.as_array().into_iter().flatten().filter_map(Value::as_f64).collect();
-    assert_eq!(bottoms.len(), 5, "the verdict and four figures");
+    assert_eq!(bottoms.len(), 6, "the verdict, the gates by kind and four figures");
     assert!(bottoms.iter().all(|bottom| *bottom > 0.0 && *bottom <= 720.0), "{bottoms:?} px");
     let order = "const at = (part) => document.querySelector(part).getBoundingClientRect().top;\
-                 return at('.flows') < at('.attention') && at('.attention') < at('table.cases')";
-    assert_eq!(browser.ask(order).await, json!(true), "flows, then failures, then cases");
+                 return at('.banner') < at('.counts') && at('.counts') < at('.flows') && at('.flows') < at('.attention') \
+                 && at('.attention') < at('table.cases')";
+    assert_eq!(browser.ask(order).await, json!(true), "the change, the physics, flows, failures, then cases");
+    let height = browser.ask("return document.documentElement.scrollHeight").await;
+    assert!(height.as_u64().is_some_and(|height| height <= HIGHEST), "{height} px");
+}
+
+#[tokio::test]
+async fn readme_page_and_numbers_have_one_tally() {
+    let read = |path: &std::path::Path| std::fs::read_to_string(path).expect("a file");
+    let numbers: Value = serde_json::from_str(&read(&folder().join("metrics.json"))).expect("JSON");
+    let readme = read(std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md")));
+    let browser = Browser::open(1280, 720).await;
+    browser.client.goto(&address(&folder().join("index.html"))).await.expect("the overview");
+    let cards = list(&browser.ask("return [...document.querySelectorAll('.count')].map((own) => own.textContent)").await);
+    for (kind, counts) in numbers["gates"].as_object().expect("kinds") {
+        let of = |word: &str| counts[word].as_u64().expect("a number");
+        let words = ["pass", "inconclusive", "expected failure"].map(of);
+        let [pass, inconclusive, expected] = words;
+        let named = if kind == "all" { format!("all {}", words.iter().sum::<u64>()) } else { kind.clone() };
+        let row = format!("| {named} | {pass} | {inconclusive} | {expected} |");
+        assert!(readme.contains(&row), "README.md needs the row {row}");
+        let card = cards.iter().find(|card| card.contains(kind.as_str()));
+        assert!(kind == "all" || card.is_some_and(|card| card.contains(&format!("{pass} pass"))), "{kind}: {cards:?}");
+    }
 }
 
 #[tokio::test]

@@ -14,7 +14,7 @@ pub(crate) fn folder() -> PathBuf {
 pub(crate) fn addresses() -> Vec<String> {
     let folder = folder();
     let mut pages: Vec<PathBuf> = vec![folder.join("index.html")];
-    let whole = ["papers.html", "comparisons.html", "validated.html"].map(|name| folder.join(name));
+    let whole = ["gates.html", "papers.html", "comparisons.html", "validated.html"].map(|name| folder.join(name));
     pages.extend(whole.into_iter().filter(|page| page.exists()));
     let cases = std::fs::read_dir(folder.join("cases")).expect("the cases of the report");
     let cases: BTreeSet<PathBuf> = cases.flatten().map(|case| case.path().join("index.html")).collect();

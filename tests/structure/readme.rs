@@ -69,7 +69,7 @@ fn short(value: f64, unit: &str) -> String {
 }
 
 fn results() -> String {
-    let mut lines = vec!["| case | result | gates passed |".to_owned(), "|---|---|---|".to_owned()];
+    let mut lines = vec!["| case | result |".to_owned(), "|---|---|".to_owned()];
     for Row { case, says, metric, with, without } in &ROWS {
         let metrics = baseline(case);
         let is_shown = |own: &&[String; 5]| {
@@ -86,15 +86,10 @@ fn results() -> String {
             format!("{}–{}", short(least, &unit), short(most, &unit))
         };
         let result = says.replace("{}", format!("{range} {unit}").trim());
-        let (held, all) = gates(&metrics);
-        lines.push(format!("| `{case}` | {result} | {held}/{all} |"));
+        lines.push(format!("| `{case}` | {result} |"));
     }
-    let studies: Vec<(usize, usize)> = REGISTRY.studies().map(|study| gates(&baseline(study.name()))).collect();
-    let (held, all) = studies.iter().fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
-    lines.push(format!(
-        "| {} studies | flows with known solutions ([list](docs/src/cases.md)) | {held}/{all} |",
-        studies.len()
-    ));
+    let studies = REGISTRY.studies().count();
+    lines.push(format!("| {studies} studies | flows with known solutions ([list](docs/src/cases.md)) |"));
     lines.join("\n")
 }
 
@@ -107,13 +102,15 @@ fn results_are_those_of_the_baseline() {
     assert_eq!(ROWS.map(|row| row.case).to_vec(), names);
 }
 
+/// The kinds are compared with a report by the tests in a browser.
 #[test]
 fn counts_of_gates_are_those_of_the_baseline() {
     let readme = std::fs::read_to_string(workspace().join("README.md")).expect("README.md");
     let cases = REGISTRY.cases().map(|case| case.name()).chain(REGISTRY.studies().map(|study| study.name()));
     let (held, all) = cases.map(|case| gates(&baseline(case))).fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1));
-    let sentence = format!("Of {all} gates, {} fail", all - held);
-    assert!(readme.contains(&sentence), "README.md needs the sentence: {sentence}");
+    let row = readme.lines().find_map(|line| line.strip_prefix(&format!("| all {all} |"))).expect("a row of all gates");
+    let numbers: Vec<usize> = row.split('|').filter_map(|cell| cell.trim().parse().ok()).collect();
+    assert_eq!((numbers[0] + numbers[1], numbers[2]), (held, all - held), "{row}");
 }
 
 #[test]
