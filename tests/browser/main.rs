@@ -182,7 +182,8 @@ async fn readme_page_and_numbers_have_one_tally() {
     let readme = read(std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../README.md")));
     let browser = Browser::open(1280, 720).await;
     browser.client.goto(&address(&folder().join("index.html"))).await.expect("the overview");
-    let cards = list(&browser.ask("return [...document.querySelectorAll('.count')].map((own) => own.textContent)").await);
+    let cards =
+        list(&browser.ask("return [...document.querySelectorAll('.count')].map((own) => own.textContent)").await);
     for (kind, counts) in numbers["gates"].as_object().expect("kinds") {
         let of = |word: &str| counts[word].as_u64().expect("a number");
         let words = ["pass", "inconclusive", "expected failure"].map(of);
