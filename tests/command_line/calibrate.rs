@@ -20,13 +20,13 @@ scale = "log"
 
 [[fit]]
 case = "film"
-with = { resolution = 10, jitter = 0.0 }
+with = { resolution = 10, jitter = 0.0, columns = 4 }
 data = [{ table = "profile-fluid-newtonian-particles-jittered-resolution-10", x = "y [m]", y = "u [m/s]", file = "mine.csv" }]
 
 [[hold_out]]
 case = "film"
 conditions = ["slope_angle"]
-with = { resolution = 10, jitter = 0.0, slope_angle = 12.0 }
+with = { resolution = 10, jitter = 0.0, columns = 4, slope_angle = 12.0 }
 data = [{ metric = "particles_lost", value = 0.0, unit = "-", uncertainty = 1.0, source = "own" }]
 "#;
 
@@ -120,14 +120,14 @@ fn dear_corners_of_a_box_are_announced() {
 }
 
 #[test]
-fn own_data_give_parameters_a_page_and_a_case_to_run() {
+fn own_data_give_parameters_a_page_a_case_to_run_and_the_same_after_kills() {
     let (place, plan) = place();
-    let done = place.bagnold(&["-q", "calibrate", &plan, "--out", "out"]).assert().code(0);
+    let done = place.bagnold(&["-q", "calibrate", &plan, "--out", "whole"]).assert().code(0);
     let printed = String::from_utf8_lossy(&done.get_output().stdout).into_owned();
     assert!(printed.starts_with("viscosity = 0.5"), "{printed}");
     assert!(printed.contains("\nevaluations: ") && printed.contains(" for intervals; simulations: "), "{printed}");
     assert!(printed.contains("fit error: ") && printed.contains("held-out error: 0 σ over 1 data"), "{printed}");
-    let text = std::fs::read_to_string(place.path("out/result.json")).expect("written");
+    let text = std::fs::read_to_string(place.path("whole/result.json")).expect("written");
     let result: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let best = result["parameters"][0]["best"].as_f64().expect("a number");
     let [low, high] = [0, 1].map(|k| result["parameters"][0]["interval"][k].as_f64().expect("a number"));
@@ -140,15 +140,10 @@ fn own_data_give_parameters_a_page_and_a_case_to_run() {
     );
     assert_one_point(&result);
     for name in ["index.html", "data.csv", "evaluations.csv", "figures/profiles.svg", "figures/fit.png"] {
-        assert!(place.path("out").join(name).is_file(), "{name}");
+        assert!(place.path("whole").join(name).is_file(), "{name}");
     }
-    place.bagnold(&["-q", "run", "out/calibrated.toml", "--out", "again"]).assert().code(0);
-}
-
-#[test]
-fn a_calibration_that_was_killed_gives_the_same_result_and_repeats_nothing() {
-    let (place, plan) = place();
-    place.bagnold(&["-q", "calibrate", &plan, "--out", "whole"]).assert().code(0);
+    place.bagnold(&["-q", "run", "whole/calibrated.toml", "--out", "again"]).assert().code(0);
+    // nothing of a killed one is done again
     assert_eq!(kill_and_resume(&place, "calibrate", &plan, evaluations), 0);
     let points = |folder: &str| evaluations(&place.path(folder)).into_keys().collect::<Vec<_>>();
     assert_eq!(points("whole"), points("killed"), "other points were asked for");
@@ -213,7 +208,7 @@ fn validation_data_must_differ_in_physics() {
     };
     assert_eq!(plan("slope_angle = 10.000001"), same("10.000001"));
     assert_eq!(
-        refusal(|text| text.replace("10, jitter = 0.0, slope_angle = 12.0", "12, jitter = 0.0"), str::to_owned),
+        refusal(|text| text.replace("10, jitter = 0.0, columns = 4, slope_angle = 12.0", "12, jitter = 0.0, columns = 4"), str::to_owned),
         same("10")
     );
     assert_eq!(

@@ -1,7 +1,6 @@
 //! Files that a run and a report write, without loss.
 
 use crate::command_line::program::{CHEAP, Place, document, path};
-use bagnold_harness::store::{Store, StorePolicy};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -123,13 +122,7 @@ fn a_killed_run_leaves_the_old_results_and_the_next_one_cleans_up() {
 #[test]
 fn a_report_has_the_verdicts_and_is_self_contained() {
     let place = Place::new();
-    // the usual store: what the physics tests have simulated is not simulated again
-    let store = Store::open(StorePolicy::Use).root().canonicalize();
-    let mut command = place.bagnold(&["report", "--cases", "film", "--out", "report"]);
-    if let Ok(store) = store {
-        command.env("BAGNOLD_STORE", store);
-    }
-    let finished = command.assert();
+    let finished = place.sharing(&["report", "--cases", "film", "--out", "report"]).assert();
     let code = finished.get_output().status.code();
     assert!(matches!(code, Some(0 | 1)), "{finished}");
     let page = std::fs::read_to_string(place.path("report/index.html")).expect("a page");

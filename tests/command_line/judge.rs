@@ -37,9 +37,9 @@ fn read(place: &Place, file: &str) -> Value {
 fn our_own_files_have_the_numbers_of_our_own_run() {
     let place = Place::new();
     // the aspect ratio has an ensemble of seeds, which carry further keys: they are the same column
-    place.bagnold(COLUMN).assert().code(0);
+    place.sharing(COLUMN).assert().code(0);
     place.file("mine.toml", OUR_FILES);
-    place.bagnold(&["judge", "mine.toml", "--out", "judged", "--junit", "judged.xml", "--quiet"]).assert().code(0);
+    place.sharing(&["judge", "mine.toml", "--out", "judged", "--junit", "judged.xml", "--quiet"]).assert().code(0);
     let metrics = read(&place, "judged/metrics.json")["codes"][0]["metrics"].as_array().expect("metrics").clone();
     let of = |name: &str, key: &str| {
         let own = |metric: &&Value| {
@@ -67,7 +67,7 @@ fn a_code_that_is_wrong_fails_and_a_number_that_is_missing_does_not_pass() {
     let template = String::from_utf8_lossy(&template.get_output().stdout).into_owned();
     let name = template.lines().find_map(|line| line.strip_prefix("# ")?.split_once(" = 0.0")).expect("a metric").0;
     place.file("wrong.toml", &format!("{text}{name} = 1e9\n"));
-    place.bagnold(&["judge", "wrong.toml", "--out", "judged", "--quiet"]).assert().code(1);
+    place.sharing(&["judge", "wrong.toml", "--out", "judged", "--quiet"]).assert().code(1);
     let codes = read(&place, "judged/metrics.json")["codes"][0].clone();
     assert_eq!(codes["tally"]["new failure"], 1, "{codes}");
     assert!(codes["tally"]["not judged"].as_u64() > Some(0), "{codes}");
@@ -226,7 +226,7 @@ fn foreign(name: &str) -> String {
 fn two_codes_that_are_not_ours_are_judged_from_their_files() {
     let place = Place::new();
     let layer = foreign("layer/bagnold.toml");
-    place.bagnold(&["judge", &layer, "--out", "layer", "--quiet"]).assert().code(0);
+    place.sharing(&["judge", &layer, "--out", "layer", "--quiet"]).assert().code(0);
     let code = read(&place, "layer/metrics.json")["codes"][0].clone();
     let value = |name: &str| {
         let metrics = code["metrics"].as_array().expect("metrics");
@@ -240,7 +240,7 @@ fn two_codes_that_are_not_ours_are_judged_from_their_files() {
 
     let column = foreign("mpm/column-planar.toml");
     // its height at a = 3 misses the law: a foreign code may fail
-    let judged = place.bagnold(&["judge", &column, "--out", "column", "--quiet"]).assert().code(1);
+    let judged = place.sharing(&["judge", &column, "--out", "column", "--quiet"]).assert().code(1);
     let said = String::from_utf8_lossy(&judged.get_output().stdout).into_owned();
     assert!(said.contains("; not judged: front, kinetic_energy, rest_time\n"), "{said}");
     let code = read(&place, "column/metrics.json")["codes"][0].clone();

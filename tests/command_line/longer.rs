@@ -49,7 +49,8 @@ fn a_longer_run_continues_a_finished_one_bit_for_bit() {
     for (name, duration) in [("fed-slope.toml", 0.04), ("gate.toml", 0.03), ("funnel.toml", 0.01)] {
         let lasting = |times: f64| {
             let settings = [format!("duration={}", times * duration), format!("interval={}", duration / 10.0)];
-            set(&example(name), &[&settings[0], &settings[1], "measured=[]", "pictures=2"])
+            let coarse = if name == "funnel.toml" { &["spacing=0.012"][..] } else { &[] };
+            set(&example(name), &[&[&settings[0], &settings[1], "measured=[]", "pictures=2"], coarse].concat())
         };
         let place = Place::new();
         outcome(&place, &lasting(1.0));

@@ -19,7 +19,7 @@ mod nonlocal;
 mod overlay;
 mod own_crate;
 mod permission;
-mod program;
+pub(crate) mod program;
 mod published;
 mod restart;
 mod scene;

@@ -3,6 +3,7 @@
 use assert_cmd::Command;
 use assert_cmd::assert::Assert;
 use bagnold_harness::result::MetricsDocument;
+use bagnold_harness::store::{Store, StorePolicy};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
@@ -20,6 +21,12 @@ pub(crate) fn path() -> PathBuf {
         program.display()
     );
     program
+}
+
+/// The store that reports and the tests of physics use.
+pub(crate) fn usual_store() -> PathBuf {
+    let store = Store::open(StorePolicy::Use).root().to_owned();
+    std::fs::create_dir_all(&store).and_then(|()| store.canonicalize()).expect("a store")
 }
 
 /// A new folder in which the program runs, and where its results and its store are.
@@ -55,6 +62,13 @@ impl Place {
     pub(crate) fn bagnold(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(path());
         command.current_dir(self.folder.path()).env("BAGNOLD_STORE", self.path("store")).args(arguments);
+        command
+    }
+
+    /// The program with the usual store: what a report or another test has simulated is not simulated again.
+    pub(crate) fn sharing(&self, arguments: &[&str]) -> Command {
+        let mut command = self.bagnold(arguments);
+        command.env("BAGNOLD_STORE", usual_store());
         command
     }
 

@@ -21,7 +21,10 @@ fn every_shipped_scene_runs_and_closes_its_balances() {
         let path = file.display().to_string();
         // a few steps; what is measured later cannot be compared with them
         let short = ["--set", "duration=0.03", "--set", "interval=0.006", "--set", "measured=[]", "--quiet"];
-        let finished = place.run(&[&[path.as_str()][..], &short].concat()).code(0);
+        // hoppers differ by an angle: one of them is run as finely as it is shipped
+        let is_another = ["hopper-48.toml", "hopper-64.toml"].iter().any(|name| file.ends_with(name));
+        let coarse: &[&str] = if is_another { &["--set", "spacing=0.006"] } else { &[] };
+        let finished = place.run(&[&[path.as_str()][..], &short, coarse].concat()).code(0);
         let told = String::from_utf8_lossy(&finished.get_output().stdout).into_owned();
         let force =
             "no interval for `depth` of before-the-obstacle, `mass_crossed` of overflow, `mean_force` of impact: vary";

@@ -3,6 +3,7 @@
 mod league;
 mod reference;
 
+use crate::command_line::program::usual_store;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -47,7 +48,7 @@ fn program() -> PathBuf {
     folder.join(format!("bagnold{}", std::env::consts::EXE_SUFFIX))
 }
 
-/// Writes the files of a page and does its commands, in order, in a folder of its own; pages share what they have simulated.
+/// Writes the files of a page and does its commands, in order, in a folder of its own.
 fn follow(page: &Path, store: &Path) -> usize {
     let text = std::fs::read_to_string(page).expect("readable");
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -85,8 +86,8 @@ fn follow(page: &Path, store: &Path) -> usize {
 
 #[test]
 fn the_commands_of_every_tutorial_work() {
-    let store = tempfile::tempdir().expect("a temporary folder");
-    let done: usize = pages().iter().map(|page| follow(page, store.path())).sum();
+    let store = usual_store();
+    let done: usize = pages().iter().map(|page| follow(page, &store)).sum();
     assert!(done >= 12, "{done} commands");
 }
 

@@ -119,7 +119,9 @@ fn a_mesh_is_read_or_refused() {
 fn a_sweep_plan_is_read_or_refused() {
     let folder = tempfile::tempdir().expect("temporary folder");
     let path = folder.path().join("plan.toml");
-    let mut plans = texts("validation/sweeps", "toml");
+    // sixteen runs in place of four hundred
+    let fewer = |plan: Vec<u8>| String::from_utf8(plan).expect("text").replace("levels = 20", "levels = 4");
+    let mut plans: Vec<String> = texts("validation/sweeps", "toml").into_iter().map(fewer).collect();
     let grid = "design = \"grid\"\n[[cases]]\ncase = \"film\"\nwith = { resolution = 10 }\n[[vary]]\npath = \"slope_angle\"\n\
                 lower = 1.0\nupper = 20.0\nlevels = 3\n";
     plans.push(grid.into());

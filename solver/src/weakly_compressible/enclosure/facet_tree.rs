@@ -296,7 +296,7 @@ mod tests {
 
     #[test]
     fn around_a_fan_of_slivers_few_are_looked_at() {
-        let (count, range) = (20_000_u32, 0.12);
+        let (count, range) = (2_000_u32, 0.12);
         let at = |k: u32| {
             let angle = f64::from(k % count) * std::f64::consts::TAU / f64::from(count);
             Vector::<3>::new(libm::cos(angle), libm::sin(angle), 0.1)
@@ -310,6 +310,6 @@ mod tests {
             let found = tree.side_within(&fan, &place, range, |number| looked_at += number);
             assert!(found.is_some_and(|side| (side.distance + 0.05 / 1.01_f64.sqrt()).abs() < 1e-6), "{found:?}");
         }
-        assert!(looked_at < 50 * 300, "{looked_at} of {count} slivers for 50 places");
+        assert!(looked_at < 50 * 60, "{looked_at} of {count} slivers for 50 places");
     }
 }

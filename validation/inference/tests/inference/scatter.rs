@@ -83,13 +83,22 @@ fn held(variance: f64, runs: Repeatability) -> [usize; 3] {
 
 #[test]
 fn regions_of_a_model_that_scatters_hold_the_truth() {
-    for variance in [0.3, 1.0] {
-        let held = held(variance, Repeatability::Scattering);
-        assert!(held.iter().all(|count| *count >= 13), "{variance}: {held:?}");
-    }
+    let held = held(1.0, Repeatability::Scattering);
+    assert!(held.iter().all(|count| *count >= 13), "{held:?}");
 }
 
 #[test]
 fn as_if_it_did_not_scatter_they_would_not() {
     assert!(held(1.0, Repeatability::Smooth).iter().any(|count| *count < 13));
+}
+
+mod long {
+    use super::*;
+
+    #[test]
+    #[ignore = "long: bash tests/long.sh"]
+    fn regions_of_a_model_that_scatters_less_hold_the_truth() {
+        let held = held(0.3, Repeatability::Scattering);
+        assert!(held.iter().all(|count| *count >= 13), "{held:?}");
+    }
 }

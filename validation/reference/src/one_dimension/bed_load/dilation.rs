@@ -48,17 +48,8 @@ pub(super) fn share(below: f64, looseness: f64, carried: f64) -> f64 {
     let is_below = |x: f64| x * (root(x) + looseness) < root(x);
     let (mut low, mut high, mut halvings) = (0.0, 1.0, HALVINGS);
     // Newton's steps lead to an interval that so many halvings would have led to, if it holds the root; else it is sought anew
-    let mut x: f64 = 0.5;
-    for _ in 0..NEWTON_STEPS {
-        let root = root(x);
-        let step = (root - x * (root + looseness)) / (root + looseness + (1.0 - x) * 0.5 * carried / root);
-        x = (x + step).clamp(0.0, 1.0);
-        if step.abs() < NARROW {
-            break;
-        }
-    }
-    let lower = (x / NARROW).floor() * NARROW;
-    if lower > 0.0 && lower + NARROW < 1.0 && is_below(lower) && !is_below(lower + NARROW) {
+    let lower = (newton(below, looseness, carried) / NARROW).floor().min(1.0 / NARROW - 1.0) * NARROW;
+    if (lower == 0.0 || is_below(lower)) && (lower + NARROW == 1.0 || !is_below(lower + NARROW)) {
         (low, high, halvings) = (lower, lower + NARROW, HALVINGS - NARROWED);
     }
     for _ in 0..halvings {
@@ -72,6 +63,22 @@ pub(super) fn share(below: f64, looseness: f64, carried: f64) -> f64 {
     0.5 * (low + high)
 }
 
+/// x by Newton's steps of r: r² + c r/(r + a) rises to p, steeply where little is left.
+fn newton(below: f64, looseness: f64, carried: f64) -> f64 {
+    let part = below / carried;
+    let most = below.max(0.0).sqrt();
+    let mut r = if part < 1.0 { looseness * part / (1.0 - part) } else { (below - carried).sqrt() }.min(most);
+    for _ in 0..NEWTON_STEPS {
+        let sum = r + looseness;
+        let step = (below - r * r - carried * r / sum) / (2.0 * r + carried * looseness / (sum * sum));
+        r = (r + step).clamp(0.0, most);
+        if step.abs() < NARROW * r {
+            break;
+        }
+    }
+    r / (r + looseness)
+}
+
 /// Halvings of [0, 1] that exhaust the digits.
 const HALVINGS: usize = 56;
 
@@ -79,8 +86,8 @@ const HALVINGS: usize = 56;
 const NARROW: f64 = 1.0 / (1_u64 << NARROWED) as f64;
 const NARROWED: usize = 46;
 
-/// Largest number of Newton's steps; five are usual.
-const NEWTON_STEPS: usize = 8;
+/// Largest number of Newton's steps; four are usual.
+const NEWTON_STEPS: usize = 12;
 
 #[cfg(test)]
 mod tests {
