@@ -3,4 +3,4 @@
 # book have commands of their own.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-cargo test --no-fail-fast -- --ignored long::
+cargo test --tests --no-fail-fast -- --ignored long::
