@@ -208,7 +208,10 @@ fn validation_data_must_differ_in_physics() {
     };
     assert_eq!(plan("slope_angle = 10.000001"), same("10.000001"));
     assert_eq!(
-        refusal(|text| text.replace("10, jitter = 0.0, columns = 4, slope_angle = 12.0", "12, jitter = 0.0, columns = 4"), str::to_owned),
+        refusal(
+            |text| text.replace("10, jitter = 0.0, columns = 4, slope_angle = 12.0", "12, jitter = 0.0, columns = 4"),
+            str::to_owned
+        ),
         same("10")
     );
     assert_eq!(

@@ -108,11 +108,13 @@ fn a_copied_program_starts_whatever_is_started_meanwhile() {
                 }
             });
         }
-        for copy in 0..4 {
+        let started = (0..4).map(|copy| {
             let program = copied(&place, &format!("program-{copy}"));
-            let output = Command::new(program).arg("--version").output().expect("started");
-            assert!(output.status.success());
-        }
+            Command::new(program).arg("--version").output()
+        });
+        let started: Vec<_> = started.collect();
+        // before the test can fail: the other threads would go on
         done.store(true, std::sync::atomic::Ordering::Relaxed);
+        assert!(started.into_iter().all(|output| output.expect("started").status.success()));
     });
 }

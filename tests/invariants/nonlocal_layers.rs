@@ -240,7 +240,7 @@ fn a_layer_in_space_stops_where_the_model_says() {
 
 #[test]
 fn a_steady_flow_in_space_has_the_profile_of_the_model() {
-    let error = on_one_thread(|| profile_error::<3>(3.0, 16, 0.15));
+    let error = on_one_thread(|| profile_error::<3>(3.0, 20, 0.15));
     println!("L2 at 3 h_stop: {:.2} %; 2-D flows are gated by the case flow-thickness", 100.0 * error);
     assert!(error < 0.01, "{error}");
 }
