@@ -63,18 +63,13 @@ pub(super) fn share(below: f64, looseness: f64, carried: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// x by Newton's steps of r: r² + c r/(r + a) rises to p, steeply where little is left.
+/// x by Newton's steps of r from √p: r² + c r/(r + a) rises to p.
 fn newton(below: f64, looseness: f64, carried: f64) -> f64 {
-    let part = below / carried;
-    let most = below.max(0.0).sqrt();
-    let mut r = if part < 1.0 { looseness * part / (1.0 - part) } else { (below - carried).sqrt() }.min(most);
+    let mut r = below.max(0.0).sqrt();
     for _ in 0..NEWTON_STEPS {
         let sum = r + looseness;
         let step = (below - r * r - carried * r / sum) / (2.0 * r + carried * looseness / (sum * sum));
-        r = (r + step).clamp(0.0, most);
-        if step.abs() < NARROW * r {
-            break;
-        }
+        r = (r + step).max(0.0);
     }
     r / (r + looseness)
 }
@@ -86,8 +81,8 @@ const HALVINGS: usize = 56;
 const NARROW: f64 = 1.0 / (1_u64 << NARROWED) as f64;
 const NARROWED: usize = 46;
 
-/// Largest number of Newton's steps; four are usual.
-const NEWTON_STEPS: usize = 12;
+/// Number of Newton's steps; five are usual.
+const NEWTON_STEPS: usize = 8;
 
 #[cfg(test)]
 mod tests {
