@@ -20,4 +20,4 @@ mod readme;
 mod references;
 mod simulations;
 mod source;
-mod words;
+pub(crate) mod words;

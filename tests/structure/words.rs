@@ -1,6 +1,7 @@
 //! Wording of documents, doc comments and messages: lengths of sentences and lines, banned words, first words.
 
 use crate::structure::source::workspace;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Words that open a question `[-]`.
@@ -13,6 +14,11 @@ const LONGEST_SENTENCE: usize = 35;
 const LONGEST_LINE: usize = 100;
 /// Words of a message at most.
 const LONGEST_MESSAGE: usize = 30;
+/// Words of a reason of a gate at most, and in the mean of all reasons.
+pub(crate) const LONGEST_REASON: usize = 20;
+const MEAN_REASON: f64 = 14.0;
+/// Begins the reason of a gate in the code of a case.
+const REASONS: [&str; 5] = [".gated(", ".gated_by(", "reason = ", "reason) = ", "REASON: &str ="];
 /// Documents and their largest number of words; a folder stands for all its documents but generated ones.
 const LENGTHS: [(&str, usize); 4] =
     [("README.md", 1_000), ("ARCHITECTURE.md", 2_200), ("CHANGELOG.md", 700), ("docs/src", 18_000)];
@@ -97,7 +103,7 @@ fn sentences_of_documents_are_short() {
     let mut long = Vec::new();
     for path in documents() {
         for (line, sentence) in sentences(&text(&path)) {
-            let words = sentence.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count();
+            let words = words(&sentence);
             if words > LONGEST_SENTENCE {
                 long.push(format!("{}: {words} words: {sentence}", place(&path, line)));
             }
@@ -196,6 +202,54 @@ fn messages_are_short() {
         }
     }
     assert_none(&long);
+}
+
+/// Number of words of a text, symbols left out.
+pub(crate) fn words(text: &str) -> usize {
+    text.split_whitespace().filter(|word| word.contains(char::is_alphanumeric)).count()
+}
+
+/// Texts of an argument list or a statement of which the code begins with the rest.
+fn texts(code: &str) -> Vec<String> {
+    let (mut depth, mut is_text, mut found) = (0, false, Vec::<String>::new());
+    for letter in code.chars() {
+        match letter {
+            '"' if is_text => is_text = false,
+            letter if is_text => found.last_mut().expect("its begin").push(letter),
+            '"' => {
+                is_text = true;
+                found.push(String::new());
+            }
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' if depth == 0 => break,
+            ')' | ']' | '}' => depth -= 1,
+            ';' if depth == 0 => break,
+            _ => {}
+        }
+    }
+    found
+}
+
+#[test]
+fn reasons_of_gates_are_short() {
+    let code = ["cases/src", "scenes/src"].iter().flat_map(|folder| files(&format!("validation/{folder}"), "rs"));
+    let judging = code.filter(|path| path.iter().any(|part| part == "metrics" || part == "metrics.rs"));
+    let mut reasons = BTreeSet::new();
+    for path in judging {
+        let code = text(&path);
+        let begins = REASONS.iter().flat_map(|begin| code.match_indices(begin).map(|(at, _)| at + begin.len()));
+        reasons.extend(begins.flat_map(|at| texts(&code[at..])).filter(|reason| words(reason) > 2));
+    }
+    for study in files("validation/studies", "toml") {
+        let study = text(&study);
+        let stated = study.lines().filter_map(|line| line.strip_prefix("reason = "));
+        reasons.extend(stated.map(|reason| reason.trim_matches('"').to_owned()));
+    }
+    assert!(reasons.len() > 150, "{} reasons were found", reasons.len());
+    let mean = reasons.iter().map(|reason| words(reason)).sum::<usize>() as f64 / reasons.len() as f64;
+    assert!(mean <= MEAN_REASON, "{mean:.1} words in the mean of {} reasons", reasons.len());
+    let long = reasons.into_iter().filter(|reason| words(reason) > LONGEST_REASON);
+    assert_none(&long.collect::<Vec<_>>());
 }
 
 #[test]

@@ -104,7 +104,7 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
                 .exactly(0.0, "an exact solve leaves nothing")
                 .gated(
                     Limit::AtMost(MOST_UNSOLVED),
-                    "half a per cent, as of the energy ledger; a smaller `viscous_tolerance` leaves less",
+                    "0.5 %, as for the energy ledger; a smaller `viscous_tolerance` leaves less",
                 )
                 .with_snapshot_tolerance(1.0, 1e-3),
         );
@@ -194,15 +194,14 @@ fn of_run<S: Dimension<D>, const D: usize>((parameters, record): &SceneRecord<S,
 /// The balances of a run in which something can be missing; `has_mirror` tells of planes of symmetry, which are no walls.
 fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_mirror: bool) -> Vec<Metric> {
     let mass = data.whole_mass();
-    let closed = "what is booked particle by particle adds up to the rounding of single precision, over as many steps as a scene lasts: 1e-7 % \
-                  after thousands of them";
+    let closed = "2e-5 %: single-precision rounding over all steps; thousands of steps leave 1e-7 %";
     let mut metrics = vec![
         MASS_RESIDUAL
             .of(variant, 100.0 * data.missing_mass / mass)
             .exactly(0.0, "no particle is lost: it is inside, or has left by an open side")
             .gated(
                 Limit::AtMost(1e-10),
-                "rounding of a sum over all particles, of which a scene may have millions; of thousands it is 1e-14",
+                "1e-10 %: rounding of a sum over up to millions of particles; thousands leave 1e-14 of the mass",
             )
             .with_snapshot_tolerance(1.0, 1e-9),
         MOMENTUM_RESIDUAL
@@ -213,7 +212,7 @@ fn balances<const D: usize>(variant: &Variant, data: &SceneObservation<D>, has_m
         THROUGH_WALLS
             .of(variant, data.behind as f64)
             .exactly(0.0, "walls hold")
-            .gated(Limit::AtMost(0.0), "a particle that has passed a wall is a divergence; none may be left behind one")
+            .gated(Limit::AtMost(0.0), "walls are impermeable: a particle left behind one makes the run invalid")
             .with_snapshot_tolerance(0.0, 0.0),
         MASS_LEFT
             .of(variant, 100.0 * data.left.iter().map(|side| side.mass).sum::<f64>() / mass)
@@ -245,10 +244,7 @@ fn feeds<S: Dimension<D>, const D: usize>(
             FEED_ERROR
                 .of(&own, fed.farthest)
                 .exactly(0.0, "the integral of the rate; material comes in row by row")
-                .gated(
-                    Limit::AtMost(FARTHEST),
-                    "half a row, and what rows move in a step at a fifth of the speed of sound",
-                )
+                .gated(Limit::AtMost(FARTHEST), "0.7 rows: half a row, and the rows' motion in one step at 0.2 c")
                 .with_snapshot_tolerance(0.5, 0.1),
         ]
     };
@@ -326,7 +322,7 @@ fn errors(variant: &Variant, time: &[f64], series: &[f64], measured: &[&Measured
             .of(variant, 100.0 * error)
             .remarked((compared < all).then(left_out))
             .against(Some(0.0), &measured.source, Confidence::Medium)
-            .gated_by(limit, "the limit that the scene's file gives")
+            .gated_by(limit, "limit stated in the scene's file")
             .with_snapshot_tolerance(0.1, 1.0)
     };
     measured.iter().map(error).collect()

@@ -42,7 +42,7 @@ const STUDIED_ABOVE: f64 = -0.01;
 
 const MODEL: &str = "the layer's own equations";
 
-const SCATTER: &str = "the scatter of the formula's own data";
+const SCATTER: &str = "scatter of the data that the formula is fitted to";
 
 /// Largest difference between the steady states from two starts `[-]`.
 const ONE_STATE: f64 = 1e-6;
@@ -134,7 +134,7 @@ fn one_state(variant: &Variant, difference: f64, source: &str) -> Metric {
         .exactly(0.0, source)
         .gated(
             Limit::AtMost(ONE_STATE),
-            "a steady state does not remember its start: what is left is how near to steady both are, at most 8e-8 of all layers",
+            "two starts reach one steady state; distance from steadiness leaves at most 8e-8",
         )
         .with_snapshot_tolerance(1.0, 0.1 * ONE_STATE)
 }
@@ -150,7 +150,7 @@ fn over_formula(variant: &Variant, run: &BedLoad1dFlow, state: &LayerState, reas
 
 /// Transport against the formula and against measured runs.
 fn transport(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) {
-    let reason = "nine tenths of measured rates lie so about the formula; what the closures leave open stands beside";
+    let reason = "90 % of measured rates lie inside; the closures' uncertainty is listed separately";
     let ratio = over_formula(&run.variant(), run, state, reason);
     metrics.extend(ratio.map(|ratio| ratio.with_snapshot_tolerance(1e-3, 0.0)));
     if is_bed_load(run) {
@@ -195,7 +195,7 @@ fn balances(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) 
                 .exactly(0.0, identity)
                 .gated(
                     Limit::AtMost(largest),
-                    "exact in a steady state for any closure; a smaller `steady_change` brings it down",
+                    "exact in a steady state for any closure; a smaller `steady_change` reduces it",
                 )
                 .with_snapshot_tolerance(1.0, 0.1 * largest),
         );
@@ -226,7 +226,7 @@ fn order(records: &[BedLoad1dRecord], run: &BedLoad1dFlow, motion: BedMotion) ->
     let metric = OBSERVED_ORDER
         .of(&variant, libm::log2(coarse / fine))
         .exactly(2.0, MODEL)
-        .gated(Limit::AtLeast(least), "second order with a given fraction, at least first with dilation")
+        .gated(Limit::AtLeast(least), "second order with a given solid fraction, at least first order with dilation")
         .with_snapshot_tolerance(0.02, 0.0);
     Some(metric)
 }
@@ -280,7 +280,7 @@ fn profiles(metrics: &mut Vec<Metric>, run: &BedLoad1dFlow, state: &LayerState) 
                     "statement of the bed-load paper: concave above the bed's level (−), convex below (+)",
                     Confidence::Medium,
                 )
-                .gated_by(is_bed_load(run).then_some(limit), "the sign is what the paper states")
+                .gated_by(is_bed_load(run).then_some(limit), "the paper states only the sign")
                 .with_snapshot_tolerance(0.01, 0.0),
         );
     }
@@ -333,7 +333,7 @@ fn with_slope(metrics: &mut Vec<Metric>, mut layers: Vec<SolvedLayer<'_>>) {
             quantity
                 .of(&variant, value)
                 .against(None, statement, Confidence::Medium)
-                .gated(Limit::AtLeast(1.05), "grows from each slope to the next; 5 % is above any error of the cells")
+                .gated(Limit::AtLeast(1.05), "5 % growth from each slope to the next, more than the error of the cells")
                 .with_snapshot_tolerance(0.01, 0.0),
         );
     }

@@ -63,7 +63,7 @@ fn beside_measured(
         )
         .gated(
             Limit::Within(lower / band.median, upper / band.median),
-            "nine tenths of the measured thresholds of grains within a factor of two in size lie there, whatever their authors took for motion",
+            "90 % of the thresholds measured with grains within a factor of two in size, under any definition of motion",
         )
         .with_snapshot_tolerance(0.01, 0.0);
     Some(metric)

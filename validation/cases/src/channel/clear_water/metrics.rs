@@ -48,7 +48,7 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
         metrics.push(
             since
                 .against(None, source, Confidence::Exact)
-                .gated(limit, "averages are those of a stationary flow, or the criterion is not met")
+                .gated(limit, "averages require a stationary flow, which this criterion reports")
                 .with_snapshot_tolerance(0.0, law.adjustment_time()),
         );
     }
@@ -67,7 +67,7 @@ pub(super) fn of_run((run, record): &ClearWaterRecord) -> Vec<Metric> {
     metrics.extend([
         known(observed(VELOCITY_RMS, data.profile.estimate(|points| rms(&law, points)), 1.0), MOVED.rms)
             .exactly(0.0, "logarithmic law, over 0.1 h … 0.9 h")
-            .gated_by(judged(Limit::AtMost(0.25)), "a quarter of u_*, 2 % of the depth mean"),
+            .gated_by(judged(Limit::AtMost(0.25)), "0.25 u_*, 2 % of the depth mean"),
         known(observed(SEMI_LOG_SLOPE, data.profile.estimate(|points| slope(&law, points)), 1.0), MOVED.slope)
             .exactly(1.0, "u_*/κ, fitted to u over ln z′ in 0.1 h … 0.9 h")
             .gated_by(judged(Limit::Within(0.97, 1.03)), "3 % of the slope of the logarithmic law"),

@@ -36,17 +36,9 @@ fn stabilised((run, record): &StillWaterRecord) -> Vec<Metric> {
     let velocity = floored(channel::observed(RMS_VERTICAL_VELOCITY, &variant, rms, 1.0), 1e-5).exactly(0.0, "rest");
     let short = run.duration < AT_REST_AFTER;
     let (pressure, reason) = match (short, run.water.resolution) {
-        (true, 23) => {
-            (0.35, "0.35 % of the hydrostatic profile: columns of 23 rows whose start dies away have 0.19 and 0.27 %")
-        }
-        (true, _) => (
-            0.5,
-            "0.5 % of the hydrostatic profile: columns whose start dies away have 0.19 to 0.40 %, by jitter and number of rows",
-        ),
-        _ => (
-            0.7,
-            "0.7 % of the hydrostatic profile, averaged over the last window: columns at rest have 0.41 to 0.54 %",
-        ),
+        (true, 23) => (0.35, "0.35 % of the hydrostatic profile; 23 rows have 0.19 and 0.27 % while the start decays"),
+        (true, _) => (0.5, "0.5 % of the hydrostatic profile; columns have 0.19 to 0.40 % while the start decays"),
+        _ => (0.7, "0.7 % of the hydrostatic profile over the last window; columns at rest have 0.41 to 0.54 %"),
     };
     let mut metrics = vec![
         channel::particles_lost(&variant, record),
@@ -74,7 +66,7 @@ fn blow_up((run, record): &StillWaterRecord) -> Metric {
     BLOW_UP_TIME
         .of(&run.variant(), time)
         .against(None, "a particle above 1.2 h or a divergence; the stabilised run has neither", Confidence::Exact)
-        .gated(Limit::AtMost(limit), "without stabilisation the column must blow up: shows that the test can fail")
+        .gated(Limit::AtMost(limit), "the column must blow up without stabilisation, so that the test can fail")
         // what sprays is chaotic
         .with_snapshot_tolerance(0.0, 0.5 * limit)
 }

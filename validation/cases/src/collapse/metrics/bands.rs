@@ -19,8 +19,8 @@ pub(super) fn band(expected: f64, tolerance: f64) -> Limit {
 
 /// How far the run-out of Lagrée's grains may lie from his own law `[-]`, and why.
 pub(crate) const SAME_LAW: f64 = 0.15;
-pub(crate) const SAME_LAW_REASON: &str = "the same material law solved by another method, within 15 %: its fit is printed with two \
-    digits, and its source tells no thickness at which the front is read";
+pub(crate) const SAME_LAW_REASON: &str =
+    "15 %: same law, other method; its fit has two digits, its front an unstated thickness";
 
 /// How far results may lie from an experiment's law that tells no scatter of its points, at most `[-]`.
 pub(crate) const WIDEST: f64 = 0.15;
@@ -55,12 +55,11 @@ pub(crate) fn run_out<const D: usize>(run: &ColumnFlow<D>, has_seeds: bool) -> A
     match (D, run.made_of()) {
         (3, Material::SAND) if run.is_resolved() => Some((
             around(law.value(a)?, WIDEST),
-            "within 15 % of Lube's law for round columns: it tells no scatter of its points, no second experiment is at hand, and 15 % is the \
-             widest band of planar columns",
+            "15 % about Lube's law, the widest planar band; neither scatter nor a second experiment is available",
         )),
         (2, Material::SAND) if run.resolution >= 20 => Some((
             around(law.value(a)?, apart(&PLANAR_COLLAPSE.run_out, a, run.spacing() / run.half_width)?),
-            "as far from Lube's law as Lajeunesse's lies, 15 % at most: neither tells how far its points lie from its law",
+            "distance of Lajeunesse's law from Lube's, 15 % at most; neither states the scatter of its points",
         )),
         // coarse columns scatter by 3 % from seed to seed
         (2, Material::LAGREE) if run.resolution >= 40 || (run.resolution >= 20 && !has_seeds) => {
@@ -76,17 +75,14 @@ pub(crate) fn height<const D: usize>(run: &ColumnFlow<D>) -> AcceptanceBand {
     let expected = law.value(a).filter(|_| run.has_published_law())?;
     let is_round = D == 3;
     let (tolerance, reason) = match (run.made_of(), a) {
-        (Material::SAND, ..=0.7) if !is_round => (0.03, "undisturbed within 3 % up to a = 0.7"),
+        (Material::SAND, ..=0.7) if !is_round => (0.03, "3 %: the top is undisturbed up to a = 0.7"),
         (Material::SAND, _) if !is_round => (
             apart(&PLANAR_COLLAPSE.height, a, run.spacing() / run.half_width)?,
-            "as far from Lube's law as Lajeunesse's lies, one spacing at least and 15 % at most: neither tells how far its points lie \
-             from its law",
+            "distance of Lajeunesse's law from Lube's, between one spacing and 15 %; neither states its points' scatter",
         ),
-        (Material::LAGREE, _) if run.is_resolved() => (
-            0.1,
-            "the same material law solved by another method, within 10 %: two rows of 20; three codes of this law differ by 1 % (standard \
-                 deviation) at a = 1 and by 13 % at a = 3",
-        ),
+        (Material::LAGREE, _) if run.is_resolved() => {
+            (0.1, "10 %, two rows of 20; three codes of this law scatter by 1 to 13 %")
+        }
         _ => return None,
     };
     Some((around(expected, tolerance), reason))

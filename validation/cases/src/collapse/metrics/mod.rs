@@ -125,7 +125,7 @@ pub(crate) fn conservation(
                 .exactly(0.0, "momentum against gravity and what bed, planes, gate and contacts gave, over M g t")
                 .gated(
                     Limit::AtMost(1e-7),
-                    "forces between grains cancel in pairs, up to the rounding of single precision, 6e-8 of a force, whose signs do not agree",
+                    "1e-7: forces cancel in pairs up to single-precision rounding, 6e-8 of a force of varying sign",
                 )
                 .with_snapshot_tolerance(0.0, 1e-10),
         );
@@ -158,8 +158,7 @@ pub(crate) fn at_rest(variant: &Variant, collapse: &Collapse, law: &Rheology, lo
         .with_snapshot_tolerance(0.02, 0.0)
         .gated_by(
             limit,
-            "from the time at which the front has covered 99 % of its way, for nothing rests while it flows, to the run's own longest \
-             time: a heap that creeps or trembles on does not reach rest",
+            "after the front's arrest (99 % of the run-out), before the run's longest time; creeping heaps do not rest",
         )
 }
 
@@ -228,7 +227,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             )
             .gated_by(
                 of_sand.then_some(Limit::Within(2.25, 3.6)),
-                "three sources say 2.5, 3 and 3.3 for grains; 10 % to either side for what each calls the stop",
+                "2.5, 3 and 3.3 from three sources, widened by 10 % for their definitions of the stop",
             ),
         at_rest(&variant, collapse, &run.material, run.duration * run.time_scale()),
         if friction > 0.0 {
@@ -236,17 +235,20 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
                 .exactly(steepest, "arctan μ_s, the steepest slope that can rest; line over 20–80 % of the front")
                 .gated(
                     flattest(run).map_or(Limit::AtMost(steepest), |flattest| Limit::Within(flattest, steepest)),
-                    "grains without cohesion rest on no slope steeper than their angle of friction; a planar heap of the sand is at least as \
-                     steep as one from the height to the front of Lajeunesse's laws, the longer of both experiments, less 15 %",
+                    "at most the friction angle; planar sand also at least the slope of Lajeunesse's laws less 15 %",
                 )
         } else {
             slope
         },
         observed(FLANK_R_SQUARED, collapse.flank_r_squared())
-            .against(Some(1.0), "statement of the collapse paper, of a = 2.75: the deposit is a cone in the end", Confidence::Medium)
+            .against(
+                Some(1.0),
+                "statement of the collapse paper, of a = 2.75: the deposit is a cone in the end",
+                Confidence::Medium,
+            )
             .gated_by(
                 (of_sand && CONES.contains(&a)).then_some(Limit::AtLeast(BENT_FLANK)),
-                "straighter than a flank whose lower half is half as steep as its upper one, of which a line explains 0.973",
+                "0.973: a flank whose lower half is half as steep as its upper half",
             ),
         HEIGHT_BY_TOP
             .of(&variant, 100.0 * (collapse.top / collapse.final_height() - 1.0))
@@ -254,7 +256,7 @@ fn of_column<const D: usize>(run: &ColumnFlow<D>, collapse: &Collapse) -> Vec<Me
             .with_snapshot_tolerance(0.01, 0.2)
             .gated_by(
                 (a <= 5.0).then_some(Limit::Within(-10.0, 10.0)),
-                "the project's aim: within 10 % up to a = 5, or particles stand above the heap",
+                "the project's aim: 10 % up to a = 5; particles standing above the heap exceed it",
             ),
     ];
     let (x96, x99) = collapse.quantiles;

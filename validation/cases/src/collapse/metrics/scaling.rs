@@ -30,12 +30,7 @@ fn within_reach(range: Limit, half_width: f64) -> Limit {
 type Family = (Material, f64, Option<Limit>, Option<Limit>);
 
 const FAMILIES: [Family; 3] = [
-    (
-        Material::SAND,
-        5.0,
-        Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)),
-        Some(Limit::Within(0.35, 0.45)),
-    ),
+    (Material::SAND, 5.0, Some(Limit::Within(2.0 / 3.0 - 0.05, 2.0 / 3.0 + 0.05)), Some(Limit::Within(0.35, 0.45))),
     (Material::LAGREE, 7.0, Some(Limit::Within(0.65, 0.75)), Some(Limit::Within(0.3, 0.45))),
     (Material { altered: Alteration::ReferenceInertia, value: 0.279, ..Material::SAND }, 5.0, None, None),
 ];
@@ -130,16 +125,13 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
             let published = "published exponents of tall planar columns: 2/3 to 0.7, height 0.33 to 0.4";
             let interval = "half width of the exponent's 95 % interval, from the scatter about the fit";
             metrics.extend([
-                observed(SCALING_EXPONENT, scaling.law.value)
-                    .against(None, published, Confidence::High)
-                    .gated_by(
-                        gate.map(|gate| within_reach(gate, scaling.half_width)),
-                        "exponents depend little on the material: the published range lies within the exponent's 95 % interval, at least \
-                         in part, so that a few columns that scatter fail nothing that they cannot tell",
-                    ),
+                observed(SCALING_EXPONENT, scaling.law.value).against(None, published, Confidence::High).gated_by(
+                    gate.map(|gate| within_reach(gate, scaling.half_width)),
+                    "published range widened by the exponent's 95 % interval; exponents depend little on the material",
+                ),
                 observed(SCALING_CONFIDENCE, scaling.half_width).against(None, interval, Confidence::Exact).gated_by(
                     gate.map(|_| Limit::AtMost(WIDEST)),
-                    "an interval wider than the range of published exponents, 0.1 of run-outs and 0.15 of heights, tells nothing",
+                    "95 % interval narrower than the published ranges: 0.1 for run-outs, 0.15 for heights",
                 ),
             ]);
             if quantity == RUN_OUT.name
@@ -157,7 +149,7 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
                     .of(&variant.and("aspect_ratio", ratios), law.value)
                     .against(Some(1.0), &lube.source, lube.confidence)
                     .known_to(Origin::Numerical, Some(law.standard_error), "scatter about the fit")
-                    .gated_by(gate, "low columns run out in proportion to their aspect ratio; a tenth of the exponent")
+                    .gated_by(gate, "10 %: low columns run out in proportion to their aspect ratio")
                     .with_snapshot_tolerance(1e-2, 5e-3),
             );
         }

@@ -16,8 +16,7 @@ fn creep(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
     let mut metrics = decay(run, seen, exact);
     metrics.push(velocity_l2(run, seen, exact).gated(
         Limit::AtMost(2.0 * coarseness(run)),
-        "2 % where two particles are as long as a grain and half of it with twice as many, as below a plate: the flowing layer is thicker, but what flows \
-         between a surface without fluidity and walls that hold it goes with its depth to a higher power",
+        "2 % at two particles per grain, 1 % at four: first order, as below a plate",
     ));
     metrics
 }
@@ -44,13 +43,12 @@ fn depth(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
             .exactly(expected, EXACT_LOCAL)
             .gated(
                 Limit::Within(expected - row, expected + row),
-                "a row of particles either way: a particle's velocity gradient is a mean over its neighbours, which straddle the depth where flow ends",
+                "one row of particles: velocity gradients are means over neighbours, which straddle the depth where flow ends",
             )
             .with_snapshot_tolerance(5e-3, 0.0),
         velocity_l2(run, seen, exact).exactly(0.0, EXACT_LOCAL).gated(
             Limit::AtMost(3.0 * coarseness(run)),
-            "3 % where two particles are as long as a grain, half of it with twice as many and twice as much with half as many: a shift of a tenth of a row \
-             of the depth where flow ends, at which the velocity begins as its square, is 1 % of the velocity of a layer of 21 rows",
+            "3 % at two particles per grain, first order; 0.1 rows' shift of the flow's lower edge gives 1 %",
         ),
     ]
 }
@@ -74,7 +72,7 @@ pub(super) fn orders(records: &[Record]) -> Vec<Metric> {
             .exactly(2.0, "sums over neighbours are of second order where the shear rate is smooth")
             .gated(
                 Limit::AtLeast(1.0),
-                "first order: the shear rate has a kink where flow ends, and particles there are displaced at random",
+                "first order: the shear rate has a kink where flow ends, between randomly perturbed particles",
             )
             .with_snapshot_tolerance(0.1, 0.1)
     };

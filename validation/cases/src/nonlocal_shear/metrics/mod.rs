@@ -84,10 +84,7 @@ fn unevenness(run: &NonlocalShearFlow, seen: &ShearObservation, variant: &Varian
     PRESSURE_UNEVENNESS
         .of(variant, 100.0 * largest / seen.mean_pressure())
         .exactly(0.0, "a pressure that is uniform in a chute and that of the weight in a bed")
-        .gated(
-            Limit::AtMost(1.0),
-            "1 %: an error of a row's pressure is one of its friction, which a mean over the rows of a sheared layer makes small",
-        )
+        .gated(Limit::AtMost(1.0), "1 %: a row's pressure error is its friction error, small in the mean over rows")
         .with_snapshot_tolerance(0.1, 1e-2)
 }
 
@@ -122,15 +119,14 @@ fn chute(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
         length_metric(WALL_LAYER.of(&variant, layer / diameter), expected / diameter, run),
         velocity_l2(run, seen, exact).gated(
             Limit::AtMost(5.0 * coarseness),
-            "5 % where two particles are as long as a grain and half of it with twice as many: so near the least friction at which this chute flows \
-             its velocity goes with the friction to the power of 14, so that 5 % are less than 0.4 % of the friction",
+            "5 % at two particles per grain, 2.5 % at four; velocity scales as friction^14, so 0.4 % of friction",
         ),
         FRICTION_ERROR
             .of(&variant, 100.0 * (implied / flow.wall_friction - 1.0))
             .exactly(0.0, EXACT)
             .gated(
                 Limit::Within(-0.4 * coarseness, 0.4 * coarseness),
-                "0.4 % where two particles are as long as a grain and half of it with twice as many: what 5 % of the velocity are so near that least friction",
+                "0.4 % at two particles per grain, 0.2 % at four; it moves the velocity by 5 %",
             )
             .with_snapshot_tolerance(0.1, 1e-2),
     ]
@@ -147,16 +143,12 @@ fn dragged_bed(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactSh
         TRACTION_ERROR
             .of(&variant, 100.0 * (seen.mean_shear_stress() / traction - 1.0))
             .exactly(0.0, EXACT)
-            .gated(
-                Limit::Within(-0.5, 0.5),
-                "half a per cent: the traction hardly depends on the velocity, and so on its error",
-            )
+            .gated(Limit::Within(-0.5, 0.5), "0.5 %: the traction hardly depends on the velocity and its error")
             .with_snapshot_tolerance(0.1, 1e-2),
     );
     metrics.push(velocity_l2(run, seen, exact).gated(
         Limit::AtMost(2.0 * coarseness(run)),
-        "2 % where two particles are as long as a grain and half of it with twice as many: first order, of a layer six diameters thick below \
-         a plate at which the first row is a quarter of a diameter away",
+        "2 % at two particles per grain, 1 % at four: first order in a layer six diameters thick",
     ));
     metrics
 }
@@ -198,8 +190,7 @@ fn decay(run: &NonlocalShearFlow, seen: &ShearObservation, exact: &ExactShear) -
         .exactly(expected, EXACT)
         .gated(
             Limit::AtLeast(0.98),
-            "0.98: an exponential leaves a fiftieth of the logarithm's variance at most; the law's own length falls with the depth, so \
-             that it leaves some, and a velocity that ends at a sharp edge bends far more",
+            "0.98: near-exponential decay leaves at most 2 % of the logarithm's variance, a sharp edge far more",
         )
         .with_snapshot_tolerance(1e-3, 0.0);
     vec![length(TAIL), length(DEEP_TAIL), straight]
@@ -212,8 +203,7 @@ fn length_metric(metric: Metric, expected: f64, run: &NonlocalShearFlow) -> Metr
         .exactly(expected, EXACT)
         .gated(
             Limit::Within((1.0 - allowed) * expected, (1.0 + allowed) * expected),
-            "5 % where two particles are as long as a grain, the fewest that resolve a length of 1.2 diameters, and half of it with \
-             twice as many: first order",
+            "5 % at two particles per grain, the fewest that resolve 1.2 diameters; 2.5 % at four",
         )
         .with_snapshot_tolerance(5e-3, 0.0)
 }

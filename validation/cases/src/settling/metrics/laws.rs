@@ -34,10 +34,7 @@ pub(super) fn all() -> Vec<Metric> {
         LAW_SLIP_ERROR
             .of(&Variant::of("law", law.name()), largest(slip_deviations(law)))
             .against(Some(0.0), "the law as printed, solved outside of the program", Confidence::High)
-            .gated(
-                Limit::AtMost(5e-5),
-                "5e-5 %: both are the same formula, and the table has seven digits, half of the last of which that is",
-            )
+            .gated(Limit::AtMost(5e-5), "5e-5 %, half of the table's seventh digit; both are one formula")
             .with_snapshot_tolerance(0.0, 1e-5)
     });
     curves.chain(slips).collect()

@@ -35,7 +35,7 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
             )
             .gated(
                 Limit::Within(-0.01, 0.01),
-                "drag and pressure move momentum between water and grains only; a hundredth for particles that cross a gradient of φ",
+                "0.01 for particles that cross a gradient of φ; drag and pressure only exchange momentum between water and grains",
             )
             .with_snapshot_tolerance(0.1, 1e-3),
     );
@@ -46,16 +46,18 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
         |quantity, estimate, exact| channel::observed(quantity, &variant, estimate, 1.0).exactly(exact, source);
     let profile = &data.channel.profile;
     let (most, reason) = if dilating {
-        (0.1, "a profile shifted by a twelfth of a spacing of 1 mm, as columns have it at all spacings")
+        (0.1, "0.1 u_*: a profile shifted by 1/12 of a 1 mm spacing, as at all spacings")
     } else {
-        (0.25, "a profile shifted by a fifth of a spacing of 1 mm where it is steepest, 1.4 u_* a mm")
+        (0.25, "0.25 u_*: a shift by a fifth of a 1 mm spacing at the steepest gradient, 1.4 u_* per mm")
     };
     let rms = profile.estimate(|points| profiles::fluid_rms(run, points, layer));
     let mean = profile.estimate(|points| profiles::fluid_mean(run, points, layer));
     metrics.extend([
         observed(FLUID_VELOCITY_RMS, rms, 0.0).gated_by(gate(Limit::AtMost(most)), reason),
-        observed(FLUID_VELOCITY_MEAN, mean, 1.0)
-            .gated_by(gate(Limit::Within(0.97, 1.03)), "the same shift over a depth mean of 10 u_*"),
+        observed(FLUID_VELOCITY_MEAN, mean, 1.0).gated_by(
+            gate(Limit::Within(0.97, 1.03)),
+            "3 %: the profile's shift, up to 0.25 u_*, over a depth mean of 10 u_*",
+        ),
     ]);
     if run.formulation == BedLoadFormulation::Porous {
         return metrics;
@@ -65,11 +67,11 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
     metrics.extend([
         observed(GRAIN_VELOCITY_RMS, rms, 0.0).gated_by(
             gate(Limit::AtMost(0.2)).filter(|_| !dilating),
-            "the grains' profile, 0.7 u_* a mm, shifted by a third of a spacing of 1 mm",
+            "0.2 u_*: the grains' profile, 0.7 u_* per mm, shifted by a third of a 1 mm spacing",
         ),
         DRAG_RATIO.of(&variant, force).exactly(1.0, source).with_snapshot_tolerance(0.0, 0.02).gated_by(
             gate(Limit::Within(0.95, 1.05)).filter(|_| dilating),
-            "grains take over the stress of the water whatever their profile is; a twentieth for bins that the bed's top cuts",
+            "5 % for bins cut by the bed's top; grains take over the water's stress for any profile",
         ),
     ]);
     let rate = data.mean_transport();
@@ -77,13 +79,13 @@ pub(super) fn of(record: &BedLoadRecord, forgotten: bool) -> Vec<Metric> {
         let expected = run.formula_transport();
         metrics.push(by_formula(channel::observed(PREDICTED_TRANSPORT, &variant, rate, 1.0), run).gated(
             Limit::Within(MEASURED_BAND.0 * expected, MEASURED_BAND.1 * expected),
-            "nine tenths of the runs that Meyer-Peter & Müller measured from τ* = 0.1 on lie there; no parameter is fitted to it",
+            "90 % of Meyer-Peter & Müller's runs from τ* = 0.1 on lie inside; no parameter is fitted",
         ));
     }
     let (within, reason) = match dilating {
-        true if run.spacing() < FINE => (0.08, "half of what a spacing of 1 mm is given"),
-        true => (0.15, "the layer that moves is a few spacings thick, at 2 % one or two"),
-        false => (0.1, "the grains' profile shifted by a third of a spacing of 1 mm"),
+        true if run.spacing() < FINE => (0.08, "8 %, half the limit at a spacing of 1 mm"),
+        true => (0.15, "15 %: the moving layer is a few spacings thick, at 2 % slope one or two"),
+        false => (0.1, "10 %: the grains' profile shifted by a third of a 1 mm spacing"),
     };
     metrics.push(
         channel::observed(TRANSPORT_RATIO, &variant, rate, 1.0 / layer.transport())

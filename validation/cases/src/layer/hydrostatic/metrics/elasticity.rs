@@ -25,7 +25,7 @@ pub(super) fn all(law: &Rheology) -> Vec<Metric> {
             .exactly(0.0, "τ = G γ in simple shear below the yield")
             .gated(
                 Limit::Within(-1e-6, 1e-6),
-                "1e-6 %: one small step of Hooke's law, exact to γ², which is 1e-8 %, and to rounding",
+                "1e-6 %: one small step of Hooke's law, exact to γ² (1e-8 %) and rounding",
             )
             .with_snapshot_tolerance(0.0, 1e-6),
         STRESS_ROTATION_ERROR

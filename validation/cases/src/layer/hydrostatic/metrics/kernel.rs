@@ -37,7 +37,10 @@ pub(super) fn all(numerics: &Numerics) -> Vec<Metric> {
             quantity
                 .of(&variant, 100.0 * (sum - 1.0))
                 .exactly(0.0, source)
-                .gated(Limit::Within(-1e-6, 1e-6), "an identity; the midpoint rule with 20 000 cells is good to 1e-6 %")
+                .gated(
+                    Limit::Within(-1e-6, 1e-6),
+                    "1e-6 %, the error of the midpoint rule with 20 000 cells, for an identity",
+                )
                 .with_snapshot_tolerance(0.0, 1e-6)
         };
         [

@@ -53,7 +53,10 @@ fn without_coupling((run, record): &HydrostaticRecord, partner: Option<&Hydrosta
         NOISE_WITHOUT_COUPLING
             .of(&variant, noise / mean(&partner.data.series.pressure_noise))
             .against(None, "the same run with the coupling (27)", Confidence::Exact)
-            .gated(Limit::AtLeast(100.0), "two orders of magnitude: that the coupling removes the noise is the paper's claim, and that pressure noise can fail")
+            .gated(
+                Limit::AtLeast(100.0),
+                "two orders of magnitude: the coupling removes the noise, as the paper states",
+            )
             .with_snapshot_tolerance(0.3, 0.0)
     });
     [own].into_iter().chain(factor).collect()
@@ -72,7 +75,7 @@ fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
         PRESSURE_NOISE
             .of(&variant, mean(&series.pressure_noise))
             .exactly(0.0, "smooth pressure")
-            .gated(Limit::AtMost(1e-3), "rms of p less its local linear fit within 2h, over ρgH")
+            .gated(Limit::AtMost(1e-3), "0.001 ρgH, rms about a local linear fit within 2h")
             .with_snapshot_tolerance(0.1, 1e-6),
         quantity
             .of(&variant, 100.0 * profile_l2(run, &profile.height, pressure))
@@ -92,7 +95,7 @@ fn at_rest((run, record): &HydrostaticRecord) -> Vec<Metric> {
         HEIGHT_DRIFT
             .of(&variant, 100.0 * (around(2.0) / around(1.0) - 1.0))
             .exactly(0.0, "a layer at rest keeps its height")
-            .gated(Limit::Within(-0.1, 0.1), "mean height from 1 s to 2 s")
+            .gated(Limit::Within(-0.1, 0.1), "0.1 % of the mean height between 1 s and 2 s")
             .with_snapshot_tolerance(0.1, 1e-4),
         RMS_SPEED.of(&variant, speed).exactly(0.0, "rest").with_snapshot_tolerance(0.5, 1e-5),
     ]);
