@@ -1,6 +1,7 @@
 //! One case at one tier: simulated or taken from the store, then judged.
 
 use crate::physics::expected_failures::{self, owing_tier};
+use crate::structure::words::{LONGEST_REASON, words};
 use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_harness::metric::{Limit, Metric, Verdict};
 use bagnold_harness::observation::Outcome;
@@ -47,6 +48,7 @@ pub(crate) fn complaints(result: &CaseResult, list: &ExpectedFailures, tier: Tie
     });
     let gates = result.metrics.iter().filter_map(|metric| complaint(metric, &list.status(&result.name, metric)));
     let references = result.metrics.iter().filter_map(excluded_reference);
+    let reasons = result.metrics.iter().filter_map(long_reason);
     let stale = list
         .failures
         .iter()
@@ -60,7 +62,7 @@ pub(crate) fn complaints(result: &CaseResult, list: &ExpectedFailures, tier: Tie
                 entry.metric, entry.variant
             )
         });
-    diverged.chain(gates).chain(references).chain(stale).collect()
+    diverged.chain(gates).chain(references).chain(reasons).chain(stale).collect()
 }
 
 /// A gate that the value it is compared with would not pass: no band may lie beside its own reference.
@@ -75,6 +77,14 @@ fn excluded_reference(metric: &Metric) -> Option<String> {
             rule(limit)
         )
     })
+}
+
+/// A gate whose reason a reader in a hurry does not read.
+fn long_reason(metric: &Metric) -> Option<String> {
+    let reason = &metric.gate.as_ref()?.reason;
+    let number = words(reason);
+    (number > LONGEST_REASON)
+        .then(|| format!("  {} [{}]: a reason of {number} words: {reason}", metric.name, metric.variant))
 }
 
 fn complaint(metric: &Metric, listed: &ListStatus) -> Option<String> {

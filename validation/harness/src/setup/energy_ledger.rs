@@ -61,22 +61,19 @@ impl EnergyScale {
                 let open = time_step * (STEPS * falls / fall_time + 1.0 / book.last.0 + STEPS_OF_IMPACT * impact);
                 (work, WORK_OR_WEIGHT, (OPEN + 100.0 * open, OPEN_REASON_OVER_TIME))
             }
-            Self::AtRest(energy) => (energy, "of ρ0 g H² times the layer's length", (OPEN_AT_REST, OPEN_REASON)),
+            Self::AtRest(energy) => (energy, "of ρ0 g H² times the layer's length", OPEN_AT_REST),
         }
     }
 }
 
 /// Largest unexplained share of the work, and of a layer's energy at rest `[%]`; with reasons where they have their own.
 const OPEN: f64 = 0.5;
-const OPEN_AT_REST: f64 = 1e-3;
-const OPEN_FALL: (f64, &str) = (
-    0.25,
-    "columns of up to three radii leave 0.04 to 0.21 per cent; what is left is the length of a step, within which forces change",
-);
-const OPEN_STEADY: (f64, &str) = (
-    0.02,
-    "an evenly sheared layer changes little within a step: ten rows leave 0.01 per cent, forty rows a hundredth of that",
-);
+const OPEN_AT_REST: (f64, &str) =
+    (1e-3, "0.001 %: a layer at rest does hardly any work; forces change within a step");
+const OPEN_FALL: (f64, &str) =
+    (0.25, "0.25 %: columns of up to three radii leave 0.04 to 0.21 %, as forces change within a step");
+const OPEN_STEADY: (f64, &str) =
+    (0.02, "0.02 %: an evenly sheared layer changes little within a step; ten rows leave 0.01 %");
 
 const WORK: &str = "of the largest work done: by gravity, by walls, dissipated, or brought in by what moves";
 
@@ -94,21 +91,17 @@ const STEPS: f64 = 4.0;
 /// height leave 0.9 to 1.6.
 const STEPS_OF_IMPACT: f64 = 2.0;
 
-const OPEN_REASON: &str = "an error of one per cent in the term that does most cannot hide in half a per cent; what is left is the \
-     length of a step, within which forces change";
+const OPEN_REASON: &str = "0.5 %, half of an error of 1 % in the largest term; forces change within a step";
 
 /// Largest rise of the energy `[%]` with its reason: of an evenly sheared layer, and of all others.
-const RISE_STEADY: (f64, &str) =
-    (0.002, "an evenly sheared layer has no waves of sound, and its energy rises in no run: rounding is left");
+const RISE_STEADY: (f64, &str) = (0.002, "0.002 %: without sound waves the energy never rises; rounding remains");
 const RISE: (f64, &str) = (
     0.1,
-    "a thousandth for waves of sound, whose energy a symplectic step only keeps on average: of all runs a collapse behind a gate has most, \
-     a quarter of it, and what has no waves has none",
+    "0.1 % for sound waves, whose energy a symplectic step keeps on average; a collapse behind a gate reaches a quarter",
 );
 
-const OPEN_REASON_OVER_TIME: &str = "half a per cent, in which an error of one per cent in the term that does most cannot hide, and \
-     what the length Δt of a step leaves: 4 Δt/√(H/g) for each √(H/g) in which all of that work was motion, at the end \
-     Δt over the time of the run, and of an impact what two steps take of the motion";
+const OPEN_REASON_OVER_TIME: &str =
+    "0.5 %, plus the share of a step: 4 Δt per √(H/g) in motion, Δt over the run, two steps per impact";
 
 /// The residual over a scale.
 pub fn residual(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Metric {
