@@ -1,7 +1,7 @@
 //! One case at one tier: simulated or taken from the store, then judged.
 
 use crate::physics::expected_failures::{self, owing_tier};
-use crate::structure::words::{LONGEST_REASON, words};
+use crate::structure::words::{LONGEST_CAPTION, LONGEST_REASON, words};
 use bagnold_harness::case::{CaseResult, Changes, Silent, Tier, execute};
 use bagnold_harness::metric::{Limit, Metric, Verdict};
 use bagnold_harness::observation::Outcome;
@@ -49,6 +49,10 @@ pub(crate) fn complaints(result: &CaseResult, list: &ExpectedFailures, tier: Tie
     let gates = result.metrics.iter().filter_map(|metric| complaint(metric, &list.status(&result.name, metric)));
     let references = result.metrics.iter().filter_map(excluded_reference);
     let reasons = result.metrics.iter().filter_map(long_reason);
+    let captions = result.figures.iter().map(|figure| (&figure.name, &figure.caption));
+    let captions = captions.chain(result.animations.iter().map(|moving| (&moving.name, &moving.caption)));
+    let long = captions.filter(|(_, caption)| words(caption) > LONGEST_CAPTION);
+    let captions = long.map(|(name, caption)| format!("  {name}: a caption of {} words: {caption}", words(caption)));
     let stale = list
         .failures
         .iter()
@@ -62,7 +66,7 @@ pub(crate) fn complaints(result: &CaseResult, list: &ExpectedFailures, tier: Tie
                 entry.metric, entry.variant
             )
         });
-    diverged.chain(gates).chain(references).chain(reasons).chain(stale).collect()
+    diverged.chain(gates).chain(references).chain(reasons).chain(captions).chain(stale).collect()
 }
 
 /// A gate that the value it is compared with would not pass: no band may lie beside its own reference.

@@ -8,7 +8,6 @@ use crate::collapse::metrics::other_codes::Beside;
 use crate::collapse::metrics::{Measure, bands, laws_among};
 use crate::collapse::{Collapse, CollapseRecord, ColumnFlow, ExperimentGrains, Material};
 use crate::figure::{Animation, Axis, Field, Figure, Mark, Panel};
-use crate::metric::Confidence;
 use crate::observation::energy;
 use crate::observation::pictures::{View, animation, halves};
 use crate::observation::{Frame, Recorded};
@@ -136,23 +135,15 @@ fn scaling_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
         panel("run-out (r∞ − r0)/r0 [-]", &run_out_laws, Collapse::run_out, true),
         panel("final height h∞/r0 [-]", &height_laws, Collapse::final_height, false),
     ];
-    let mut caption = "Run-out and final height of the columns over their aspect ratio, with the published laws of their geometry and \
-                       Lube's laws of the other one. Numbers in brackets are the equations of the collapse paper. No scatter of the points \
-                       behind the laws is published. Filled marks lie within their gate or have none, open ones outside it. Marks name \
-                       the grains (sand of Table 2) and the spacing of particles."
+    let mut caption = "Run-out and final height over the aspect ratio, with published laws, the scatter of whose points is not stated. \
+                       Open marks fail their gate."
         .to_owned();
     if fits > 0 {
-        caption += " Fits are power laws through the tall columns, with the 95 % interval of the exponent.";
+        caption += " Fits: power laws, exponents with 95 % interval.";
     }
     if round {
         let percent = 200.0 * measured.scatter;
-        caption += &format!(
-            " Bars of the measured points are twice their scatter about the line through their neighbours, ± {percent:.0} %."
-        );
-    }
-    for law in height_laws.iter().filter(|law| law.confidence == Confidence::Unverified) {
-        caption +=
-            &format!(" The height of {}: no document at hand quotes this law, and it judges nothing.", law.source);
+        caption += &format!(" Bars of measured points: twice their scatter, ± {percent:.0} %.");
     }
     Figure::new("scaling", &caption, panels)
 }
@@ -202,14 +193,13 @@ fn histories<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
     let has_points =
         [&front, &energy].iter().any(|panel| panel.series.iter().any(|series| series.mark == Mark::Points));
     let points = if has_points {
-        "Points are other codes under the same law, in the colour of their column or, of a second code, in one of their own; bars are twice \
-         their uncertainty."
+        "Points: other codes under the same law, with twice their uncertainty."
     } else {
-        "No measured front over time and no other code of these columns is at hand."
+        "No measured front is available."
     };
     let caption = format!(
-        "Displacement of the front at a thickness of 0.05 r0 over the aspect ratio and kinetic energy over the initial potential energy, in \
-         times of free fall √(h0/g). {points} The front at the start is that of the first bin."
+        "Front displacement at a thickness of 0.05 r0 over the aspect ratio, and kinetic energy over the initial potential energy, \
+         in times √(h0/g). {points}"
     );
     Figure::new(&of_material("histories", records), &caption, vec![front, energy])
 }
@@ -234,8 +224,8 @@ pub(crate) fn animations<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<A
     let moving = |(run, record): &CollapseRecord<D>| {
         let section = if D == 3 { " The section beside a symmetry plane is shown." } else { "" };
         let caption = format!(
-            "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
-             front, where it falls below 0.02 r0. The left half is the mirror image of the simulated right one.{section}",
+            "{}: collapse coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front, where it falls below 0.02 r0. \
+             The left half mirrors the simulated right one.{section}",
             label(run)
         );
         animation(&format!("collapse-{}", stem(run)), &caption, &record.data.motion, &view(run))
@@ -247,13 +237,13 @@ pub(crate) fn animations<const D: usize>(records: &[CollapseRecord<D>]) -> Vec<A
 fn shown<const D: usize>(run: &ColumnFlow<D>, frames: &[Frame]) -> Option<Figure> {
     let shown: Vec<&Frame> = run.shown_times().iter().filter_map(|&time| Frame::nearest(frames, time)).collect();
     let source = match run.aspect_ratio {
-        0.9 => "figure 7 (0.07 and 0.30 s), which is captioned glass beads, and of its text (0.11 s)",
+        0.9 => "figure 7 (captioned glass beads) and text",
         2.75 => "figure 8",
         _ => "figure 9",
     };
     let caption = format!(
-        "{}, {}: speed on the left and pressure on the right of the symmetry plane. The times are those of the collapse paper's {source}. The \
-         left half is the mirror image of the simulated right one.",
+        "{}, {}: speed (left) and pressure (right) at the times of the collapse paper's {source}. The left half mirrors the \
+         simulated right one.",
         label(run),
         run.made_of().title()
     );
@@ -274,9 +264,8 @@ fn energy_budget<const D: usize>(records: &[&CollapseRecord<D>]) -> Figure {
 fn velocity_profiles<const D: usize>(run: &ColumnFlow<D>, record: &Recorded<Collapse>) -> Option<Figure> {
     let stations = stations(run, record);
     let caption = format!(
-        "{}: horizontal velocity over depth at t = 1.5 √(h0/g), means over 0.1 r0 and a spacing. Left, a linear fit to the flowing layer, \
-         the points faster than 0.35 of the largest velocity, with its share R² of the variance. Right, one exponential for all stations \
-         below that layer, down to 0.05 of the largest velocity, where at least three points make a tail; else none is drawn.",
+        "{}: horizontal velocity over depth at 1.5 √(h0/g), means over 0.1 r0. Left: linear fit to the flowing layer (above 0.35 \
+         of the largest velocity) with R². Right: exponential fit below it.",
         label(run)
     );
     let name = format!("velocity-{}", stem(run));

@@ -105,9 +105,8 @@ fn dragged_bed(records: &[&Record]) -> Figure {
     }
     Figure::new(
         "dragged-bed",
-        "Velocity over the depth below a plate that drags grains under gravity, on a logarithmic axis. The local law comes to rest at the depth \
-         at which τ/p falls to μ_s; under the nonlocal law the bed creeps below it, by an exponential whose length is that of the \
-         fluidity. Particles against the solution without them at their own pressure, and the difference where the velocity is a hundredth of the plate's at least.",
+        "Velocity over the depth below a dragged plate, on a logarithmic axis, and its difference from the solution without \
+         particles at the particles' pressure, where above a hundredth of the plate's.",
         vec![drawn.velocity, drawn.error],
     )
 }
@@ -136,10 +135,8 @@ fn heap(records: &[&Record]) -> Figure {
     }
     Figure::new(
         "heap",
-        "Velocity over the depth below the surface of a heap between side walls, on a logarithmic axis, of grains that flow together (nonlocal law) and \
-         of grains that do not (local law). The friction of the side walls grows as the weight, so that τ/p falls with the depth; where it is μ_s the \
-         local law ends at rest, and below it the nonlocal law creeps. Particles against the solutions without them, and the difference where the velocity \
-         is a hundredth of the fastest at least.",
+        "Velocity over the depth of a heap between side walls, on a logarithmic axis, under the nonlocal and the local law, and \
+         its difference from the solutions without particles, above a hundredth of the fastest.",
         vec![drawn.velocity, drawn.error],
     )
 }
@@ -173,9 +170,8 @@ fn chute(records: &[&Record]) -> Figure {
     }
     Figure::new(
         "chute",
-        "Velocity in a vertical chute from its walls to its middle, both halves, and by how much it lags behind the middle on a \
-         logarithmic axis. Under the local law a plug without any shear begins where μ falls to μ_s; under the nonlocal law the shear \
-         decays into it.",
+        "Velocity in a vertical chute from its walls to its middle, and its lag behind the middle on a logarithmic axis. Under the \
+         local law a plug begins where μ falls to μ_s.",
         vec![velocity, lag],
     )
 }

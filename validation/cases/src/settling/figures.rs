@@ -59,9 +59,8 @@ fn terminal(records: &[(&str, f64, &SettlingObservation)]) -> Figure {
     }
     Figure::new(
         "terminal-velocity",
-        "Mean slip of a grain alone against the root of its balance, for every law, with the standard error of the \
-         mean: one planar grain (c = ½) as printed and stabilised, spheres (c = ¾) of a very dilute suspension by \
-         volume fractions. Wen and Yu's and Gidaspow's grain alone is that of Schiller and Naumann.",
+        "Mean slip of a single grain, with its standard error, against the root of its balance, for every drag law: one planar \
+         grain (c = ½) and spheres of a very dilute suspension (c = ¾).",
         vec![panel],
     )
 }
@@ -93,9 +92,8 @@ fn hindered(records: &[(&SettlingFlow, &SettlingObservation)]) -> Figure {
     sinking.reference("", published(exponent));
     Figure::new(
         "hindered-settling",
-        "Slip of a uniform suspension and the velocity at which it sinks in a vessel: particles (points) and roots \
-         of the balance (lines) for every law. Gidaspow's law is Wen and Yu's up to φ = 0.2 and Ergun's above. \
-         Dashed: Richardson and Zaki (1954) with the grain alone of Wen and Yu, unverified: observed, not judged.",
+        "Slip of a uniform suspension and its sinking velocity in a vessel: particles (points) and roots of the balance (lines) \
+         for every law. Dashed: Richardson and Zaki (1954), observed only.",
         vec![slip, sinking],
     )
 }
@@ -122,9 +120,8 @@ fn beads() -> Figure {
     }
     Figure::new(
         "beads",
-        "Polystyrene beads that settle in silicone oil, half of the space filled: measured heights of their upper interface and of their \
-         deposit, with half a pixel, and what the drag laws of dense suspensions say until both meet, from the measured fractions. The \
-         beads had begun to settle before time 0; below the suspension they were denser already.",
+        "Polystyrene beads settling in silicone oil, half of the space filled: measured heights of the upper interface and the \
+         deposit (± half a pixel), and predictions of the drag laws for dense suspensions.",
         vec![panel],
     )
 }

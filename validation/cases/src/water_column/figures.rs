@@ -30,8 +30,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         fronts_and_heights(records),
         Figure::new(
             "front-and-energy",
-            "The front, where a fiftieth of the column's width stands on the bed, against the measured ones: behind a gate that is \
-         lifted as in the experiment, and released at once, where the experiment starts later; and the change of kinetic, elastic and potential energy together, which may only fall.",
+            "Front (a fiftieth of the column's width on the bed) against measured ones, released behind a lifted gate and at once, \
+             and the change of total energy, which may only fall.",
             vec![front, energy],
         ),
     ]
@@ -75,9 +75,8 @@ fn fronts_and_heights(records: &[Record]) -> Figure {
     }
     Figure::new(
         "front-and-height",
-        "Columns of water beside several experiments and readings of them: the front of columns twice as high as wide, which starts later in \
-         experiments, and the height at the wall. Bars: twice the root mean square of what the other fronts differ by from the table; of \
-         heights, the last digit.",
+        "Water columns and several experiments: the front of columns twice as high as wide, and the height at the wall. Bars: \
+         twice the rms difference of fronts; for heights, the last digit.",
         vec![front, height],
     )
 }

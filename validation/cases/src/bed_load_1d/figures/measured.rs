@@ -2,10 +2,10 @@
 
 use super::super::BedLoad1dRecord;
 use super::super::flow::LayerStart;
-use super::super::metrics::{RESTING, TRANSPORT_FACTOR, VELOCITY_LIMIT, grain_velocity_difference};
+use super::super::metrics::RESTING;
 use super::super::records::{measured_layers, of};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::reference::bed_load::{MEASURED_BAND, MeasuredBedLoad, SHEET_FLOW_LOWEST_VELOCITY};
+use crate::reference::bed_load::{MeasuredBedLoad, SHEET_FLOW_LOWEST_VELOCITY};
 
 /// Solid fraction from which on a velocity of grains is drawn `[-]`.
 const GRAINS_FROM: f64 = 1e-3;
@@ -13,7 +13,6 @@ const GRAINS_FROM: f64 = 1e-3;
 /// Profiles over theirs, a row of panels each, and the water of a duct.
 pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let mut panels = Vec::new();
-    let mut found = Vec::new();
     for of in MeasuredBedLoad::ALL {
         let layers: Vec<&BedLoad1dRecord> =
             measured_layers(records).filter(|(_, other)| *other == of).map(|(layer, _)| layer).collect();
@@ -47,12 +46,6 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
                 let cells = values.iter().zip(&state.height).zip(&state.solid_fraction);
                 cells.filter(|(_, fraction)| **fraction >= least).map(|((value, z), _)| (*z, *value)).collect()
             };
-            found.push(format!(
-                "{}{with}: q* {:.2} of theirs, rms difference of the grain velocity {:.0} % of the largest",
-                of.name(),
-                state.transport() / theirs.transport,
-                grain_velocity_difference(layer, of)
-            ));
             fraction.line(&format!("layer{with}"), 2 * slot, inside(&curve(&state.solid_fraction, GRAINS_FROM), 1.0));
             let grains = curve(&state.grain_velocity, GRAINS_FROM);
             velocity.line(&format!("grains{with}"), 2 * slot, inside(&grains, 1.0));
@@ -65,20 +58,12 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
             panels.push(stress);
         }
     }
-    let mut caption = format!(
-        "The layer beside a grain simulation (Maurin et al.; 6 mm, slope 0.05, τ* 0.6) and a measured sheet flow (Revil-Baudard et al. \
-         2015; plastic of 3 mm, τ* 0.44), whose grains are measured far above those of the layer without suspension. Found are: {}. \
-         The gates are {:.2} to {:.2} for the ratio of q*, with suspension a factor of {TRANSPORT_FACTOR}, and {VELOCITY_LIMIT} % for the \
-         velocity. The sources state no uncertainty. The layer's grains are drawn from a fraction of {GRAINS_FROM} on. The measured \
-         stress is the covariance −⟨u'w'⟩; the layer's is what the grains leave to the water.",
-        found.join("; "),
-        MEASURED_BAND.0,
-        MEASURED_BAND.1
-    );
+    let mut caption = "Layers beside a grain simulation (Maurin et al.; 6 mm, slope 0.05, τ* 0.6) and a measured sheet flow (Revil-Baudard et \
+        al. 2015; 3 mm, τ* 0.44). The sources state no uncertainty."
+        .to_owned();
     if let Some(duct) = duct_panel(records) {
         panels.push(duct);
-        caption += " Last is the water's velocity in a sheet flow three times as strong. Its heights start where grains have a tenth of \
-                    u_*, as the source states no level. The upper half is met; near the bed the layer is slower than the measured water.";
+        caption += " Last: water in a sheet flow three times as strong.";
     }
     (!panels.is_empty()).then(|| Figure::new("others", &caption, panels))
 }

@@ -75,10 +75,8 @@ fn profiles(layers: &[SolvedLayer<'_>]) -> Figure {
     }
     Figure::new(
         "profiles",
-        "Steady layers on the slopes, over the height in grain diameters. The velocity of the grains, as in figures 10 (3 %) and 11 (5 %) of the \
-         bed-load paper, is concave in the height above a level just over the bed's and convex below. The drag, as in its figures 12 \
-         and 13, peaks at the bed; it rises once more in the uppermost full cell of grains before it ends. The paper's curves are lost, and its yield stress of 1220 Pa and viscosity \
-         of 0.26 Pa·s are not used: the closures are the literature's. The stresses of both phases together carry the weight above.",
+        "Steady layers over the height in grain diameters: grain velocity (the bed-load paper's figures 10 and 11), drag (figures \
+         12 and 13), both phases' stresses and the weight above. The paper's curves are lost; the closures are the literature's.",
         panels.into(),
     )
     .in_columns(2)

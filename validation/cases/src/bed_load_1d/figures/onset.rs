@@ -24,11 +24,8 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let drawn = |point: &&(f64, f64)| point.0 > points[0] && point.0 < points[points.len() - 1] && point.1 < 0.3;
     let measured: Vec<(f64, f64)> = thresholds.points.iter().filter(drawn).copied().collect();
     let caption = format!(
-        "Left: Shields number at which the transport reaches a rate, over the grain size D* = d ((s − 1) g/ν²)^⅓. The rates are \
-         W* = q*/τ*^{{3/2}} = 0.002, q* = 10⁻⁴ and q* = 10⁻³, with q* the transport over √((s − 1) g d³). Points are {} of {} thresholds \
-         measured in flumes; the others lie outside of the axes. The band holds nine tenths of the thresholds of grains within a factor of two in size. Dash-dotted is Shields' curve times and over {ONSET_SCATTER}. \
-         Right: transport over the Shields number τ* over its value τ*_c on Shields' curve. Grains of a millimetre and less lie within \
-         the viscous sublayer and creep: between W* = 0.002 and q* = 10⁻³ lies a factor of two.",
+        "Left: Shields number at each criterion of motion over D* = d ((s − 1) g/ν²)^⅓, with {} of {} measured thresholds, their \
+         90 % band and Shields' curve. Right: transport over τ* relative to that curve.",
         measured.len(),
         thresholds.points.len()
     );

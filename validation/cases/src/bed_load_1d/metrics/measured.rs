@@ -123,9 +123,3 @@ pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
     }
     metrics
 }
-
-/// Difference of the grains' velocity `[%]`.
-pub(in crate::bed_load_1d) fn grain_velocity_difference(layer: &BedLoad1dRecord, of: MeasuredBedLoad) -> f64 {
-    let metrics = profile_metrics(layer, of).into_iter();
-    metrics.filter(|metric| metric.name == GRAIN_VELOCITY_DIFFERENCE.name).map(|metric| metric.value).sum()
-}

@@ -6,7 +6,6 @@ mod measured;
 mod onset;
 mod suspension;
 
-pub(super) use measured::{TRANSPORT_FACTOR, VELOCITY_LIMIT, grain_velocity_difference};
 pub(super) use suspension::RESTING;
 
 use super::BedLoad1dRecord;

@@ -2,15 +2,13 @@
 
 use super::BedLoadRecord;
 use super::fit::held_out;
-use super::flow::{BedLoadFlow, BedLoadFormulation, FITTED};
-use super::metrics::{has_forgotten, is_fastest};
-use super::profiles::{drag_top_ratio, fluid_mean, velocity_at};
+use super::flow::{BedLoadFlow, BedLoadFormulation};
+use super::metrics::is_fastest;
 use super::run::pair_law_name;
 use crate::figure::{Axis, Figure, Panel};
 use crate::reference::bed_load::TransportFormula;
 use crate::shared::{ascending, percent, transport_panel};
 use crate::statistics::{BlockProfile, FittedValue};
-use bagnold_solver::material::rheology::{CoulombBingham, Rheology};
 
 pub(super) fn all(records: &[BedLoadRecord]) -> Vec<Figure> {
     let mut figures = Vec::new();
@@ -78,57 +76,6 @@ fn beside_paper(records: &[BedLoadRecord], slope: f64) -> impl Iterator<Item = (
     grains.into_iter().chain(dilating)
 }
 
-/// Origin of the parameters of the drawn runs, and whether the runs have forgotten their start.
-fn parameters(records: &[BedLoadRecord], slopes: &[f64]) -> String {
-    let CoulombBingham { yield_stress, friction, plastic_viscosity, .. } = FITTED;
-    let drawn = || slopes.iter().flat_map(|slope| beside_paper(records, *slope));
-    let fitted = |run: &BedLoadFlow| {
-        !run.formulation.is_continuum() && run.particles.material == Rheology::CoulombBingham(FITTED)
-    };
-    let mut text = "The paper's curves are lost, so that nothing measured is drawn. It calibrated a yield stress of 1220 Pa and a viscosity \
-                    of 0.26 Pa·s on the slope of 2 %, by a measured velocity of the water. Its yield stress holds every grain, also as \
-                    863 Pa = 1220 Pa/√2, its value as a shear stress. "
-        .to_owned();
-    if drawn().any(|(_, _, (run, _))| fitted(run)) {
-        text += &format!(
-            "Instead, one particle a grain has {yield_stress} Pa, {friction} of the weight of the grains above, and {plastic_viscosity} Pa·s, \
-             fitted to Wong & Parker's transport at 2 and 5 %. "
-        );
-    }
-    if drawn().any(|(name, ..)| name == DILATING) {
-        text += "Grains that dilate have closures of the literature and start in the 1-D layer's water. ";
-    }
-    if !drawn().any(|(_, _, (run, _))| has_forgotten(records, run)) {
-        text += "None of the runs is shown to have forgotten its start.";
-    }
-    text
-}
-
-/// Water over one particle a grain beside the water over the same bed at rest, slope by slope, in words.
-fn with_and_without_motion(records: &[BedLoadRecord], slopes: &[f64]) -> String {
-    let mut text = String::new();
-    let mut missing = Vec::new();
-    for &slope in slopes {
-        let of = |kind| of_kind(records, kind, slope);
-        let (Some((run, own)), Some((_, rest))) = (of(BedLoadFormulation::Stabilised), of(BedLoadFormulation::AtRest))
-        else {
-            missing.push(percent(slope));
-            continue;
-        };
-        let excess = |height: f64| {
-            let [own, rest] = [own, rest].map(|record| record.data.channel.profile.points());
-            let difference = velocity_at(run, &own, height) - velocity_at(run, &rest, height);
-            format!("{} by {:.2} u_*", if difference < 0.0 { "slower" } else { "faster" }, difference.abs())
-        };
-        let (near, far) = (excess(0.5 * run.grain_diameter), excess(0.5 * run.depth));
-        text += &format!("At {} it is {near} half a grain above the bed and {far} at half the depth. ", percent(slope));
-    }
-    if !missing.is_empty() {
-        text += &format!("At {} this tier runs neither of the two. ", missing.join(" and "));
-    }
-    text
-}
-
 /// Water over the height, with and without moving grains, a panel for each slope.
 fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
     let panel = |&slope: &f64| {
@@ -150,13 +97,9 @@ fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
     let panels: Vec<Panel> = slopes.iter().map(panel).collect();
     let errors = panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.error);
     let caption = format!(
-        "Mean velocity of the water in half-logarithmic axes over moving grains, as in figures 7 and 8 (3 %) and 9 (5 %) of the paper. \
-         Statistical errors from blocks of time are at most {:.2} u_*. In the paper the water over moving grains is slower near the bed than \
-         over the bed at rest, and equal above. Here one particle a grain is compared with the same bed at rest, the run with all grains held. \
-         {}Grains that dilate have no run with their bed at rest; the case bed-load-1d has that comparison. {}",
+        "Mean water velocity over moving grains and over the bed at rest, as in the paper's figures 7 to 9, whose curves are lost. \
+         Parameters are fitted to Wong & Parker's formula, not the paper's. Statistical errors are at most {:.2} u_*.",
         errors.copied().filter(|error| error.is_finite()).fold(0.0, f64::max),
-        with_and_without_motion(records, slopes),
-        parameters(records, slopes)
     );
     Figure::new("water", &caption, panels).in_columns(3)
 }
@@ -184,29 +127,11 @@ fn sediment(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
         velocities.push(velocity);
         drags.push(drag);
     }
-    let mut caption = "Mean velocity of the grains, as in figures 10 (3 %) and 11 (5 %) of the paper, and drag on them per volume, as in \
-        its figures 12 and 13, over the height. The paper's velocities are concave functions of the height above the bed's level and convex \
-        below. Its drag peaks beside the bed and is less on the topmost grains. "
-        .to_owned();
-    for (run, record) in slopes.iter().filter_map(|slope| of_kind(records, BedLoadFormulation::Stabilised, *slope)) {
-        let drag = record.data.drag_profile();
-        let Some((top, _)) = drag.last() else { continue };
-        caption += &format!(
-            "With one particle a grain a point is a row. At {} the topmost row lies at z = {:.2} d, and the drag on it is {:.2} times the drag \
-             on the row below. ",
-            percent(run.slope),
-            top / run.grain_diameter,
-            drag_top_ratio(&drag)
-        )
-        .replace("= -", "= −");
-    }
-    if slopes.iter().any(|slope| beside_paper(records, *slope).any(|(name, ..)| name == DILATING)) {
-        caption +=
-            "Grains that dilate are binned in half millimetres, in which their rows show; dashed is the 1-D layer. ";
-    }
+    let caption = "Mean grain velocity and drag per volume over the height, as in the paper's figures 10 to 13, whose curves are lost. Parameters \
+                   are fitted to Wong & Parker's formula, not the paper's. Dashed: 1-D layer.";
     let columns = slopes.len();
     velocities.extend(drags);
-    Figure::new("sediment", &(caption + &parameters(records, slopes)), velocities).in_columns(columns)
+    Figure::new("sediment", caption, velocities).in_columns(columns)
 }
 
 /// A stage of `continuum` against the 1-D layer.
@@ -253,19 +178,10 @@ fn against_layer(stage: BedLoadFormulation, records: &[&BedLoadRecord]) -> Figur
         BedLoadFormulation::Dilating => "(b) the water near the bed, (c) the grains and (d) their solid fraction",
         _ => "(b) the water near the bed and (c) the grains",
     };
-    let mut caption = format!(
-        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is independent. Panels \
-         are (a) the water over the whole depth, {near}."
+    let caption = format!(
+        "Stage `{name}` of the volume-fraction form against the 1-D layer of the same closures, whose discretisation is independent: (a) the \
+         water over the whole depth, {near}."
     );
-    for (run, record) in records.iter().filter(|(run, _)| !run.starts_as_usual()) {
-        let Some(layer) = &record.data.layer else { continue };
-        let reached = fluid_mean(run, &record.data.channel.profile.points(), layer);
-        caption += &format!(
-            " The run \"{}\" began with that share of the layer's velocity and has {reached:.2} of it on average over the window (mean over the depth): it \
-             is not steady.",
-            label(run)
-        );
-    }
     Figure::new(&format!("layer-{name}"), &caption, panels)
 }
 
@@ -307,9 +223,8 @@ fn transport(records: &[BedLoadRecord]) -> Figure {
         panel.points("one particle a grain, fitted to the other slopes", 7, held);
     }
     let caption = format!(
-        "Bed-load transport over the Shields number against published formulas. The band about Wong & Parker's formula is the scatter of the \
-         experiments behind it. Grains that dilate start in the 1-D layer's water, where no other start is named. Bars are statistical errors \
-         from blocks of time, at most {:.0} % of the rate, where they are larger than the mark.",
+        "Bed-load transport over the Shields number, with published formulas; the band is the scatter of Wong & Parker's data. \
+         Bars: statistical errors, at most {:.0} %.",
         100.0 * largest_error
     );
     Figure::new("transport", &caption, vec![panel])
@@ -328,8 +243,8 @@ fn over_time(records: &[BedLoadRecord]) -> Figure {
     }
     Figure::new(
         "over-time",
-        "Mean velocity U of the water above the bed over U_clear, the depth mean of the logarithmic law over a rough bed, and the transport \
-         rate q*, from the start on. A start is the velocity at first over that of this law or, of grains that dilate, of the 1-D layer.",
+        "Mean water velocity U over the logarithmic law's depth mean U_clear, and transport rate q*, over time. A start is the \
+         initial velocity over that law's, or over the 1-D layer's where grains dilate.",
         vec![velocity, rate],
     )
 }

@@ -29,9 +29,8 @@ pub(super) fn profiles(records: &[ClearWaterRecord]) -> Figure {
     }
     Figure::new(
         "velocity-profile",
-        "Left: mean velocity u over the friction velocity u_*, against the logarithmic law; z′ is the distance from the origin of the wall \
-         law and z₀ the roughness length. Right: the difference from the law over the height above the bed, with the limit of its rms from \
-         0.1 to 0.9 h. Bars are the statistical errors from blocks of time, where they are wider than the marks. Bins are one spacing high.",
+        "Left: velocity over u_* against the logarithmic law; z′ is the height above the wall law's origin, z₀ the roughness \
+         length. Right: the difference, with the rms limit from 0.1 to 0.9 h. Bars: statistical errors.",
         vec![profile, residual],
     )
 }

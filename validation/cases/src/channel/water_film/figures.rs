@@ -20,10 +20,8 @@ pub(super) fn all(records: &[WaterFilmRecord]) -> Vec<Figure> {
     figures
 }
 
-const CONVERGENCE: &str = "Relative L2 error of the velocity profile on the lattice with the number of rows. Against the film \
-     of the nominal depth the error is that of the depth: a sheared arrangement of particles has another Σ V W at the same \
-     density than the relaxed one that the reference concentration belongs to, and the velocity goes with the square of \
-     the depth. Against the film of the particles' own depth what remains is the wall and the rows at the surface.";
+const CONVERGENCE: &str = "Relative L2 error of the velocity profile over the number of rows, on the lattice, against the exact \
+                           film of the nominal depth and of the particles' own depth.";
 
 fn label(run: &WaterFilmFlow) -> String {
     format!("{} rows, {}", run.water.resolution, run.arrangement.name())

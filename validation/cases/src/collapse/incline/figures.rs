@@ -33,8 +33,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 pub(super) fn animations(records: &[Record]) -> Vec<Animation> {
     let moving = |(run, record): &Record| {
         let caption = format!(
-            "{}: the collapse in the colours of the speed. Dashed are the thickness (volume per bin of 0.1 r0) and the \
-             front, where it falls below 0.02 r0. The gate at 0.2 m is not drawn.",
+            "{}: collapse coloured by speed. Dashed: thickness (volume per bin of 0.1 r0) and front, where it falls below 0.02 r0. \
+             The gate at 0.2 m is not drawn.",
             label(run)
         );
         let view = View {
@@ -83,8 +83,8 @@ fn fronts(records: &[Record]) -> Figure {
         ""
     };
     let caption = format!(
-        "Front beyond the gate over time, and kinetic energy. Below the friction angle of 20.9° the grains come to rest; above it they \
-         run on, and the run ends when the first grain is near the end of the channel.{points}"
+        "Front beyond the gate, and kinetic energy, over time. Above the friction angle of 20.9° a run ends when the first grain \
+         nears the end of the channel.{points}"
     );
     Figure::new("fronts", &caption, vec![front, energy])
 }
@@ -119,7 +119,7 @@ fn thickness(records: &[Record]) -> Figure {
             panel.reference("largest thickness by the paper", [(0.0, stated), (far, stated)]);
             panel.reference("by (44), reconstructed", [(0.0, law), (far, law)]);
             caption += &format!(
-                " At {angle}° the paper's largest thickness is about {stated} cm, and (44), reconstructed from (40), (41) and (43), gives {law:.2} cm."
+                " At {angle}° the paper's largest thickness is about {stated} cm, and (44), reconstructed, gives {law:.2} cm."
             );
         }
         panels.push(panel);
@@ -161,9 +161,8 @@ fn run_outs(records: &[Record]) -> Figure {
     panel.points("at rest", 0, points);
     Figure::new(
         "run-out",
-        "Displacement of the front from the gate at rest, the run-out, over the slope θ, with the fit to experiments h_0 2k/(tanδ − tanθ) of \
-         Mangeney et al. 2010 as quoted. Runs are judged by the friction of their own law, tanδ = μ_s, not by the angle of repose of the \
-         experiment. The collapse paper states that its own run-out is 15 % shorter than the experiment's; it prints no number of either.",
+        "Run-out from the gate over the slope θ, with the experimental fit h_0 2k/(tanδ − tanθ) of Mangeney et al. 2010 as quoted. \
+         The gate uses tanδ = μ_s.",
         vec![panel],
     )
 }
@@ -186,8 +185,8 @@ fn velocities((run, record): &Record) -> Figure {
 
 /// The viscosity in time: the paper's figure 5.
 fn viscosities((run, record): &Record) -> Figure {
-    let caption = "apparent viscosity on the paper's scale of 0 to 1.5 Pa·s, and on a logarithmic one. Yellow is 1.5 Pa·s \
-                   or more where η is drawn, and 10⁴ Pa·s or more where its logarithm is. The viscosity of grains that hardly move has no upper bound.";
+    let caption = "apparent viscosity from 0 to 1.5 Pa·s (the paper's scale) and on a logarithmic scale to 10⁴ Pa·s; yellow is the \
+                   upper end or more.";
     fields("fields", caption, run, record, |frame| {
         let viscosity = frame.scalar("viscosity").to_vec();
         let decades = viscosity.iter().map(|v| libm::log10(v.max(1e-3))).collect();

@@ -69,9 +69,8 @@ pub(super) fn figure(records: &[Record]) -> Option<Figure> {
     let panels: Vec<Panel> = panels.collect();
     let drawn = Figure::new(
         "thickness-in-time",
-        "Thickness of the flow of a collapse at three places of the slope (volume in a bin of 2 cm over its width), \
-         with the paper's h_s (44). The flow passes as a wave: no plateau is reached before the grains have gone by, \
-         so that (44) is an order of magnitude and not a law of this flow.",
+        "Flow thickness at three places of the slope over time (volume per bin of 2 cm), with the paper's h_s (44), an order of \
+         magnitude only: the flow passes as a wave without plateau.",
         panels,
     );
     (!drawn.panels.is_empty()).then(|| drawn.in_columns(2))

@@ -239,9 +239,8 @@ pub(crate) fn figure<const D: usize>(records: &[CollapseRecord<D>]) -> Option<Fi
     });
     let drawn = Figure::new(
         "grid-convergence",
-        "Centroid, run-out and front at 0.05 r0 of the deposit over the resolution, relative to the finest: means over several seeds of \
-         the initial displacements, with the standard error of the mean, at the finest the half width of its 95 % interval \
-         (grid convergence index with the scatter).",
+        "Centroid, run-out and front at 0.05 r0 over the resolution, relative to the finest: means over seeds with standard \
+         errors, at the finest the 95 % interval (grid convergence index with scatter).",
         panels.to_vec(),
     );
     (!studies.is_empty()).then_some(drawn)

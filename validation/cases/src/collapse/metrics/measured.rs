@@ -190,14 +190,13 @@ pub(crate) fn pile_figure<const D: usize>(records: &[&CollapseRecord<D>]) -> Opt
         }
     }
     let altered = if piles.iter().any(|(run, ..)| !run.made_of().is_published()) {
-        " μ and μ_2 in the legend are friction coefficients that differ from the bars' own."
+        " μ and μ_2: altered friction."
     } else {
         ""
     };
     let caption = format!(
-        "A pile of aluminium bars after its collapse against a wall at x = 0, beside the measured one (Bui et al. 2008, points). (a) Surface; \
-         bars are twice the uncertainty of reading and of the area under the points. (b) Border of the part that stayed in its place: \
-         particles that moved by less than a spacing. The experiment does not say how it found that border. Colours are those of (a).{altered}"
+        "Aluminium bars after their collapse, with measured points (Bui et al. 2008; bars are twice the uncertainty). (a) Surface. \
+         (b) Border of the undisturbed part, displaced by less than a spacing.{altered}"
     );
     Some(Figure::new("bars-surface", &caption, vec![surface, failure]))
 }

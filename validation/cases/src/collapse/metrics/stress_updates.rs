@@ -69,9 +69,8 @@ pub(crate) fn figure<const D: usize>(records: &[CollapseRecord<D>]) -> Option<Fi
     }
     Some(Figure::new(
         "stress-updates",
-        "The two stress updates: return mapping with a true yield, and the paper's regularised viscosity (35) with \
-         an implicit step. The regularised deposit creeps for ever, so its front is that of the time at which the \
-         run ended.",
+        "Stress updates: return mapping with a true yield, and the paper's regularised viscosity (35) with an implicit step, whose \
+         front creeps and is that at the end of the run.",
         vec![deposit, front],
     ))
 }

@@ -7,10 +7,10 @@ use crate::figure::{Axis, Figure, Panel};
 use crate::reference::one_dimension::TransientHistory;
 use crate::shared::Arrangement;
 
-const PROFILES: &str = "Mean velocity along the slope in 20 bins over the depth, against Bagnold's profile (36), which is exact for \
-    the μ(I) law. Left in metres per second, right the difference in percent of the exact surface velocity.";
-const OTHER_GRAINS: &str = "The same for grains of other materials with the same numerics: mean velocity against Bagnold's profile of each \
-    material, and the difference in percent of the exact surface velocity.";
+const PROFILES: &str = "Mean velocity over the depth against Bagnold's profile (36), in m/s (left) and as a difference in % of the \
+                        exact surface velocity (right).";
+const OTHER_GRAINS: &str = "Grains of other materials: mean velocity over the depth against Bagnold's profile of each material, \
+                            and the difference in % of the exact surface velocity.";
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let of = |belongs: &dyn Fn(&BagnoldFlow) -> bool| -> Vec<&Record> {
@@ -42,7 +42,7 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
 fn set_up(run: &BagnoldFlow) -> String {
     let exact = run.profile();
     format!(
-        " The layer is {:.0} mm thick, of grains of {:.2} mm and a solid fraction of {:.2}, with {} rows of particles.",
+        " Layer of {:.0} mm, grains of {:.2} mm, solid fraction {:.2}, {} rows.",
         1e3 * exact.layer_height,
         1e3 * exact.grain_diameter,
         exact.solid_fraction,
@@ -110,11 +110,10 @@ fn arrest_and_runaway(records: &[&Record]) -> Figure {
     let has = |fate| records.iter().any(|(run, _)| run.fate() == fate);
     let mut caption = String::new();
     if has(Fate::Arrest) {
-        caption += "Below the static friction angle a layer that starts with a steady profile comes to rest. ";
+        caption += "Below the static friction angle a layer with a steady profile comes to rest. ";
     }
     if has(Fate::Runaway) {
-        caption += "Above the limiting friction angle a layer from rest accelerates without end; its run stops when its mean passes half the \
-                    sound speed. ";
+        caption += "Above the limiting friction angle it accelerates until half the sound speed. ";
     } else {
         caption += "Layers that run away belong to the paper tier. ";
     }

@@ -35,9 +35,8 @@ pub(super) fn all(records: &[Record]) -> Vec<Figure> {
         }
         figures.push(Figure::new(
             "convergence",
-            "Relative L2 error of the Newtonian velocity profile against the exact weakly compressible film, with \
-             the number of rows over the film. On the lattice it is of second order; displaced particles keep a part that does not \
-             go away with the spacing.",
+            "Relative L2 error of the Newtonian velocity profile against the exact weakly compressible film over the number of \
+             rows: second order on the lattice, with a residual for perturbed particles.",
             vec![panel],
         ));
     }
@@ -117,10 +116,8 @@ fn operators(films: &[&Record]) -> Figure {
     }
     Figure::new(
         "operators",
-        "The Newtonian film from displaced particles with the default operator and walls and with those of the \
-         collapse paper: one divergence operator for pressure and viscous stress against the pressure term (10) with \
-         the pairwise viscosity (11), its correction (13), and the paper's no-slip walls. Observed, not judged: only \
-         the default is gated.",
+        "Newtonian film from perturbed particles, with default operators and walls and with those of the collapse paper: (10), \
+         (11), (13) and its no-slip walls. Only the default is judged.",
         vec![velocity, error],
     )
 }

@@ -41,10 +41,8 @@ fn stopping(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     panel.points("kept flowing", 6, []);
     panel.draw("stopped", Mark::OpenPoints, 6, []);
     let caption = format!(
-        "Runs whose layer stopped (open marks) or kept flowing (filled marks), over slope and thickness. The runs are of the {}. Curves in the \
-         colours of the marks are the exact h_stop of each nonlocal law, which depends on the fluidity at the surface: it vanishes there, or has \
-         no flux. The local law has one stopping slope for every thickness (dashed, exact). Left of the fit h_stop(θ) the experiments have no \
-         flow. No uncertainty of h_stop is at hand.",
+        "Layers that stopped (open) or flowed (filled) over slope and thickness: {}. Curves: exact h_stop of each law, and the \
+         experimental fit without a stated uncertainty.",
         tried.join("; ")
     );
     Figure::new("start-stop", &caption, vec![panel])
@@ -151,9 +149,7 @@ fn froude(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
         let curve: Vec<(f64, f64)> = curve.collect();
         if let [.., (x, y), (far, end)] = curve[..] {
             let slope = libm::log(end / y) / libm::log(far / x);
-            steepness = format!(
-                " Its curve still rises with the power {slope:.1} of h/h_stop at its end, where the flow rule has the power 1."
-            );
+            steepness = format!(" Its curve ends with the power {slope:.1}.");
         }
         panel.line("nonlocal law, without particles", 1, curve);
     }
@@ -161,9 +157,8 @@ fn froude(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     panel.points("local law, particles", 0, local);
     panel.points("nonlocal law, particles", 1, nonlocal);
     let caption = format!(
-        "Depth mean of the velocity over √(gh) against the thickness over the h_stop(θ) of experiments, for both laws. The local law lies on the \
-         published line by an identity, however thin the layer. The nonlocal law lies below it and is at rest below its own h_stop.{steepness} \
-         The published points and the uncertainty of h_stop are not at hand: the band is what half a degree of the slope makes of h_stop."
+        "Depth-averaged velocity over √(gh) against thickness over the experimental h_stop(θ), for both laws.{steepness} Band: \
+         half a degree of slope. The published points are not available."
     );
     Figure::new("froude-number", &caption, vec![panel])
 }

@@ -20,9 +20,8 @@ pub(super) fn all(records: &[HydrostaticRecord]) -> Vec<Figure> {
     let pressures = "Pressure of every particle at the end, with and without the density–pressure coupling (27), against \
         the exact profile. For grains the band between the passive and the active state is shaded: any pressure in it is \
         an equilibrium.";
-    let rest = "Mean height and root mean square speed over time: a layer at rest must neither sink nor boil. Its stiffness \
-        K = 50 ρ0 g H puts the mean height 0.3 to 0.5 % below that of a rigid layer; without (27) particles are agitated \
-        and stand higher.";
+    let rest = "Mean height and root mean square speed over time. Stiffness K = 50 ρ0 g H lowers the mean height by 0.3 to 0.5 %; \
+                without the coupling (27) particles are agitated and stand higher.";
     vec![Figure::new("pressure", pressures, panels).in_columns(2), Figure::new("rest", rest, vec![height, speed])]
 }
 
