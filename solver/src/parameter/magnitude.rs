@@ -98,7 +98,7 @@ impl Walk {
             "minimum": -most,
             "maximum": most,
             "x-smallest": least,
-            "x-rule": format!("of a size between {least:e} and {most:e}{shown}"),
+            "x-rule": format!("between {least:e} and {most:e}{shown} in absolute value"),
             "x-remedy": remedy,
         }))
     }
@@ -159,14 +159,14 @@ mod tests {
     fn a_unit_bounds_what_no_rule_does() {
         assert_eq!(said(""), "None");
         assert_eq!(said("seed = 9007199254740993\noffset = -1.0"), "None");
-        let metres = "but must be of a size between 1e-9 and 1e5 m; check the number: its unit is m";
+        let metres = "but must be between 1e-9 and 1e5 m in absolute value; check the number: its unit is m";
         assert_eq!(said("depth = 1e308"), format!("`depth` is 1e308, {metres}"));
         assert_eq!(said("offset = nan"), format!("`offset` is NaN, {metres}"));
         assert_eq!(said("offset = -1e-308"), format!("`offset` is -1e-308, {metres}"));
         assert_eq!(said("offset = 9000000000000000000"), format!("`offset` is 9000000000000000000, {metres}"));
         assert_eq!(
             said("angles = [24.0, 1e-308]"),
-            "`angles[1]` is 1e-308, but must be of a size between 1e-6 and 3.6e2 °; check the number: its unit is °"
+            "`angles[1]` is 1e-308, but must be between 1e-6 and 3.6e2 ° in absolute value; check the number: its unit is °"
         );
         assert_eq!(said("stops = [[1e6, 20.0]]"), format!("`stops[0][0]` is 1000000, {metres}"));
         assert!(said("stops = [[1.0, 1e4]]").starts_with("`stops[0][1]` is 10000, but"));

@@ -68,8 +68,7 @@ impl EnergyScale {
 
 /// Largest unexplained share of the work, and of a layer's energy at rest `[%]`; with reasons where they have their own.
 const OPEN: f64 = 0.5;
-const OPEN_AT_REST: (f64, &str) =
-    (1e-3, "0.001 %: a layer at rest does hardly any work; forces change within a step");
+const OPEN_AT_REST: (f64, &str) = (1e-3, "0.001 %: a layer at rest does hardly any work; forces change within a step");
 const OPEN_FALL: (f64, &str) =
     (0.25, "0.25 %: columns of up to three radii leave 0.04 to 0.21 %, as forces change within a step");
 const OPEN_STEADY: (f64, &str) =

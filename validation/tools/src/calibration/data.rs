@@ -107,7 +107,7 @@ impl DatumText {
         }
         if value.abs() > LARGEST || value.is_nan() {
             let remedy = "check the exponent and the unit";
-            return wrong("value", &value.to_string(), "a number of a size up to 1e30", remedy);
+            return wrong("value", &value.to_string(), "at most 1e30 in absolute value", remedy);
         }
         if self.unit.is_none() {
             return wrong("unit", "missing", "the unit of the value", "such as unit = \"m\"; \"-\" for none");
