@@ -198,7 +198,8 @@ fn messages_are_short() {
     for path in files("tests/bad", "message") {
         let message = text(&path);
         let words = message.split_whitespace().count();
-        let is_odd = ["is with ", "such that", "of a size", " unlike ", "parted"].iter().any(|words| message.contains(words));
+        let is_odd =
+            ["is with ", "such that", "of a size", " unlike ", "parted"].iter().any(|words| message.contains(words));
         if words > LONGEST_MESSAGE || is_odd {
             long.push(format!("{}: {words} words: {message}", place(&path, 1)));
         }

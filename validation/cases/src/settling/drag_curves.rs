@@ -43,9 +43,8 @@ pub(super) fn drag_coefficients() -> Figure {
     }
     Figure::new(
         "drag-coefficients",
-        "Drag coefficient of one grain alone over its Reynolds number R = |u_r| d/ν, and relative to Schiller and \
-         Naumann's. The steps are the joints of Morsi and Alexander's table, which ends at R = 50 000. Ergun's law \
-         describes beds and has no grain alone.",
+        "Drag coefficient of a single grain over its Reynolds number R = |u_r| d/ν, and relative to Schiller and Naumann's. \
+         Steps: joints of Morsi and Alexander's table, which ends at R = 50 000. Ergun's law has no single grain.",
         vec![coefficient, ratio],
     )
 }

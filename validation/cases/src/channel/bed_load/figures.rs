@@ -98,7 +98,7 @@ fn water(records: &[BedLoadRecord], slopes: &[f64]) -> Figure {
     let errors = panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.error);
     let caption = format!(
         "Mean water velocity over moving grains and over the bed at rest, as in the paper's figures 7 to 9, whose curves are lost. \
-         Parameters are fitted to Wong & Parker's formula, not the paper's. Statistical errors are at most {:.2} u_*.",
+         Parameters are fitted to Wong & Parker's formula, not the paper's. Errors are at most {:.2} u_*.",
         errors.copied().filter(|error| error.is_finite()).fold(0.0, f64::max),
     );
     Figure::new("water", &caption, panels).in_columns(3)
