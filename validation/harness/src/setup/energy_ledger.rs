@@ -100,7 +100,7 @@ const RISE: (f64, &str) = (
 );
 
 const OPEN_REASON_OVER_TIME: &str =
-    "0.5 %, plus the share of a step: 4 Δt per √(H/g) in motion, Δt over the run, two steps per impact";
+    "0.5 %, plus time steps: 4 Δt per √(H/g) in motion, Δt over the run, two per impact";
 
 /// The residual over a scale.
 pub fn residual(variant: &Variant, book: &EnergyBook, scale: EnergyScale) -> Metric {
