@@ -1,8 +1,8 @@
 //! What the closures leave open: layers whose closures are drawn from their range in the literature, each beside the same bed at rest.
 
 use super::flow::{BedLoad1dFlow, BedMotion};
-use super::run::approach;
 use crate::case::ParameterError;
+use crate::checkpoint::is_interrupted;
 use crate::metric::{Metric, MetricKind, Origin};
 use crate::reference::one_dimension::bed_load::{Closures, InitialVelocity, LayerState};
 use crate::sampling::design::sobol;
@@ -75,9 +75,11 @@ fn layer(flow: &BedLoad1dFlow, closures: Closures) -> Result<Option<DrawnLayer>,
     }
     let steady = |motion: BedMotion| -> Result<Option<LayerState>, ParameterError> {
         let own = BedLoad1dFlow { closures, motion, ..flow.clone() };
-        let Ok(layer) = own.layer() else { return Ok(None) };
-        let approach = approach(&layer, InitialVelocity::Rest)?;
-        Ok(approach.unsteady.is_none().then_some(approach.state))
+        let approach = own.layer().and_then(|layer| layer.approach_unless(InitialVelocity::Rest, &is_interrupted));
+        if is_interrupted() {
+            return Err(ParameterError::Interrupted);
+        }
+        Ok(approach.ok().filter(|approach| approach.unsteady.is_none()).map(|approach| approach.state))
     };
     let states = (steady(BedMotion::Dilating)?, steady(BedMotion::AtRest)?);
     Ok(states.0.zip(states.1).map(|(state, rest)| DrawnLayer { closures, state, rest }))

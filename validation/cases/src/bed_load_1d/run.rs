@@ -181,7 +181,7 @@ impl Done {
 }
 
 /// The steps of a layer from a start to its steady state.
-pub(super) fn approach(layer: &BedLoadLayer, start: InitialVelocity) -> Result<Approach, ParameterError> {
+fn approach(layer: &BedLoadLayer, start: InitialVelocity) -> Result<Approach, ParameterError> {
     layer.approach_unless(start, &is_interrupted).map_err(refused)
 }
 

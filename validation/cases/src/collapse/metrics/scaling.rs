@@ -99,14 +99,13 @@ fn break_point(shallow: f64, tall: &Exponent) -> f64 {
     libm::pow(tall.coefficient / shallow, 1.0 / (1.0 - tall.value))
 }
 
-/// A break point against the gap between Lube's branches, judged where the columns are of a measured material.
-fn against_lube(metric: Metric, is_judged: bool) -> Metric {
+/// A break point against the middle of the gap between Lube's branches.
+fn against_lube(metric: Metric) -> Metric {
     let lube = CollapseLawSource::Lube.law(&PLANAR_COLLAPSE.run_out);
     let [shallow, tall] = lube.branches.as_slice() else { return metric };
     let source =
         format!("between the branches of Lube et al. 2005, which end at {} and begin at {}", shallow.to, tall.from);
-    let gate = is_judged.then_some(Limit::Within(shallow.to, tall.from));
-    metric.against(Some(0.5 * (shallow.to + tall.from)), &source, lube.confidence).gated_by(gate, "the gap itself")
+    metric.against(Some(0.5 * (shallow.to + tall.from)), &source, lube.confidence)
 }
 
 pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Metric> {
@@ -137,7 +136,7 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
             if quantity == RUN_OUT.name
                 && let Some(shallow) = shallow_coefficient(records, material)
             {
-                metrics.push(against_lube(observed(BREAK_POINT, break_point(shallow, &scaling.law)), gate.is_some()));
+                metrics.push(against_lube(observed(BREAK_POINT, break_point(shallow, &scaling.law))));
             }
         }
         if let Some((law, ratios)) = shallow_law(records, material) {

@@ -25,8 +25,6 @@ pub enum MixingLengthClosure {
     Integral,
     /// l = κ √(1 − z/h) z above z = 0 and 0 below, whatever the grains do.
     Root,
-    /// l = κ z above z = 0 and 0 below: bends below the log law towards the surface.
-    Linear,
 }
 
 impl MixingLengthClosure {
@@ -37,7 +35,6 @@ impl MixingLengthClosure {
             Self::None => "none",
             Self::Integral => "integral",
             Self::Root => "root",
-            Self::Linear => "linear",
         }
     }
 }
@@ -204,7 +201,6 @@ impl Closures {
                 MixingLengthClosure::None => 0.0,
                 MixingLengthClosure::Integral => root * room,
                 MixingLengthClosure::Root => root * height.max(0.0),
-                MixingLengthClosure::Linear => height.max(0.0),
             }
     }
 }
