@@ -5,6 +5,7 @@ use super::flows;
 use super::judgement::{Judgement, KINDS, Severity, plural};
 use super::origin::provenance;
 use super::overview;
+use super::papers::Status;
 use super::template::fill;
 use super::view::{VerdictMark, typed};
 use super::{CaseReport, DrawnFigure, Exit, Report, comparison, moved};
@@ -25,7 +26,7 @@ pub(super) fn render(
         "flows": flows::panels(judgement, drawn, small),
         "cases": overview::case_lines(&judgement.cases, small),
         "moved": moved::table(judgement),
-        "has_papers": !judgement.papers.is_empty(),
+        "papers": papers(judgement),
         "has_coverage": report.features.is_some(),
         "has_comparisons": !comparison::comparisons(report).is_empty(),
         "provenance": provenance(&report.generated),
@@ -33,6 +34,15 @@ pub(super) fn render(
         "script": include_str!("template/page.js"),
     });
     fill("index.html", &page)
+}
+
+/// How many elements of both papers are reproduced; none without papers.
+fn papers(judgement: &Judgement<'_>) -> Option<String> {
+    let of = |status: Status| judgement.papers.iter().map(|account| account.count(status)).sum::<usize>();
+    let all: usize = Status::ALL.into_iter().map(of).sum();
+    let words = |status: Status| format!("{} {}", of(status), status.word());
+    let others: Vec<String> = Status::ALL.into_iter().skip(1).map(words).collect();
+    (all > 0).then(|| format!("{} of {all} elements reproduced, {}", of(Status::Reproduced), others.join(", ")))
 }
 
 /// Fills the template of the page of all gates.

@@ -48,12 +48,14 @@ impl Status {
             Some(printed) => {
                 metric.uncertainty.standard().is_some_and(|own| !printed.tells(metric.value, COVERAGE * own))
             }
+            None if metric.verdict() == Verdict::Fail => {
+                let margin = metric.gate.as_ref().map(|gate| gate.limit.margin(metric.value));
+                margin.zip(metric.uncertainty.standard()).is_some_and(|(margin, own)| -margin < COVERAGE * own)
+            }
             None => share_of_gate(metric).is_some_and(|share| share > 1.0),
         };
-        match Self::of_value(name, metric.value, metric.verdict()) {
-            Some(Self::Reproduced) if is_uncertain => Some(Self::NotShown),
-            status => status,
-        }
+        Self::of_value(name, metric.value, metric.verdict())
+            .map(|status| if is_uncertain { Self::NotShown } else { status })
     }
 
     /// Status that a value and the verdict of its gate give to an element that names the metric.
@@ -161,12 +163,17 @@ impl<'r> ElementOutcome<'r> {
                     trial.found(&shown.metric.name, &shown.metric.variant).filter(|found| !trial.is_lost(found))
                 };
                 let tried: Vec<&&Shown<'r>> = own.iter().filter(|shown| found(shown).is_some()).collect();
+                // an error that leaves every value as it is says nothing of the statement
+                let moves = |shown: &&&Shown<'r>| {
+                    let right = shown.metric.value;
+                    found(shown).is_some_and(|found| (found.value - right).abs() > 1e-9 * right.abs())
+                };
                 let stands = |shown: &&&Shown<'r>| {
                     let status =
                         found(shown).and_then(|found| Status::of_value(shown.name, found.value, found.verdict?));
                     status == Some(Status::Reproduced)
                 };
-                if !tried.is_empty() {
+                if tried.iter().any(moves) {
                     trials.push(Tried {
                         control: (case.name.as_str(), trial.control.name.as_str()),
                         is_meant: tried.iter().any(|shown| trial.control.is_named_by(&shown.metric.name)),

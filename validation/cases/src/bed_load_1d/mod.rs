@@ -30,6 +30,7 @@ type BedLoad1dRecord = RecordOf<BedLoad1dFlow>;
 
 impl Case for BedLoad1d {
     const NAME: &'static str = "bed-load-1d";
+    const AXES_BY_RUNS: bool = true;
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "bed load over the depth, two phases with closures of the literature, without particles";

@@ -27,6 +27,7 @@ type Record = RecordOf<NonlocalShearFlow>;
 
 impl Case for NonlocalShearFlows {
     const NAME: &'static str = "nonlocal-shear";
+    const AXES_BY_RUNS: bool = true;
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str =
         "grains that creep beside a flow: a chute, a dragged bed and a heap between side walls under the nonlocal law";

@@ -24,6 +24,7 @@ type SettlingRecord = RecordOf<SettlingFlow>;
 
 impl Case for Settling {
     const NAME: &'static str = "settling";
+    const AXES_BY_RUNS: bool = true;
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "a grain alone and a uniform suspension sink in a fluid, by every drag law";
     const DESCRIPTION: &'static str = "\

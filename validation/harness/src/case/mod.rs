@@ -104,6 +104,8 @@ pub trait Case: Sync + 'static {
     /// Origin of the code of the case. Leave it as it is: no hash of sources covers a case of another crate, so its
     /// results are known by the program that computed them.
     const ORIGIN: CodeOrigin = CodeOrigin::ELSEWHERE;
+    /// Whether only its runs tell the axes of its figures: headings of measurements are checked behind them.
+    const AXES_BY_RUNS: bool = false;
     /// Data that the case accepts for a run from an external code, besides single numbers.
     const EXTERNAL_SCHEMA: ExternalSchema = ExternalSchema::NUMBERS;
     /// Its flows.

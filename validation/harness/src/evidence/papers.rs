@@ -106,11 +106,13 @@ impl Printed {
 }
 
 impl Printed {
-    /// Whether a number known to ± `expanded` is told from what would not agree: within a range half as wide, or as far from its one end.
+    /// Whether a number known to ± `expanded` is told from the other side of what is printed: within a range half as wide, or as far from an
+    /// end.
     #[must_use]
     pub fn tells(&self, value: f64, expanded: f64) -> bool {
         match (self.at_least, self.at_most) {
-            (Some(low), Some(high)) => low == high || expanded <= 0.5 * (high - low),
+            (Some(low), Some(high)) if (low..=high).contains(&value) => low == high || expanded <= 0.5 * (high - low),
+            (Some(low), Some(high)) => expanded <= (low - value).max(value - high),
             (Some(end), None) | (None, Some(end)) => expanded <= (value - end).abs(),
             (None, None) => true,
         }

@@ -146,7 +146,7 @@ pub(crate) fn metrics<const D: usize>(records: &[&CollapseRecord<D>]) -> Vec<Met
             metrics.push(
                 SCALING_EXPONENT
                     .of(&variant.and("aspect_ratio", ratios), law.value)
-                    .against(Some(1.0), &lube.source, lube.confidence)
+                    .against(None, &lube.source, lube.confidence)
                     .known_to(Origin::Numerical, Some(law.standard_error), "scatter about the fit")
                     .gated_by(gate, "10 %: low columns run out in proportion to their aspect ratio")
                     .with_snapshot_tolerance(1e-2, 5e-3),

@@ -23,6 +23,7 @@ type Record = RecordOf<FlowThicknessFlow>;
 
 impl Case for FlowThickness {
     const NAME: &'static str = "flow-thickness";
+    const AXES_BY_RUNS: bool = true;
     const ORIGIN: CodeOrigin = CodeOrigin::PACKAGE;
     const SUMMARY: &'static str = "the slope at which a layer stops for its thickness, and the flow rule";
     const DESCRIPTION: &'static str = "\

@@ -25,10 +25,6 @@ use bagnold_solver::parameter::schema_of;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-/// Cases with figures whose axes only runs tell: headings of measurements are checked behind these.
-const DRAWN_BY_RUNS: [&str; 6] =
-    ["column-planar", "column-round", "flow-thickness", "nonlocal-shear", "settling", "bed-load-1d"];
-
 /// A case whose types are hidden; every [`Case`] is one.
 pub trait AnyCase: Sync {
     /// Name on the command line and in files.
@@ -399,7 +395,7 @@ impl<C: Case> PreparedCase for CasePlan<C> {
     }
 
     fn axes(&self) -> Vec<Figure> {
-        let is_told = C::ORIGIN == CodeOrigin::PACKAGE && !DRAWN_BY_RUNS.contains(&C::NAME);
+        let is_told = C::ORIGIN == CodeOrigin::PACKAGE && !C::AXES_BY_RUNS;
         if is_told { self.asked().figures } else { Vec::new() }
     }
 
