@@ -19,7 +19,7 @@ pub fn schema() -> Schema {
     if let Some(checks) = checks.as_object_mut() {
         checks.remove("default");
     }
-    checks["items"]["oneOf"] = one_of(&["metric", "value", "compare", "order_of"]);
+    checks["items"]["oneOf"] = one_of(&["metric", "value", "compare", "order_of", "difference_of"]);
     schema
 }
 
