@@ -23,17 +23,17 @@ pub struct ExpectedFailure {
     pub best_value: f64,
     /// Day of that value, `YYYY-MM-DD`.
     pub date: String,
-    /// What fails.
+    /// Origin of the failure.
     #[serde(default)]
     pub kind: FailureKind,
     /// Reason why the gate fails.
     pub reason: String,
-    /// What was tried, with figures; may be empty.
+    /// Attempts to reach the gate, with figures; may be empty.
     #[serde(default)]
     pub tried: String,
 }
 
-/// What an expected failure says of whom.
+/// Origin of an expected failure: the code, the law or the resolution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FailureKind {

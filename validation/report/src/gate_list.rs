@@ -19,7 +19,7 @@ const REMOVED: &str = "gates_removed.toml";
 const HEAD: &str = "# Every gate that this tier has ever had: case | metric | variant | limit. `bagnold report --accept` adds to it. No line is\n\
     # taken away: a gate that went is an entry of tests/snapshots/gates_removed.toml.\n";
 
-/// What stands for a limit that has not been accepted yet.
+/// Placeholder of a limit that has not been accepted yet.
 const UNKNOWN: &str = "?";
 
 /// The gates of a tier.

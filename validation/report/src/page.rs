@@ -36,7 +36,7 @@ pub(super) fn render(
     fill("index.html", &page)
 }
 
-/// How many elements of both papers are reproduced; none without papers.
+/// Number of elements of both papers by status, in words; none without papers.
 fn papers(judgement: &Judgement<'_>) -> Option<String> {
     let of = |status: Status| judgement.papers.iter().map(|account| account.count(status)).sum::<usize>();
     let all: usize = Status::ALL.into_iter().map(of).sum();
@@ -63,7 +63,7 @@ pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<DrawnFigure>], case:
     position.and_then(|position| drawn.get(position)).map_or(&[][..], Vec::as_slice)
 }
 
-/// What a change did: new failures, and the values that moved from the baseline; then all gates.
+/// Effect of a change: new failures and values that moved from the baseline, then all gates.
 fn banner(judgement: &Judgement<'_>) -> Value {
     let tally = judgement.tally();
     let (new, moved) = (tally.of(Severity::NewFailure), judgement.moved());

@@ -99,13 +99,13 @@ impl<'r> Ended<'r> {
     }
 }
 
-/// What an element says of a control.
+/// Verdict of an element under a control.
 struct Tried<'r> {
     /// The control, by case and name.
     control: (&'r str, &'r str),
     /// Whether the element names a metric that is meant to feel it.
     is_meant: bool,
-    /// Whether the element still says what it says of the right runs.
+    /// Whether the element still counts as reproduced.
     stands: bool,
 }
 

@@ -48,7 +48,7 @@ pub struct ReportRequest {
     pub junit: Option<PathBuf>,
     /// Folder to write.
     pub folder: PathBuf,
-    /// What is shown of the verdicts.
+    /// Rows of the verdicts that are shown, and their width.
     pub terminal: Terminal,
     /// The command that makes it again.
     pub command: String,

@@ -31,7 +31,7 @@ pub struct SingleRun {
     pub has_own_parameters: bool,
     /// File for the verdicts as JUnit's XML.
     pub junit: Option<PathBuf>,
-    /// What is shown of the verdicts.
+    /// Rows of the verdicts that are shown, and their width.
     pub terminal: Terminal,
 }
 

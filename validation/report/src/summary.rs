@@ -9,7 +9,7 @@ use crate::observation::Outcome;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-/// What a terminal shows.
+/// Width and rows of the verdicts on a terminal.
 #[derive(Debug, Clone, Copy)]
 pub struct Terminal {
     /// Columns of a line.
@@ -36,7 +36,7 @@ pub fn of_case(judged: &JudgedCase<'_>, terminal: Terminal) -> String {
     heading(case, terminal) + &table(rows(judged, is_shown), terminal) + &hidden + &predictions
 }
 
-/// What went wrong in the runs of a case, and its gates that fail; nothing of a case without failures.
+/// Diverged runs and failing gates of a case; empty for a case without failures.
 pub(super) fn failures(judged: &JudgedCase<'_>, terminal: Terminal) -> String {
     let table = table(rows(judged, |judged| matches!(judged.rank(), Rank::Failing(_))), terminal);
     let is_quiet = table.is_empty() && judged.diverged.is_empty() && !terminal.is_verbose;

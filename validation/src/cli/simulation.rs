@@ -26,7 +26,7 @@ pub(super) fn introduce(cases: &[Box<dyn PreparedCase>], quiet: bool, is_denied:
     reject_warnings(is_denied)
 }
 
-/// What each run needs and all of them together, in lines.
+/// Particles, memory and hours of each run and of all runs, in lines.
 pub(super) fn estimate(cases: &[Box<dyn PreparedCase>], store: &Store) -> String {
     let threads = rayon::current_num_threads();
     let lines = cases.iter().flat_map(|case| {

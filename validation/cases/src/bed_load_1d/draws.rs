@@ -1,4 +1,4 @@
-//! What the closures leave open: layers whose closures are drawn from their range in the literature, each beside the same bed at rest.
+//! Input uncertainty by the closures: layers whose closures are drawn from their ranges, each beside its bed at rest.
 
 use super::flow::{BedLoad1dFlow, BedMotion};
 use crate::case::ParameterError;
@@ -16,8 +16,9 @@ const DRAGS: [DragLaw; 5] =
 /// The drag that the bed-load paper takes.
 const PAPER_DRAG: DragLaw = DragLaw::MorsiAlexander;
 
-/// Least and largest value of a closure over its usual one `[-]`: μ_s 0.3 to 0.4, μ_2 0.64 to 1.2, I_0 0.3 to 1, φ_max 0.55 to 0.64, B 0.15
-/// to 0.62, κ 0.38 to 0.42, the origin 0.15 to 0.3 d below the tops of resting grains.
+/// Least and largest value of a closure over its usual one `[-]`: μ_s, μ_2, I_0, φ_max and B as in
+/// `reference-data/bed-load-1d/uncertainty.toml`, whose sources stand there. κ 0.38 to 0.42 is assumed about measured values; the origin 0.15
+/// to 0.3 d below the tops of resting grains is that of `closures.csv` (Nezu & Nakagawa 1993).
 const RANGES: [(f64, f64); 7] = [
     (0.3 / 0.35, 0.4 / 0.35),
     (0.64 / 0.97, 1.2 / 0.97),
@@ -151,6 +152,34 @@ mod tests {
         let fades = drawn.iter().map(|closures| closures.grain_roughness.bed_roughness_fade_length);
         let (low, high) = fades.fold((f64::INFINITY, 0.0_f64), |(low, high), own| (low.min(own), high.max(own)));
         assert!(low > 0.01 && low < 0.012 && high < 0.3 && high > 0.25, "{low} to {high}");
+    }
+
+    /// The ranges by which comparisons with measurements are propagated are the ranges that are drawn from.
+    #[test]
+    fn ranges_are_those_of_the_stated_uncertainty() {
+        let text = include_str!("../../../../reference-data/bed-load-1d/uncertainty.toml");
+        let usual = Closures::default();
+        let own = [
+            ("closures.static_friction", usual.static_friction, RANGES[0]),
+            ("closures.limiting_friction", usual.limiting_friction, RANGES[1]),
+            ("closures.reference_inertia", usual.reference_inertia, RANGES[2]),
+            ("closures.largest_fraction", usual.largest_fraction, RANGES[3]),
+            ("closures.dilation", usual.dilation, RANGES[4]),
+            (
+                "closures.grain_roughness.bed_roughness_fade_length",
+                usual.grain_roughness.bed_roughness_fade_length,
+                FADE,
+            ),
+        ];
+        for (path, value, (low, high)) in own {
+            let stated = |end: &str| -> f64 {
+                let begin = format!("{end} = [\"{path}=");
+                let rest = text.lines().find_map(|line| line.strip_prefix(&begin)).expect("a range of the file");
+                rest.trim_end_matches("\"]").parse().expect("a number")
+            };
+            let is_near = |drawn: f64, stated: f64| (drawn / stated - 1.0).abs() < 1e-12;
+            assert!(is_near(value * low, stated("low")) && is_near(value * high, stated("high")), "{path}");
+        }
     }
 
     #[test]

@@ -17,8 +17,9 @@ use bagnold_number::four_digits;
 /// Observation of a run from what another code gives of it; none without columns that tell one.
 pub(crate) type FromExternal<F> = Result<Option<ExternalObservation<<F as Flow>::Observation>>, FieldError>;
 
-/// Transport of bed load in the units of flumes with its 95 % interval, from q* and its standard uncertainty `[-]`; none without a value.
-pub(crate) fn transport_in_units(stream: &Stream, transport: f64, uncertainty: f64) -> Option<String> {
+/// Transport of bed load in the units of flumes with its 95 % interval by a source, from q* and its standard uncertainty `[-]`; none without a
+/// value.
+pub(crate) fn transport_in_units(stream: &Stream, transport: f64, uncertainty: f64, by: &str) -> Option<String> {
     let within = |unit: f64| {
         let bounds = [transport, (transport - 1.96 * uncertainty).max(0.0), transport + 1.96 * uncertainty];
         bounds.map(|bound| four_digits(bound * unit))
@@ -28,7 +29,7 @@ pub(crate) fn transport_in_units(stream: &Stream, transport: f64, uncertainty: f
         [stream.grain_density * area, area, 1.0].map(within);
     transport.is_finite().then(|| {
         format!(
-            "bed load of {mass} kg/(m s) (95 %: {least} … {most}), {volume} m²/s ({low} … {high}), q* = {own} ({lower} … {upper})"
+            "bed load of {mass} kg/(m s) (95 % by {by}: {least} … {most}), {volume} m²/s ({low} … {high}), q* = {own} ({lower} … {upper})"
         )
     })
 }

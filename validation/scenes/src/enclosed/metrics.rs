@@ -48,7 +48,7 @@ quantities! { pub(super) [ENERGY_RESIDUAL, ENERGY_RISE, WALL_WORK, CORRECTION_WO
     FINAL_RMS_SPEED:
         accounted("final_rms_speed", "m/s", "root mean square of the speed in the scene, mean over the last tenth of the run"),
     MACH_NUMBER:
-        accounted("mach_number", "-", "largest speed of the slower 99.5 % of the particles, relative to the wall from which they are slowest, over the sound speed; not validated above 0.2"),
+        accounted("mach_number", "-", "largest relative speed of the slower 99.5 % of the particles over the sound speed, seen from the wall beside which they are slowest; not validated above 0.2"),
     NUMERICAL_VISCOSITY:
         accounted("numerical_viscosity", "Pa s", "viscosity of the liquid times what artificial terms, hourglass control and density coupling dissipate less what the scheme feeds in, over what the viscosity does; disorder that the viscosity itself damps is not in it"),
     FRONT: accounted("front", "m", "distance of the front along the line of a gauge at the end"),

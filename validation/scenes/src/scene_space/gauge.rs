@@ -16,8 +16,7 @@ use serde::{Deserialize, Serialize};
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum SpaceGauge {
     /// Front of the material along a line: the first place behind its start where, on the mean over a width, less
-    /// than a thickness stands across it. Where material lies below more than half of the line at the start, a bed, only what is above the line
-    /// counts.
+    /// than a thickness stands across it. A bed below more than half of the line at the start does not count.
     Front {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
         name: String,

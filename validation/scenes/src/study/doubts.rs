@@ -1,4 +1,4 @@
-//! What makes a study green whatever it simulates: told before it runs.
+//! Defects of a study whose checks cannot fail, reported before it runs.
 
 use super::Study;
 use super::check::StudyCheck;
@@ -22,7 +22,7 @@ impl Study {
     }
 }
 
-/// What is odd about the limit of a check beside its reference.
+/// Defect of the limit of a check beside its reference.
 fn of_limit(check: &StudyCheck) -> Option<String> {
     let (limit, (reference, _)) = (check.limit?, check.reference()?);
     let farthest = match limit {

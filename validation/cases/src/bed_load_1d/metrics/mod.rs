@@ -85,7 +85,7 @@ fn in_units(metrics: Vec<Metric>, judged: &[SolvedLayer<'_>]) -> Vec<Metric> {
         };
         let rate = state.transport();
         let uncertainty = metric.uncertainty.standard().map(|own| own * rate / metric.value);
-        let words = uncertainty.and_then(|own| transport_in_units(&run.stream(), rate, own));
+        let words = uncertainty.and_then(|own| transport_in_units(&run.stream(), rate, own, "the closures"));
         metric.remarked(words)
     };
     metrics.into_iter().map(with_units).collect()

@@ -123,6 +123,8 @@ mod tests {
         );
         assert!(of("material.grain_diameter = 0.7").ends_with("; 0.7 in millimetres is 7×10⁻⁴"));
         assert!(of("material.grain_density = 2.65").ends_with("; 2.65 in g/cm³ is 2650"));
+        assert_eq!(of("bulk_density = 13534.0"), "", "mercury");
+        assert!(of("bulk_density = 13.5").contains("13.5"), "mercury in g/cm³");
         assert!(of("gravity = [0.0, -966.0]").ends_with("; 966 in cm/s² is 9.66"));
         assert!(of("gravity = [0.0, 9.81]").ends_with("its last component is 9.81; downwards it is -9.81"));
         assert!(of("gravity = [0.0, -9810.0]").ends_with("; 9810 in mm/s² is 9.81"));

@@ -126,7 +126,7 @@ fn by_formula(metric: Metric, run: &BedLoadFlow) -> Metric {
 /// The transport, beside the formula where the run has forgotten its start.
 fn transport((run, record): &BedLoadRecord, forgotten: bool) -> Metric {
     let mean = record.data.mean_transport();
-    let in_units = transport_in_units(&run.stream(), mean.value, mean.standard_error);
+    let in_units = transport_in_units(&run.stream(), mean.value, mean.standard_error, "the mean over time");
     let rate = channel::observed(TRANSPORT, &run.variant(), mean, 1.0).remarked(in_units);
     if forgotten { by_formula(rate, run) } else { rate }
 }
