@@ -408,3 +408,14 @@ fn the_shipped_study_holds() {
         .collect();
     assert_eq!(gated, ["front_over_time", "load_at_rest", "load_at_rest"]);
 }
+
+#[test]
+fn a_study_that_cannot_fail_is_rejected_with_its_warnings() {
+    let place = Place::new();
+    let check = "study = 'mine'\nsummary = 'one'\ncase = 'film'\n[[checks]]\nname = 'flux'\nmetric = 'flux_error'\n";
+    place.file("mine.toml", &format!("{check}at_most = 1e9\nreference = 2.0\nsource = 'a book'\nreason = 'wide'\n"));
+    let finished = place.run(&["mine.toml", "--deny-warnings"]).code(2);
+    let said = String::from_utf8_lossy(&finished.get_output().stderr).into_owned();
+    assert!(said.contains("check `flux`: the limit ≤ 1000000000 reaches farther"), "{said}");
+    assert!(said.contains("no control shows that a check can fail") && said.contains("2 of the warnings"), "{said}");
+}

@@ -49,7 +49,7 @@ use crate::figure::Figure;
 use crate::input::{FieldError, MeasuredFiles, WRITTEN_BY_HAND, read_text};
 use crate::measured::Measurements;
 use crate::metric::Metric;
-use crate::output::FileError;
+use crate::output::{FileError, caution};
 use check::{CheckedQuantity, StudyCheck};
 use file::StudyText;
 use probe::ColumnWindow;
@@ -82,7 +82,7 @@ impl Study {
             return Err(FieldError::new("study", value, "unlike the name of a case", remedy).in_file(file).into());
         }
         for doubt in study.doubts() {
-            tracing::warn!("study `{}`: {doubt}", study.name());
+            caution(&format!("study `{}`: {doubt}", study.name()));
         }
         Ok(study)
     }
