@@ -6,6 +6,7 @@ use super::setting::{SceneInlet, SceneWall};
 
 use crate::output::caution;
 use bagnold_number::four_digits;
+use bagnold_solver::material::rheology::Rheology;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::terms::stress_diffusion::STEEPEST;
 
@@ -13,6 +14,8 @@ use bagnold_solver::weakly_compressible::terms::stress_diffusion::STEEPEST;
 const LARGEST_MACH_NUMBER: f64 = 0.2;
 /// Fewest particles across a gap.
 const NARROWEST_GAP: f64 = 3.0;
+/// Largest component of the normal of a wall along the lattice.
+const ALIGNED: f64 = 1.0 - 1e-6;
 /// Share of a spacing within which ends of walls touch.
 const TOUCHING: f64 = 0.5;
 /// Most triangles of a wall per square of the spacing: finer ones only take time and memory.
@@ -66,8 +69,18 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
             self.name,
             four_digits(self.spacing),
             self.sound_cause(),
-            openings.into_iter().chain(beyond).collect::<String>()
+            openings.into_iter().chain(beyond).chain(self.circulation()).collect::<String>()
         )
+    }
+
+    /// Speed below which a liquid beside inclined walls does not rest: its rows end at different distances from them.
+    fn circulation(&self) -> Option<String> {
+        let is_inclined = |wall: &S::Wall| {
+            let facets = wall.facet_wall().facets;
+            facets.iter().any(|facet| facet.normal.iter().all(|part| part.abs() < ALIGNED))
+        };
+        (matches!(self.material, Rheology::Newtonian(_)) && self.walls.iter().any(is_inclined))
+            .then(|| "; beside inclined walls the liquid keeps moving at up to 2 % of √(g H)".to_owned())
     }
 
     /// The narrowest gap `[m]` between ends of different walls that is too narrow for a flow, and their names.

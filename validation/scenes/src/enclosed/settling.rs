@@ -184,9 +184,12 @@ fn check_held<const D: usize>(
         let value = format!("{moves}, stirred in place at {speed:.1e} m/s");
         return Err(refused_for(&value, "", &raise(speed, rest)));
     }
-    Err(refused_for(&moves, "", SUPPORT))
+    let is_liquid = matches!(scene.rheology, Rheology::Newtonian(_));
+    Err(refused_for(&moves, "", if is_liquid { SUPPORT_OF_LIQUID } else { SUPPORT }))
 }
 
+const SUPPORT_OF_LIQUID: &str =
+    "close open sides; a liquid beside inclined walls turns over in place, so remove `preparation` there";
 const SUPPORT: &str = "support the bodies with walls, keep slopes below the static friction, or remove `preparation`";
 
 fn not_at_rest(speed: f64, rest: RestCriterion) -> ParameterError {
