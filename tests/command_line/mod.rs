@@ -19,6 +19,7 @@ mod nonlocal;
 mod overlay;
 mod own_crate;
 mod permission;
+mod predict;
 pub(crate) mod program;
 mod published;
 mod restart;

@@ -3,6 +3,7 @@
 mod examples;
 mod foreign;
 mod new;
+mod predict;
 mod store;
 mod sweep;
 mod work;
@@ -12,6 +13,7 @@ pub(super) use foreign::{CompareArguments, ExportArguments, JudgeArguments, Leag
 #[cfg(test)]
 pub(super) use new::Named;
 pub(super) use new::{NewArguments, NewCrate};
+pub(super) use predict::{BedLoadArguments, PredictAction, PredictArguments};
 pub(super) use store::{StoreAction, StoreArguments};
 pub(super) use sweep::{Cluster, Engine, SweepAction, SweepArguments};
 pub(super) use work::FigureOptions;
@@ -167,6 +169,8 @@ pub enum Command {
     Report(ReportArguments),
     /// Fit parameters to data and judge them on validation data.
     Calibrate(CalibrateArguments),
+    /// Predict the bed load of a flume, with its interval.
+    Predict(PredictArguments),
     /// Simulate cases at many parameter values, locally or on a cluster.
     Sweep(Box<SweepArguments>),
     /// List stored results, or delete old ones.

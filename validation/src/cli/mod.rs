@@ -16,6 +16,7 @@ mod logging;
 mod machine;
 mod new;
 mod panels;
+mod predict;
 mod profile;
 mod progress;
 mod publication;
@@ -214,6 +215,7 @@ fn perform(command: &Command, session: &mut Session<'_>) -> Result<Exit, Program
             })
         }
         Command::Calibrate(command) => in_pool(command.work.threads, || calibrate::run(command, session)),
+        Command::Predict(command) => predict::predict(command, session),
         Command::Completions(command) => Ok(completions::completions(command, session)),
         Command::Examples(command) => examples::examples(command, session),
         Command::New(command) => new::new(command, session),

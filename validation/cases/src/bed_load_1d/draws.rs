@@ -1,10 +1,10 @@
 //! Input uncertainty by the closures: layers whose closures are drawn from their ranges, each beside its bed at rest.
 
 use super::flow::{BedLoad1dFlow, BedMotion};
+use super::prediction::steady;
 use crate::case::ParameterError;
-use crate::checkpoint::is_interrupted;
 use crate::metric::{Metric, MetricKind, Origin};
-use crate::reference::one_dimension::bed_load::{Closures, InitialVelocity, LayerState};
+use crate::reference::one_dimension::bed_load::{Closures, LayerState};
 use crate::sampling::design::sobol;
 use bagnold_solver::material::drag::DragLaw;
 use serde::{Deserialize, Serialize};
@@ -52,6 +52,11 @@ pub struct Draws {
     pub drawn: Vec<Option<DrawnLayer>>,
 }
 
+/// So many draws of closures.
+pub(super) fn drawn_closures(own: &Closures, number: usize) -> Vec<Closures> {
+    sobol(number, RANGES.len() + 2, 1).iter().map(|point| closures(own, point)).collect()
+}
+
 /// Closures of a point of the unit cube.
 fn closures(own: &Closures, point: &[f64]) -> Closures {
     let between = |(low, high): (f64, f64), share: f64| low + (high - low) * share;
@@ -71,17 +76,7 @@ fn closures(own: &Closures, point: &[f64]) -> Closures {
 
 /// The layer of a flow with other closures and the bed at rest beside it; none without a steady state or where the closures break a rule.
 fn layer(flow: &BedLoad1dFlow, closures: Closures) -> Result<Option<DrawnLayer>, ParameterError> {
-    if closures.problem().is_some() {
-        return Ok(None);
-    }
-    let steady = |motion: BedMotion| -> Result<Option<LayerState>, ParameterError> {
-        let own = BedLoad1dFlow { closures, motion, ..flow.clone() };
-        let approach = own.layer().and_then(|layer| layer.approach_unless(InitialVelocity::Rest, &is_interrupted));
-        if is_interrupted() {
-            return Err(ParameterError::Interrupted);
-        }
-        Ok(approach.ok().filter(|approach| approach.unsteady.is_none()).map(|approach| approach.state))
-    };
+    let steady = |motion| steady(&BedLoad1dFlow { closures, motion, ..flow.clone() });
     let states = (steady(BedMotion::Dilating)?, steady(BedMotion::AtRest)?);
     Ok(states.0.zip(states.1).map(|(state, rest)| DrawnLayer { closures, state, rest }))
 }
@@ -95,8 +90,7 @@ impl Draws {
         if flow.closure_draws == 0 {
             return Ok(Self::default());
         }
-        let points = sobol(flow.closure_draws, RANGES.len() + 2, 1);
-        let drawn = points.iter().map(|point| layer(flow, closures(&flow.closures, point)));
+        let drawn = drawn_closures(&flow.closures, flow.closure_draws).into_iter().map(|own| layer(flow, own));
         Ok(Self {
             paper: layer(flow, Closures { drag: PAPER_DRAG, ..flow.closures })?,
             drawn: drawn.collect::<Result<_, _>>()?,

@@ -6,12 +6,14 @@ mod flow;
 mod laws;
 mod metrics;
 mod onset_criterion;
+mod prediction;
 mod quantities;
 mod records;
 mod run;
 
 pub use draws::{DrawnLayer, Draws};
 pub use flow::{BedLoad1dFlow, BedMotion, GrainUnits, LayerStart, LayerStream, SimilarStream, SlopedStream};
+pub use prediction::{BedLoadFlume, TransportPrediction};
 pub use run::BedLoadLayerObservation;
 
 use crate::case::{Case, Flow, RecordOf};

@@ -5,6 +5,7 @@ mod lowest_velocity;
 mod motion_thresholds;
 mod onset;
 mod profiles;
+mod side_walls;
 mod transport;
 
 pub use layer_statement::{LAYER_STATEMENTS, LayerStatement};
@@ -12,4 +13,8 @@ pub use lowest_velocity::{LOWEST_LAYER_TOP, LowestVelocity, SHEET_FLOW_LOWEST_VE
 pub use motion_thresholds::{MOTION_THRESHOLDS, MotionThresholds, ThresholdBand};
 pub use onset::{ONSET_SCATTER, ONSET_SOURCE, critical_shields_number};
 pub use profiles::MeasuredBedLoad;
-pub use transport::{MEASURED_BAND, MEASURED_TRANSPORT, MeasuredRates, TransportFormula, measured_rates_about};
+pub use side_walls::Flume;
+pub use transport::{
+    MEASURED_BAND, MEASURED_TRANSPORT, MeasuredRates, RATIOS_WELL_ABOVE, TransportFormula, measured_grains,
+    measured_rates_about, quantile,
+};

@@ -33,15 +33,23 @@ pub static MEASURED_TRANSPORT: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     })
 });
 
-/// Factors on Wong & Parker's 1.6 form between which nine tenths of the measured runs well above the threshold of motion lie: the
-/// width that a comparison with a formula can claim.
-pub static MEASURED_BAND: LazyLock<(f64, f64)> = LazyLock::new(|| {
+/// Ratios of the measured runs well above the threshold of motion to Wong & Parker's 1.6 form, in ascending order `[-]`.
+pub static RATIOS_WELL_ABOVE: LazyLock<Vec<f64>> =
+    LazyLock::new(|| ratios_over_formula(|shields| shields >= WELL_ABOVE_THRESHOLD));
+
+/// Factors on Wong & Parker's 1.6 form between which nine tenths of [`RATIOS_WELL_ABOVE`] lie: the width that a comparison with a formula
+/// can claim.
+pub static MEASURED_BAND: LazyLock<(f64, f64)> =
+    LazyLock::new(|| (quantile(&RATIOS_WELL_ABOVE, 0.05), quantile(&RATIOS_WELL_ABOVE, 0.95)));
+
+/// Ratios of measured runs of some Shields numbers to Wong & Parker's 1.6 form, in ascending order.
+fn ratios_over_formula(is_meant: impl Fn(f64) -> bool) -> Vec<f64> {
     let own = TransportFormula::WongParker;
-    let runs = MEASURED_TRANSPORT.iter().filter(|(shields, _)| *shields >= WELL_ABOVE_THRESHOLD);
+    let runs = MEASURED_TRANSPORT.iter().filter(|(shields, _)| is_meant(*shields) && own.transport(*shields) > 0.0);
     let mut ratios: Vec<f64> = runs.map(|(shields, transport)| transport / own.transport(*shields)).collect();
     ratios.sort_by(f64::total_cmp);
-    (quantile(&ratios, 0.05), quantile(&ratios, 0.95))
-});
+    ratios
+}
 
 /// Factor in the Shields number within which runs count as of the same `[-]`.
 const SAME_SHIELDS: f64 = 1.3;
@@ -57,8 +65,8 @@ pub struct MeasuredRates {
     pub bounds: (f64, f64),
     /// Half of the width of the middle two thirds, a standard deviation.
     pub deviation: f64,
-    /// Number of runs.
-    pub number: usize,
+    /// The runs' ratios, in ascending order.
+    pub ratios: Vec<f64>,
     /// Source of the rates.
     pub source: String,
     /// Confidence in the rates.
@@ -68,12 +76,8 @@ pub struct MeasuredRates {
 /// The measured runs within a factor of 1.3 of a Shields number `[-]`; none of too few.
 #[must_use]
 pub fn measured_rates_about(shields_number: f64) -> Option<MeasuredRates> {
-    let own = TransportFormula::WongParker;
     let range = shields_number / SAME_SHIELDS..=shields_number * SAME_SHIELDS;
-    let runs =
-        MEASURED_TRANSPORT.iter().filter(|(shields, _)| range.contains(shields) && own.transport(*shields) > 0.0);
-    let mut ratios: Vec<f64> = runs.map(|(shields, transport)| transport / own.transport(*shields)).collect();
-    ratios.sort_by(f64::total_cmp);
+    let ratios = ratios_over_formula(|shields| range.contains(&shields));
     let (source, confidence) = read_shipped("bed-load/measured-transport.csv", |table| {
         Ok((table.metadata.source.clone(), table.metadata.confidence))
     });
@@ -81,14 +85,27 @@ pub fn measured_rates_about(shields_number: f64) -> Option<MeasuredRates> {
         median: quantile(&ratios, 0.5),
         bounds: (quantile(&ratios, 0.05), quantile(&ratios, 0.95)),
         deviation: 0.5 * (quantile(&ratios, 5.0 / 6.0) - quantile(&ratios, 1.0 / 6.0)),
-        number: ratios.len(),
+        ratios: ratios.clone(),
         source,
         confidence,
     })
 }
 
+/// Least and largest grain diameter `[m]` and slope `[-]` of the measured runs.
+#[must_use]
+pub fn measured_grains() -> [(f64, f64); 2] {
+    let range = |values: &[f64], unit: f64| {
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        (least * unit, values.iter().copied().fold(0.0, f64::max) * unit)
+    };
+    read_shipped("bed-load/measured-transport.csv", |table| {
+        Ok([range(table.numbers("grain diameter")?, 1e-3), range(table.numbers("slope")?, 1.0)])
+    })
+}
+
 /// The quantile of values in ascending order, linear between them; NaN without values.
-pub(super) fn quantile(ascending: &[f64], share: f64) -> f64 {
+#[must_use]
+pub fn quantile(ascending: &[f64], share: f64) -> f64 {
     let place = share * ascending.len().saturating_sub(1) as f64;
     let (below, part) = (place as usize, place.fract());
     match (ascending.get(below), ascending.get(below + 1)) {

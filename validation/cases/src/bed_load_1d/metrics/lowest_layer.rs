@@ -84,11 +84,11 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, speed: f64) -> Ve
 /// Transport against the runs of flumes at about the same Shields number; none where there are too few.
 pub(super) fn beside_measured(run: &BedLoad1dFlow, state: &LayerState) -> Option<Metric> {
     let shields = run.stream().shields_number();
-    let MeasuredRates { median, bounds, deviation, number, source, confidence } = measured_rates_about(shields)?;
+    let MeasuredRates { median, bounds, deviation, ratios, source, confidence } = measured_rates_about(shields)?;
     let expected = median * TransportFormula::WongParker.transport(shields);
     let metric = TRANSPORT_OVER_MEASURED
         .of(&run.variant(), state.transport() / expected)
-        .against(Some(1.0), &format!("median of {number} runs, {source}"), confidence)
+        .against(Some(1.0), &format!("median of {} runs, {source}", ratios.len()), confidence)
         .known_to(
             Origin::Experiment,
             Some(deviation / median),

@@ -1,0 +1,179 @@
+//! Bed load of a flume: the layer with closures drawn from their ranges, times the scatter of measured runs.
+
+use super::draws::drawn_closures;
+use super::flow::{BedLoad1dFlow, GrainUnits, LayerStream, SimilarStream};
+use crate::case::ParameterError;
+use crate::checkpoint::is_interrupted;
+use crate::reference::bed_load::{
+    Flume, MeasuredRates, RATIOS_WELL_ABOVE, TransportFormula, measured_grains, measured_rates_about, quantile,
+};
+use crate::reference::one_dimension::bed_load::{Closures, InitialVelocity, LayerState, Stream};
+use bagnold_number::four_digits;
+
+/// Cells over a grain, bed in grains and change of a step: the transport changes by less than 1 % with finer ones.
+const CELLS_PER_DIAMETER: f64 = 10.0;
+const BED: f64 = 8.0;
+const STEADY: f64 = 1e-6;
+/// Rounds in which the velocity and the bed's part of the shear stress follow from each other.
+const ROUNDS: usize = 4;
+
+/// A flume and its grains.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BedLoadFlume {
+    /// Grain diameter d `[m]`.
+    pub grain_diameter: f64,
+    /// Grain density ρ_s `[kg/m³]`.
+    pub grain_density: f64,
+    /// Slope S of the energy line `[-]`.
+    pub slope: f64,
+    /// Depth h of the water `[m]`.
+    pub depth: f64,
+    /// Width b `[m]`; none without side walls.
+    pub width: Option<f64>,
+}
+
+/// The transport of a flume.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TransportPrediction {
+    /// The stream over the bed, under the bed's part of the shear stress.
+    pub stream: Stream,
+    /// Mean velocity of the water `[m/s]`.
+    pub velocity: f64,
+    /// Part of the shear stress ρ g h S that the bed has `[-]`.
+    pub bed_share: f64,
+    /// The same with walls as smooth as the bed `[-]`.
+    pub smooth_bed_share: f64,
+    /// q* with the usual closures `[-]`.
+    pub transport: f64,
+    /// Between these lie 95 % of the draws of the closures `[-]`.
+    pub by_closures: (f64, f64),
+    /// Draws that have a steady state, and all.
+    pub draws: (usize, usize),
+    /// Between these lie 95 % of the draws, each times the ratio of each measured run to their median: of the runs at about this Shields
+    /// number, or without them of all well above the threshold `[-]`.
+    pub interval: (f64, f64),
+    /// q* of Wong & Parker's formula `[-]`.
+    pub formula: f64,
+    /// Measured runs at about this Shields number.
+    pub rates: Option<MeasuredRates>,
+    /// What lies outside of what was compared with measurements.
+    pub outside: Vec<String>,
+}
+
+impl BedLoadFlume {
+    /// The layer under a part of the shear stress `[-]`.
+    fn layer(&self, share: f64, closures: Closures) -> BedLoad1dFlow {
+        let usual = BedLoad1dFlow::default();
+        let relative_depth = (CELLS_PER_DIAMETER * self.depth / self.grain_diameter).round() / CELLS_PER_DIAMETER;
+        let lengths = GrainUnits { relative_depth, relative_bed_depth: BED, cells_per_diameter: CELLS_PER_DIAMETER };
+        let excess = self.grain_density / usual.fluid_density - 1.0;
+        let shields_number = share * self.slope * self.depth / (excess * self.grain_diameter);
+        BedLoad1dFlow {
+            stream: LayerStream::ShieldsNumber(SimilarStream { shields_number, lengths }),
+            grain_density: self.grain_density,
+            grain_diameter: self.grain_diameter,
+            closures,
+            steady_change: STEADY,
+            ..usual
+        }
+    }
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let refused = |field, value: f64, rule, remedy| Err(ParameterError::field(field, value, rule, remedy));
+        if !(2.0..=1000.0).contains(&(self.depth / self.grain_diameter)) {
+            return refused("depth", self.depth, "2 to 1000 grain diameters", "give both in metres: 0.002 for 2 mm");
+        }
+        if let Some(width) = self.width.filter(|width| *width < self.depth) {
+            let remedy = "in a narrower flume the walls bear most of the stress";
+            return refused("width", width, "at least the depth of the water", remedy);
+        }
+        if self.layer(1.0, Closures::default()).checked().is_err() {
+            let remedy = "steeper beds move down to their base: run a scene of a debris flow";
+            return refused("slope", self.slope, "so gentle that a bed of 8 grains does not slide as a whole", remedy);
+        }
+        Ok(())
+    }
+
+    /// The transport, over so many draws of the closures.
+    ///
+    /// # Errors
+    /// A flume that breaks a rule of the layer, a layer without a steady state, and an interruption.
+    pub fn predict(&self, draws: usize) -> Result<TransportPrediction, ParameterError> {
+        self.check()?;
+        let (mut bed_share, mut smooth_bed_share) = (1.0, 1.0);
+        let usual = Closures::default();
+        let mut state = steady(&self.layer(bed_share, usual))?;
+        for _ in 0..self.width.map_or(0, |_| ROUNDS) {
+            let velocity = state.as_ref().map_or(f64::NAN, LayerState::mean_fluid_velocity);
+            let width = self.width.unwrap_or(f64::INFINITY);
+            let flume = Flume { width, depth: self.depth, velocity, slope: self.slope };
+            let BedLoad1dFlow { gravity, kinematic_viscosity, .. } = self.layer(1.0, usual);
+            (bed_share, smooth_bed_share) = (flume.bed_share(gravity, kinematic_viscosity), flume.smooth_bed_share());
+            state = steady(&self.layer(bed_share, usual))?;
+        }
+        let own = self.layer(bed_share, usual);
+        let Some(state) = state else {
+            let remedy = "give a gentler slope or a lesser depth";
+            return Err(ParameterError::field("slope", self.slope, "such that the layer becomes steady", remedy));
+        };
+        let mut drawn = Vec::new();
+        for closures in drawn_closures(&usual, draws) {
+            drawn.extend(steady(&self.layer(bed_share, closures))?.map(|state| state.transport()));
+        }
+        drawn.sort_by(f64::total_cmp);
+        let stream = own.stream();
+        let shields_number = stream.shields_number();
+        let rates = measured_rates_about(shields_number);
+        let ratios = rates.as_ref().map_or(&RATIOS_WELL_ABOVE[..], |rates| &rates.ratios);
+        let median = quantile(ratios, 0.5);
+        let scattered = drawn.iter().flat_map(|transport| ratios.iter().map(move |ratio| transport * ratio / median));
+        let mut scattered: Vec<f64> = scattered.collect();
+        scattered.sort_by(f64::total_cmp);
+        Ok(TransportPrediction {
+            velocity: state.mean_fluid_velocity(),
+            bed_share,
+            smooth_bed_share,
+            transport: state.transport(),
+            by_closures: (quantile(&drawn, 0.025), quantile(&drawn, 0.975)),
+            draws: (drawn.len(), draws),
+            interval: (quantile(&scattered, 0.025), quantile(&scattered, 0.975)),
+            formula: TransportFormula::WongParker.transport(shields_number),
+            outside: self.outside(&stream, rates.is_some()),
+            rates,
+            stream,
+        })
+    }
+
+    /// What lies outside of what was compared with measurements.
+    fn outside(&self, stream: &Stream, has_rates: bool) -> Vec<String> {
+        let beyond = |name: &str, value: f64, (least, most): (f64, f64)| {
+            let digits = [value, least, most].map(four_digits);
+            let is_outside = value < least || value > most;
+            is_outside.then(|| format!("{name} {}; compared: {} to {}", digits[0], digits[1], digits[2]))
+        };
+        let layer = stream.outside_bed_load();
+        let [diameters, slopes] = measured_grains();
+        let shields = stream.shields_number();
+        [
+            layer.and_then(|own| beyond(own.quantity, own.value, (own.least, own.most))),
+            beyond("grain diameter [m]", self.grain_diameter, diameters),
+            beyond("slope [-]", self.slope, slopes),
+            (!has_rates).then(|| format!("Shields number {}: fewer than ten measured runs", four_digits(shields))),
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
+    }
+}
+
+/// The steady layer from rest; none where it does not become steady or where the closures break a rule.
+pub(super) fn steady(flow: &BedLoad1dFlow) -> Result<Option<LayerState>, ParameterError> {
+    if flow.closures.problem().is_some() {
+        return Ok(None);
+    }
+    let approach = flow.layer().and_then(|layer| layer.approach_unless(InitialVelocity::Rest, &is_interrupted));
+    if is_interrupted() {
+        return Err(ParameterError::Interrupted);
+    }
+    Ok(approach.ok().filter(|approach| approach.unsteady.is_none()).map(|approach| approach.state))
+}
