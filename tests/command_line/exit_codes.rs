@@ -58,6 +58,7 @@ fn a_refused_command_leaves_no_green_verdicts() {
         &["judge", "none.toml", "--out", "judged"][..],
         &["run", "film", "--set", "density=-1"],
         &["run", "none.toml"],
+        &["run", "film", "--tier", "qick"],
         &["report", "--cases", "none"],
     ] {
         let red = junit(arguments, 2);

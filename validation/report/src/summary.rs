@@ -14,7 +14,7 @@ use std::fmt::Write as _;
 pub struct Terminal {
     /// Columns of a line.
     pub width: usize,
-    /// Whether rows that pass and cases without failures are shown.
+    /// Whether rows that pass, beside a user's own, and cases without failures are shown.
     pub is_verbose: bool,
 }
 
@@ -29,7 +29,10 @@ pub fn of_case(judged: &JudgedCase<'_>, terminal: Terminal) -> String {
     let case = judged.case;
     let is_sound = case.runs.iter().all(|run| !matches!(run.outcome, Outcome::Diverged { .. }));
     let predictions = if is_sound { predictions(&case.metrics) } else { String::new() };
-    let is_shown = |own: &JudgedMetric<'_>| terminal.is_verbose || own.severity != Some(Severity::Pass);
+    // a user asks for the verdict of a check or a measurement of their own
+    let is_own = |own: &JudgedMetric<'_>| own.metric.gate_owner() == GateOwner::User;
+    let is_shown =
+        |own: &JudgedMetric<'_>| terminal.is_verbose || own.severity != Some(Severity::Pass) || is_own(own);
     let hidden = judged.metrics.iter().filter(|own| !is_shown(own)).count();
     let hidden =
         if hidden > 0 { format!("{} that pass: shown with -v\n", plural(hidden, "row")) } else { String::new() };

@@ -51,6 +51,7 @@ use clap::error::{ContextKind, ContextValue};
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 use std::process::ExitCode;
 use terminal::{StandardOutput, print, say};
 
@@ -64,9 +65,26 @@ pub fn main() -> ExitCode {
 #[must_use]
 pub fn program(registry: Registry, arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> ExitCode {
     declare_build();
-    match Arguments::try_parse_from(arguments) {
+    let words: Vec<OsString> = arguments.into_iter().map(Into::into).collect();
+    match Arguments::try_parse_from(&words) {
         Ok(arguments) => conduct(arguments.verbosity, registry, |session| act(&arguments.command, session)),
-        Err(answer) => answered(&answer),
+        Err(answer) => {
+            if answer.use_stderr() {
+                refuse_in_junit(&words, &answer.to_string());
+            }
+            answered(&answer)
+        }
+    }
+}
+
+/// Writes a refusal of the arguments themselves into the file of `--junit`, if one is among them: an older file would stay green.
+fn refuse_in_junit(words: &[OsString], message: &str) {
+    let texts: Vec<&str> = words.iter().filter_map(|word| word.to_str()).collect();
+    let behind = texts.iter().position(|word| *word == "--junit").and_then(|place| texts.get(place + 1).copied());
+    let path = behind.or_else(|| texts.iter().find_map(|word| word.strip_prefix("--junit=")));
+    let Some(path) = path.map(Path::new).filter(|path| check_junit(path).is_ok()) else { return };
+    if let Err(error) = put_refusal(path, message) {
+        tell(&format!("error: {error}"));
     }
 }
 

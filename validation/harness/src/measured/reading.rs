@@ -21,6 +21,9 @@ const FORM: &str = "abscissa, measured quantity, and its uncertainty or repeats,
 /// A row of that form.
 const ROW: &str = "write `t [s],front [cm],uncertainty [cm]` above `0.1,14,0.5`";
 
+/// How repeats and headings of one's own are named in a case file, study or plan.
+const REPEATS: &str = "for repeats, { files = […], columns = { t = \"t [s]\", front = [\"a [cm]\", \"b [cm]\"] } }";
+
 /// Names of the columns that are meant.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct WantedColumns<'a> {
@@ -75,7 +78,7 @@ fn parse(
     let table = TableRows::of(text, path)?;
     let listed = table.headings().join(", ");
     let wrong = |defect: &str, missing: Option<&&str>| {
-        let (rule, remedy) = missing.map_or((FORM.to_owned(), ROW.to_owned()), |name| {
+        let (rule, remedy) = missing.map_or((FORM.to_owned(), format!("{ROW}; {REPEATS}")), |name| {
             let name = name.rsplit_once(": ").map_or(*name, |(_, own)| own);
             let columns = format!("columns = {{ \"{name}\" = \"HEADING [UNIT]\" }}");
             (format!("headings with `{name}` among them"), format!("rename one, or give {{ files = […], {columns} }}"))
@@ -94,7 +97,7 @@ fn parse(
             Some(named) => columns.push(NumberColumn::of(&table.rows, place, heading, named)?),
             None if place == 0 && names.is_none() && wanted.over.is_none() && table.rows.iter().all(is_number) => {
                 let rule = "a heading with its unit in brackets";
-                return Err(FieldError::new(heading, format!("\"{heading}\""), rule, ROW));
+                return Err(FieldError::new(heading, format!("\"{heading}\""), rule, &format!("{ROW}; {REPEATS}")));
             }
             // a label
             None => {}
@@ -138,7 +141,9 @@ fn renamed(headings: &[&str], names: &BTreeMap<String, toml::Value>) -> Result<V
             let is_meant = |own: &str| !unit.is_empty() && (own == text || own == bare);
             if !headings.iter().any(|own| is_meant(own)) {
                 let rule = format!("a heading of the file with its unit: {}", headings.join(", "));
-                return Err(FieldError::new(&format!("columns.{name}"), one, &rule, "such as front = \"toe [cm]\""));
+                let remedy =
+                    "such as front = \"toe [cm]\"; behind a heading without brackets write them: \"toe (cm) [cm]\"";
+                return Err(FieldError::new(&format!("columns.{name}"), one, &rule, remedy));
             }
             for (new, _) in renamed.iter_mut().zip(headings).filter(|(_, own)| is_meant(own)) {
                 *new = format!("{name} [{unit}]");
@@ -214,7 +219,7 @@ impl MeasuredColumns {
         if uncertainty.contains(&0.0) {
             let defect = if repeats.len() == 1 { "without uncertainty" } else { "equal in all repeats" };
             let columns = format!("{}, {}, {defect}", heading(&self.over), heading(first));
-            return Err(FieldError::new("columns", columns, FORM, "add columns or { files = […] }"));
+            return Err(FieldError::new("columns", columns, FORM, &format!("add a column `uncertainty`; {REPEATS}")));
         }
         Ok(Measurements {
             path: path.to_owned(),

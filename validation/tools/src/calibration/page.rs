@@ -146,9 +146,13 @@ fn summary(outcome: &CalibrationResult) -> Vec<String> {
         }
         if let (Some(reduced), Some(p)) = (outcome.reduced_chi_squared, outcome.p_value) {
             let judged = if outcome.inflation > 1.0 {
+                let cause = if p < UNLIKELY {
+                    "the model does not explain the data within their uncertainties"
+                } else {
+                    "neighbouring residuals are correlated"
+                };
                 format!(
-                    "the model does not explain the data within their uncertainties, so these were enlarged by {} for the \
-                     intervals",
+                    "{cause}, so the uncertainties were enlarged by {} for the intervals",
                     four_digits(outcome.inflation)
                 )
             } else if p > 1.0 - UNLIKELY {
