@@ -1,5 +1,5 @@
 //! Gives the program a hash of everything that a stored result depends on, the commit that it is built from, and the shipped
-//! calibrations, scenes, studies and sweeps.
+//! calibrations, grains, scenes, studies and sweeps.
 
 #[path = "build/code.rs"]
 mod code;
@@ -22,7 +22,7 @@ use std::process::Command;
 const REST: [&str; 3] = ["reference-data", "Cargo.lock", "Cargo.toml"];
 
 /// Folders of shipped plans.
-const PLANS: [&str; 4] = ["calibrations", "examples/scenes", "examples/studies", "sweeps"];
+const PLANS: [&str; 5] = ["calibrations", "examples/grains", "examples/scenes", "examples/studies", "sweeps"];
 
 /// Endings of the files of decks of other codes; some have none.
 const DECKS: [&str; 11] =
@@ -64,7 +64,7 @@ fn main() {
     embed("studies", &texts(&package, &["studies"], &["toml"]));
     let league = texts(&package, &["league"], &DECKS);
     embed("decks", &league.into_iter().filter(|(name, _)| is_of_deck(name)).collect::<Vec<_>>());
-    embed("plans", &texts(&package, &PLANS, &["toml", "csv", "stl"]));
+    embed("plans", &texts(&package, &PLANS, &["toml", "csv", "stl", "dump", "slope"]));
     for name in ["Cargo.lock", "Cargo.toml"] {
         let file = workspace.join(name);
         println!("cargo::rerun-if-changed={}", file.display());

@@ -53,7 +53,7 @@ impl CalibrationMonitor for Unseen {
 }
 
 /// The plan in a folder.
-fn plan(folder: &Path) -> CalibrationPlan {
+pub(crate) fn plan(folder: &Path) -> CalibrationPlan {
     let file = folder.join("plan.toml");
     CalibrationPlan::read(&file, *REGISTRY, Limits::default()).unwrap_or_else(|error| panic!("{error}"))
 }

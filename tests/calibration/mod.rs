@@ -7,6 +7,7 @@ mod coverage;
 mod film;
 mod findings;
 mod held_out;
+mod laws;
 mod layer;
 mod minima;
 mod particles;

@@ -4,7 +4,7 @@ use crate::documentation::book;
 use bagnold_harness::case::{AnyCase, Tier};
 use bagnold_harness::metric::MetricKind;
 use bagnold_scenes::study;
-use bagnold_tools::{calibration, sweep};
+use bagnold_tools::{calibration, grains, sweep};
 use bagnold_validation::REGISTRY;
 use bagnold_validation::cli::Arguments;
 use clap::{Arg, Command, CommandFactory};
@@ -200,6 +200,7 @@ fn fields_are_those_of_the_schemas() {
     let mut plan = calibration::schema().clone();
     plan["properties"]["hold_out"]["items"].take(); // those of `fit`
     write_file(&mut page, "calibration", &plan);
+    write_file(&mut page, "grains", grains::schema());
     write_file(&mut page, "sweep", sweep::schema());
     assert_page("fields.md", &page);
 }

@@ -9,7 +9,7 @@ mod sweep;
 mod work;
 
 pub(super) use examples::ExamplesArguments;
-pub(super) use foreign::{CompareArguments, ExportArguments, JudgeArguments, LeagueArguments};
+pub(super) use foreign::{CompareArguments, ExportArguments, GrainsArguments, JudgeArguments, LeagueArguments};
 #[cfg(test)]
 pub(super) use new::Named;
 pub(super) use new::{NewArguments, NewCrate};
@@ -31,6 +31,7 @@ const EXAMPLES: &str = "Examples:
   bagnold run my.toml --out results            run the edited file
   bagnold report                               all cases, judged on one page: reports/index.html
   bagnold judge mine.toml                      results of another code under the same gates
+  bagnold grains slopes.toml                   grains of another code: fields, and points of a friction law
   bagnold examples                             sample calibrations, scenes, sweeps
 
 Exit codes: 0 no new failure, 1 a new failure or a gate not judged, 2 bad input, 3 a run diverged.";
@@ -115,7 +116,9 @@ A file with one parameter and one fitted value; [[hold_out]] has the form of [[f
             value = 1.2, unit = \"-\", uncertainty = 0.1, source = \"own, May\" }]
 
 data may also name a CSV: { table = \"profile-…\", x = \"y [m]\", y = \"u [m/s]\", file = \"mine.csv\" }.
-The folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml.";
+A block with `law = \"mu-i\"` in place of `case` fits the law to points (I, mu) of a file, without a simulation:
+{ file = \"points.csv\" } as `bagnold grains` writes it. Paths are then those of the law, such as \"static_friction\".
+The folder receives index.html, figures/, result.json, data.csv, evaluations.csv and calibrated.toml, or law.toml with draws.";
 
 /// Simulates granular and sediment flows by smoothed particle hydrodynamics and judges them against exact solutions and experiments.
 #[derive(Debug, Parser)]
@@ -155,11 +158,13 @@ pub enum Command {
     Judge(JudgeArguments),
     /// Judge the stored results of other codes and write one page.
     League(LeagueArguments),
+    /// Average grains of another code over the depth: fields, and points of a friction law.
+    Grains(GrainsArguments),
     /// Write the inputs that another code needs to run a case.
     Export(ExportArguments),
     /// Compare folders of earlier runs or reports.
     Compare(CompareArguments),
-    /// Write sample calibrations, scenes, studies and sweeps into a folder.
+    /// Write sample calibrations, grains, scenes, studies and sweeps into a folder.
     Examples(ExamplesArguments),
     /// Write a crate with a user-defined law or case, ready to build.
     New(NewArguments),
@@ -180,7 +185,7 @@ pub enum Command {
 /// `bagnold schema`
 #[derive(Debug, Args)]
 pub struct SchemaArguments {
-    /// Name of a case, see `bagnold list`, or `study`, `calibration` or `sweep` for such a file.
+    /// Name of a case, see `bagnold list`, or `study`, `calibration`, `grains` or `sweep` for such a file.
     #[arg(value_name = "CASE|KIND")]
     pub case: String,
     /// Tier that supplies the defaults.

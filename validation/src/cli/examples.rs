@@ -7,7 +7,7 @@ use crate::output::{FileError, OutputFolder, write_whole};
 
 include!(concat!(env!("OUT_DIR"), "/plans.rs"));
 
-/// Writes the calibrations, scenes, studies and sweeps that the program carries.
+/// Writes the calibrations, grains, scenes, studies and sweeps that the program carries.
 pub(super) fn examples(command: &ExamplesArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
     let claimed = OutputFolder::claim(&command.out)?;
     for (name, text) in FILES {

@@ -11,6 +11,7 @@ mod display;
 mod error;
 mod examples;
 mod expectation;
+mod grains;
 mod judge;
 mod logging;
 mod machine;
@@ -234,6 +235,7 @@ fn perform(command: &Command, session: &mut Session<'_>) -> Result<Exit, Program
         }
         Command::Calibrate(command) => in_pool(command.work.threads, || calibrate::run(command, session)),
         Command::Predict(command) => predict::predict(command, session),
+        Command::Grains(command) => grains::grains(command, session),
         Command::Completions(command) => Ok(completions::completions(command, session)),
         Command::Examples(command) => examples::examples(command, session),
         Command::New(command) => new::new(command, session),

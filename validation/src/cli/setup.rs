@@ -26,9 +26,10 @@ pub(super) fn schema(show: &SchemaArguments, session: &mut Session<'_>) -> Resul
         (Ok(case), _) => case.schema(show.tier),
         (Err(_), "study") => crate::study::schema(),
         (Err(_), "calibration") => crate::calibration::schema().clone(),
+        (Err(_), "grains") => crate::grains::schema().clone(),
         (Err(_), "sweep") => crate::sweep::schema().clone(),
         (Err(unknown), name) => {
-            let kind = nearest(name, ["study", "calibration", "sweep"]);
+            let kind = nearest(name, ["study", "calibration", "grains", "sweep"]);
             return Err(if kind.is_some() { ParameterError::unknown_case(name, &kind) } else { unknown }.into());
         }
     };

@@ -1,8 +1,9 @@
-//! Tools for any case: calibrations, sweeps, judging of external codes and their league, comparisons of folders.
+//! Tools for any case: calibrations, sweeps, judging of external codes and their league, fields of grains, comparisons of folders.
 
 pub mod calibration;
 pub mod compare;
 mod error;
+pub mod grains;
 pub mod judge;
 pub mod league;
 pub mod sweep;

@@ -22,6 +22,6 @@ pub use name::{check_name, check_text, did_you_mean, is_same_heading, name_and_u
 pub use number::number_in;
 pub use packed_triangles::PackedTriangles;
 pub(crate) use packed_triangles::packed;
-pub use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, read_bytes, read_own, read_text};
+pub use reading::{DOCUMENT, STORED, WRITTEN_BY_HAND, open_file, read_bytes, read_own, read_text};
 pub use table::{is_mark, plain_lines, text_fault};
 pub use text_table::{TableRows, TextTable};

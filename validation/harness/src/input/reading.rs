@@ -4,7 +4,7 @@
 //! looked at, with a reason that goes into the error of whoever reads.
 
 use rustix::fs::OFlags;
-use std::fs::OpenOptions;
+use std::fs::{File, OpenOptions};
 use std::io::{Error, ErrorKind, Read, Result};
 use std::os::unix::fs::{FileTypeExt, OpenOptionsExt};
 use std::path::Path;
@@ -37,6 +37,19 @@ pub fn read_own(path: &Path, most: u64) -> Result<Vec<u8>> {
 
 /// Any file of at most so many bytes. Links are followed.
 pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>> {
+    let file = open_file(path)?;
+    let too_large = || Error::new(ErrorKind::FileTooLarge, format!("is larger than {} MiB", most >> 20));
+    if file.metadata()?.len() > most {
+        return Err(too_large());
+    }
+    let mut bytes = Vec::new();
+    // one more than allowed: the file may grow meanwhile
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most { Err(too_large()) } else { Ok(bytes) }
+}
+
+/// A regular file of any size, to be read piece by piece. Links are followed.
+pub fn open_file(path: &Path) -> Result<File> {
     // without waiting for a writer of a pipe
     let flags = OFlags::NONBLOCK.bits();
     let file = OpenOptions::new().read(true).custom_flags(i32::try_from(flags).unwrap_or_default()).open(path)?;
@@ -48,14 +61,7 @@ pub fn read_bytes(path: &Path, most: u64) -> Result<Vec<u8>> {
         let kind = if metadata.file_type().is_fifo() { "a named pipe" } else { "a device" };
         return Err(Error::new(ErrorKind::InvalidInput, format!("is {kind}, not a regular file")));
     }
-    let too_large = || Error::new(ErrorKind::FileTooLarge, format!("is larger than {} MiB", most >> 20));
-    if metadata.len() > most {
-        return Err(too_large());
-    }
-    let mut bytes = Vec::new();
-    // one more than allowed: the file may grow meanwhile
-    file.take(most + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most { Err(too_large()) } else { Ok(bytes) }
+    Ok(file)
 }
 
 #[cfg(test)]

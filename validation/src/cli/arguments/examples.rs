@@ -8,7 +8,7 @@ const EXAMPLES: &str = "Examples:
   bagnold calibrate examples/calibrations/mu-i-from-profiles.toml
   bagnold sweep examples/sweeps/bed-load-1d-map.toml
 
-The folder receives calibrations/*.toml and studies/*.toml with their data, scenes/*.toml and sweeps/*.toml.";
+The folder receives calibrations/*.toml, grains/*.toml and studies/*.toml with their data, scenes/*.toml and sweeps/*.toml.";
 
 /// `bagnold examples`
 #[derive(Debug, Args)]

@@ -95,6 +95,26 @@ pub struct ExportArguments {
     pub work: ExecutionOptions,
 }
 
+const GRAINS_EXAMPLES: &str = "Examples:
+  bagnold examples
+  bagnold grains examples/grains/slopes.toml --out slopes
+  bagnold calibrate examples/grains/law.toml --out law      the law from slopes/points.csv
+
+A plan names runs, their geometry, files and columns: examples/grains/slopes.toml, `bagnold schema grains`.
+The folder receives fields-1.csv, fields-2.csv, …, points.csv and figures/.";
+
+/// `bagnold grains`
+#[derive(Debug, Args)]
+#[command(after_help = GRAINS_EXAMPLES)]
+pub struct GrainsArguments {
+    /// TOML file with runs, files and columns.
+    #[arg(value_name = "FILE.toml")]
+    pub file: PathBuf,
+    /// Folder to write [default: reports/grains/FILE].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
 const COMPARE_EXAMPLES: &str = "Examples:
   bagnold run bagnold --out before
   bagnold run bagnold --set numerics.hourglass=0.1 --out after

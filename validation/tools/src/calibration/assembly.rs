@@ -45,7 +45,7 @@ pub(super) fn compared<'r>(
 /// The fitted cases as complete files, each once.
 pub(super) fn calibrated(objective: &Objective<'_>, values: &[f64]) -> Result<Vec<String>, ToolError> {
     let plan = objective.plan;
-    let fitted = plan.blocks.iter().filter(|block| !block.held_out);
+    let fitted = plan.blocks.iter().filter(|block| !block.held_out && !block.is_law);
     fitted
         .map(|block| {
             let prepared =

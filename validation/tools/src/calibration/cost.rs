@@ -30,7 +30,7 @@ impl EvaluationCost {
     pub fn of(plan: &CalibrationPlan, registry: Registry) -> Option<Self> {
         let hours = |point: &[f64]| -> Option<f64> {
             let values = plan.values(point);
-            let fitted = plan.blocks.iter().filter(|block| !block.held_out);
+            let fitted = plan.blocks.iter().filter(|block| !block.held_out && !block.is_law);
             fitted
                 .map(|block| {
                     let settings = plan.settings(block, &values);
@@ -39,7 +39,7 @@ impl EvaluationCost {
                 })
                 .sum()
         };
-        if !plan.choices.is_empty() || plan.parameters.is_empty() {
+        if !plan.choices.is_empty() || plan.parameters.is_empty() || plan.blocks.iter().all(|block| block.is_law) {
             return None;
         }
         let start = hours(&plan.start())?;

@@ -1,7 +1,7 @@
 //! Data of a calibration: single numbers, profiles from a CSV file, or synthetic data.
 
 use super::repeated::Repeated;
-use super::target::{Datum, DatumUncertainty, ProfileLocation, Target};
+use super::target::{CURVE, Datum, DatumUncertainty, ProfileLocation, Target};
 use crate::ToolError;
 use crate::input::{FieldError, MeasuredFiles, parted};
 use crate::measured::{Measurements, WantedColumns};
@@ -49,6 +49,13 @@ impl DatumText {
     /// CSV files of the data, beside the plan.
     pub(super) fn files(&self) -> &[PathBuf] {
         self.file.as_ref().map_or(&[], MeasuredFiles::files)
+    }
+
+    /// Compares a file of points with the friction of a law; whether it is one.
+    pub(super) fn fill_law(&mut self) -> bool {
+        let is_free = self.metric.is_none() && self.table.is_none();
+        [self.table, self.x, self.y] = CURVE.map(|name| Some(name.to_owned()));
+        is_free && self.file.is_some()
     }
 
     /// Checks what is given and what is missing; `field` names the table.

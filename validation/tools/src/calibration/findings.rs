@@ -1,5 +1,6 @@
 //! Open questions of a calibration, in sentences: of the search, of the fit, of the intervals.
 
+use super::law;
 use super::plan::CalibrationPlan;
 use super::result::DatumComparison;
 use crate::inference::diagnosis::outliers;
@@ -17,6 +18,7 @@ pub(super) fn of(plan: &CalibrationPlan, answer: &Answer, fit: &[DatumComparison
             findings.extend(of_fit(plan.parameters.len(), explored.region.p_value, fit));
             findings.extend(answer.correlation.map(correlated));
             findings.extend(of_region(plan, explored));
+            findings.extend(law::beyond(plan, &plan.values(&answer.search.best), fit));
         }
     }
     findings

@@ -7,6 +7,7 @@
 //! FOLDER/result.json              everything on the page; evaluations.csv, data.csv
 //! FOLDER/held-out.json            what was held out beside its prediction, with the digest of the plan
 //! FOLDER/calibrated.toml          the first fitted case with the best parameters, for `bagnold run`
+//! FOLDER/law.toml                 a law that was fitted to points, with draws of its posterior
 //! ```
 //!
 //! The search is deterministic, so one that was killed is begun anew and finds its evaluations done.
@@ -19,6 +20,7 @@ mod figures;
 mod findings;
 mod folder;
 mod held_out;
+mod law;
 mod objective;
 mod page;
 mod plan;
@@ -88,7 +90,7 @@ pub fn calibrate(
             prediction::of_hold_out(&objective, &answer, posterior, hold_out)?;
         }
     }
-    let asked = posterior.as_ref().filter(|_| plan.method == Method::Posterior);
+    let asked = posterior.as_ref().filter(|_| plan.method == Method::Posterior || plan.has_law());
     let calibrated = assembly::calibrated(&objective, &values)?;
     let mut outcome = assembly::assemble(plan, &answer, sensitivity, (fit, hold_out), calibrated, truth_inside, asked);
     let failed = outcome.evaluations.iter().filter(|evaluation| evaluation.chi_squared.is_none()).count();

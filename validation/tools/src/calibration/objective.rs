@@ -94,7 +94,12 @@ impl Objective<'_> {
         let mut records: BTreeMap<String, EvaluationRecord> = BTreeMap::new();
         let mut waiting: Vec<(usize, String, Box<dyn PreparedCase>)> = Vec::new();
         for (place, question) in questions.iter().enumerate() {
-            let request = &self.plan.blocks[question.block].request;
+            let block = &self.plan.blocks[question.block];
+            if block.is_law {
+                answers.push(Err(self.curve(question.block, &question.settings)));
+                continue;
+            }
+            let request = &block.request;
             match request.prepare(self.registry, &self.plan.file, &question.settings, self.plan.limits) {
                 Ok(prepared) => {
                     let key = evaluation::key(prepared.as_ref(), &[]);

@@ -2,6 +2,7 @@
 
 use super::figures;
 use super::held_out;
+use super::law;
 use super::plan::CalibrationPlan;
 use super::result::{
     CalibrationResult, DatumComparison, Evaluation, ParameterEstimate, relative_error, weighted_error,
@@ -28,6 +29,9 @@ pub fn write(outcome: &CalibrationResult, plan: &CalibrationPlan, folder: &Path)
     for (place, text) in outcome.calibrated.iter().enumerate() {
         let name = if place == 0 { "calibrated.toml".to_owned() } else { format!("calibrated-{}.toml", place + 1) };
         write_whole(&folder.join(name), text.as_bytes()).map_err(unwritable)?;
+    }
+    if let Some(law) = law::file(outcome, plan) {
+        write_whole(&folder.join("law.toml"), law.as_bytes()).map_err(unwritable)?;
     }
     for (name, rows) in [("evaluations.csv", evaluations(outcome)), ("data.csv", data(outcome))] {
         let text = csv_text(rows).map_err(|error| unwritable(error.into()))?;

@@ -92,6 +92,8 @@ pub struct DataBlock {
     pub request: CaseRequest,
     /// Whether its data are held out.
     pub held_out: bool,
+    /// Whether the case is the name of a law, which is compared with points of its friction.
+    pub is_law: bool,
     /// Dotted paths of the parameters that make the conditions of a block that is held out, numbers or lists of numbers.
     pub conditions: Option<Vec<String>>,
     /// Relative difference up to which two conditions are the same `[-]`.
@@ -159,6 +161,11 @@ impl CalibrationPlan {
     #[must_use]
     pub fn values(&self, point: &[f64]) -> Vec<f64> {
         self.parameters.iter().zip(point).map(|(parameter, &u)| parameter.bounds.value(u)).collect()
+    }
+
+    /// Whether a law is fitted to points.
+    pub(super) fn has_law(&self) -> bool {
+        self.blocks.iter().any(|block| block.is_law)
     }
 
     /// Simulations that a calibration of as many parameters usually needs; 0 of choices, which are all queued at once.

@@ -20,7 +20,7 @@ impl CalibrationPlan {
     pub fn read(file: &Path, registry: Registry, limits: Limits) -> Result<Self, ToolError> {
         let text: CalibrationText = read_plan(file, "bagnold calibrate")?;
         let mut plan = text.checked(file, limits).map_err(|error| error.in_file(file))?;
-        for block in &mut plan.blocks {
+        for block in plan.blocks.iter_mut().filter(|block| !block.is_law) {
             block.request = block.request.clone().based(file).map_err(|error| error.in_file(file))?;
         }
         plan.check_cases(registry)?;
@@ -41,6 +41,10 @@ impl CalibrationPlan {
         let mut fitted: BTreeMap<String, String> = BTreeMap::new();
         let mut known = Vec::new();
         for block in &self.blocks {
+            if block.is_law {
+                block.check_law(self, &self.settings(block, &start)).map_err(|error| error.in_plan(&self.file))?;
+                continue;
+            }
             let settings = self.settings(block, &start);
             if settings.is_empty() && self.choices.is_empty() {
                 let remedy = "let a parameter name a path of the case";

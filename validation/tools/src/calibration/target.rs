@@ -9,6 +9,9 @@ use serde::{Deserialize, Serialize};
 /// A table is read up to half a step beyond its ends, no farther.
 const HALF_A_STEP: (Extrapolation, Extrapolation) = (Extrapolation::Line(0.5), Extrapolation::Line(0.5));
 
+/// Table of a law that is compared with points, its abscissa and its ordinate.
+pub(super) const CURVE: [&str; 3] = ["law", "inertial_number [-]", "friction [-]"];
+
 /// Location of a datum in a profile.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProfileLocation {

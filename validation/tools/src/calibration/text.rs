@@ -54,9 +54,11 @@ struct ParameterText {
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct BlockText {
-    /// Case that is run; may be left out beside `base`
+    /// Case that is run; may be left out beside `base` or `law`
     #[serde(default)]
     case: String,
+    /// Law, such as `"mu-i"`, whose friction over the inertial number is compared with points of a file, without a run
+    law: Option<String>,
     /// A case file with the base values, beside the plan
     base: Option<PathBuf>,
     /// Tier whose parameters fill what `with` leaves out
@@ -255,8 +257,9 @@ impl CalibrationText {
 fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<Vec<DataBlock>, FieldError> {
     let mut blocks: Vec<DataBlock> = Vec::new();
     for (kind, held_out, texts) in [("fit", false, fit), ("hold_out", true, hold_out)] {
-        for (index, block) in texts.into_iter().enumerate() {
+        for (index, mut block) in texts.into_iter().enumerate() {
             let field = format!("{kind}[{index}]");
+            block.fill_law(&field)?;
             if block.data.is_empty() {
                 let remedy = "say what the case is compared with";
                 return Err(FieldError::new(&format!("{field}.data"), "[]", "at least one entry", remedy));
@@ -271,16 +274,28 @@ fn blocks(fit: Vec<BlockText>, hold_out: Vec<BlockText>) -> Result<Vec<DataBlock
                 }
             }
             block.check_conditions(&field, held_out)?;
-            let BlockText { case, base, tier, with, only, conditions, same_within, data } = block;
+            let BlockText { case, law, base, tier, with, only, conditions, same_within, data } = block;
             let same_within = same_within.unwrap_or(SAME_WITHIN);
-            let request = CaseRequest { case, base, tier, with, only, ..CaseRequest::default() };
-            blocks.push(DataBlock { request, held_out, conditions, same_within, field, data });
+            let is_law = law.is_some();
+            let request = CaseRequest { case: law.unwrap_or(case), base, tier, with, only, ..CaseRequest::default() };
+            blocks.push(DataBlock { request, held_out, is_law, conditions, same_within, field, data });
         }
     }
     Ok(blocks)
 }
 
 impl BlockText {
+    /// Gives the data of a law its table, and refuses what only a case has.
+    fn fill_law(&mut self, field: &str) -> Result<(), FieldError> {
+        let is_of_case = !self.case.is_empty() || self.base.is_some() || !self.only.is_empty();
+        if self.law.is_none() || !is_of_case && self.data.iter_mut().all(DatumText::fill_law) {
+            return Ok(());
+        }
+        let rule = "without `case`, `base` and `only`, and with data of files alone";
+        let remedy = "such as data = [{ file = \"points.csv\" }]";
+        Err(FieldError::new(&format!("{field}.law"), "given beside what a case has", rule, remedy))
+    }
+
     /// Refuses conditions that do not belong to the block, or name nothing.
     fn check_conditions(&self, field: &str, held_out: bool) -> Result<(), FieldError> {
         let given = [("conditions", self.conditions.is_some()), ("same_within", self.same_within.is_some())];

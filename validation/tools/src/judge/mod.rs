@@ -19,6 +19,7 @@ pub use export::export;
 pub use inputs::inputs_of;
 pub use page::write;
 pub(crate) use page::{mark, other_limit};
+pub(crate) use reading::{frames, plan};
 pub use submission::{CoarseRun, Code, ForeignRun, LawOrigin, ParticleFiles, Submission, TableFile};
 pub use verdicts::MetricComparison;
 

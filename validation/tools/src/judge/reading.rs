@@ -9,6 +9,7 @@ use crate::input::{self, FieldError, TextTable, did_you_mean, name_and_unit, nea
 use crate::measured::ColumnSource;
 use crate::output::FileError;
 use std::collections::BTreeMap;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 /// Largest file that is read `[bytes]`.
@@ -17,7 +18,7 @@ const LARGEST_FILE: u64 = 1 << 30;
 const MOST_PICTURES: usize = 10_000;
 
 /// Columns of a part with their meaning, ready to be taken from files.
-type ColumnAssignments = Vec<(&'static ExternalColumn, ColumnSource, f64, String)>;
+pub(crate) type ColumnAssignments = Vec<(&'static ExternalColumn, ColumnSource, f64, String)>;
 
 /// Reads all that is given of a run; paths are relative to `folder`.
 ///
@@ -41,7 +42,7 @@ pub(super) fn read(
     let mut given = ExternalData::default();
     if let Some(files) = &run.particles {
         let plan = plan(&files.columns, form.particles, &format!("{field}.particles"))?;
-        given.pictures = pictures(files, &plan, folder)?;
+        given.pictures = frames(files, &plan, folder)?.collect::<Result<_, _>>()?;
     }
     if let Some(table) = &run.series {
         given.series = columns(table, form.series, &format!("{field}.series"))?;
@@ -76,7 +77,7 @@ fn in_order(numbers: &[f64], field: &str, file: &Path) -> Result<(), FieldError>
 }
 
 /// Assignment of a part's columns to quantities, each with its factor to SI and its field.
-fn plan(
+pub(crate) fn plan(
     texts: &BTreeMap<String, toml::Value>,
     items: &'static [ExternalColumn],
     scales: Option<RunScales>,
@@ -126,27 +127,38 @@ fn there(named: Vec<(f64, PathBuf)>, by: &Path) -> Result<Vec<(f64, PathBuf)>, F
     Ok(named)
 }
 
-fn pictures(
+/// Particles at one time after the other.
+pub(crate) type Frames<'f> = Box<dyn Iterator<Item = Result<ParticleFrame, ParameterError>> + 'f>;
+
+/// The frames of files of particles, each read when it is asked for; paths are relative to `folder`.
+///
+/// # Errors
+/// Files that are not there or of another kind; what the frames themselves lack is their own error.
+pub(crate) fn frames<'f>(
     files: &ParticleFiles,
-    plan: &ColumnAssignments,
+    plan: &'f ColumnAssignments,
     folder: &Path,
-) -> Result<Vec<ParticleFrame>, ParameterError> {
+) -> Result<Frames<'f>, ParameterError> {
     let named: Vec<(f64, PathBuf)> = if files.is_collection() {
         let file = folder.join(&files.files[0]);
-        let text = String::from_utf8_lossy(&read_bytes(&file)?).into_owned();
-        if ["dump", "lammpstrj"].contains(&ending(&file).as_str()) && !lammps::is_dump(text.as_bytes()) {
+        let unreadable = |error| FileError::unreadable(&file, &error);
+        let mut reader = BufReader::new(input::open_file(&file).map_err(unreadable)?);
+        let is_dump = lammps::is_dump(reader.fill_buf().map_err(unreadable)?);
+        if ["dump", "lammpstrj"].contains(&ending(&file).as_str()) && !is_dump {
             let remedy = "write it with `dump custom` and a name that does not end in .bin or .gz";
             return Err(FieldError::new("file", "no text", "a dump of LAMMPS as text", remedy).in_file(&file).into());
         }
-        if lammps::is_dump(text.as_bytes()) {
-            let frames = lammps::pictures(&text, files.time_step, &file)?;
-            in_order(&frames.iter().map(|(time, _)| *time).collect::<Vec<_>>(), "ITEM: TIMESTEP", &file)?;
-            let picture = |(time, table): &(f64, TextTable)| {
-                Ok(ParticleFrame { time: *time, columns: of_table(table, plan, &file)? })
-            };
-            return frames.iter().map(picture).collect();
+        if is_dump {
+            let mut before = f64::NEG_INFINITY;
+            let pictures = lammps::pictures(reader, files.time_step, file.clone());
+            return Ok(Box::new(pictures.map(move |picture| {
+                let (time, table) = picture?;
+                in_order(&[before, time][usize::from(before == f64::NEG_INFINITY)..], "ITEM: TIMESTEP", &file)?;
+                before = time;
+                Ok(ParticleFrame { time, columns: of_table(&table, plan, &file)? })
+            })));
         }
-        there(vtk::collection(&text, &file)?, &file)?
+        there(vtk::collection(&String::from_utf8_lossy(&read_bytes(&file)?), &file)?, &file)?
     } else {
         files.times.iter().copied().zip(files.files.iter().map(|file| folder.join(file))).collect()
     };
@@ -154,21 +166,28 @@ fn pictures(
         let rule = format!("at most {MOST_PICTURES}");
         return Err(FieldError::new("particles.files", named.len(), &rule, "give fewer pictures").into());
     }
-    let mut seen: Vec<ParticleFrame> = Vec::new();
-    for (time, file) in in_pieces(named)? {
-        let columns = if vtk::ENDINGS.contains(&ending(&file).as_str()) {
-            of_points(&PointArrays::parse(&read_bytes(&file)?, &file)?, plan, &file)?
-        } else {
-            of_table(&read_text_table(&file)?, plan, &file)?
-        };
-        match seen.last_mut().filter(|last| last.time == time) {
-            Some(last) => {
-                columns.into_iter().for_each(|(name, more)| last.columns.entry(name).or_default().extend(more))
-            }
-            None => seen.push(ParticleFrame { time, columns }),
-        }
-    }
-    Ok(seen)
+    let mut pieces = in_pieces(named)?.into_iter().peekable();
+    Ok(Box::new(std::iter::from_fn(move || {
+        let (time, file) = pieces.next()?;
+        let rest = std::iter::from_fn(|| pieces.next_if(|(other, _)| *other == time));
+        Some(std::iter::once((time, file)).chain(rest).try_fold(
+            ParticleFrame { time, ..ParticleFrame::default() },
+            |mut frame, (_, file)| {
+                let more = columns(&file, plan)?.into_iter();
+                more.for_each(|(name, more)| frame.columns.entry(name).or_default().extend(more));
+                Ok(frame)
+            },
+        ))
+    })))
+}
+
+/// Columns of a file of VTK or of a table.
+fn columns(file: &Path, plan: &ColumnAssignments) -> Result<NamedColumns, ParameterError> {
+    Ok(if vtk::ENDINGS.contains(&ending(file).as_str()) {
+        of_points(&PointArrays::parse(&read_bytes(file)?, file)?, plan, file)?
+    } else {
+        of_table(&read_text_table(file)?, plan, file)?
+    })
 }
 
 fn ending(file: &Path) -> String {
@@ -300,7 +319,8 @@ mod tests {
                 "files = [\"case.vtm\"]\ntimes = [0.0]\ncolumns = {{ y = \"Points:1 [m]\", area = \"{area}\" }}\n"
             );
             let files: ParticleFiles = toml::from_str(&text).expect("files");
-            pictures(&files, &plan(&files.columns, COLUMNS, None, "particles").expect("columns"), folder.path())
+            let plan = plan(&files.columns, COLUMNS, None, "particles").expect("columns");
+            frames(&files, &plan, folder.path()).and_then(Iterator::collect::<Result<Vec<_>, _>>)
         };
         let seen = read("area [cm^2]").expect("a picture");
         assert_eq!((&seen[0].columns["y"][..], &seen[0].columns["area"][..]), (&[2.0][..], &[1e-4][..]));

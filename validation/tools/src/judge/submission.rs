@@ -4,6 +4,7 @@ use crate::case::{CaseFile, ParameterError, Tier};
 use crate::evaluation::read_plan;
 use crate::input::{FieldError, check_name};
 use crate::metric::Variant;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -97,19 +98,19 @@ pub struct CoarseRun {
     pub profile: PathBuf,
 }
 
-/// Files of particles, one a time.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+/// Files of particles, one a time
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ParticleFiles {
-    /// The files, beside the submission: tables of numbers, `.vtu`, `.vtp`, `.vtk`, or pieces of these by `.pvtu`, `.pvtp` or `.vtm`; a single `.pvd` or `.series`; a single dump of LAMMPS,
-    /// `.dump` or `.lammpstrj`.
+    /// Files beside the plan: tables, VTK or its collections, or a single dump of LAMMPS, `.dump` or `.lammpstrj`
     pub files: Vec<PathBuf>,
-    /// Times of the files `[s]`; absent where a single file says them.
+    /// Times of the files `[s]`; absent where a single file says them
     #[serde(default)]
     pub times: Vec<f64>,
-    /// Length of a step `[s]` of a dump that counts steps.
+    /// Length of a step `[s]` of a dump that counts steps
     pub time_step: Option<f64>,
-    /// Assignment of the files' columns to quantities.
+    /// Columns of the files by quantity, such as `x = "x [m]"`
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub columns: BTreeMap<String, toml::Value>,
 }
 
@@ -208,7 +209,7 @@ impl ForeignRun {
 }
 
 impl ParticleFiles {
-    fn check(&self) -> Result<(), FieldError> {
+    pub(crate) fn check(&self) -> Result<(), FieldError> {
         let wrong = |field: &str, value: String, rule: &str, remedy: &str| {
             Err(FieldError::new(&format!("particles.{field}"), value, rule, remedy))
         };

@@ -1,0 +1,24 @@
+//! `bagnold grains`: fields and points of a friction law from dumps of a grain code.
+
+use super::arguments::GrainsArguments;
+use super::error::ProgramError;
+use super::{Exit, Session};
+use crate::grains::{GrainPlan, average, summary, write};
+use crate::output::OutputFolder;
+use std::path::Path;
+
+/// Averages the runs of a plan, writes tables and figures, and prints the points.
+pub(super) fn grains(command: &GrainsArguments, session: &mut Session<'_>) -> Result<Exit, ProgramError> {
+    let plan = GrainPlan::read(&command.file)?;
+    let folder = command
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new("reports/grains").join(command.file.file_stem().unwrap_or_default()));
+    let runs = average(&plan)?;
+    let claimed = OutputFolder::claim(&folder)?;
+    write(&plan, &runs, claimed.staging())?;
+    claimed.publish()?;
+    session.say(&summary(&runs));
+    session.say(&format!("Points of the law: {}\n", folder.join("points.csv").display()));
+    Ok(Exit::Held)
+}

@@ -1,0 +1,87 @@
+//! Tables, figure and summary of grains.
+
+use super::fields::{POINT, RunFields};
+use super::plan::GrainPlan;
+use crate::figure::{self, Axis, Figure, Panel};
+use crate::number::{short_digits, two_digits};
+use crate::output::{FileError, caution, write_whole};
+use std::io;
+use std::path::Path;
+
+/// Change of the inertial number between points whose slope counts `[-]`.
+const APART: f64 = 0.05;
+/// Difference of the contacts' stress from the momentum balance that is told `[-]`.
+const UNBALANCED: f64 = 0.05;
+
+/// Writes a table of fields for each run, the points of the law, and a figure.
+///
+/// # Errors
+/// Files that cannot be written.
+pub fn write(plan: &GrainPlan, runs: &[RunFields], folder: &Path) -> Result<(), FileError> {
+    let unwritable = |error: io::Error| FileError::unwritable(folder, &error);
+    runs.iter().try_for_each(|run| run.table.write(folder)).map_err(unwritable)?;
+    write_whole(&folder.join("points.csv"), points(plan, runs).as_bytes()).map_err(unwritable)?;
+    let panel = |(k, label): (usize, &str)| {
+        let mut panel = Panel::new("", Axis::linear("I [-]"), Axis::linear(label));
+        for (slot, run) in runs.iter().enumerate() {
+            panel.points(&run.name, slot, [(run.core[POINT[0]].0, run.core[k].0)]).error = vec![run.core[k].1];
+        }
+        panel
+    };
+    let panels = [(POINT[1], "μ [-]"), (POINT[2], "φ [-]")].map(panel);
+    let drawn = Figure::new("law", &format!("{}: means over the core of each run.", plan.title), panels.into());
+    let drawn = figure::write(&drawn, &folder.join("figures"));
+    drawn.map(drop).map_err(|error| unwritable(io::Error::other(error.to_string())))
+}
+
+/// Points of the law. Where only the inertial number scatters, as on slopes, the line to the neighbours carries that over to the friction.
+fn points(plan: &GrainPlan, runs: &[RunFields]) -> String {
+    let mut text = format!("# source: {}, grains\n", plan.title);
+    text += "inertial_number [-],friction [-],friction uncertainty [-],solid_fraction [-],inertial_number scatter [-],run\n";
+    for run in runs {
+        let [(inertia, scatter), (friction, own), (solid, _)] = POINT.map(|k| run.core[k]);
+        let others = runs.iter().map(|run| (run.core[POINT[0]].0, run.core[POINT[1]].0));
+        let below = others.clone().filter(|point| point.0 < inertia * (1.0 - APART)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let above = others.filter(|point| point.0 > inertia * (1.0 + APART)).min_by(|a, b| a.0.total_cmp(&b.0));
+        let (low, high) = (below.unwrap_or((inertia, friction)), above.unwrap_or((inertia, friction)));
+        let slope = if high.0 > low.0 { (high.1 - low.1) / (high.0 - low.0) } else { 0.0 };
+        let sigma = libm::hypot(own, slope * scatter);
+        text += &format!("{inertia},{friction},{sigma},{solid},{scatter},\"{}\"\n", run.name);
+    }
+    text
+}
+
+/// Two lines for each run: its point, and the checks.
+#[must_use]
+pub fn summary(runs: &[RunFields]) -> String {
+    let line = |run: &RunFields| {
+        let parts = ["I", "μ", "φ"].iter().zip(POINT.map(|k| run.core[k]));
+        let parts: Vec<String> = parts
+            .map(|(name, (value, u))| format!("{name} = {} ± {}", short_digits(value, 4), two_digits(u)))
+            .collect();
+        let [pressure, shear] = [3, 4].map(|k| run.core[k].0 / run.core[k + 4].0);
+        if pressure.max(shear) - 1.0 > UNBALANCED || 1.0 - pressure.min(shear) > UNBALANCED {
+            caution(&format!(
+                "{}: contacts do not bear what the momentum balance says within 5 %: average longer",
+                run.name
+            ));
+        }
+        let stress = if [pressure, shear] == [1.0, 1.0] {
+            "stress by the momentum balance of the geometry".to_owned()
+        } else {
+            let [pressure, shear] = [pressure, shear].map(|ratio| short_digits(ratio, 3));
+            format!("contacts bear {pressure} of the pressure and {shear} of the shear stress of the momentum balance")
+        };
+        let [frames, grains, ..] = run.total;
+        format!(
+            "{}: {}\n  {frames} frames in {} windows, velocity within {} %; {grains} grains × frames; {stress}; mass and momentum of the \
+             fields within {:.0e}\n",
+            run.name,
+            parts.join(", "),
+            run.windows,
+            short_digits(100.0 * run.unsteadiness, 2),
+            run.defect
+        )
+    };
+    runs.iter().map(line).collect()
+}
