@@ -29,15 +29,13 @@ impl CellOrder {
         let entries = sorted.len();
         cached.resize(entries, 0);
         reach.resize(entries.div_ceil(BLOCK), (0, 0));
-        (cached.par_chunks_mut(BLOCK), &mut *reach).into_par_iter().enumerate().with_min_len(4).for_each(
-            |(block, (cached, reach))| {
-                *reach = (u32::MAX, 0);
-                for (offset, cached) in cached.iter_mut().enumerate() {
-                    *cached = cell_of(block * BLOCK + offset) as u32;
-                    *reach = (reach.0.min(*cached), reach.1.max(*cached));
-                }
-            },
-        );
+        (cached.par_chunks_mut(BLOCK), &mut *reach).enumerate().with_min_len(4).for_each(|(block, (cached, reach))| {
+            *reach = (u32::MAX, 0);
+            for (offset, cached) in cached.iter_mut().enumerate() {
+                *cached = cell_of(block * BLOCK + offset) as u32;
+                *reach = (reach.0.min(*cached), reach.1.max(*cached));
+            }
+        });
         start.clear();
         if start.capacity() <= cells {
             // room for more: an open axis grows with every splash

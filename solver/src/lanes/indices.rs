@@ -226,7 +226,6 @@ impl CheckedIndices {
         chunks.resize(regions * region, [0; LANES]);
         used.resize(regions, 0);
         let result = (chunks.par_chunks_mut(region), &mut used, items)
-            .into_par_iter()
             .enumerate()
             .map(|(index, (chunks, used, item))| {
                 let (wanted, result) = fill(index, item, chunks);

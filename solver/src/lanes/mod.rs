@@ -17,7 +17,8 @@ mod symmetric;
 
 pub use indices::{CheckedIndices, LaneChunks, LaneIndices, LanePlaces};
 pub use real::{Number, Real};
-pub use symmetric::{LaneTensors, LaneTensorsMut};
+pub use symmetric::LaneTensors;
+pub(crate) use symmetric::store_symmetric;
 
 use crate::vector::{Tensor, Vector};
 

@@ -1,6 +1,7 @@
 //! Symmetric tensors of all particles as passes load them: eight side by side, the upper triangle only.
 
 use super::{LANES, Lanes};
+use crate::parallel::ChunksMut;
 use crate::parallel::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -49,28 +50,24 @@ impl<const D: usize> LaneTensors<D> {
         lanes
     }
 
-    /// Parts of so many groups, to be written.
-    pub(crate) fn blocks_mut(&mut self, groups: usize) -> impl Items<Item = LaneTensorsMut<'_, D>> {
-        self.values.par_chunks_mut(groups * entries(D)).map(|values| LaneTensorsMut { values })
+    /// Parts of so many groups, to be written by [`store_symmetric`].
+    pub(crate) fn blocks_mut(&mut self, groups: usize) -> ChunksMut<'_, [f64; LANES]> {
+        self.values.par_chunks_mut(groups * entries(D))
     }
 }
 
-/// Tensors of some groups, to be written.
-#[derive(Debug)]
-pub struct LaneTensorsMut<'a, const D: usize> {
-    values: &'a mut [[f64; LANES]],
-}
-
-impl<const D: usize> LaneTensorsMut<'_, D> {
-    /// Stores symmetric tensors as those of a group.
-    #[inline(always)]
-    pub fn store<V: Lanes>(&mut self, group: usize, tensors: &[[V; D]; D]) {
-        let mut place = group * entries(D);
-        for i in 0..D {
-            for j in i..D {
-                self.values[place] = tensors[i][j].to_array();
-                place += 1;
-            }
+/// Stores symmetric tensors as those of a group of a part.
+#[inline(always)]
+pub(crate) fn store_symmetric<V: Lanes, const D: usize>(
+    part: &mut [[f64; LANES]],
+    group: usize,
+    tensors: &[[V; D]; D],
+) {
+    let mut place = group * entries(D);
+    for i in 0..D {
+        for j in i..D {
+            part[place] = tensors[i][j].to_array();
+            place += 1;
         }
     }
 }
@@ -91,9 +88,9 @@ mod tests {
                 let value =
                     |group: usize, i: usize, j: usize| V::splat((100 * group + 10 * i.min(j) + i.max(j)) as f64);
                 let tensor = |group| std::array::from_fn(|i| std::array::from_fn(|j| value(group, i, j)));
-                all.blocks_mut(2).enumerate().for_each(|(block, mut part)| {
+                all.blocks_mut(2).enumerate().for_each(|(block, part)| {
                     for group in 2 * block..(2 * block + 2).min(3) {
-                        part.store::<V>(group - 2 * block, &tensor(group));
+                        store_symmetric::<V, 3>(part, group - 2 * block, &tensor(group));
                     }
                 });
                 for group in 0..3 {

@@ -148,27 +148,27 @@ struct Iteration<'a, T, P, A> {
 impl<T: Unknown, P: Preconditioner<T>, A: FnMut(&[T], &mut [T])> Descent for Iteration<'_, T, P, A> {
     fn square(&mut self) -> f64 {
         let ConjugateGradient { residual, numbers, .. } = &mut *self.buffers;
-        let blocks = (residual.par_chunks(BLOCK), self.preconditioner.weights().par_chunks(BLOCK)).into_par_iter();
+        let blocks = (residual.par_chunks(BLOCK), self.preconditioner.weights().par_chunks(BLOCK)).into_items();
         sum_of_blocks(numbers, blocks, |(residual, weights)| weighted_square(residual, weights))
     }
 
     fn descent(&mut self) -> f64 {
         let ConjugateGradient { residual, preconditioned, numbers, .. } = &mut *self.buffers;
         self.preconditioner.apply(residual, preconditioned);
-        let blocks = (residual.par_chunks(BLOCK), preconditioned.par_chunks(BLOCK)).into_par_iter();
+        let blocks = (residual.par_chunks(BLOCK), preconditioned.par_chunks(BLOCK)).into_items();
         sum_of_blocks(numbers, blocks, |(residual, z)| dot(residual, z))
     }
 
     fn turn(&mut self, growth: f64) {
         let ConjugateGradient { direction, preconditioned, vectors, .. } = &mut *self.buffers;
         let lift = self.deflation.map_or(T::ZERO, |(image, inverse)| {
-            let blocks = (preconditioned.par_chunks(BLOCK), image.par_chunks(BLOCK)).into_par_iter();
+            let blocks = (preconditioned.par_chunks(BLOCK), image.par_chunks(BLOCK)).into_items();
             let overlap = sum_of_blocks(vectors, blocks, |(z, image)| {
                 z.iter().zip(image).fold(T::ZERO, |sum, (z, a)| sum + *z * *a)
             });
             overlap * inverse
         });
-        let blocks = (direction.par_chunks_mut(BLOCK), preconditioned.par_chunks(BLOCK)).into_par_iter();
+        let blocks = (direction.par_chunks_mut(BLOCK), preconditioned.par_chunks(BLOCK)).into_items();
         blocks.for_each(|(direction, z)| {
             for (direction, z) in direction.iter_mut().zip(z) {
                 *direction = (*z - lift) + *direction * growth;
@@ -179,7 +179,7 @@ impl<T: Unknown, P: Preconditioner<T>, A: FnMut(&[T], &mut [T])> Descent for Ite
     fn curvature(&mut self) -> f64 {
         let ConjugateGradient { direction, product, numbers, .. } = &mut *self.buffers;
         (self.apply)(direction, product);
-        let blocks = (direction.par_chunks(BLOCK), product.par_chunks(BLOCK)).into_par_iter();
+        let blocks = (direction.par_chunks(BLOCK), product.par_chunks(BLOCK)).into_items();
         sum_of_blocks(numbers, blocks, |(direction, product)| dot(direction, product))
     }
 
@@ -187,7 +187,7 @@ impl<T: Unknown, P: Preconditioner<T>, A: FnMut(&[T], &mut [T])> Descent for Ite
         let ConjugateGradient { residual, direction, product, .. } = &mut *self.buffers;
         let unknowns = (self.unknown.par_chunks_mut(BLOCK), direction.par_chunks(BLOCK));
         let residuals = (residual.par_chunks_mut(BLOCK), product.par_chunks(BLOCK));
-        (unknowns, residuals).into_par_iter().for_each(|((unknown, direction), (residual, product))| {
+        (unknowns, residuals).for_each(|((unknown, direction), (residual, product))| {
             for (unknown, direction) in unknown.iter_mut().zip(direction) {
                 *unknown = *unknown + *direction * step;
             }

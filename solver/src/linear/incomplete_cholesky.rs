@@ -45,7 +45,6 @@ impl IncompleteCholesky {
         self.inverse_diagonal.extend((0..rows).map(|row| inverse(operator.diagonal(row))));
         let Self { lower, end, inverse_pivot, .. } = self;
         (lower.par_chunks_mut(BLOCK * stride), end.par_chunks_mut(BLOCK), inverse_pivot.par_chunks_mut(BLOCK))
-            .into_par_iter()
             .enumerate()
             .for_each(|(block, (lower, end, inverse_pivot))| {
                 let first = block * BLOCK;
@@ -83,7 +82,6 @@ impl<T: Unknown> Preconditioner<T> for IncompleteCholesky {
             self.end.par_chunks(BLOCK),
             self.inverse_pivot.par_chunks(BLOCK),
         )
-            .into_par_iter()
             .for_each(|(out, residual, lower, end, inverse_pivot)| {
                 let mut start = 0;
                 for row in 0..out.len() {

@@ -166,15 +166,13 @@ impl<C: Coefficients> LaneRows<C> {
         columns.refill(rows, |columns| {
             columns.resize(groups * stride, [0; LANES]);
             let chunks = (columns.par_chunks_mut(stride), coefficients.par_chunks_mut(stride));
-            (chunks, count.par_chunks_mut(LANES), width, beside)
-                .into_par_iter()
-                .enumerate()
-                .with_min_len(FILLED_GROUPS)
-                .for_each(|(group, ((columns, coefficients), filled, width, beside))| {
+            (chunks, count.par_chunks_mut(LANES), width, beside).enumerate().with_min_len(FILLED_GROUPS).for_each(
+                |(group, ((columns, coefficients), filled, width, beside))| {
                     let mut rows_of_group = RowGroup { columns, coefficients, filled };
                     fill(group * LANES, &mut rows_of_group, beside);
                     *width = rows_of_group.pad(group * LANES, rows);
-                });
+                },
+            );
         });
     }
 

@@ -42,7 +42,7 @@ pub(crate) fn sum_of_blocks<T: Unknown, S>(
     sum: impl Fn(S) -> T + Sync,
 ) -> T {
     sums.resize(blocks.length(), T::ZERO);
-    (blocks, &mut sums[..]).into_par_iter().for_each(|(block, place)| *place = sum(block));
+    (blocks, &mut sums[..]).for_each(|(block, place)| *place = sum(block));
     sums.iter().fold(T::ZERO, |all, sum| all + *sum)
 }
 

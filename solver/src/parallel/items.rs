@@ -10,25 +10,21 @@ pub(crate) trait Items: Sized + Send {
     fn divided(self, place: usize) -> (Self, Self);
     /// The items one after the other.
     fn sequence(self) -> impl Iterator<Item = Self::Item>;
-    /// Items of a part at least.
-    fn least(&self) -> usize {
-        1
-    }
 }
 
 /// Conversion into the items of a parallel loop.
-pub(crate) trait IntoItems {
+pub(crate) trait IntoItems: Sized {
     /// Its items.
     type Items: Items;
     /// Its items.
-    fn into_par_iter(self) -> Self::Items;
+    fn into_items(self) -> Self::Items;
 }
 
 impl<I: Items> IntoItems for I {
     type Items = I;
 
     #[inline(always)]
-    fn into_par_iter(self) -> I {
+    fn into_items(self) -> I {
         self
     }
 }
@@ -37,7 +33,7 @@ impl<'a, T: Sync> IntoItems for &'a Vec<T> {
     type Items = &'a [T];
 
     #[inline(always)]
-    fn into_par_iter(self) -> &'a [T] {
+    fn into_items(self) -> &'a [T] {
         self
     }
 }
@@ -46,7 +42,7 @@ impl<'a, T: Send> IntoItems for &'a mut Vec<T> {
     type Items = &'a mut [T];
 
     #[inline(always)]
-    fn into_par_iter(self) -> &'a mut [T] {
+    fn into_items(self) -> &'a mut [T] {
         self
     }
 }
@@ -191,68 +187,6 @@ impl<I: Items> Items for Enumerated<I> {
     fn sequence(self) -> impl Iterator<Item = Self::Item> {
         (self.first..).zip(self.items.sequence())
     }
-
-    fn least(&self) -> usize {
-        self.items.least()
-    }
-}
-
-/// Results of a function for each item.
-#[derive(Debug)]
-pub(crate) struct Mapped<I, F> {
-    pub(super) items: I,
-    pub(super) function: F,
-}
-
-impl<I: Items, R, F: Fn(I::Item) -> R + Clone + Send> Items for Mapped<I, F> {
-    type Item = R;
-
-    fn length(&self) -> usize {
-        self.items.length()
-    }
-
-    fn divided(self, place: usize) -> (Self, Self) {
-        let (items, later) = self.items.divided(place);
-        (Self { items, function: self.function.clone() }, Self { items: later, function: self.function })
-    }
-
-    #[inline(always)]
-    fn sequence(self) -> impl Iterator<Item = R> {
-        self.items.sequence().map(self.function)
-    }
-
-    fn least(&self) -> usize {
-        self.items.least()
-    }
-}
-
-/// Items in parts of at least so many.
-#[derive(Debug)]
-pub(crate) struct WithLeast<I> {
-    pub(super) items: I,
-    pub(super) least: usize,
-}
-
-impl<I: Items> Items for WithLeast<I> {
-    type Item = I::Item;
-
-    fn length(&self) -> usize {
-        self.items.length()
-    }
-
-    fn divided(self, place: usize) -> (Self, Self) {
-        let (items, later) = self.items.divided(place);
-        (Self { items, least: self.least }, Self { items: later, least: self.least })
-    }
-
-    #[inline(always)]
-    fn sequence(self) -> impl Iterator<Item = I::Item> {
-        self.items.sequence()
-    }
-
-    fn least(&self) -> usize {
-        self.least
-    }
 }
 
 /// Items, or none as often as they are wanted.
@@ -287,9 +221,9 @@ macro_rules! zipped {
             type Items = Zipped<($($type::Items,)+)>;
 
             #[inline(always)]
-            fn into_par_iter(self) -> Self::Items {
+            fn into_items(self) -> Self::Items {
                 let ($($items,)+) = self;
-                Zipped(($($items.into_par_iter(),)+))
+                Zipped(($($items.into_items(),)+))
             }
         }
 

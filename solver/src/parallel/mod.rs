@@ -17,31 +17,55 @@ pub(crate) mod prelude {
     pub(crate) use super::items::{IntoItems, Items, ParallelSlice, ParallelSliceMut};
 }
 
-use items::{Enumerated, Mapped, WithLeast};
+use items::{Enumerated, IntoItems};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Parts for each thread: enough that no one waits long for the last.
 const PARTS: usize = 8;
 
 /// Operations of parallel loops on their items.
-pub(crate) trait Parallel: Items {
+pub(crate) trait Parallel: IntoItems {
     /// Each item with its number.
-    fn enumerate(self) -> Enumerated<Self> {
-        Enumerated { items: self, first: 0 }
+    fn enumerate(self) -> Enumerated<Self::Items> {
+        Enumerated { items: self.into_items(), first: 0 }
     }
 
     /// No part with fewer items: less is done before another thread has woken.
-    fn with_min_len(self, least: usize) -> WithLeast<Self> {
-        WithLeast { items: self, least }
+    fn with_min_len(self, least: usize) -> Loop<Self::Items> {
+        Loop { items: self.into_items(), least }
     }
 
     /// Results of `function` for each item.
-    fn map<R, F: Fn(Self::Item) -> R + Clone + Send>(self, function: F) -> Mapped<Self, F> {
+    fn map<R, F: Fn(Item<Self>) -> R + Sync>(self, function: F) -> Mapped<Self::Items, F> {
+        self.with_min_len(1).map(function)
+    }
+
+    /// Calls `task` with every item.
+    fn for_each(self, task: impl Fn(Item<Self>) + Sync) {
+        self.with_min_len(1).for_each(task);
+    }
+}
+
+impl<I: IntoItems> Parallel for I {}
+
+/// An item of what becomes items.
+type Item<I> = <<I as IntoItems>::Items as Items>::Item;
+
+/// Items in parts of at least so many.
+#[derive(Debug)]
+pub(crate) struct Loop<I> {
+    items: I,
+    least: usize,
+}
+
+impl<I: Items> Loop<I> {
+    /// Results of `function` for each item.
+    pub(crate) fn map<R, F: Fn(I::Item) -> R + Sync>(self, function: F) -> Mapped<I, F> {
         Mapped { items: self, function }
     }
 
     /// Calls `task` with every item.
-    fn for_each(self, task: impl Fn(Self::Item) + Sync) {
+    pub(crate) fn for_each(self, task: impl Fn(I::Item) + Sync) {
         let queue = Queue::new(self);
         on_threads(queue.threads, &|| {
             while let Some(part) = queue.next() {
@@ -49,23 +73,25 @@ pub(crate) trait Parallel: Items {
             }
         });
     }
+}
 
-    /// All items joined. `join` must be associative and commutative to the bit, as the larger of two is, because parts are
+/// Results of a function for each item.
+#[derive(Debug)]
+pub(crate) struct Mapped<I, F> {
+    items: Loop<I>,
+    function: F,
+}
+
+impl<R: Send, I: Items, F: Fn(I::Item) -> R + Sync> Mapped<I, F> {
+    /// All results joined. `join` must be associative and commutative to the bit, as the larger of two is, because parts are
     /// joined as they come.
-    fn reduce(
-        self,
-        none: impl Fn() -> Self::Item + Sync,
-        join: impl Fn(Self::Item, Self::Item) -> Self::Item + Sync,
-    ) -> Self::Item
-    where
-        Self::Item: Send,
-    {
-        let queue = Queue::new(self);
+    pub(crate) fn reduce(self, none: impl Fn() -> R + Sync, join: impl Fn(R, R) -> R + Sync) -> R {
+        let queue = Queue::new(self.items);
         let all = Mutex::new(none());
         on_threads(queue.threads, &|| {
             let mut own = none();
             while let Some(part) = queue.next() {
-                own = part.sequence().fold(own, &join);
+                own = part.sequence().map(&self.function).fold(own, &join);
             }
             let mut all = lock(&all);
             *all = join(std::mem::replace(&mut *all, none()), own);
@@ -73,8 +99,6 @@ pub(crate) trait Parallel: Items {
         all.into_inner().unwrap_or_else(PoisonError::into_inner)
     }
 }
-
-impl<I: Items> Parallel for I {}
 
 /// The items that no thread has taken yet.
 struct Queue<I> {
@@ -86,11 +110,9 @@ struct Queue<I> {
 }
 
 impl<I: Items> Queue<I> {
-    fn new(items: I) -> Self {
-        let (length, pool) = (items.length(), rayon::current_num_threads());
-        let parts = if pool > 1 { PARTS * pool } else { 1 };
-        let part = length.div_ceil(parts).max(items.least()).max(1);
-        Self { rest: Mutex::new(Some(items)), part, threads: pool.min(length.div_ceil(part)) }
+    fn new(Loop { items, least }: Loop<I>) -> Self {
+        let (part, threads) = shares(items.length(), least);
+        Self { rest: Mutex::new(Some(items)), part, threads }
     }
 
     fn next(&self) -> Option<I> {
@@ -105,15 +127,34 @@ impl<I: Items> Queue<I> {
     }
 }
 
+/// Items of a part, and threads that have something to do.
+fn shares(items: usize, least: usize) -> (usize, usize) {
+    let pool = rayon::current_num_threads();
+    let parts = if pool > 1 { PARTS * pool } else { 1 };
+    let part = items.div_ceil(parts).max(least).max(1);
+    (part, pool.min(items.div_ceil(part)))
+}
+
 /// No lock is held while an item is worked on, so that a panic leaves nothing half done.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Lets so many threads do `work` until there is none left.
-fn on_threads(threads: usize, work: &(dyn Fn() + Sync)) {
+/// What threads do until there is none left. It has one method, where a closure would be compiled for each of the ways to call it.
+trait Work: Sync {
+    fn work(&self);
+}
+
+impl<F: Fn() + Sync> Work for F {
+    fn work(&self) {
+        self();
+    }
+}
+
+/// Lets so many threads do `work`.
+fn on_threads(threads: usize, work: &dyn Work) {
     if threads <= 1 {
-        work();
+        work.work();
     } else {
         let half = threads / 2;
         rayon::join(|| on_threads(threads - half, work), || on_threads(half, work));

@@ -31,7 +31,7 @@ fn items_side_by_side_belong_together_up_to_the_shortest() {
     in_pools(|| {
         let source: Vec<usize> = (0..300).collect();
         let (mut one, mut other, mut last) = (vec![0; 301], vec![0; 400], vec![0; 300]);
-        (&mut one, (&source, &mut other), &mut last).into_par_iter().with_min_len(16).enumerate().for_each(
+        (&mut one, (&source, &mut other), &mut last).enumerate().with_min_len(16).for_each(
             |(index, (one, (source, other), last))| {
                 *one += source + 1;
                 *other += index + 2;
@@ -52,7 +52,7 @@ fn a_reduction_is_that_of_a_plain_loop() {
         let largest = values.par_chunks(16).map(|values| values.iter().copied().fold(0.0, f64::max));
         assert_eq!(largest.reduce(|| 0.0, f64::max), values.iter().copied().fold(0.0, f64::max));
         let none: &[f64] = &[];
-        assert_eq!(none.into_par_iter().map(|value| *value).reduce(|| -1.0, f64::max), -1.0);
+        assert_eq!(none.map(|value| *value).reduce(|| -1.0, f64::max), -1.0);
     });
 }
 
@@ -61,7 +61,7 @@ fn parts_have_the_least_length_that_is_asked_for() {
     in_pools(|| {
         let values = vec![1; 1000];
         let parts = AtomicUsize::new(0);
-        let queue = super::Queue::new(values[..].into_par_iter().with_min_len(300));
+        let queue = super::Queue::new(values[..].with_min_len(300));
         while let Some(part) = queue.next() {
             parts.fetch_add(1, Ordering::Relaxed);
             assert!(part.length() >= 100, "{}", part.length());

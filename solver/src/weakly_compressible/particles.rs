@@ -335,5 +335,5 @@ fn permute<T: Copy + Send + Sync>(array: &mut Vec<T>, order: &[u32], room: &mut 
 }
 
 fn gather<T: Copy + Send + Sync>(array: &[T], order: &[u32], out: &mut [T]) {
-    (out, order).into_par_iter().with_min_len(4096).for_each(|(new, &old)| *new = array[old as usize]);
+    (out, order).with_min_len(4096).for_each(|(new, &old)| *new = array[old as usize]);
 }

@@ -113,15 +113,13 @@ impl<const D: usize> Search<D> {
             &mass[..],
             support_impulse,
         );
-        moved.into_par_iter().with_min_len(4096).for_each(
-            |(position, velocity, velocity_gradient, stress, &mass, support_impulse)| {
-                self.domain.wrap(position);
-                let before = *velocity;
-                self.domain.reflect(position, velocity, velocity_gradient, stress);
-                let pushed_back = (*velocity - before) * mass;
-                *support_impulse += pushed_back;
-            },
-        );
+        moved.with_min_len(4096).for_each(|(position, velocity, velocity_gradient, stress, &mass, support_impulse)| {
+            self.domain.wrap(position);
+            let before = *velocity;
+            self.domain.reflect(position, velocity, velocity_gradient, stress);
+            let pushed_back = (*velocity - before) * mass;
+            *support_impulse += pushed_back;
+        });
         // what a moving wall takes out of the period comes in on its other side
         position[flow..].iter_mut().for_each(|position| self.domain.wrap(position));
     }

@@ -44,9 +44,8 @@ impl<const D: usize> State<D> {
         let flow = particles.flow_count();
         let (field, memory) = (particles.field.as_deref(), particles.memory.as_deref());
         (&mut particles.pressure[..flow], &mut particles.volume[..flow], &particles.density[..flow], &particles.mass)
-            .into_par_iter()
-            .with_min_len(4096)
             .enumerate()
+            .with_min_len(4096)
             .for_each(|(index, (pressure, volume, density, mass))| {
                 *pressure = model.pressure(*density, &memory::kept(field, memory, index));
                 *volume = mass / density;
@@ -143,7 +142,6 @@ impl<const D: usize> State<D> {
         let flow = self.particles.flow_count();
         let particles = &mut self.particles;
         (&mut particles.position[..flow], &particles.velocity[..flow])
-            .into_par_iter()
             .with_min_len(4096)
             .for_each(|(position, velocity): (&mut Vector<D>, &Vector<D>)| *position += velocity * time_step);
         let end = self.time + time_step;

@@ -36,9 +36,8 @@ impl<const D: usize> State<D> {
         let particles = &self.particles;
         let (largest, relative, bad) =
             (velocity[..flow].par_chunks_mut(BLOCK), support_impulse.par_chunks_mut(BLOCK), &mut self.pairs.energy)
-                .into_par_iter()
-                .with_min_len(16)
                 .enumerate()
+                .with_min_len(16)
                 .map(|(block, (velocity, support_impulse, energy))| {
                     let mut extremes = (0.0_f64, 0.0_f64, usize::MAX);
                     let (first, extremes_of_block) = (block * BLOCK, &mut extremes);

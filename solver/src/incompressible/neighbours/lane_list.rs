@@ -113,7 +113,7 @@ impl<const D: usize> LaneList<D> {
                 chunks.resize(groups * stride, [0; LANES]);
                 let chunks = chunks.par_chunks_mut(stride * LEAST_GROUPS);
                 let rows = (count.par_chunks_mut(LANES * LEAST_GROUPS), width.par_chunks_mut(LEAST_GROUPS));
-                (chunks, rows, found.par_chunks_mut(room)).into_par_iter().enumerate().for_each(
+                (chunks, rows, found.par_chunks_mut(room)).enumerate().for_each(
                     |(task, (chunks, (count, width), found))| {
                         let first = task * LEAST_GROUPS * LANES;
                         let list = Sorted { targets, which, grid, periods, reach, skin, coordinates, index };

@@ -93,7 +93,6 @@ impl<const D: usize> Pairs<D> {
         loop {
             self.candidate.resize(targets.len() * self.stride, 0);
             (self.candidate.par_chunks_mut(self.stride), &mut self.candidates, targets)
-                .into_par_iter()
                 .with_min_len(LEAST_TASK)
                 .for_each(|(row, candidates, target)| {
                     let mut found = 0;
@@ -133,7 +132,6 @@ impl<const D: usize> Pairs<D> {
             self.candidates.par_chunks(LEAST_TASK),
             targets.par_chunks(LEAST_TASK),
         )
-            .into_par_iter()
             .for_each(|(entry, count, candidate, candidates, targets)| {
                 let stride = self.stride;
                 self.set.run(Measure {

@@ -131,24 +131,22 @@ impl<const D: usize> DragExchange<D> {
         self.mean_factor.resize(self.sediment.len(), 0.0);
         self.slip.resize(self.sediment.len(), 0.0);
         let (of_sediment, positions) = (&self.of_sediment, &self.sediment);
-        (&mut self.mean_factor, &mut self.slip).into_par_iter().enumerate().with_min_len(LEAST_TASK).for_each(
-            |(a, (factor, slip))| {
-                let (mut sum, mut weight) = (Vector::zeros(), 0.0);
-                for pair in of_sediment.of(a) {
-                    sum += fluid.velocity[pair.source as usize] * pair.value;
-                    weight += pair.value;
+        (&mut self.mean_factor, &mut self.slip).enumerate().with_min_len(LEAST_TASK).for_each(|(a, (factor, slip))| {
+            let (mut sum, mut weight) = (Vector::zeros(), 0.0);
+            for pair in of_sediment.of(a) {
+                sum += fluid.velocity[pair.source as usize] * pair.value;
+                weight += pair.value;
+            }
+            let own = sediment.velocity.get(a).copied().unwrap_or_else(Vector::zeros);
+            *slip = if weight > 0.0 { (sum / weight - own).norm() } else { 0.0 };
+            *factor = match material.drag_form {
+                DragForm::Grain => grain_factor(material, *slip, scene.fluid.kinematic_viscosity),
+                DragForm::Exchange => {
+                    let around = (weight * fluid.lattice_volume).max(scene.numerics.least_fluid);
+                    exchange_factor(scene, material, sediment.lattice_volume, &positions[a], *slip, around)
                 }
-                let own = sediment.velocity.get(a).copied().unwrap_or_else(Vector::zeros);
-                *slip = if weight > 0.0 { (sum / weight - own).norm() } else { 0.0 };
-                *factor = match material.drag_form {
-                    DragForm::Grain => grain_factor(material, *slip, scene.fluid.kinematic_viscosity),
-                    DragForm::Exchange => {
-                        let around = (weight * fluid.lattice_volume).max(scene.numerics.least_fluid);
-                        exchange_factor(scene, material, sediment.lattice_volume, &positions[a], *slip, around)
-                    }
-                };
-            },
-        );
+            };
+        });
         self.check_reynolds(fluid.len(), material, scene.fluid.kinematic_viscosity)
     }
 

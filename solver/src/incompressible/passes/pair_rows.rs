@@ -95,9 +95,9 @@ pub(crate) fn fill_rows<const D: usize>(
     let of_pressure = (own, held, pressure.diagonal.par_chunks_mut(rows), nearness.par_chunks_mut(rows));
     let of_friction = friction.map(|friction| {
         let couplings = (friction.couplings.par_chunks_mut(chunks), friction.width.par_chunks_mut(LEAST_GROUPS));
-        (couplings, friction.coupled.par_chunks_mut(rows)).into_par_iter()
+        (couplings, friction.coupled.par_chunks_mut(rows)).into_items()
     });
-    (links, of_pressure, of_friction).into_par_iter().enumerate().for_each(
+    (links, of_pressure, of_friction).enumerate().for_each(
         |(task, ((links, width), (own, held, diagonal, nearness), friction))| {
             let pressure = PressureRows { links, width, own, diagonal, held };
             let friction = friction.map(|((couplings, width), coupled)| FrictionRows { couplings, width, coupled });

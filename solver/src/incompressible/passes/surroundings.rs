@@ -64,7 +64,7 @@ pub(crate) fn find_surroundings<const D: usize>(
     let (concentration, deficit) = (phase.concentration.par_chunks_mut(rows), phase.deficit.par_chunks_mut(rows));
     let scalars = (concentration, deficit, phase.at_surface.par_chunks_mut(rows), phase.moment.par_chunks_mut(rows));
     let tensors = (phase.anisotropy.par_chunks_mut(rows), phase.velocity_gradient.par_chunks_mut(rows));
-    (lists, scalars, tensors, phase.wall_sums.par_chunks_mut(rows)).into_par_iter().enumerate().for_each(
+    (lists, scalars, tensors, phase.wall_sums.par_chunks_mut(rows)).enumerate().for_each(
         |(task, ((weight, active), scalars, (anisotropy, velocity_gradient), walls))| {
             let (concentration, deficit, at_surface, moment) = scalars;
             let first = task * LEAST_GROUPS;

@@ -70,7 +70,6 @@ impl<const D: usize> Viscosities<D> {
             self.mean_gradient.extend_from_slice(&fluid.velocity_gradient);
         }
         (&mut self.fluid, &mut self.fluid_rate, &mut self.voidage, &mut self.mean_gradient)
-            .into_par_iter()
             .enumerate()
             .with_min_len(LEAST_TASK)
             .for_each(|(a, (viscosity, rate_of, voidage, mean))| {

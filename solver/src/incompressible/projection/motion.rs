@@ -64,7 +64,7 @@ pub(super) fn correct<const D: usize>(
     let Phase { velocity, position, travel, mass, pressure, lattice_volume, spacing, .. } = phase;
     let gradient = poisson.find_gradient(pressure);
     let impulse = *lattice_volume * time_step;
-    let moved = (velocity, position, travel, predicted, gradient, mass).into_par_iter().enumerate();
+    let moved = (velocity, position, travel, predicted, gradient, mass).enumerate();
     let too_far =
         moved.with_min_len(TASK_ROWS).map(|(particle, (velocity, position, travel, predicted, gradient, mass))| {
             let before = *velocity;

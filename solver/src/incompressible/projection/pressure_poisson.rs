@@ -240,7 +240,7 @@ impl<const D: usize> PressurePoisson<D> {
         stabilisation: f64,
     ) {
         // both operators read the pressures, D reads the gradients when all are there
-        (product.par_chunks_mut(TASK_ROWS), gradient.par_chunks_mut(TASK_ROWS)).into_par_iter().enumerate().for_each(
+        (product.par_chunks_mut(TASK_ROWS), gradient.par_chunks_mut(TASK_ROWS)).enumerate().for_each(
             |(task, (product, gradient))| {
                 let (own, first) = (&self.own, task * TASK_ROWS);
                 let compact = Some((&self.diagonal[..], product));

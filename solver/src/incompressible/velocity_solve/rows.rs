@@ -88,7 +88,7 @@ impl<const D: usize> VelocityRows<'_, D> {
             momentum.par_chunks_mut(LANES),
             velocity.par_chunks_mut(LANES),
         );
-        couplings.fill(rows, stride, beside.into_par_iter(), |first, group, beside| {
+        couplings.fill(rows, stride, beside.into_items(), |first, group, beside| {
             let (diagonal, sum, inertia, momentum, velocity) = beside;
             for lane in 0..diagonal.len() {
                 let (coupled, held, begin) = group.row(lane, |links| {

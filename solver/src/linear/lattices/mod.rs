@@ -100,19 +100,17 @@ impl<const D: usize> Lattices<D> {
         let cells = finest.cells;
         self.cell.resize(positions.len(), 0);
         self.place.resize(positions.len(), [0.0; D]);
-        (&mut self.cell, &mut self.place, positions).into_par_iter().with_min_len(LEAST_TASK).for_each(
-            |(cell, place, position)| {
-                let mut index = 0;
-                for axis in (0..D).rev() {
-                    let along = (position[axis] - lower[axis]) / size[axis];
-                    // truncated and clamped; a NaN goes to cell 0
-                    let k = (along.max(0.0) as usize).min(cells[axis] - 1);
-                    place[axis] = (along - k as f64).clamp(0.0, 1.0);
-                    index = index * cells[axis] + k;
-                }
-                *cell = index as u32;
-            },
-        );
+        (&mut self.cell, &mut self.place, positions).with_min_len(LEAST_TASK).for_each(|(cell, place, position)| {
+            let mut index = 0;
+            for axis in (0..D).rev() {
+                let along = (position[axis] - lower[axis]) / size[axis];
+                // truncated and clamped; a NaN goes to cell 0
+                let k = (along.max(0.0) as usize).min(cells[axis] - 1);
+                place[axis] = (along - k as f64).clamp(0.0, 1.0);
+                index = index * cells[axis] + k;
+            }
+            *cell = index as u32;
+        });
         let number = finest.sums.len();
         self.particle.resize(positions.len(), 0);
         let Self { order, particle, cell, .. } = self;
@@ -298,7 +296,7 @@ impl<const D: usize> Preconditioner<f64> for Lattices<D> {
             });
         }
         let (finest, node) = (&levels[0], &*node);
-        (out, residual, &*inverse_diagonal, &*cell, &*place).into_par_iter().with_min_len(LEAST_TASK).for_each(
+        (out, residual, &*inverse_diagonal, &*cell, &*place).with_min_len(LEAST_TASK).for_each(
             |(out, residual, weight, &cell, place)| {
                 let mut sum = residual * weight;
                 for (k, &node) in node[cell as usize].iter().take(1 << D).enumerate() {

@@ -202,9 +202,8 @@ pub(super) fn run<const D: usize>(
         energy,
         impulses.par_chunks_mut(touch.walls.len()),
     )
-        .into_par_iter()
-        .with_min_len(16)
         .enumerate()
+        .with_min_len(16)
         .map(|(block, (velocities, support_impulses, energy, out))| {
             let mut extremes = Extremes { largest: 0.0, passed: None };
             for (offset, (velocity, support_impulse)) in velocities.iter_mut().zip(support_impulses).enumerate() {

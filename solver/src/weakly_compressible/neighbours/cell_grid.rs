@@ -129,7 +129,7 @@ impl<const D: usize> CellGrid<D> {
         let mut coordinates = std::mem::replace(&mut self.coordinates, std::array::from_fn(|_| Vec::new()));
         for (axis, coordinates) in coordinates.iter_mut().enumerate() {
             coordinates.resize(self.index.len(), 0.0);
-            let entries = (&mut coordinates[..], &self.index[..]).into_par_iter().with_min_len(TASK);
+            let entries = (&mut coordinates[..], &self.index[..]).with_min_len(TASK);
             entries.for_each(|(place, &index)| *place = self.fixed(&positions[index as usize], axis));
         }
         self.coordinates = coordinates;

@@ -75,10 +75,9 @@ pub(crate) fn run<const D: usize>(
             field.as_mut().map(|field| field[..flow].par_chunks_mut(BLOCK)),
             memory.as_mut().map(|memory| memory[..flow].par_chunks_mut(BLOCK)),
         )
-            .into_par_iter(),
+            .into_items(),
         &mut energy,
     )
-        .into_par_iter()
         .enumerate()
         .with_min_len(4)
         .map(

@@ -10,7 +10,7 @@ use crate::lanes::algebra::{
     accumulate, deviatoric_rate, load, load_tensor, matrix_product, product, store, store_tensor, store_vector,
     zero_tensor, zero_vector,
 };
-use crate::lanes::{LANES, LaneNumbers, LanePass, LaneTensorsMut, Lanes, Real};
+use crate::lanes::{LANES, LaneNumbers, LanePass, Lanes, Real, store_symmetric};
 use crate::parallel::prelude::*;
 use crate::vector::{Tensor, Vector, shear_rate};
 use crate::weakly_compressible::model::Model;
@@ -21,8 +21,8 @@ use crate::weakly_compressible::terms::{common_motion, field_diffusion};
 use std::ops::Range;
 
 struct Output<'a, const D: usize> {
-    correction: LaneTensorsMut<'a, D>,
-    force_correction: LaneTensorsMut<'a, D>,
+    correction: &'a mut [[f64; LANES]],
+    force_correction: &'a mut [[f64; LANES]],
     pressure_gradient: &'a mut [Vector<D>],
     corrected_stress: &'a mut [Tensor<D>],
     weights: &'a mut [[f64; LANES]],
@@ -64,7 +64,6 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
         weights.par_chunks_mut(region),
         eigenvalues.par_chunks_mut(if meets_surface { BLOCK } else { 1 }),
     )
-        .into_par_iter()
         .enumerate()
         .with_min_len(4)
         .for_each(
@@ -131,8 +130,8 @@ impl<const D: usize> LanePass for Pass<'_, D> {
             }
             let stress = self.stress::<V>(first..first + end - offset);
             let out = &mut self.out;
-            out.correction.store(offset / LANES, &for_gradients);
-            out.force_correction.store(offset / LANES, &for_forces);
+            store_symmetric(out.correction, offset / LANES, &for_gradients);
+            store_symmetric(out.force_correction, offset / LANES, &for_forces);
             store_vector(&product(&for_gradients, &sums.gradient), &mut out.pressure_gradient[offset..end]);
             store_tensor(&matrix_product(&stress, &for_forces), &mut out.corrected_stress[offset..end]);
             offset = end;

@@ -78,7 +78,6 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
         by_damping.par_chunks_mut(BLOCK),
         by_wall_control.par_chunks_mut(BLOCK),
     )
-        .into_par_iter()
         .enumerate()
         .with_min_len(4)
         .for_each(|(block, (acceleration, support, by_walls, by_damping, by_wall_control))| {

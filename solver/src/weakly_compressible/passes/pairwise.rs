@@ -65,13 +65,11 @@ pub(crate) fn run<const D: usize>(model: &Model<D>, particles: &mut Particles<D>
     let region = model.list.region();
     weights.resize(acceleration.len().div_ceil(BLOCK) * region, [0.0; LANES]);
     let shared = &*particles;
-    (acceleration.par_chunks_mut(BLOCK), weights.par_chunks_mut(region))
-        .into_par_iter()
-        .enumerate()
-        .with_min_len(4)
-        .for_each(|(block, (out, weights))| {
+    (acceleration.par_chunks_mut(BLOCK), weights.par_chunks_mut(region)).enumerate().with_min_len(4).for_each(
+        |(block, (out, weights))| {
             model.instruction_set.run(Pass { model, particles: shared, records: momentum, block, out, weights });
-        });
+        },
+    );
     particles.acceleration = acceleration;
 }
 

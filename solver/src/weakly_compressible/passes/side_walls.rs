@@ -21,7 +21,7 @@ pub(crate) fn run<const D: usize>(
     let flow = particles.flow_count();
     let Particles { velocity, pressure, density, mass, acceleration, by_walls, by_damping, by_wall_control, .. } =
         particles;
-    (velocity[..flow].par_chunks_mut(BLOCK), energy, impulses).into_par_iter().with_min_len(16).enumerate().for_each(
+    (velocity[..flow].par_chunks_mut(BLOCK), energy, impulses).enumerate().with_min_len(16).for_each(
         |(block, (velocities, energy, impulse))| {
             *impulse = Vector::zeros();
             for (index, velocity) in (block * BLOCK..).zip(velocities) {

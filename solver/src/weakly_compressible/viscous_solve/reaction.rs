@@ -38,11 +38,8 @@ impl<const D: usize> ViscousSolve<'_, D> {
         let Booking { owners, walls, impulses } = booking;
         // no facet wall still leaves a slot to a block
         let width = walls.max(1);
-        (support.par_chunks_mut(BLOCK), impulses.par_chunks_mut(width))
-            .into_par_iter()
-            .enumerate()
-            .with_min_len(4)
-            .for_each(|(block, (support, out))| {
+        (support.par_chunks_mut(BLOCK), impulses.par_chunks_mut(width)).enumerate().with_min_len(4).for_each(
+            |(block, (support, out))| {
                 let pass = ReactionPass {
                     constants: self,
                     particles: shared,
@@ -55,7 +52,8 @@ impl<const D: usize> ViscousSolve<'_, D> {
                     out,
                 };
                 self.model.instruction_set.run(pass);
-            });
+            },
+        );
         particles.support = support;
     }
 }

@@ -24,7 +24,6 @@ impl<const D: usize> ViscousSolve<'_, D> {
             system.pair_vectors.par_chunks_mut(self.model.list.region()),
             system.stresses.blocks_mut(particles.flow_count(), BLOCK),
         )
-            .into_par_iter()
             .enumerate()
             .with_min_len(4)
             .for_each(|(block, (coefficients, pair_vectors, stiffnesses))| {
@@ -43,7 +42,6 @@ impl<const D: usize> ViscousSolve<'_, D> {
     pub(crate) fn residual_of_start(&self, particles: &Particles<D>, system: &mut ViscousSystem<D>) {
         let (stiffnesses, pair_vectors) = (&system.stresses, &system.pair_vectors);
         (system.coefficients.par_chunks_mut(GROUPS), system.unknowns.par_chunks_mut(GROUPS), &mut system.sums)
-            .into_par_iter()
             .enumerate()
             .with_min_len(4)
             .for_each(|(block, (coefficients, unknowns, sums))| {

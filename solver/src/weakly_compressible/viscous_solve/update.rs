@@ -15,7 +15,6 @@ impl<const D: usize> ViscousSolve<'_, D> {
     pub fn next_direction(&self, system: &mut ViscousSystem<D>, flow: usize, growth: f64) {
         let coefficients = &system.coefficients;
         (system.unknowns.par_chunks_mut(GROUPS), system.velocities.blocks_mut(flow, BLOCK))
-            .into_par_iter()
             .enumerate()
             .with_min_len(16)
             .for_each(|(block, (unknowns, velocities))| {
@@ -27,14 +26,12 @@ impl<const D: usize> ViscousSolve<'_, D> {
     /// Puts the increment where the passes look for a direction.
     pub(super) fn show_increments(&self, system: &mut ViscousSystem<D>, flow: usize) {
         let ViscousSystem { unknowns, velocities, .. } = system;
-        (velocities.blocks_mut(flow, BLOCK), unknowns.par_chunks(GROUPS)).into_par_iter().for_each(
-            |(velocities, unknowns)| {
-                for (place, velocity) in velocities.iter_mut().enumerate() {
-                    let increment = lane(&unknowns[place / LANES].increment, place % LANES);
-                    velocity[..D].copy_from_slice(increment.as_slice());
-                }
-            },
-        );
+        (velocities.blocks_mut(flow, BLOCK), unknowns.par_chunks(GROUPS)).for_each(|(velocities, unknowns)| {
+            for (place, velocity) in velocities.iter_mut().enumerate() {
+                let increment = lane(&unknowns[place / LANES].increment, place % LANES);
+                velocity[..D].copy_from_slice(increment.as_slice());
+            }
+        });
     }
 
     /// s L of the direction.
@@ -55,32 +52,28 @@ impl<const D: usize> ViscousSolve<'_, D> {
     /// (M + Δt K) p and p·(M + Δt K) p.
     pub(super) fn divergence(&self, system: &mut ViscousSystem<D>) {
         let ViscousSystem { coefficients, unknowns, pair_vectors, stresses, sums, .. } = system;
-        (unknowns.par_chunks_mut(GROUPS), sums).into_par_iter().enumerate().with_min_len(4).for_each(
-            |(block, (unknowns, sums))| {
-                self.model.instruction_set.run(DivergencePass {
-                    constants: self,
-                    coefficients: &coefficients[block * GROUPS..],
-                    stresses,
-                    pair_vectors,
-                    block,
-                    unknowns,
-                    sums,
-                });
-            },
-        );
+        (unknowns.par_chunks_mut(GROUPS), sums).enumerate().with_min_len(4).for_each(|(block, (unknowns, sums))| {
+            self.model.instruction_set.run(DivergencePass {
+                constants: self,
+                coefficients: &coefficients[block * GROUPS..],
+                stresses,
+                pair_vectors,
+                block,
+                unknowns,
+                sums,
+            });
+        });
     }
 
     /// δ ← δ + step · p, r ← r − step · (M + Δt K) p.
     pub(super) fn descend(&self, system: &mut ViscousSystem<D>, step: f64) {
         let coefficients = &system.coefficients;
-        (system.unknowns.par_chunks_mut(GROUPS), &mut system.sums)
-            .into_par_iter()
-            .enumerate()
-            .with_min_len(16)
-            .for_each(|(block, (unknowns, sums))| {
+        (system.unknowns.par_chunks_mut(GROUPS), &mut system.sums).enumerate().with_min_len(16).for_each(
+            |(block, (unknowns, sums))| {
                 let coefficients = &coefficients[block * GROUPS..];
                 self.model.instruction_set.run(DescentPass { coefficients, unknowns, step, sums });
-            });
+            },
+        );
     }
 }
 

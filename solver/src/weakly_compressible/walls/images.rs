@@ -147,7 +147,7 @@ impl<const D: usize> Images<D> {
             // as many are counted block by block as are then written
             let blocks = sources.len().div_ceil(BLOCK);
             self.counts.resize(blocks, 0);
-            let counts = self.counts.par_iter_mut().with_min_len(4).enumerate();
+            let counts = self.counts.par_iter_mut().enumerate().with_min_len(4);
             counts.for_each(|(block, count)| {
                 *count = 0;
                 sources.visit(block, |_| *count += 1);
@@ -228,7 +228,7 @@ impl<const D: usize> Images<D> {
 
     fn copy<T: Copy + Send + Sync>(&self, field: &mut [T], map: impl Fn(&T, &Image<D>) -> T + Sync) {
         let (real, images) = field.split_at_mut(self.first);
-        let slots = (images.par_chunks_mut(COPIED), self.images.par_chunks(COPIED)).into_par_iter();
+        let slots = (images.par_chunks_mut(COPIED), self.images.par_chunks(COPIED)).into_items();
         slots.for_each(|(slots, images)| {
             for (slot, image) in slots.iter_mut().zip(images) {
                 *slot = map(&real[image.source as usize], image);

@@ -141,7 +141,7 @@ impl<const D: usize> Mixture<D> {
             *cross = operators.links(a, volumes).fold(Vector::zeros(), |sum, (_, gradient)| sum + gradient);
         });
         let Self { cross, fluid_mobility, sediment_mobility, mobility, .. } = self;
-        (&mut self.inverse_diagonal, &mut self.held).into_par_iter().enumerate().with_min_len(LEAST_TASK).for_each(
+        (&mut self.inverse_diagonal, &mut self.held).enumerate().with_min_len(LEAST_TASK).for_each(
             |(a, (inverse, held))| {
                 let (mut compact, mut wide) = (0.0, 0.0);
                 for link in operators.poisson.links(a) {
