@@ -13,7 +13,9 @@ use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use bagnold_solver::weakly_compressible::walls::{SideWalls, wall};
 use rayon::ThreadPoolBuilder;
 
-const STEPS: usize = 150;
+/// Steps at most, and after the last of so many searches that sort the particles anew.
+const STEPS: [usize; 2] = [150, 20];
+const SEARCHES: u64 = 4;
 
 /// A column that starts to collapse beside a mirror plane, large enough for every parallel loop to be split.
 pub(crate) fn column<const D: usize>(cells: [usize; D]) -> Scene<D> {
@@ -42,8 +44,13 @@ where
     pool.install(|| {
         let mut simulation = simulation(scene.clone());
         simulation.use_instruction_set(instruction_set);
-        advance(&mut simulation, STEPS);
-        assert!(simulation.neighbour_searches() > 3, "the particles are sorted anew in the run");
+        for _ in 0..STEPS[0] {
+            if simulation.neighbour_searches() < SEARCHES {
+                advance(&mut simulation, 1);
+            }
+        }
+        assert_eq!(simulation.neighbour_searches(), SEARCHES, "the particles are sorted anew in the run");
+        advance(&mut simulation, STEPS[1]);
         simulation.snapshot().to_bytes()
     })
 }
@@ -52,11 +59,15 @@ pub(crate) fn check<const D: usize>(scene: &Scene<D>)
 where
     Simulation<D>: Compiled<D>,
 {
-    let expected = bytes(scene, 1, InstructionSet::best());
+    let best = InstructionSet::best();
+    let expected = bytes(scene, 1, best);
     assert!(expected.iter().any(|&byte| byte != 0));
-    assert!(bytes(scene, 3, InstructionSet::best()) == expected, "three threads change the state");
-    // several in a build that has them: `instruction_sets.rs`
-    for instruction_set in InstructionSet::available().into_iter().filter(|set| *set != InstructionSet::best()) {
+    // a build that has several sets, for `instruction_sets.rs`, leaves threads alone to every other build
+    let others: Vec<_> = InstructionSet::available().into_iter().filter(|set| *set != best).collect();
+    if others.is_empty() {
+        assert!(bytes(scene, 3, best) == expected, "three threads change the state");
+    }
+    for instruction_set in others {
         let found = bytes(scene, 2, instruction_set);
         assert!(found == expected, "{} changes the state", instruction_set.name());
     }
