@@ -82,7 +82,7 @@ fn assert_both_are_found(model: fn(&[f64]) -> Vec<f64>, starts: &[Vec<f64>]) {
         assert_eq!(found.minima.len(), 2, "{start:?}");
         for (minimum, exact) in found.minima.iter().zip(&known) {
             let exact = LocalMinimum { point: exact.clone(), chi_squared: 0.0 };
-            assert!(minimum.is_near(&exact), "from {start:?}: {minimum:?} is not {exact:?}");
+            assert!(minimum.is_at(&exact.point), "from {start:?}: {minimum:?} is not {exact:?}");
         }
     }
 }

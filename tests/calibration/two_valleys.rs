@@ -204,7 +204,7 @@ struct Tally {
 impl Tally {
     fn add(&mut self, problem: &TwoValleys, answer: &Answer) {
         let is = |found: &LocalMinimum, exact: &LocalMinimum| {
-            found.is_near(exact)
+            found.is_at(&exact.point)
                 || (found.point[0] - exact.point[0]).abs() < 0.05 && found.chi_squared - exact.chi_squared < FOUND
         };
         let listed = &answer.search.minima;

@@ -26,14 +26,9 @@ pub struct LocalMinimum {
 const SAME: f64 = 0.05;
 
 impl LocalMinimum {
-    /// Whether both are one.
+    /// Whether it lies at a point, such as that of another minimum which is the same then.
     #[must_use]
-    pub fn is_near(&self, other: &Self) -> bool {
-        self.is_at(&other.point)
-    }
-
-    /// Whether it lies at a point.
-    pub(super) fn is_at(&self, point: &[f64]) -> bool {
+    pub fn is_at(&self, point: &[f64]) -> bool {
         largest_distance(&self.point, point) <= SAME
     }
 }

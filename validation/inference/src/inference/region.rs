@@ -21,32 +21,18 @@ pub(super) const CENTRAL: [f64; 2] = [0.5 - 0.5 * CONFIDENCE, 0.5 + 0.5 * CONFID
 const LEAST_SHARE: f64 = 1e-8;
 const LEAST_INFORMATION: f64 = 1e-3;
 
-/// Choice of the standard uncertainties of the data.
+/// Enlargement of the stated standard uncertainties of the data.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Uncertainties {
-    /// As they are stated.
-    AsStated,
-    /// Enlarged by √(reduced χ²) where that exceeds 1, as if what the model misses were part of the noise.
-    Inflated,
-    /// Enlarged by a factor for errors that are correlated, and by √(reduced χ²) too where the model does not explain the data.
-    Correlated {
-        /// The factor, ≥ 1 `[-]`.
-        factor: f64,
-        /// Whether √(reduced χ²) counts too.
-        is_inflated: bool,
-    },
+pub struct Uncertainties {
+    /// Factor for errors that are correlated, 1 for independent ones `[-]`.
+    pub factor: f64,
+    /// Whether √(reduced χ²) enlarges them too where it exceeds 1, as if what the model misses were part of the noise.
+    pub is_inflated: bool,
 }
 
 impl Uncertainties {
-    /// Factor on the stated standard uncertainties `[-]`.
-    fn factor(self, reduced_chi_squared: Option<f64>) -> f64 {
-        let unexplained = reduced_chi_squared.unwrap_or(1.0).max(1.0).sqrt();
-        match self {
-            Self::AsStated => 1.0,
-            Self::Inflated => unexplained,
-            Self::Correlated { factor, is_inflated } => factor * if is_inflated { unexplained } else { 1.0 },
-        }
-    }
+    /// Standard uncertainties as they are stated.
+    pub const STATED: Self = Self { factor: 1.0, is_inflated: false };
 }
 
 /// The parameters that agree with the data, in the unit cube, as the emulator has it.
@@ -92,7 +78,8 @@ impl Region {
         let freedom = emulator.data().checked_sub(dimensions).filter(|freedom| *freedom > 0);
         let reduced_chi_squared = freedom.map(|freedom| minimum.chi_squared / freedom as f64);
         let p_value = freedom.map(|freedom| chi_squared_tail(minimum.chi_squared, freedom));
-        let inflation = uncertainties.factor(reduced_chi_squared);
+        let unexplained = reduced_chi_squared.filter(|_| uncertainties.is_inflated).unwrap_or(1.0).max(1.0).sqrt();
+        let inflation = uncertainties.factor * unexplained;
         let squared = inflation * inflation;
         let covariance = squared * covariance(&emulator.jacobian(&minimum.point));
         let base = LocalMinimum { chi_squared: emulator.chi_squared(&minimum.point), point: minimum.point.clone() };
@@ -176,15 +163,17 @@ impl Region {
 #[must_use]
 pub fn chi_squared_quantile(confidence: f64, freedom: usize) -> f64 {
     // rounded, since the library underneath takes logarithms from the platform
-    let rounded = |value: f64| (value * 1e9).round() * 1e-9;
     ChiSquared::new(freedom as f64).map_or(f64::NAN, |distribution| rounded(distribution.inverse_cdf(confidence)))
 }
 
 /// Share of the distribution of χ² above a value `[-]`; not a number without freedom.
 #[must_use]
 pub fn chi_squared_tail(value: f64, freedom: usize) -> f64 {
-    let rounded = |value: f64| (value * 1e9).round() * 1e-9;
     ChiSquared::new(freedom as f64).map_or(f64::NAN, |distribution| rounded(distribution.sf(value)))
+}
+
+fn rounded(value: f64) -> f64 {
+    (value * 1e9).round() * 1e-9
 }
 
 /// (JᵀJ)⁻¹ from the singular values of J.

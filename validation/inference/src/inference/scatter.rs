@@ -27,17 +27,6 @@ pub enum Repeatability {
     Scattering,
 }
 
-impl Repeatability {
-    /// The budget of a search: a fall of χ² by less than one says nothing where runs scatter.
-    #[must_use]
-    pub(super) fn budget(self, budget: Budget) -> Budget {
-        match self {
-            Self::Smooth => budget,
-            Self::Scattering => Budget { tolerance: budget.tolerance.max(1.0), ..budget },
-        }
-    }
-}
-
 /// The region about the emulator's minimum instead of the lowest evaluation, and the search with that point as its best; both
 /// as they are without points enough.
 ///

@@ -24,19 +24,6 @@ pub struct Effect {
     /// Root mean square over the data of the standard deviation of its effects (σ), likewise `[-]`; not a number for
     /// fewer than two effects.
     pub deviation: f64,
-    /// Effects that count, those of steps both ends of which worked.
-    pub effects: usize,
-}
-
-/// The effects of all parameters.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Screening {
-    /// One a parameter.
-    pub effects: Vec<Effect>,
-    /// Points of the trajectories.
-    pub points: usize,
-    /// Points at which the model failed.
-    pub failed: usize,
 }
 
 /// The points of all trajectories, one trajectory of `dimensions` + 1 points after the other.
@@ -57,11 +44,11 @@ pub fn trajectories(count: usize, dimensions: usize, seed: u64) -> Vec<Vec<f64>>
     points
 }
 
-/// Evaluates trajectories in one batch and measures the effects.
+/// Evaluates trajectories in one batch and measures the effects, one a parameter, from steps both ends of which worked.
 ///
 /// # Errors
 /// An error of the model itself.
-pub fn screen<M: Evaluate>(model: &mut M, dimensions: usize, count: usize, seed: u64) -> Result<Screening, M::Error> {
+pub fn screen<M: Evaluate>(model: &mut M, dimensions: usize, count: usize, seed: u64) -> Result<Vec<Effect>, M::Error> {
     let points = trajectories(count, dimensions, seed);
     let residuals = model.residuals(&points)?;
     let mut effects: Vec<Vec<Vec<f64>>> = vec![Vec::new(); dimensions];
@@ -72,11 +59,7 @@ pub fn screen<M: Evaluate>(model: &mut M, dimensions: usize, count: usize, seed:
             effects[k].push(before.iter().zip(after).map(|(a, b)| (b - a) / (to[k] - from[k])).collect());
         }
     }
-    Ok(Screening {
-        effects: effects.iter().map(|list| effect(list)).collect(),
-        points: points.len(),
-        failed: residuals.iter().filter(|result| result.is_none()).count(),
-    })
+    Ok(effects.iter().map(|list| effect(list)).collect())
 }
 
 /// Statistics of the effects of one parameter, each a list over the data.
@@ -91,5 +74,5 @@ fn effect(list: &[Vec<f64>]) -> Effect {
         let mean = list.iter().map(|effect| effect[datum]).sum::<f64>() / count;
         list.iter().map(|effect| (effect[datum] - mean) * (effect[datum] - mean)).sum::<f64>() / (count - 1.0)
     });
-    Effect { mean_size, deviation, effects: list.len() }
+    Effect { mean_size, deviation }
 }

@@ -73,7 +73,11 @@ pub struct Answer {
 /// # Errors
 /// Errors of [`search`](super::search()).
 pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, SearchError<M::Error>> {
-    let usual = plan.runs.budget(plan.budget);
+    let usual = match plan.runs {
+        Repeatability::Smooth => plan.budget,
+        // a fall of χ² by less than one says nothing there
+        Repeatability::Scattering => Budget { tolerance: plan.budget.tolerance.max(1.0), ..plan.budget },
+    };
     let mut found = if plan.design.is_empty() {
         search(model, &plan.start, plan.method, usual)?
     } else {
@@ -95,7 +99,8 @@ pub fn solve<M: Evaluate>(model: &mut M, plan: &SolvePlan) -> Result<Answer, Sea
     };
     loop {
         let budget = Budget { evaluations: plan.region_evaluations, ..usual };
-        let uncertainties = uncertainties(&found, correlation);
+        let factor = correlation.map_or(1.0, |own: SerialCorrelation| own.factor);
+        let uncertainties = Uncertainties { factor, is_inflated: is_unexplained(&found, UNLIKELY) };
         let explored = explore(model, found.history.clone(), uncertainties, &budget).map_err(SearchError::Model)?;
         let Some(mut explored) = explored else {
             return Ok(Answer { search: found, searched, explored: None, restarts, correlation });
@@ -251,7 +256,7 @@ fn again<M: Evaluate>(
     let budget = Budget { starts: 0, ..budget };
     let found = continue_search(model, before.history, &lowest.point, Method::TrustRegion, budget)?;
     let mut minima = before.minima;
-    minima.retain(|minimum| !found.minima.iter().any(|new| new.is_near(minimum)));
+    minima.retain(|minimum| !found.minima.iter().any(|new| new.is_at(&minimum.point)));
     minima.extend(found.minima.iter().cloned());
     minima.sort_by(|a, b| a.chi_squared.total_cmp(&b.chi_squared));
     Ok(SearchResult { minima, every_start: before.every_start, ..found })
@@ -261,17 +266,4 @@ fn again<M: Evaluate>(
 fn correlated(series: &[Vec<usize>], history: &[Evaluated], explored: &Explored) -> Option<SerialCorrelation> {
     let best = history.iter().find(|evaluated| evaluated.point == explored.region.minimum.point)?;
     serial_correlation(series, best.residuals.as_ref()?, &explored.region.jacobian())
-}
-
-/// Uncertainties are enlarged where the model does not explain the data, and where their errors are correlated.
-fn uncertainties(found: &SearchResult, correlation: Option<SerialCorrelation>) -> Uncertainties {
-    let residuals = found.history.iter().find(|evaluated| evaluated.point == found.best);
-    let data = residuals.and_then(|evaluated| evaluated.residuals.as_ref()).map_or(0, Vec::len);
-    let freedom = data.checked_sub(found.best.len()).filter(|freedom| *freedom > 0);
-    let is_inflated = freedom.is_some_and(|freedom| chi_squared_tail(found.chi_squared, freedom) < UNLIKELY);
-    match correlation {
-        Some(SerialCorrelation { factor, .. }) => Uncertainties::Correlated { factor, is_inflated },
-        None if is_inflated => Uncertainties::Inflated,
-        None => Uncertainties::AsStated,
-    }
 }

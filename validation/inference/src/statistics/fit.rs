@@ -7,6 +7,10 @@ pub struct LinearFit {
     pub slope: f64,
     /// Intercept, unit of y.
     pub intercept: f64,
+    /// Share of the variance of y that the line explains `[-]`.
+    pub r_squared: f64,
+    /// Standard error of the slope from the scatter about the line; not a number with two points.
+    pub standard_error: f64,
 }
 
 /// The least-squares line through points (x, y); none for fewer than two distinct x.
@@ -15,34 +19,17 @@ pub fn linear_fit(points: &[(f64, f64)]) -> Option<LinearFit> {
     let n = points.len() as f64;
     let mean = |pick: fn(&(f64, f64)) -> f64| points.iter().map(pick).sum::<f64>() / n;
     let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let (mut xx, mut xy) = (0.0, 0.0);
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for point in points {
         xx += (point.0 - x) * (point.0 - x);
         xy += (point.0 - x) * (point.1 - y);
+        yy += (point.1 - y) * (point.1 - y);
     }
     let slope = xy / xx;
-    slope.is_finite().then_some(LinearFit { slope, intercept: y - slope * x })
-}
-
-/// A least-squares line with the errors of a regression.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Regression {
-    /// Slope, unit of y over unit of x.
-    pub slope: f64,
-    /// Intercept, unit of y.
-    pub intercept: f64,
-    /// Share of the variance of y that the line explains `[-]`.
-    pub r_squared: f64,
-}
-
-/// The regression line through points (x, y); none for fewer than two distinct x.
-#[must_use]
-pub fn linear_regression(points: &[(f64, f64)]) -> Option<Regression> {
-    let fit = linear_fit(points)?;
-    let mean = points.iter().map(|p| p.1).sum::<f64>() / points.len() as f64;
-    let spread: f64 = points.iter().map(|p| (p.1 - mean) * (p.1 - mean)).sum();
-    let residual: f64 = points.iter().map(|p| (p.1 - fit.intercept - fit.slope * p.0).powi(2)).sum();
-    Some(Regression { slope: fit.slope, intercept: fit.intercept, r_squared: 1.0 - residual / spread })
+    let intercept = y - slope * x;
+    let residual: f64 = points.iter().map(|p| (p.1 - intercept - slope * p.0).powi(2)).sum();
+    let (r_squared, standard_error) = (1.0 - residual / yy, (residual / (n - 2.0) / xx).sqrt());
+    slope.is_finite().then_some(LinearFit { slope, intercept, r_squared, standard_error })
 }
 
 /// A fitted value with its standard error, both in the value's unit.
@@ -93,16 +80,8 @@ pub fn power_law(points: &[(f64, f64)]) -> Option<Exponent> {
         return None;
     }
     let logarithms: Vec<_> = points.iter().map(|(x, y)| (libm::log(*x), libm::log(*y))).collect();
-    let fit = linear_fit(&logarithms)?;
-    let n = logarithms.len() as f64;
-    let mean = logarithms.iter().map(|p| p.0).sum::<f64>() / n;
-    let spread: f64 = logarithms.iter().map(|p| (p.0 - mean) * (p.0 - mean)).sum();
-    let residual: f64 = logarithms.iter().map(|p| (p.1 - fit.intercept - fit.slope * p.0).powi(2)).sum();
-    Some(Exponent {
-        value: fit.slope,
-        standard_error: (residual / (n - 2.0) / spread).sqrt(),
-        coefficient: libm::exp(fit.intercept),
-    })
+    let LinearFit { slope, intercept, standard_error, .. } = linear_fit(&logarithms)?;
+    Some(Exponent { value: slope, standard_error, coefficient: libm::exp(intercept) })
 }
 
 /// Slope of the line through (ln x, ln y); none where a value is not positive.

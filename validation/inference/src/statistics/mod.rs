@@ -8,20 +8,20 @@ mod interpolation;
 mod mean;
 mod model_bias;
 mod neighbour_scatter;
+mod percentile;
 mod rank_correlation;
 mod segmented;
 mod student;
 
 pub use block_average::{Average, BLOCKS, TooFewSamples, block_average, block_jackknife};
 pub use block_profile::{BinSums, BlockProfile, ProfilePoint};
-pub use fit::{
-    Exponent, FittedValue, LinearFit, Regression, common_slope, linear_fit, linear_regression, log_log_slope, power_law,
-};
+pub use fit::{Exponent, FittedValue, LinearFit, common_slope, linear_fit, log_log_slope, power_law};
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
 pub use interpolation::{Extrapolation, interpolated};
 pub use mean::{mean, relative_l2};
 pub use model_bias::{Comparison, Deviation, ModelBias, model_bias};
 pub use neighbour_scatter::neighbour_scatter;
+pub use percentile::percentile;
 pub use rank_correlation::rank_correlation;
 pub use segmented::{Segmented, curvature, number_of_pieces, segmented_regression};
 pub use student::{student_quantile, student_quantile_of};

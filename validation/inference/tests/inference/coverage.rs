@@ -18,7 +18,7 @@ fn calibrate(seed: u64) -> (SearchResult, Emulator) {
     let mut model = Slopes::new(seed);
     let found = search(&mut model, &STARTS[seed as usize % 3], Method::TrustRegion, BUDGET).unwrap();
     let further = Budget { evaluations: 12, ..BUDGET };
-    let explored = explore(&mut model, found.history.clone(), Uncertainties::AsStated, &further).unwrap().unwrap();
+    let explored = explore(&mut model, found.history.clone(), Uncertainties::STATED, &further).unwrap().unwrap();
     (found, explored.emulator)
 }
 
@@ -28,7 +28,7 @@ fn twenty_experiments_find_the_truth() {
     let (mut contained, mut most, mut worst) = (0, 0, [0.0_f64; 3]);
     for seed in 0..20 {
         let (found, emulator) = calibrate(seed);
-        let region = Region::new(&emulator, Uncertainties::AsStated);
+        let region = Region::new(&emulator, Uncertainties::STATED);
         most = most.max(found.history.len());
         contained += usize::from(region.contains(&truth));
         let minimum = emulator.minimum();
@@ -47,8 +47,8 @@ fn twenty_experiments_find_the_truth() {
             found.history.len(),
             found.chi_squared,
             minimum.chi_squared,
-            emulator.degree(),
-            emulator.leave_one_out(),
+            emulator.degree,
+            emulator.leave_one_out,
             width(0),
             width(1),
             width(2),
@@ -66,7 +66,7 @@ fn held(experiments: u64) -> [usize; 4] {
     // an experiment each, on all threads: the counts do not depend on their order
     let experiment = |seed: u64| {
         let (_, emulator) = calibrate(seed);
-        let region = Region::new(&emulator, Uncertainties::AsStated);
+        let region = Region::new(&emulator, Uncertainties::STATED);
         let single = |k: usize| {
             let [from, to] = region.profiles[k].interval;
             usize::from((from..=to).contains(&truth[k]))
@@ -99,7 +99,7 @@ mod long {
 #[test]
 fn the_covariance_is_that_of_the_exact_derivatives() {
     let (_, emulator) = calibrate(3);
-    let region = Region::new(&emulator, Uncertainties::AsStated);
+    let region = Region::new(&emulator, Uncertainties::STATED);
     let model = Slopes::new(3);
     let (truth, step) = (Slopes::truth(), 1e-5);
     let jacobian = nalgebra::DMatrix::from_fn(100, 3, |row, k| {
@@ -122,7 +122,7 @@ fn the_covariance_is_that_of_the_exact_derivatives() {
 #[test]
 fn bootstrap_and_profile_agree() {
     let (_, emulator) = calibrate(4);
-    let region = Region::new(&emulator, Uncertainties::AsStated);
+    let region = Region::new(&emulator, Uncertainties::STATED);
     let repeated = bootstrap(&emulator, 400, 7);
     for k in 0..3 {
         let ([a, b], [c, d]) = (region.profiles[k].interval, repeated.intervals[k]);
@@ -165,7 +165,7 @@ fn a_rough_model_is_fitted_all_the_same() {
             for k in 0..3 {
                 worst[k] = worst[k].max((Slopes::physical(k, minimum.point[k]) / TRUTH[k] - 1.0).abs());
             }
-            contained += usize::from(Region::new(&emulator, Uncertainties::AsStated).contains(&truth));
+            contained += usize::from(Region::new(&emulator, Uncertainties::STATED).contains(&truth));
             evaluations += found.history.len();
             converged += usize::from(found.stopped == Termination::Converged);
         }

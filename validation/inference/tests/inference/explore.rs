@@ -56,14 +56,14 @@ fn wide_intervals_are_those_of_the_model_itself() {
         let budget = Budget::default();
         let found = search(&mut model, &[0.5; 3], Method::TrustRegion, budget).unwrap();
         let first = Emulator::fit(&found.history, budget.difference).unwrap();
-        let before = Region::new(&first, Uncertainties::AsStated);
+        let before = Region::new(&first, Uncertainties::STATED);
         let searched = found.history.len();
-        let explored = explore(&mut model, found.history, Uncertainties::AsStated, &budget).unwrap().unwrap();
+        let explored = explore(&mut model, found.history, Uncertainties::STATED, &budget).unwrap().unwrap();
         println!(
             "vagueness {vagueness}: {searched} + {} points, settled {}, leave-one-out {:.3?}",
             explored.history.len() - searched,
             explored.is_settled(),
-            explored.emulator.leave_one_out()
+            explored.emulator.leave_one_out
         );
         for k in 0..3 {
             let ends = [exact(&model, k, 0.0), exact(&model, k, 1.0)];
@@ -83,7 +83,7 @@ fn every_end_is_a_run_of_the_model() {
         let budget = Budget::default();
         let found = search(&mut model, &[0.5; 3], Method::TrustRegion, budget).unwrap();
         let least = found.chi_squared;
-        let explored = explore(&mut model, found.history, Uncertainties::AsStated, &budget).unwrap().unwrap();
+        let explored = explore(&mut model, found.history, Uncertainties::STATED, &budget).unwrap().unwrap();
         assert!(explored.is_settled());
         for (k, end) in explored.ends.iter().flatten().enumerate() {
             let rise = chi_squared(Smooth::residuals(&model, &end.point).as_slice()) - least;
@@ -101,7 +101,7 @@ fn a_budget_that_ends_leaves_ends_unsettled() {
         let found = search(&mut model, &[0.5; 3], Method::TrustRegion, Budget::default()).unwrap();
         let count = found.history.len();
         let budget = Budget { evaluations, ..Budget::default() };
-        let explored = explore(&mut model, found.history, Uncertainties::AsStated, &budget).unwrap().unwrap();
+        let explored = explore(&mut model, found.history, Uncertainties::STATED, &budget).unwrap().unwrap();
         assert!(!explored.is_settled() && explored.history.len() == count + evaluations);
         assert!(explored.ends.iter().flatten().any(|end| !end.settled));
     }
@@ -122,8 +122,7 @@ impl Evaluate for HiddenWell {
 fn a_lower_point_on_the_way_is_told() {
     let found = search(&mut HiddenWell, &[0.1], Method::TrustRegion, Budget::default()).unwrap();
     assert!(found.best[0] < 0.5);
-    let explored =
-        explore(&mut HiddenWell, found.history, Uncertainties::AsStated, &Budget::default()).unwrap().unwrap();
+    let explored = explore(&mut HiddenWell, found.history, Uncertainties::STATED, &Budget::default()).unwrap().unwrap();
     assert!(explored.lower && explored.region.minimum.chi_squared < found.chi_squared);
 }
 
@@ -140,7 +139,7 @@ fn an_interval_ends_where_the_model_fails() {
     }
     let mut cut = Cut(Vague { curve: ExponentialDecay::new(), vagueness: 4.0 });
     let found = search(&mut cut, &[0.5; 3], Method::TrustRegion, Budget::default()).unwrap();
-    let explored = explore(&mut cut, found.history, Uncertainties::AsStated, &Budget::default()).unwrap().unwrap();
+    let explored = explore(&mut cut, found.history, Uncertainties::STATED, &Budget::default()).unwrap().unwrap();
     let end = &explored.ends[0][1];
     assert!(end.fails && end.point[0] < 0.62 && end.point[0] > 0.6, "{end:?}");
 }

@@ -12,7 +12,7 @@ fn findings(residuals: impl Fn(&[f64]) -> Vec<f64>) -> Vec<Finding> {
     };
     let history: Vec<Evaluated> = full_grid(&[4, 4]).into_iter().map(one).collect();
     let emulator = Emulator::fit(&history, 0.02).unwrap();
-    let region = Region::new(&emulator, Uncertainties::AsStated);
+    let region = Region::new(&emulator, Uncertainties::STATED);
     let jacobian = emulator.jacobian(&region.minimum.point);
     let parameters = [("viscosity", "Pa·s"), ("friction", "-")]
         .map(|(name, unit)| ParameterLabel { name: name.to_owned(), unit: unit.to_owned() });

@@ -9,7 +9,6 @@ mod emulator;
 mod explore;
 mod identifiability;
 mod loss;
-mod percentile;
 mod posterior;
 mod profile;
 mod region;

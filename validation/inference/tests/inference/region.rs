@@ -16,7 +16,7 @@ fn quantiles_are_those_of_the_tables() {
 #[test]
 fn the_covariance_inverts_the_information() {
     let emulator = emulator(|u| vec![20.0 * (u[0] - 0.5), 10.0 * (u[0] + u[1] - 1.0)]);
-    let region = Region::new(&emulator, Uncertainties::AsStated);
+    let region = Region::new(&emulator, Uncertainties::STATED);
     let exact = DMatrix::from_row_slice(2, 2, &[0.0025, -0.0025, -0.0025, 0.0125]);
     assert!((&region.covariance - exact).norm() < 1e-9);
     assert!((region.correlation[(0, 1)] + 0.2f64.sqrt()).abs() < 1e-7);
@@ -30,8 +30,8 @@ fn the_covariance_inverts_the_information() {
 fn a_model_that_misses_the_data_is_noticed_and_its_region_enlarged() {
     // two constants of 3 standard uncertainties: χ² = 18 on 4 − 2 degrees of freedom
     let emulator = emulator(|u| vec![50.0 * (u[0] - 0.5), 50.0 * (u[1] - 0.5), 3.0, -3.0]);
-    let stated = Region::new(&emulator, Uncertainties::AsStated);
-    let inflated = Region::new(&emulator, Uncertainties::Inflated);
+    let stated = Region::new(&emulator, Uncertainties::STATED);
+    let inflated = Region::new(&emulator, Uncertainties { is_inflated: true, ..Uncertainties::STATED });
     assert!((stated.reduced_chi_squared.unwrap() - 9.0).abs() < 1e-9);
     assert!((stated.p_value.unwrap() - libm::exp(-9.0)).abs() < 1e-9);
     assert!((inflated.inflation - 3.0).abs() < 1e-9);

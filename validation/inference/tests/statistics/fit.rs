@@ -1,6 +1,6 @@
 //! Lines and power laws of known slope, with errors by hand.
 
-use bagnold_inference::statistics::{common_slope, linear_fit, linear_regression, log_log_slope, power_law};
+use bagnold_inference::statistics::{common_slope, linear_fit, log_log_slope, power_law};
 
 #[test]
 fn a_line_is_found_exactly() {
@@ -13,9 +13,9 @@ fn a_line_is_found_exactly() {
 #[test]
 fn a_regression_knows_what_its_line_explains() {
     // mean 1, slope 1/2: residuals (−1/6, 1/3, −1/6), so 1 − (1/6)/(2/3) of the variance is explained
-    let fit = linear_regression(&[(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]).unwrap();
+    let fit = linear_fit(&[(0.0, 0.0), (1.0, 1.0), (2.0, 1.0)]).unwrap();
     assert!((fit.slope - 0.5).abs() < 1e-14 && (fit.r_squared - 0.75).abs() < 1e-14);
-    assert_eq!(linear_regression(&[(1.0, 1.0)]), None);
+    assert_eq!(linear_fit(&[(1.0, 1.0)]), None);
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod interpolation;
 mod mean;
 mod model_bias;
 mod neighbour_scatter;
+mod percentile;
 mod rank_correlation;
 mod segmented;
 mod student;

@@ -12,12 +12,12 @@ pub(super) fn screen(objective: &mut Objective<'_>, trajectories: usize) -> Resu
     }
     let parameters = objective.plan.parameters.len();
     let seed = objective.plan.budget.seed;
-    let screening = sensitivity::screen(objective, parameters, trajectories, seed)?;
+    let effects = sensitivity::screen(objective, parameters, trajectories, seed)?;
     let plan = objective.plan;
     Ok(plan
         .parameters
         .iter()
-        .zip(&screening.effects)
+        .zip(&effects)
         .map(|(parameter, effect)| ElementaryEffect {
             name: parameter.name.clone(),
             effect: effect.mean_size,

@@ -51,10 +51,8 @@ pub(super) fn try_all(objective: &Objective<'_>) -> Result<CalibrationResult, To
     }
     let worked: Vec<&ChoiceResult> = trials.iter().filter(|trial| trial.failure.is_none()).collect();
     let residuals = |data: &[DatumComparison]| data.iter().map(|datum| datum.residual).collect::<Vec<f64>>();
-    let choices: Vec<scores::FittedChoice> = worked
-        .iter()
-        .map(|trial| scores::FittedChoice { name: trial.name.clone(), residuals: residuals(&trial.fit), parameters: 0 })
-        .collect();
+    let choices: Vec<(String, Vec<f64>)> =
+        worked.iter().map(|trial| (trial.name.clone(), residuals(&trial.fit))).collect();
     let Some(ranked) = scores::rank(&choices, REPEATS, plan.budget.seed) else {
         let nothing = || ToolError::at(&plan.file, "no choice gave numbers".to_owned());
         return Err(first_error.unwrap_or_else(nothing));

@@ -4,7 +4,7 @@ use super::fronts::{FRONT_THICKNESS, Fronts, ROW_THICKNESS};
 use super::toe::Toe;
 use crate::observation::{EnergyBook, MotionSequence};
 use crate::setup::front::end_of_profile;
-use crate::statistics::{linear_fit, linear_regression};
+use crate::statistics::linear_fit;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::snapshot::Snapshot;
 use serde::{Deserialize, Serialize};
@@ -290,7 +290,7 @@ impl Collapse {
     /// Share of the variance of the flank's thickness that a straight line explains `[-]`: 1 for a cone or a wedge.
     #[must_use]
     pub fn flank_r_squared(&self) -> f64 {
-        linear_regression(&self.flank()).map_or(f64::NAN, |line| line.r_squared)
+        linear_fit(&self.flank()).map_or(f64::NAN, |line| line.r_squared)
     }
 
     /// The deposit from 20 to 80 % of the way to its front.

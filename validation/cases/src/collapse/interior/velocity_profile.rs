@@ -2,7 +2,7 @@
 
 use crate::figure::{Axis, Figure, Panel};
 use crate::observation::Frame;
-use crate::statistics::{Regression, common_slope, linear_fit, linear_regression};
+use crate::statistics::{LinearFit, common_slope, linear_fit};
 
 /// The flowing layer moves faster than this share of the profile's largest velocity `[-]`; what is slower is the tail.
 const FLOWING: f64 = 0.35;
@@ -26,7 +26,7 @@ pub(crate) struct Station {
     /// Points of the tail, downwards.
     pub(crate) tail: Vec<(f64, f64)>,
     /// Line through the flowing layer: shear rate `[1/s]` as slope.
-    pub(crate) shear: Option<Regression>,
+    pub(crate) shear: Option<LinearFit>,
 }
 
 impl Station {
@@ -69,7 +69,7 @@ impl Station {
             }
             tail.push(point);
         }
-        let shear = if flowing.len() >= FEWEST { linear_regression(&flowing) } else { None };
+        let shear = if flowing.len() >= FEWEST { linear_fit(&flowing) } else { None };
         Self { x, profile, flowing, tail, shear }
     }
 }

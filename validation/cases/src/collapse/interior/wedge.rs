@@ -3,7 +3,7 @@
 use crate::collapse::ColumnFlow;
 use crate::figure::{Axis, Field, Panel};
 use crate::observation::Frame;
-use crate::statistics::linear_regression;
+use crate::statistics::linear_fit;
 
 /// The failure surface is read where the undisturbed part of a row has a length between these shares of the initial
 /// half width `[-]`: beyond, symmetry plane and bed round it off.
@@ -45,7 +45,7 @@ impl Wedge {
         let boundary: Vec<(f64, f64)> = rows.iter().enumerate().map(length).collect();
         let read = |point: &&(f64, f64)| point.0 > READ.0 * half_width && point.0 < READ.1 * half_width;
         let points: Vec<(f64, f64)> = boundary.iter().filter(read).map(|&(x, y)| (y, x)).collect();
-        let fit = if points.len() >= 3 { linear_regression(&points) } else { None };
+        let fit = if points.len() >= 3 { linear_fit(&points) } else { None };
         Self {
             undisturbed: still as f64 / displacement.len().max(1) as f64,
             displacement,

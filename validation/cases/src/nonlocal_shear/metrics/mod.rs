@@ -10,7 +10,7 @@ use crate::case::Flow;
 use crate::metric::{Limit, Metric, Variant, quantities};
 use crate::reference::one_dimension::ShearStress;
 use crate::setup::energy_ledger::{self, EnergyScale};
-use crate::statistics::{Regression, linear_regression, relative_l2};
+use crate::statistics::{LinearFit, linear_fit, relative_l2};
 
 quantities! {
     [energy_ledger::ENERGY_RESIDUAL, energy_ledger::ENERGY_RISE, energy_ledger::WALL_WORK, energy_ledger::CORRECTION_WORK]
@@ -159,18 +159,18 @@ fn tail(
     exact: &ExactShear,
     (upper, lower): (f64, f64),
     velocities: &[(f64, f64)],
-) -> Option<Regression> {
+) -> Option<LinearFit> {
     let diameter = run.diameter();
     let depths = velocities.iter().map(|&(y, velocity)| (run.distance(y), velocity));
     let inside = depths.filter(|(depth, _)| {
         let below = (depth - exact.yield_distance()) / diameter;
         below >= upper && below <= lower
     });
-    linear_regression(&inside.map(|(depth, velocity)| (depth, libm::log(velocity))).collect::<Vec<_>>())
+    linear_fit(&inside.map(|(depth, velocity)| (depth, libm::log(velocity))).collect::<Vec<_>>())
 }
 
 /// Length `[diameters]` over which a velocity decays along a line through its logarithm.
-fn decay_length(run: &NonlocalShearFlow, line: Option<Regression>) -> f64 {
+fn decay_length(run: &NonlocalShearFlow, line: Option<LinearFit>) -> f64 {
     line.map_or(f64::NAN, |line| -1.0 / (line.slope * run.diameter()))
 }
 

@@ -31,7 +31,8 @@ const STARTS: usize = 8;
 /// The polynomials.
 #[derive(Debug, Clone)]
 pub struct Emulator {
-    degree: Degree,
+    /// The degree of the polynomials.
+    pub degree: Degree,
     /// The best evaluated point.
     centre: Vec<f64>,
     /// δ in the unit cube.
@@ -44,7 +45,9 @@ pub struct Emulator {
     compact: DMatrix<f64>,
     /// All evaluated points, the best first.
     points: Vec<Vec<f64>>,
-    leave_one_out: Option<f64>,
+    /// Root-mean-square error `[-]`, in standard uncertainties of a datum, with which the emulator predicts a point
+    /// that it has not seen, weighted as the points are; none where there is no point to spare.
+    pub leave_one_out: Option<f64>,
 }
 
 impl Emulator {
@@ -104,11 +107,7 @@ impl Emulator {
         if let Some(correction) = &correction {
             coefficients.columns_mut(columns, known).copy_from(&correction.coefficients.transpose());
         }
-        let compact = if coefficients.nrows() > coefficients.ncols() {
-            coefficients.clone().qr().r()
-        } else {
-            coefficients.clone()
-        };
+        let compact = compact(&coefficients);
         let leave_one_out = correction.as_ref().map_or(leave_one_out, |correction| Some(correction.leave_one_out()));
         let points = points.iter().map(|(point, _, _)| point.to_vec()).collect();
         Self { degree, centre, scale, correction, coefficients, compact, points, leave_one_out }
@@ -119,16 +118,9 @@ impl Emulator {
     pub fn polynomials(mut self) -> Self {
         let known = self.degree.coefficients(self.dimensions());
         self.coefficients = self.coefficients.columns(0, known).into_owned();
-        let many = self.coefficients.nrows() > known;
-        self.compact = if many { self.coefficients.clone().qr().r() } else { self.coefficients.clone() };
+        self.compact = compact(&self.coefficients);
         self.correction = None;
         self
-    }
-
-    /// The degree of the polynomials.
-    #[must_use]
-    pub fn degree(&self) -> Degree {
-        self.degree
     }
 
     /// Number of parameters.
@@ -141,25 +133,6 @@ impl Emulator {
     #[must_use]
     pub fn data(&self) -> usize {
         self.coefficients.nrows()
-    }
-
-    /// The best evaluated point, about which the emulator is most faithful.
-    #[must_use]
-    pub fn centre(&self) -> &[f64] {
-        &self.centre
-    }
-
-    /// Distance from the centre within which lie just enough points for the coefficients, in the unit cube.
-    #[must_use]
-    pub fn scale(&self) -> f64 {
-        self.scale
-    }
-
-    /// Root-mean-square error `[-]`, in standard uncertainties of a datum, with which the emulator predicts a point
-    /// that it has not seen, weighted as the points are; none where there is no point to spare.
-    #[must_use]
-    pub fn leave_one_out(&self) -> Option<f64> {
-        self.leave_one_out
     }
 
     /// Weighted residuals `[-]` at a point.
@@ -244,6 +217,12 @@ impl Emulator {
         }
         slopes
     }
+}
+
+/// Rows of the same norm at every point, as many as columns at most.
+fn compact(coefficients: &DMatrix<f64>) -> DMatrix<f64> {
+    let many = coefficients.nrows() > coefficients.ncols();
+    if many { coefficients.clone().qr().r() } else { coefficients.clone() }
 }
 
 impl Smooth for Emulator {

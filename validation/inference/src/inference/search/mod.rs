@@ -273,7 +273,7 @@ pub(super) fn search_beside<M: Evaluate>(
             if descent.stopped.is_none() {
                 continue;
             }
-            if !minima.iter().any(|known| known.is_near(&descent.minimum)) {
+            if !minima.iter().any(|known| known.is_at(&descent.minimum.point)) {
                 minima.push(descent.minimum);
             }
         }
@@ -292,7 +292,7 @@ fn descend_on<M: Evaluate>(
 ) -> Result<Termination, Halt<M::Error>> {
     let Some(start) = recorder.best().map(|(best, _)| best.point.clone()) else { return Err(Halt::NothingWorked) };
     let descent = trust_region::run(recorder, &start, budget, &[])?;
-    minima.retain(|minimum| !minimum.is_near(&descent.minimum) && !minimum.is_at(&start));
+    minima.retain(|minimum| !minimum.is_at(&descent.minimum.point) && !minimum.is_at(&start));
     minima.push(descent.minimum);
     Ok(descent.stopped.unwrap_or(Termination::Converged))
 }

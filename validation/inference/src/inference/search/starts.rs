@@ -61,7 +61,7 @@ pub(super) fn descend_from<M: Evaluate>(
                 let emulator = Emulator::fit(recorder.history(), budget.difference);
                 let one = |known: &LocalMinimum| {
                     let parted = |emulator| is_parted(emulator, &found.point, &known.point);
-                    known.is_near(&found) || !emulator.as_ref().is_none_or(parted)
+                    known.is_at(&found.point) || !emulator.as_ref().is_none_or(parted)
                 };
                 match minima.iter_mut().find(|known| one(known)) {
                     Some(known) if known.chi_squared <= found.chi_squared => {}
@@ -89,7 +89,7 @@ fn next<M: Evaluate>(
     let mut leads: Vec<LocalMinimum> = Vec::new();
     for place in places {
         let lead = emulator.minimum_near(place);
-        if !minima.iter().chain(tried).chain(&leads).any(|known| known.is_near(&lead)) {
+        if !minima.iter().chain(tried).chain(&leads).any(|known| known.is_at(&lead.point)) {
             leads.push(lead);
         }
     }

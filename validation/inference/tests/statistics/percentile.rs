@@ -1,6 +1,6 @@
 //! Percentiles of a short list.
 
-use bagnold_inference::internals::percentile;
+use bagnold_inference::statistics::percentile;
 
 #[test]
 fn percentiles_lie_between_neighbours() {
