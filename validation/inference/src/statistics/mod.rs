@@ -4,6 +4,7 @@ mod block_average;
 mod block_profile;
 mod fit;
 mod grid_convergence;
+mod groups;
 mod interpolation;
 mod mean;
 mod model_bias;
@@ -17,6 +18,7 @@ pub use block_average::{Average, BLOCKS, TooFewSamples, block_average, block_jac
 pub use block_profile::{BinSums, BlockProfile, ProfilePoint};
 pub use fit::{Exponent, FittedValue, LinearFit, common_slope, linear_fit, log_log_slope, power_law};
 pub use grid_convergence::{GridConvergence, Mean, grid_convergence};
+pub use groups::grouped;
 pub use interpolation::{Extrapolation, interpolated};
 pub use mean::{mean, relative_l2};
 pub use model_bias::{Comparison, Deviation, ModelBias, model_bias};

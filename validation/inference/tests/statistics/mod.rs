@@ -4,6 +4,7 @@ mod block_average;
 mod block_profile;
 mod fit;
 mod grid_convergence;
+mod groups;
 mod interpolation;
 mod mean;
 mod model_bias;

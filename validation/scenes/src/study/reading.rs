@@ -7,7 +7,7 @@ use super::{Study, file};
 use crate::case::CaseResult;
 use crate::input::FieldError;
 use crate::metric::{Metric, Uncertainty, Value, Variant};
-use crate::statistics::log_log_slope;
+use crate::statistics::{grouped, log_log_slope};
 use bagnold_number::four_digits;
 
 /// Reading of a check in one run.
@@ -101,21 +101,16 @@ impl Study {
 
 /// Slopes of ln |value| of an earlier check over ln of a varied parameter, one for each set of the other keys.
 fn orders(earlier: &[Metric], of: &str, in_parameter: &str, only: &Variant) -> Vec<Reading> {
-    let mut groups: Vec<(Variant, Vec<(f64, f64)>)> = Vec::new();
-    for metric in earlier.iter().filter(|metric| metric.name == of && metric.variant.includes(only)) {
-        let Some(at) = metric.variant.get(in_parameter).and_then(Value::number) else { continue };
-        let others = without(&metric.variant, &Variant::of(in_parameter, 0.0));
-        let point = (at, metric.value.abs());
-        match groups.iter_mut().find(|(variant, _)| *variant == others) {
-            Some((_, points)) => points.push(point),
-            None => groups.push((others, vec![point])),
-        }
-    }
+    let own = earlier.iter().filter(|metric| metric.name == of && metric.variant.includes(only));
+    let point = |metric: &Metric| {
+        let at = metric.variant.get(in_parameter).and_then(Value::number)?;
+        Some((without(&metric.variant, &Variant::of(in_parameter, 0.0)), (at, metric.value.abs())))
+    };
     let order = |(others, points): (Variant, Vec<(f64, f64)>)| {
         let variant = others.and(in_parameter, Value::list(points.iter().map(|point| point.0)));
         Reading::new(variant, log_log_slope(&points).unwrap_or(f64::NAN), "-", None)
     };
-    groups.into_iter().map(order).collect()
+    grouped(own.filter_map(point)).into_iter().map(order).collect()
 }
 
 /// Difference of an earlier check between two variants over its value in the second [%], one for each set of the other keys.

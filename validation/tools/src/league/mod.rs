@@ -12,11 +12,12 @@ pub use page::{ORDER_HEADINGS, orders, write};
 pub use widths::{HEADINGS as WIDTH_HEADINGS, widths};
 
 use crate::ToolError;
-use crate::case::{PreparedCase, Registry, Tier};
+use crate::case::{PreparedCase, Registry};
 use crate::judge::{CaseSubmissions, CodeComparison, JudgedCode, LawOrigin, MetricComparison, Submission};
 use crate::metric::{Metric, MetricKind, Variant};
 use crate::output::FileError;
 use crate::report::Tally;
+use crate::statistics::grouped;
 use std::path::{Path, PathBuf};
 
 /// Name of a submission's file.
@@ -81,15 +82,11 @@ pub fn submissions(folder: &Path) -> Result<Vec<PathBuf>, ToolError> {
 /// # Errors
 /// Submissions that [`CaseSubmissions::read`] refuses.
 pub fn read(files: &[PathBuf], registry: Registry) -> Result<Vec<CaseSubmissions>, ToolError> {
-    let mut groups: Vec<((String, Tier, toml::Table), Vec<PathBuf>)> = Vec::new();
-    for file in files {
+    let key = |file: &PathBuf| -> Result<_, ToolError> {
         let Submission { case, tier, with, .. } = Submission::read(file)?;
-        let key = (case, tier, with);
-        match groups.iter_mut().find(|(other, _)| *other == key) {
-            Some((_, files)) => files.push(file.clone()),
-            None => groups.push((key, vec![file.clone()])),
-        }
-    }
+        Ok(((case, tier, with), file.clone()))
+    };
+    let groups = grouped(files.iter().map(key).collect::<Result<Vec<_>, _>>()?);
     groups.iter().map(|(_, files)| CaseSubmissions::read(files, registry)).collect()
 }
 

@@ -3,6 +3,7 @@
 use super::metrics::{froude_number, relative_thickness};
 use super::{FlowThicknessFlow, LayerFate, Record, StartStop, flows, searches};
 use crate::figure::{Axis, Figure, Mark, Panel};
+use crate::statistics::grouped;
 
 pub(super) fn all(records: &[Record]) -> Vec<Figure> {
     let drawn = [
@@ -27,16 +28,9 @@ fn stopping(first: &FlowThicknessFlow, records: &[Record]) -> Figure {
     panel.line("fit to experiments: h_stop(θ)", 2, experiment);
     panel.reference("local law, exact: tanθ = μ_s", [(local, 1e3 * DRAWN.0), (local, 1e3 * DRAWN.1)]);
     draw_searches(&mut panel, searches(records));
-    let mut tried: Vec<(String, Vec<String>)> = Vec::new();
-    for (run, _) in searches(records) {
-        let (law, thickness) = (law_name(run), format!("{:.0}", 1e3 * run.layer.layer_height));
-        match tried.iter_mut().find(|(known, _)| *known == law) {
-            Some((_, thicknesses)) => thicknesses.push(thickness),
-            None => tried.push((law, vec![thickness])),
-        }
-    }
+    let tried = searches(records).map(|(run, _)| (law_name(run), format!("{:.0}", 1e3 * run.layer.layer_height)));
     let tried: Vec<String> =
-        tried.iter().map(|(law, thicknesses)| format!("{law} at {} mm", thicknesses.join(" and "))).collect();
+        grouped(tried).iter().map(|(law, thicknesses)| format!("{law} at {} mm", thicknesses.join(" and "))).collect();
     // for the legend alone
     panel.points("kept flowing", 6, []);
     panel.draw("stopped", Mark::OpenPoints, 6, []);

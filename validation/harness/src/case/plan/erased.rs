@@ -20,6 +20,7 @@ use crate::input::FieldError;
 use crate::metric::{Metric, Quantity, Variant};
 use crate::observation::Recorded;
 use crate::output::Table;
+use crate::statistics::grouped;
 use crate::store::{CodeOrigin, Store};
 use bagnold_solver::parameter::schema_of;
 use std::path::PathBuf;
@@ -273,14 +274,7 @@ impl<C: Case> CasePlan<C> {
 
 /// Items with one label together, in the order of the labels; a group of none where there are no items.
 fn by_label<T>(items: Vec<T>, label: impl Fn(&T) -> Variant) -> Vec<(Variant, Vec<T>)> {
-    let mut groups: Vec<(Variant, Vec<T>)> = Vec::new();
-    for item in items {
-        let label = label(&item);
-        match groups.iter_mut().find(|(own, _)| *own == label) {
-            Some((_, own)) => own.push(item),
-            None => groups.push((label, vec![item])),
-        }
-    }
+    let mut groups = grouped(items.into_iter().map(|item| (label(&item), item)));
     if groups.is_empty() {
         groups.push((Variant::default(), Vec::new()));
     }

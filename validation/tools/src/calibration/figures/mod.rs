@@ -6,6 +6,7 @@ mod pairs;
 use super::result::{CalibrationResult, DatumComparison, ParameterEstimate};
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
 use crate::inference::chi_squared_quantile;
+use crate::statistics::grouped;
 
 /// All figures that the outcome has the numbers for.
 pub(super) fn all(outcome: &CalibrationResult) -> Vec<Figure> {
@@ -100,17 +101,11 @@ fn profiles(outcome: &CalibrationResult) -> Option<Figure> {
 
 /// One panel a group of data: profiles over their abscissa, single numbers model over datum.
 fn agreement(name: &str, caption: &str, data: &[DatumComparison]) -> Option<Figure> {
-    let mut groups: Vec<(String, Vec<&DatumComparison>)> = Vec::new();
-    for datum in data {
-        let title = match &datum.at {
-            Some(place) => place.table.clone(),
-            None => datum.label.split(' ').next().unwrap_or_default().to_owned(),
-        };
-        match groups.iter_mut().find(|(other, _)| *other == title) {
-            Some((_, members)) => members.push(datum),
-            None => groups.push((title, vec![datum])),
-        }
-    }
+    let title = |datum: &DatumComparison| match &datum.at {
+        Some(place) => place.table.clone(),
+        None => datum.label.split(' ').next().unwrap_or_default().to_owned(),
+    };
+    let groups = grouped(data.iter().map(|datum| (title(datum), datum)));
     let tables: Vec<&str> =
         groups.iter().filter(|(_, members)| members[0].at.is_some()).map(|(title, _)| title.as_str()).collect();
     let (head, tail) = common_ends(&tables);
