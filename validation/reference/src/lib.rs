@@ -9,6 +9,7 @@ pub mod collapse;
 pub mod film;
 pub mod grains;
 pub mod one_dimension;
+pub mod points;
 pub mod settling;
 pub mod water;
 

@@ -53,7 +53,7 @@ fn text(flume: &BedLoadFlume, own: &TransportPrediction) -> String {
         Some(rates) => format!(
             "measured      {} kg/(m s), median of {} runs at about this Shields number; formula of Wong & Parker {formula}",
             of(rates.median * own.formula * unit),
-            rates.ratios.len()
+            rates.number
         ),
         None => format!("measured      fewer than ten runs at about this Shields number; formula of Wong & Parker {formula}"),
     });

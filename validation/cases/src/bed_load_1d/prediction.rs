@@ -4,10 +4,10 @@ use super::draws::drawn_closures;
 use super::flow::{BedLoad1dFlow, GrainUnits, LayerStream, SimilarStream};
 use crate::case::ParameterError;
 use crate::checkpoint::is_interrupted;
-use crate::reference::bed_load::{
-    Flume, MeasuredRates, RATIOS_WELL_ABOVE, TransportFormula, measured_grains, measured_rates_about, quantile,
-};
+use crate::reference::bed_load::{Flume, TransportFormula, measured_grains, measured_rates_about, measured_scatter};
 use crate::reference::one_dimension::bed_load::{Closures, InitialVelocity, LayerState, Stream};
+use crate::reference::points::MeasuredBand;
+use crate::statistics::percentile;
 use bagnold_number::four_digits;
 
 /// Cells over a grain, bed in grains and change of a step: the transport changes by less than 1 % with finer ones.
@@ -55,7 +55,7 @@ pub struct TransportPrediction {
     /// q* of Wong & Parker's formula `[-]`.
     pub formula: f64,
     /// Measured runs at about this Shields number.
-    pub rates: Option<MeasuredRates>,
+    pub rates: Option<MeasuredBand>,
     /// What lies outside of what was compared with measurements.
     pub outside: Vec<String>,
 }
@@ -124,8 +124,9 @@ impl BedLoadFlume {
         let stream = own.stream();
         let shields_number = stream.shields_number();
         let rates = measured_rates_about(shields_number);
-        let ratios = rates.as_ref().map_or(&RATIOS_WELL_ABOVE[..], |rates| &rates.ratios);
-        let median = quantile(ratios, 0.5);
+        let mut ratios = measured_scatter(shields_number);
+        ratios.sort_by(f64::total_cmp);
+        let median = percentile(&ratios, 0.5);
         let scattered = drawn.iter().flat_map(|transport| ratios.iter().map(move |ratio| transport * ratio / median));
         let mut scattered: Vec<f64> = scattered.collect();
         scattered.sort_by(f64::total_cmp);
@@ -134,9 +135,9 @@ impl BedLoadFlume {
             bed_share,
             smooth_bed_share,
             transport: state.transport(),
-            by_closures: (quantile(&drawn, 0.025), quantile(&drawn, 0.975)),
+            by_closures: (percentile(&drawn, 0.025), percentile(&drawn, 0.975)),
             draws: (drawn.len(), draws),
-            interval: (quantile(&scattered, 0.025), quantile(&scattered, 0.975)),
+            interval: (percentile(&scattered, 0.025), percentile(&scattered, 0.975)),
             formula: TransportFormula::WongParker.transport(shields_number),
             outside: self.outside(&stream, rates.is_some()),
             rates,

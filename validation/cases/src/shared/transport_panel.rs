@@ -15,12 +15,12 @@ const MEASURED_SLOT: usize = 6;
 
 /// q* of every formula, with the band about Wong & Parker's.
 pub(crate) fn formulas() -> Panel {
-    let drawn = MEASURED_TRANSPORT.iter().copied().filter(|(tau, q)| *tau >= RANGE.0 && *q >= LEAST_TRANSPORT);
+    let drawn = MEASURED_TRANSPORT.points.iter().copied().filter(|(tau, q)| *tau >= RANGE.0 && *q >= LEAST_TRANSPORT);
     let mut panel = Panel::new("", Axis::logarithmic("τ* [-]"), Axis::logarithmic("q* [-]"));
     let shields = |k: i32| RANGE.0 * libm::pow(RANGE.1 / RANGE.0, f64::from(k) / f64::from(POINTS));
     let own = TransportFormula::WongParker;
     let curve = |formula: TransportFormula| (0..=POINTS).map(shields).map(move |tau| (tau, formula.transport(tau)));
-    let most = MEASURED_TRANSPORT.iter().map(|(tau, _)| *tau).fold(0.0, f64::max);
+    let most = MEASURED_TRANSPORT.points.iter().map(|(tau, _)| *tau).fold(0.0, f64::max);
     panel.band(
         &format!("nine tenths of the runs from τ* = 0.1 on: factor {:.2} … {:.2}", MEASURED_BAND.0, MEASURED_BAND.1),
         (0..=POINTS)

@@ -173,6 +173,11 @@ impl MeasuredData {
         }
     }
 
+    /// Points of two number columns.
+    pub fn points(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, FieldError> {
+        Ok(self.numbers(x)?.iter().copied().zip(self.numbers(y)?.iter().copied()).collect())
+    }
+
     /// Values of a label column.
     pub fn labels(&self, name: &str) -> Result<&[String], FieldError> {
         match self.column(name) {

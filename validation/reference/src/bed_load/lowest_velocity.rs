@@ -1,7 +1,7 @@
 //! The lowest part of a measured sheet flow (Sumer et al. 1996), `reference-data/bed-load/sheet-flow-lowest-velocity.csv`: a power law.
 
-use crate::evidence::read_shipped;
 use crate::metric::Confidence;
+use crate::points::MeasuredPoints;
 use crate::statistics::{Exponent, power_law};
 use std::sync::LazyLock;
 
@@ -24,19 +24,14 @@ pub struct LowestVelocity {
 
 /// The sheet flow at a Shields number of 1.4.
 pub static SHEET_FLOW_LOWEST_VELOCITY: LazyLock<LowestVelocity> = LazyLock::new(|| {
-    read_shipped("bed-load/sheet-flow-lowest-velocity.csv", |table| {
-        let (heights, velocities) =
-            (table.numbers("height over diameter")?, table.numbers("velocity over friction velocity")?);
-        let points: Vec<(f64, f64)> = heights.iter().copied().zip(velocities.iter().copied()).collect();
-        let layer: Vec<(f64, f64)> = points.iter().copied().filter(|point| point.0 <= LOWEST_LAYER_TOP).collect();
-        let none = Exponent { value: f64::NAN, standard_error: f64::NAN, coefficient: f64::NAN };
-        Ok(LowestVelocity {
-            law: power_law(&layer).unwrap_or(none),
-            points,
-            source: table.metadata.source.clone(),
-            confidence: table.metadata.confidence,
-        })
-    })
+    let MeasuredPoints { points, source, confidence } = MeasuredPoints::read(
+        "bed-load/sheet-flow-lowest-velocity.csv",
+        "height over diameter",
+        "velocity over friction velocity",
+    );
+    let layer: Vec<(f64, f64)> = points.iter().copied().filter(|point| point.0 <= LOWEST_LAYER_TOP).collect();
+    let none = Exponent { value: f64::NAN, standard_error: f64::NAN, coefficient: f64::NAN };
+    LowestVelocity { law: power_law(&layer).unwrap_or(none), points, source, confidence }
 });
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! an onset may be, whatever an experimenter called one.
 
 use crate::evidence::read_shipped;
-use crate::metric::Confidence;
+use crate::points::{MeasuredBand, MeasuredPoints};
 use std::sync::LazyLock;
 
 /// Water, in which they were measured: gravity `[m/s²]`, density `[kg/m³]`, kinematic viscosity `[m²/s]`.
@@ -12,32 +12,8 @@ const SAME_SIZE: f64 = 2.0;
 /// Fewest experiments that make a band.
 const FEWEST: usize = 20;
 
-/// All thresholds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MotionThresholds {
-    /// (D*, τ*_c) `[-]` in the order of the table, D* = d ((s − 1) g/ν²)^⅓.
-    pub points: Vec<(f64, f64)>,
-    /// Source of the points.
-    pub source: String,
-    /// Confidence in the points.
-    pub confidence: Confidence,
-}
-
-/// Band of the thresholds from experiments with grains of about one size, Shields numbers `[-]`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ThresholdBand {
-    /// Half of them lie below.
-    pub median: f64,
-    /// Nine tenths lie between these.
-    pub bounds: (f64, f64),
-    /// Half of the width of the middle two thirds, a standard deviation.
-    pub deviation: f64,
-    /// Number of experiments.
-    pub number: usize,
-}
-
-/// The thresholds.
-pub static MOTION_THRESHOLDS: LazyLock<MotionThresholds> = LazyLock::new(|| {
+/// The thresholds: (D*, τ*_c) `[-]`, D* = d ((s − 1) g/ν²)^⅓.
+pub static MOTION_THRESHOLDS: LazyLock<MeasuredPoints> = LazyLock::new(|| {
     read_shipped("bed-load/measured-thresholds.csv", |table| {
         let (shields, diameters) = (table.numbers("Shields number")?, table.numbers("grain diameter")?);
         let densities = table.numbers("grain density")?;
@@ -46,7 +22,7 @@ pub static MOTION_THRESHOLDS: LazyLock<MotionThresholds> = LazyLock::new(|| {
             let buoyant = (densities[row] / density - 1.0) * gravity / (viscosity * viscosity);
             1e-3 * diameters[row] * libm::cbrt(buoyant)
         };
-        Ok(MotionThresholds {
+        Ok(MeasuredPoints {
             points: (0..shields.len()).map(|row| (size(row), shields[row])).collect(),
             source: table.metadata.source.clone(),
             confidence: table.metadata.confidence,
@@ -54,22 +30,13 @@ pub static MOTION_THRESHOLDS: LazyLock<MotionThresholds> = LazyLock::new(|| {
     })
 });
 
-impl MotionThresholds {
-    /// The band of the experiments with grains within a factor of two of a dimensionless diameter `[-]`; none of too few.
-    #[must_use]
-    pub fn band(&self, dimensionless_diameter: f64) -> Option<ThresholdBand> {
-        let range = dimensionless_diameter / SAME_SIZE..=dimensionless_diameter * SAME_SIZE;
-        let mut own: Vec<f64> =
-            self.points.iter().filter(|point| range.contains(&point.0)).map(|point| point.1).collect();
-        own.sort_by(f64::total_cmp);
-        let at = |share: f64| super::transport::quantile(&own, share);
-        (own.len() >= FEWEST).then(|| ThresholdBand {
-            median: at(0.5),
-            bounds: (at(0.05), at(0.95)),
-            deviation: 0.5 * (at(5.0 / 6.0) - at(1.0 / 6.0)),
-            number: own.len(),
-        })
-    }
+/// The band of the thresholds from experiments with grains within a factor of two of a dimensionless diameter `[-]`, Shields
+/// numbers `[-]`; none of too few.
+#[must_use]
+pub fn thresholds_about(dimensionless_diameter: f64) -> Option<MeasuredBand> {
+    let range = dimensionless_diameter / SAME_SIZE..=dimensionless_diameter * SAME_SIZE;
+    let own = MOTION_THRESHOLDS.points.iter().filter(|point| range.contains(&point.0));
+    MeasuredBand::of(own.map(|point| point.1), FEWEST)
 }
 
 #[cfg(test)]
@@ -79,16 +46,15 @@ mod tests {
 
     #[test]
     fn the_curve_runs_through_the_measured_thresholds() {
-        let thresholds = &*MOTION_THRESHOLDS;
-        assert_eq!(thresholds.points.len(), 511);
+        assert_eq!(MOTION_THRESHOLDS.points.len(), 511);
         for size in [5.0, 12.5, 25.0, 50.0, 150.0, 400.0] {
-            let band = thresholds.band(size).expect("experiments");
+            let band = thresholds_about(size).expect("experiments");
             let ratio = critical_shields_number(size) / band.median;
             assert!((0.7..1.5).contains(&ratio), "D* = {size}: {ratio} of {band:?}");
             assert!(band.bounds.0 < band.median && band.median < band.bounds.1 && band.number >= FEWEST, "{band:?}");
             assert!(band.deviation > 0.1 * band.median && band.deviation < band.median, "{band:?}");
         }
-        assert_eq!(thresholds.band(1e6), None);
+        assert_eq!(thresholds_about(1e6), None);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use crate::evidence::{MeasuredData, ReferenceKind, read_shipped};
 use crate::input::FieldError;
 use crate::metric::Confidence;
+use crate::points::{MeasuredBand, MeasuredPoints};
 use std::sync::LazyLock;
 
 /// A formula.
@@ -26,69 +27,36 @@ pub enum TransportFormula {
 const WELL_ABOVE_THRESHOLD: f64 = 0.1;
 
 /// Shields number and transport q* of every measured run of `reference-data/bed-load/measured-transport.csv` `[-]`.
-pub static MEASURED_TRANSPORT: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
-    read_shipped("bed-load/measured-transport.csv", |table| {
-        let (shields, transport) = (table.numbers("Shields number")?, table.numbers("transport")?);
-        Ok(shields.iter().copied().zip(transport.iter().copied()).collect())
-    })
+pub static MEASURED_TRANSPORT: LazyLock<MeasuredPoints> =
+    LazyLock::new(|| MeasuredPoints::read("bed-load/measured-transport.csv", "Shields number", "transport"));
+
+/// Factors on Wong & Parker's 1.6 form between which nine tenths of the measured runs well above the threshold of motion lie: the
+/// width that a comparison with a formula can claim.
+pub static MEASURED_BAND: LazyLock<(f64, f64)> = LazyLock::new(|| {
+    let ratios = measured_ratios(|shields| shields >= WELL_ABOVE_THRESHOLD);
+    MeasuredBand::of(ratios, 1).map_or((f64::NAN, f64::NAN), |band| band.bounds)
 });
-
-/// Ratios of the measured runs well above the threshold of motion to Wong & Parker's 1.6 form, in ascending order `[-]`.
-pub static RATIOS_WELL_ABOVE: LazyLock<Vec<f64>> =
-    LazyLock::new(|| ratios_over_formula(|shields| shields >= WELL_ABOVE_THRESHOLD));
-
-/// Factors on Wong & Parker's 1.6 form between which nine tenths of [`RATIOS_WELL_ABOVE`] lie: the width that a comparison with a formula
-/// can claim.
-pub static MEASURED_BAND: LazyLock<(f64, f64)> =
-    LazyLock::new(|| (quantile(&RATIOS_WELL_ABOVE, 0.05), quantile(&RATIOS_WELL_ABOVE, 0.95)));
-
-/// Ratios of measured runs of some Shields numbers to Wong & Parker's 1.6 form, in ascending order.
-fn ratios_over_formula(is_meant: impl Fn(f64) -> bool) -> Vec<f64> {
-    let own = TransportFormula::WongParker;
-    let runs = MEASURED_TRANSPORT.iter().filter(|(shields, _)| is_meant(*shields) && own.transport(*shields) > 0.0);
-    let mut ratios: Vec<f64> = runs.map(|(shields, transport)| transport / own.transport(*shields)).collect();
-    ratios.sort_by(f64::total_cmp);
-    ratios
-}
 
 /// Factor in the Shields number within which runs count as of the same `[-]`.
 const SAME_SHIELDS: f64 = 1.3;
 /// Fewest runs that say something together.
 const FEWEST_RUNS: usize = 10;
 
-/// Distribution of the measured rates of runs of about one Shields number, each over Wong & Parker's 1.6 form `[-]`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MeasuredRates {
-    /// Half of them carried less.
-    pub median: f64,
-    /// Nine tenths lie between these.
-    pub bounds: (f64, f64),
-    /// Half of the width of the middle two thirds, a standard deviation.
-    pub deviation: f64,
-    /// The runs' ratios, in ascending order.
-    pub ratios: Vec<f64>,
-    /// Source of the rates.
-    pub source: String,
-    /// Confidence in the rates.
-    pub confidence: Confidence,
+/// Band of the measured rates of the runs within a factor of 1.3 of a Shields number `[-]`, each over Wong & Parker's 1.6 form `[-]`;
+/// none of too few.
+#[must_use]
+pub fn measured_rates_about(shields_number: f64) -> Option<MeasuredBand> {
+    let range = shields_number / SAME_SHIELDS..=shields_number * SAME_SHIELDS;
+    MeasuredBand::of(measured_ratios(|shields| range.contains(&shields)), FEWEST_RUNS)
 }
 
-/// The measured runs within a factor of 1.3 of a Shields number `[-]`; none of too few.
+/// Rates of the measured runs within a factor of 1.3 of a Shields number `[-]`, or with too few of them of all well above the threshold,
+/// each over Wong & Parker's 1.6 form `[-]`.
 #[must_use]
-pub fn measured_rates_about(shields_number: f64) -> Option<MeasuredRates> {
+pub fn measured_scatter(shields_number: f64) -> Vec<f64> {
     let range = shields_number / SAME_SHIELDS..=shields_number * SAME_SHIELDS;
-    let ratios = ratios_over_formula(|shields| range.contains(&shields));
-    let (source, confidence) = read_shipped("bed-load/measured-transport.csv", |table| {
-        Ok((table.metadata.source.clone(), table.metadata.confidence))
-    });
-    (ratios.len() >= FEWEST_RUNS).then(|| MeasuredRates {
-        median: quantile(&ratios, 0.5),
-        bounds: (quantile(&ratios, 0.05), quantile(&ratios, 0.95)),
-        deviation: 0.5 * (quantile(&ratios, 5.0 / 6.0) - quantile(&ratios, 1.0 / 6.0)),
-        ratios: ratios.clone(),
-        source,
-        confidence,
-    })
+    let about: Vec<f64> = measured_ratios(|shields| range.contains(&shields)).collect();
+    if about.len() < FEWEST_RUNS { measured_ratios(|shields| shields >= WELL_ABOVE_THRESHOLD).collect() } else { about }
 }
 
 /// Least and largest grain diameter `[m]` and slope `[-]` of the measured runs.
@@ -103,16 +71,11 @@ pub fn measured_grains() -> [(f64, f64); 2] {
     })
 }
 
-/// The quantile of values in ascending order, linear between them; NaN without values.
-#[must_use]
-pub fn quantile(ascending: &[f64], share: f64) -> f64 {
-    let place = share * ascending.len().saturating_sub(1) as f64;
-    let (below, part) = (place as usize, place.fract());
-    match (ascending.get(below), ascending.get(below + 1)) {
-        (Some(low), Some(high)) => low + part * (high - low),
-        (Some(only), None) => *only,
-        _ => f64::NAN,
-    }
+/// Rates of the measured runs at some Shields numbers, each over Wong & Parker's 1.6 form where that is not zero `[-]`.
+fn measured_ratios(is_wanted: impl Fn(f64) -> bool) -> impl Iterator<Item = f64> {
+    let ratios = MEASURED_TRANSPORT.points.iter().filter(move |(shields, _)| is_wanted(*shields));
+    let own = |shields: f64| TransportFormula::WongParker.transport(shields);
+    ratios.filter(move |(shields, _)| own(*shields) > 0.0).map(move |(shields, transport)| transport / own(*shields))
 }
 
 /// Row of a formula in the table.
@@ -233,13 +196,6 @@ mod tests {
     }
 
     #[test]
-    fn quantiles_lie_between_the_values() {
-        assert_eq!([0.0, 0.25, 0.5, 1.0].map(|share| quantile(&[1.0, 2.0, 4.0], share)), [1.0, 1.5, 2.0, 4.0]);
-        assert_eq!(quantile(&[3.0], 0.7), 3.0);
-        assert!(quantile(&[], 0.5).is_nan());
-    }
-
-    #[test]
     fn the_formula_runs_through_the_runs_of_each_shields_number() {
         for shields in [0.115, 0.173] {
             let rates = measured_rates_about(shields).expect("runs");
@@ -254,10 +210,10 @@ mod tests {
 
     #[test]
     fn the_band_holds_nine_tenths_of_the_runs_well_above_the_threshold() {
-        assert_eq!(MEASURED_TRANSPORT.len(), 105);
+        assert_eq!(MEASURED_TRANSPORT.points.len(), 105);
         let own = TransportFormula::WongParker;
         let ratio = |&(shields, transport): &(f64, f64)| transport / own.transport(shields);
-        let well_above: Vec<f64> = MEASURED_TRANSPORT.iter().filter(|run| run.0 >= 0.1).map(ratio).collect();
+        let well_above: Vec<f64> = MEASURED_TRANSPORT.points.iter().filter(|run| run.0 >= 0.1).map(ratio).collect();
         let inside = well_above.iter().filter(|ratio| (MEASURED_BAND.0..=MEASURED_BAND.1).contains(*ratio)).count();
         println!("{MEASURED_BAND:?}: {inside} of {}", well_above.len());
         assert_eq!((well_above.len(), inside), (32, 28));

@@ -75,11 +75,7 @@ fn between(heights: &[f64], values: &[f64], (from, to): (f64, f64)) -> FittedVal
 
 impl SettlingBeads {
     fn read(interfaces: &MeasuredData, fraction: &MeasuredData, beads: &MeasuredData) -> Result<Self, FieldError> {
-        let of = |name| -> Result<Vec<(f64, f64)>, FieldError> {
-            let times = interfaces.numbers("time")?.iter().copied();
-            Ok(times.zip(interfaces.numbers(name)?.iter().copied()).collect())
-        };
-        let (upper, deposit) = (of("upper interface")?, of("deposit")?);
+        let (upper, deposit) = (interfaces.points("time", "upper interface")?, interfaces.points("time", "deposit")?);
         let apart: Vec<usize> = (0..upper.len()).filter(|&k| upper[k].1 - deposit[k].1 > APART).collect();
         let slope = |points: &[(f64, f64)]| {
             let points: Vec<(f64, f64)> = apart.iter().map(|&k| points[k]).collect();

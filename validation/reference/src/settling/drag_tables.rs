@@ -2,16 +2,8 @@
 //! from the printed laws outside of it. A reference that calls the law it judges agrees with any error in it.
 
 use crate::evidence::read_shipped;
-use crate::metric::Confidence;
+use crate::points::MeasuredPoints;
 use std::sync::LazyLock;
-
-/// The standard drag curve of a smooth sphere.
-pub struct StandardDrag {
-    /// Confidence in the curve.
-    pub confidence: Confidence,
-    /// Reynolds numbers and drag coefficients `[-]`.
-    pub points: Vec<(f64, f64)>,
-}
 
 /// The slip of a suspension of one law.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,14 +18,10 @@ pub struct HinderedSlip {
     pub reynolds: f64,
 }
 
-/// Clift, Grace & Weber's recommended correlations at round Reynolds numbers.
-pub static STANDARD_DRAG: LazyLock<StandardDrag> = LazyLock::new(|| {
-    read_shipped("settling/standard-drag.csv", |table| {
-        let (reynolds, drag) = (table.numbers("Reynolds number")?, table.numbers("drag coefficient")?);
-        let points = reynolds.iter().copied().zip(drag.iter().copied()).collect();
-        Ok(StandardDrag { confidence: table.metadata.confidence, points })
-    })
-});
+/// The standard drag curve of a smooth sphere, drag coefficients over Reynolds numbers `[-]`: Clift, Grace & Weber's recommended
+/// correlations at round numbers.
+pub static STANDARD_DRAG: LazyLock<MeasuredPoints> =
+    LazyLock::new(|| MeasuredPoints::read("settling/standard-drag.csv", "Reynolds number", "drag coefficient"));
 
 /// Every law over three Archimedes numbers, from Stokes' to Newton's regime, and three solid fractions.
 pub static HINDERED_SLIPS: LazyLock<Vec<HinderedSlip>> = LazyLock::new(|| {

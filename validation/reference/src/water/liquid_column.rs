@@ -2,7 +2,7 @@
 
 use crate::evidence::read_shipped;
 use crate::metric::Confidence;
-use crate::statistics::{Extrapolation, interpolated};
+use crate::statistics::{Extrapolation, grouped, interpolated};
 use std::sync::LazyLock;
 
 /// A measured front.
@@ -59,15 +59,7 @@ pub type NamedFront = (String, Vec<(f64, f64)>);
 /// Fronts of columns twice as high as wide by other experimenters and readers, with their names: (t/√(a/(2g)), x/a) `[-]`.
 pub static OTHER_WATER_FRONTS: LazyLock<Vec<NamedFront>> = LazyLock::new(|| {
     read_shipped("water-column/front-readings.csv", |table| {
-        let (names, times, fronts) = (table.labels("reading")?, table.numbers("time")?, table.numbers("front")?);
-        let mut readings: Vec<NamedFront> = Vec::new();
-        for (name, point) in names.iter().zip(times.iter().copied().zip(fronts.iter().copied())) {
-            match readings.iter_mut().find(|reading| reading.0 == *name) {
-                Some(reading) => reading.1.push(point),
-                None => readings.push((name.clone(), vec![point])),
-            }
-        }
-        Ok(readings)
+        Ok(grouped(table.labels("reading")?.iter().cloned().zip(table.points("time", "front")?)))
     })
 });
 
@@ -101,7 +93,7 @@ impl MeasuredFront {
 /// That of a column twice as high as wide, from `reference-data/water-column`.
 pub static WATER_FRONT: LazyLock<MeasuredFront> = LazyLock::new(|| {
     read_shipped("water-column/front.csv", |table| {
-        let points = table.numbers("time")?.iter().copied().zip(table.numbers("front")?.iter().copied()).collect();
+        let points = table.points("time", "front")?;
         let (source, confidence) = (table.metadata.source.clone(), table.metadata.confidence);
         Ok(MeasuredFront { points, source, confidence, name: "Martin & Moyce 1952", reading: READING })
     })

@@ -4,7 +4,9 @@ use super::super::BedLoad1dRecord;
 use super::super::onset_criterion::CRITERIA;
 use super::super::records::scans;
 use crate::figure::{Axis, Figure, Mark, Panel, Series};
-use crate::reference::bed_load::{MOTION_THRESHOLDS, ONSET_SCATTER, ONSET_SOURCE, critical_shields_number};
+use crate::reference::bed_load::{
+    MOTION_THRESHOLDS, ONSET_SCATTER, ONSET_SOURCE, critical_shields_number, thresholds_about,
+};
 
 /// Colour of the measured thresholds, beyond those of the criteria.
 const MEASURED_SLOT: usize = 6;
@@ -17,7 +19,7 @@ pub(super) fn figure(records: &[BedLoad1dRecord]) -> Option<Figure> {
     let expectation: Vec<(f64, f64)> = points.iter().map(|&size| (size, critical_shields_number(size))).collect();
     let thresholds = &*MOTION_THRESHOLDS;
     let measured = points.iter().filter_map(|&size| {
-        let (lower, upper) = thresholds.band(size)?.bounds;
+        let (lower, upper) = thresholds_about(size)?.bounds;
         Some((size, lower, upper))
     });
     curve.band("nine tenths of the thresholds", measured);

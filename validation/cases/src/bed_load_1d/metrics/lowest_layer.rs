@@ -8,8 +8,11 @@ use super::super::quantities::{
 use super::super::records::lowest_layer;
 use crate::case::Flow;
 use crate::metric::{Confidence, Limit, Metric, Origin};
-use crate::reference::bed_load::{MeasuredRates, SHEET_FLOW_LOWEST_VELOCITY, TransportFormula, measured_rates_about};
+use crate::reference::bed_load::{
+    MEASURED_TRANSPORT, SHEET_FLOW_LOWEST_VELOCITY, TransportFormula, measured_rates_about,
+};
 use crate::reference::one_dimension::bed_load::LayerState;
+use crate::reference::points::{MeasuredBand, MeasuredPoints};
 use crate::statistics::{linear_fit, power_law};
 
 /// Fewest cells that a power is fitted to.
@@ -84,11 +87,12 @@ pub(super) fn metrics(run: &BedLoad1dFlow, state: &LayerState, speed: f64) -> Ve
 /// Transport against the runs of flumes at about the same Shields number; none where there are too few.
 pub(super) fn beside_measured(run: &BedLoad1dFlow, state: &LayerState) -> Option<Metric> {
     let shields = run.stream().shields_number();
-    let MeasuredRates { median, bounds, deviation, ratios, source, confidence } = measured_rates_about(shields)?;
+    let MeasuredBand { median, bounds, deviation, number } = measured_rates_about(shields)?;
+    let MeasuredPoints { source, confidence, .. } = &*MEASURED_TRANSPORT;
     let expected = median * TransportFormula::WongParker.transport(shields);
     let metric = TRANSPORT_OVER_MEASURED
         .of(&run.variant(), state.transport() / expected)
-        .against(Some(1.0), &format!("median of {} runs, {source}", ratios.len()), confidence)
+        .against(Some(1.0), &format!("median of {number} runs, {source}"), *confidence)
         .known_to(
             Origin::Experiment,
             Some(deviation / median),

@@ -16,7 +16,7 @@ use super::super::run::BedLoadLayerObservation;
 use super::one_state;
 use crate::case::Flow;
 use crate::metric::{Limit, Metric, Origin};
-use crate::reference::bed_load::MOTION_THRESHOLDS;
+use crate::reference::bed_load::{MOTION_THRESHOLDS, thresholds_about};
 
 /// Onsets beside measured thresholds, and how far the starts differ.
 pub(super) fn metrics(records: &[BedLoad1dRecord]) -> Vec<Metric> {
@@ -36,7 +36,7 @@ fn beside_measured(
     name: &str,
 ) -> Option<Metric> {
     let thresholds = &*MOTION_THRESHOLDS;
-    let band = thresholds.band(run.stream().dimensionless_diameter())?;
+    let band = thresholds_about(run.stream().dimensionless_diameter())?;
     let (lower, upper) = band.bounds;
     let crossing = criterion.onset(&data.scan);
     let value = crossing.value() / band.median;
