@@ -6,12 +6,11 @@ use super::curves::Plot;
 use super::error::FigureError;
 use super::font::width;
 use super::format::LABEL;
-use super::glyphs::Weight;
 use super::palette::{AXIS, BLACK, GRID};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
-use plotters::style::RGBColor;
 use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{FontStyle, RGBColor};
 
 /// Length of a major tick `[px]`.
 pub(super) const TICK: f64 = 9.0;
@@ -43,7 +42,7 @@ impl Sizes {
 
 /// A text in the regular weight.
 pub(super) fn text(em: f64, horizontal: HPos, vertical: VPos, colour: RGBColor) -> TextSpec {
-    TextSpec { em, weight: Weight::Regular, horizontal, vertical, colour, direction: Direction::Rightwards }
+    TextSpec { em, weight: FontStyle::Normal, horizontal, vertical, colour, direction: Direction::Rightwards }
 }
 
 /// About `wanted` ticks along a horizontal length `[px]`, or so few that their numbers stand clear of each other.
@@ -60,7 +59,7 @@ pub(super) fn uncrowded((range, scale): (Range, Scale), length: f64, em: f64, mu
 
 /// Width of the widest tick number `[px]`.
 pub(super) fn widest_label(ticks: &Ticks, em: f64) -> f64 {
-    ticks.major.iter().map(|tick| width(&tick.label, em, Weight::Regular)).fold(0.0, f64::max)
+    ticks.major.iter().map(|tick| width(&tick.label, em, FontStyle::Normal)).fold(0.0, f64::max)
 }
 
 /// Draws the grid; it lies under the data.
@@ -125,7 +124,7 @@ fn draw_labels(
     let x_label_top = window.bottom + TICK + TICK_GAP + 1.25 * sizes.tick;
     let centre = 0.5 * (window.left + window.right);
     let along = |label: &str, length: f64| {
-        let whole = width(label, sizes.label, Weight::Regular);
+        let whole = width(label, sizes.label, FontStyle::Normal);
         sizes.label * (MOST_LABEL * length / whole).min(1.0)
     };
     let x_size = along(x_label, window.width());

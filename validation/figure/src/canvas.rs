@@ -3,12 +3,11 @@
 use super::error::FigureError;
 use super::font::{FAMILY, FAMILY_WITH_FALLBACK, LINE_HEIGHT, plain_width, width};
 use super::format::FigureFormat;
-use super::glyphs::Weight;
 use super::script::{Run, SMALLER, runs};
 use plotters::backend::DrawingBackend;
 use plotters::prelude::SVGBackend;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{Color, FontDesc, FontFamily, FontTransform, RGBColor, ShapeStyle, TextStyle};
+use plotters::style::{Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle};
 
 /// plotters rounds to whole units. The drawing has this many units a pixel and is shown scaled down,
 /// which keeps curves smooth and lattices of particles regular.
@@ -76,7 +75,7 @@ impl Ink {
 pub(super) struct TextSpec {
     /// Font size `[px]`.
     pub(super) em: f64,
-    pub(super) weight: Weight,
+    pub(super) weight: FontStyle,
     pub(super) horizontal: HPos,
     pub(super) vertical: VPos,
     pub(super) colour: RGBColor,
@@ -184,7 +183,7 @@ impl<'a> Canvas<'a> {
     /// Letters of one size on one line.
     fn run(&mut self, text: &str, at: Point, spec: TextSpec) -> Result<(), FigureError> {
         let size = spec.em * LINE_HEIGHT * UNITS_PER_PIXEL;
-        let font = FontDesc::new(FontFamily::Name(FAMILY), size, spec.weight.style());
+        let font = FontDesc::new(FontFamily::Name(FAMILY), size, spec.weight);
         let font = match spec.direction {
             Direction::Rightwards => font,
             Direction::Upwards => font.transform(FontTransform::Rotate270),

@@ -3,7 +3,7 @@
 use super::canvas::{Canvas, Ink, Point, Rectangle};
 use super::clip::{clip_chain, clip_polygon, dashes, thin};
 use super::error::FigureError;
-use super::palette::{BLACK, GREY, MarkerShape, colour, shape};
+use super::palette::{BLACK, GREY, colour, shape};
 use super::range::Mapping;
 use super::{Band, Mark, Panel, Series};
 use plotters::style::{RGBColor, WHITE};
@@ -149,14 +149,7 @@ fn draw_error_bar(
 
 /// Draws one marker of a series.
 fn draw_marker(canvas: &mut Canvas<'_>, (x, y): Point, radius: f64, series: &Series) -> Result<(), FigureError> {
-    // Sizes that look equal, not sizes that are equal.
-    let corners: &[(f64, f64)] = match shape(series.colour) {
-        MarkerShape::Disc => &[],
-        MarkerShape::Square => &[(-0.88, -0.88), (0.88, -0.88), (0.88, 0.88), (-0.88, 0.88)],
-        MarkerShape::Triangle => &[(0.0, -1.25), (1.1, 0.75), (-1.1, 0.75)],
-        MarkerShape::TriangleDown => &[(0.0, 1.25), (1.1, -0.75), (-1.1, -0.75)],
-        MarkerShape::Diamond => &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
-    };
+    let corners = shape(series.colour);
     let scaled = |radius: f64| corners.iter().map(move |&(dx, dy)| (x + radius * dx, y + radius * dy));
     if series.mark == Mark::OpenPoints && !corners.is_empty() {
         // Around the outer border and back around the inner one: what lies below is seen through the opening.

@@ -2,7 +2,8 @@
 //! each, which are read here one by one; an element or attribute of another kind is an error and not a gap in the picture.
 
 use super::error::FigureError;
-use super::glyphs::{self, Weight};
+use super::glyphs;
+use plotters::style::FontStyle;
 use roxmltree::{Document, Node};
 use tiny_skia::{Path, PathBuilder, Rect, Transform};
 
@@ -95,7 +96,7 @@ fn text(node: Node<'_, '_>, surface: &mut impl Surface) -> Result<(), FigureErro
         "middle" => 0.5,
         _ => 1.0,
     };
-    let weight = if node.attribute("font-weight") == Some("bold") { Weight::Bold } else { Weight::Regular };
+    let weight = if node.attribute("font-weight") == Some("bold") { FontStyle::Bold } else { FontStyle::Normal };
     let Some((outline, width)) =
         glyphs::outline(node.text().unwrap_or_default().trim_matches(['\n', ' ']), size, weight)?
     else {

@@ -5,11 +5,11 @@ use super::canvas::{Canvas, Direction, Ink, Rectangle, TextSpec};
 use super::curves::Plot;
 use super::error::FigureError;
 use super::font::width;
-use super::glyphs::Weight;
 use super::palette::{AXIS, BLACK, ColourMap, FIRST, GREY, SECOND};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
 use super::{Axis, Field, Panel, Scale};
+use plotters::style::FontStyle;
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Thickness of a colour bar `[px]`.
@@ -92,7 +92,7 @@ impl ColourScale {
         (left, right, bottom): (f64, f64, f64),
         sizes: Sizes,
     ) -> Result<(), FigureError> {
-        let left = left + width(&self.label, sizes.label, Weight::Regular) + sizes.label;
+        let left = left + width(&self.label, sizes.label, FontStyle::Normal) + sizes.label;
         let bar = Rectangle { left, top: bottom - BAR, right: right.min(left + LONGEST), bottom };
         self.draw_colours(canvas, |share| Rectangle { left: bar.left + share * bar.width(), ..bar })?;
         let mapping = Mapping { range: self.range, scale: Scale::Linear, start: bar.left, end: bar.right };

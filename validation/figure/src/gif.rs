@@ -5,7 +5,7 @@ use super::animation::Animation;
 use super::error::FigureError;
 use super::format::FigureFormat;
 use super::palette::FIRST;
-use super::{is_file_name, raster, render};
+use super::{put, raster, render};
 use plotters::style::RGBColor;
 use rayon::prelude::*;
 use std::borrow::Cow;
@@ -114,15 +114,10 @@ impl IndexedImage {
 
     /// The smallest rectangle with everything that differs from the picture before.
     fn since(&self, before: Option<&Self>) -> gif::Frame<'_> {
-        let Some(before) = before else {
-            return gif::Frame {
-                width: self.width as u16,
-                height: self.height as u16,
-                buffer: Cow::Borrowed(&self.indices),
-                ..gif::Frame::default()
-            };
+        let differs = |x: usize, y: usize| {
+            let place = y * self.width + x;
+            before.is_none_or(|before| self.indices[place] != before.indices[place])
         };
-        let differs = |x: usize, y: usize| self.indices[y * self.width + x] != before.indices[y * self.width + x];
         let rows: Vec<usize> = (0..self.height).filter(|&y| (0..self.width).any(|x| differs(x, y))).collect();
         let columns: Vec<usize> = (0..self.width).filter(|&x| rows.iter().any(|&y| differs(x, y))).collect();
         // a picture in which nothing has changed still lasts its time
@@ -138,8 +133,7 @@ impl IndexedImage {
             }
         }
         gif::Frame {
-            dispose: gif::DisposalMethod::Keep,
-            transparent: Some(UNCHANGED),
+            transparent: before.map(|_| UNCHANGED),
             left: columns.start as u16,
             top: rows.start as u16,
             width: columns.len() as u16,
@@ -155,15 +149,7 @@ impl IndexedImage {
 /// # Errors
 /// If the name is no file name, there is no picture, drawing fails, or the file cannot be written.
 pub fn write_animation(animation: &Animation, folder: &Path) -> Result<PathBuf, FigureError> {
-    if !is_file_name(&animation.name) {
-        return Err(FigureError::Name { name: animation.name.clone() });
-    }
-    let bytes = encode(animation)?;
-    let write_error = |path: &Path, source| FigureError::Write { path: path.to_owned(), source };
-    std::fs::create_dir_all(folder).map_err(|source| write_error(folder, source))?;
-    let path = folder.join(format!("{}.gif", animation.name));
-    std::fs::write(&path, bytes).map_err(|source| write_error(&path, source))?;
-    Ok(path)
+    put(folder, &animation.name, "gif", &encode(animation)?)
 }
 
 /// The palette's colour that is nearest in RGB; the first of equals.

@@ -88,41 +88,19 @@ impl OutlinePen for Pen {
     }
 }
 
-/// Thickness of the strokes of a text.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Weight {
-    Regular,
-    Bold,
-}
-
-impl Weight {
-    pub(super) fn style(self) -> FontStyle {
-        match self {
-            Self::Regular => FontStyle::Normal,
-            Self::Bold => FontStyle::Bold,
-        }
-    }
-
-    pub(super) fn font(self) -> Result<&'static Font, FigureError> {
-        let font = match self {
-            Self::Regular => &REGULAR,
-            Self::Bold => &BOLD,
-        };
-        font.as_ref().ok_or(FigureError::Font { style: self.name() })
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Regular => "regular",
-            Self::Bold => "bold",
-        }
-    }
+/// The font of a style and its name, bold or regular.
+pub(super) fn font(style: FontStyle) -> Result<(&'static Font, &'static str), FigureError> {
+    let (font, style) = match style {
+        FontStyle::Bold => (&BOLD, "bold"),
+        _ => (&REGULAR, "regular"),
+    };
+    font.as_ref().map(|font| (font, style)).ok_or(FigureError::Font { style })
 }
 
 /// The outline of a text of `size` units an em with its base line's start at the origin, y downwards, and its width; nothing
 /// for a text without ink.
-pub(super) fn outline(text: &str, size: f32, weight: Weight) -> Result<Option<(Path, f32)>, FigureError> {
-    let font = weight.font()?;
+pub(super) fn outline(text: &str, size: f32, weight: FontStyle) -> Result<Option<(Path, f32)>, FigureError> {
+    let (font, style) = font(weight)?;
     let scale = size / font.units_per_em;
     let (glyphs, width) = font.glyphs(text);
     let mut pen = Pen { path: PathBuilder::new(), place: 0.0 };
@@ -130,7 +108,7 @@ pub(super) fn outline(text: &str, size: f32, weight: Weight) -> Result<Option<(P
         pen.place = place;
         if let Some(outline) = font.outlines.get(glyph) {
             let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
-            outline.draw(settings, &mut pen).map_err(|_| FigureError::Font { style: weight.name() })?;
+            outline.draw(settings, &mut pen).map_err(|_| FigureError::Font { style })?;
         }
     }
     let path = pen.path.finish().and_then(|path| path.transform(Transform::from_scale(scale, -scale)));
@@ -143,19 +121,19 @@ mod tests {
 
     #[test]
     fn a_text_is_as_wide_as_its_letters_and_as_high_as_its_capitals() {
-        let (path, width) = outline("HH", 100.0, Weight::Regular).expect("font").expect("ink");
+        let (path, width) = outline("HH", 100.0, FontStyle::Normal).expect("font").expect("ink");
         let bounds = path.bounds();
         // of DejaVu Sans: capitals of 0.729 em, H of 0.752 em with 0.098 em before its stem
         assert!((bounds.top() + 72.9).abs() < 0.1 && bounds.bottom().abs() < 0.1, "{bounds:?}");
         assert!((width - 150.4).abs() < 0.1 && (bounds.left() - 9.8).abs() < 0.1, "{width} {bounds:?}");
-        let (_, bold) = outline("HH", 100.0, Weight::Bold).expect("font").expect("ink");
+        let (_, bold) = outline("HH", 100.0, FontStyle::Bold).expect("font").expect("ink");
         assert!(bold > width);
     }
 
     #[test]
     fn pairs_of_letters_stand_closer_and_marks_are_above_their_letters() {
         // advance of A, and the pair A V, by another reader
-        for (weight, advance, pair) in [(Weight::Regular, 1401.0, -131.0), (Weight::Bold, 1585.0, -139.0)] {
+        for (weight, advance, pair) in [(FontStyle::Normal, 1401.0, -131.0), (FontStyle::Bold, 1585.0, -139.0)] {
             let width = |text: &str| weight.font().expect("font").glyphs(text).1;
             assert_eq!((width("A"), width("AV") - width("A") - width("V")), (advance, pair));
             assert_eq!(width("VV"), 2.0 * width("V"));
@@ -174,10 +152,10 @@ mod tests {
     #[test]
     fn letters_of_formulas_are_in_the_font_and_blanks_have_no_ink() {
         for letter in "−√⁻°²ηφτμδγρθ∞∫→⅔₀′βΔŪ…".chars() {
-            let (glyphs, _) = Weight::Regular.font().expect("font").glyphs(&letter.to_string());
+            let (glyphs, _) = FontStyle::Normal.font().expect("font").glyphs(&letter.to_string());
             assert_ne!(glyphs[0].0, GlyphId::NOTDEF, "{letter}");
-            assert!(outline(&letter.to_string(), 10.0, Weight::Regular).expect("font").is_some(), "{letter}");
+            assert!(outline(&letter.to_string(), 10.0, FontStyle::Normal).expect("font").is_some(), "{letter}");
         }
-        assert_eq!(outline("  ", 10.0, Weight::Regular).expect("font"), None);
+        assert_eq!(outline("  ", 10.0, FontStyle::Normal).expect("font"), None);
     }
 }

@@ -1,14 +1,14 @@
 //! The legend: what it says, where it hides no data, and how it is drawn.
 
-use super::canvas::{Canvas, Direction, Ink, Point, Rectangle, TextSpec};
+use super::axes::text;
+use super::canvas::{Canvas, Ink, Point, Rectangle};
 use super::curves::{Plot, band_outlines, draw_band_sample, draw_sample};
 use super::error::FigureError;
 use super::font::width;
-use super::glyphs::Weight;
 use super::palette::{BLACK, GRID};
 use super::{Mark, Panel};
-use plotters::style::WHITE;
 use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{FontStyle, WHITE};
 
 /// Places for a legend along each side of a plot, less one.
 const STEPS: usize = 8;
@@ -63,7 +63,7 @@ impl Legend {
 
     /// Size of a label's letters, and its width `[px]`.
     fn label(&self, label: &str) -> (f64, f64) {
-        let whole = width(label, self.em, Weight::Regular);
+        let whole = width(label, self.em, FontStyle::Normal);
         let shrunk = (self.room / whole).min(1.0);
         (shrunk * self.em, shrunk * whole)
     }
@@ -197,14 +197,7 @@ impl Legend {
                 }
             }
         }
-        let spec = TextSpec {
-            em: self.label(label).0,
-            weight: Weight::Regular,
-            horizontal: HPos::Left,
-            vertical: VPos::Center,
-            colour: BLACK,
-            direction: Direction::Rightwards,
-        };
+        let spec = text(self.label(label).0, HPos::Left, VPos::Center, BLACK);
         canvas.text(label, (right + 0.5 * self.em, y), spec)
     }
 }

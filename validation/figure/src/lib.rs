@@ -197,23 +197,26 @@ pub struct FigureFiles {
 /// # Errors
 /// If the name is no file name, drawing fails, or a file cannot be written.
 pub fn write(figure: &Figure, folder: &Path) -> Result<FigureFiles, FigureError> {
-    if !is_file_name(&figure.name) {
-        return Err(FigureError::Name { name: figure.name.clone() });
-    }
     let drawn = render::svg(figure, FigureFormat::SCREEN)?;
     let raster = render::png(&drawn, FigureFormat::SCREEN)?;
     let page = render::pdf(&drawn, FigureFormat::SCREEN)?;
-    std::fs::create_dir_all(folder).map_err(|source| FigureError::Write { path: folder.to_owned(), source })?;
-    let put = |ending: &str, bytes: &[u8]| {
-        let path = folder.join(format!("{}.{ending}", figure.name));
-        match std::fs::write(&path, bytes) {
-            Ok(()) => Ok(path),
-            Err(source) => Err(FigureError::Write { path, source }),
-        }
-    };
+    let put = |ending: &str, bytes: &[u8]| put(folder, &figure.name, ending, bytes);
     put("pdf", &page)?;
     put("csv", csv(figure).as_bytes())?;
     Ok(FigureFiles { svg: put("svg", drawn.as_bytes())?, png: put("png", &raster)? })
+}
+
+/// Writes a file of a figure into a folder, which is made if it is missing; its path.
+fn put(folder: &Path, name: &str, ending: &str, bytes: &[u8]) -> Result<PathBuf, FigureError> {
+    if !is_file_name(name) {
+        return Err(FigureError::Name { name: name.to_owned() });
+    }
+    std::fs::create_dir_all(folder).map_err(|source| FigureError::Write { path: folder.to_owned(), source })?;
+    let path = folder.join(format!("{name}.{ending}"));
+    match std::fs::write(&path, bytes) {
+        Ok(()) => Ok(path),
+        Err(source) => Err(FigureError::Write { path, source }),
+    }
 }
 
 /// Whether `name` is safe as a file or folder name: it can neither leave its folder nor need quoting in a link.

@@ -30,25 +30,18 @@ pub(super) fn colour(slot: usize) -> RGBColor {
     RGBColor(shade(red), shade(green), shade(blue))
 }
 
-/// Marker shapes, so that a black and white print keeps the series apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum MarkerShape {
-    Disc,
-    Square,
-    Triangle,
-    Diamond,
-    TriangleDown,
-}
+/// Corners of marker shapes in their radius, none for a disc, so that a black and white print keeps the series apart. They have
+/// sizes that look equal, not sizes that are equal.
+const SHAPES: [&[(f64, f64)]; 5] = [
+    &[],
+    &[(-0.88, -0.88), (0.88, -0.88), (0.88, 0.88), (-0.88, 0.88)],
+    &[(0.0, -1.25), (1.1, 0.75), (-1.1, 0.75)],
+    &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
+    &[(0.0, 1.25), (1.1, -0.75), (-1.1, -0.75)],
+];
 
 /// The marker of a slot. Five shapes against fourteen colours: the pairs repeat only after 70 slots.
-pub(super) fn shape(slot: usize) -> MarkerShape {
-    const SHAPES: [MarkerShape; 5] = [
-        MarkerShape::Disc,
-        MarkerShape::Square,
-        MarkerShape::Triangle,
-        MarkerShape::Diamond,
-        MarkerShape::TriangleDown,
-    ];
+pub(super) fn shape(slot: usize) -> &'static [(f64, f64)] {
     SHAPES[slot % SHAPES.len()]
 }
 

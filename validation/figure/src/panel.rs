@@ -6,12 +6,12 @@ use super::curves::{Plot, draw_bands, draw_series};
 use super::error::FigureError;
 use super::field::{ColourScale, draw_field, extent};
 use super::font::width;
-use super::glyphs::Weight;
 use super::legend::{Legend, LegendPosition};
 use super::palette::{AXIS, BLACK};
 use super::range::{Mapping, Range};
 use super::ticks::{Ticks, ticks};
 use super::{Panel, Scale};
+use plotters::style::FontStyle;
 use plotters::style::text_anchor::{HPos, VPos};
 
 /// Space around a plot for everything that stands outside its frame `[px]`.
@@ -133,7 +133,8 @@ impl<'p> ScaledPanel<'p> {
     pub(super) fn margins(&self, column_width: f64) -> Margins {
         let sizes = self.sizes;
         let label = |label: &str| if label.is_empty() { 0.0 } else { 1.5 * sizes.label };
-        let half_last = self.x.2.major.last().map_or(0.0, |tick| 0.5 * width(&tick.label, sizes.tick, Weight::Regular));
+        let half_last =
+            self.x.2.major.last().map_or(0.0, |tick| 0.5 * width(&tick.label, sizes.tick, FontStyle::Normal));
         let mut margins = Margins {
             left: TICK + TICK_GAP + widest_label(&self.y.2, sizes.tick) + label(&self.panel.y.label) + 10.0,
             right: half_last.max(12.0) + 8.0,
@@ -151,7 +152,7 @@ impl<'p> ScaledPanel<'p> {
         }
         if !self.y.2.factor.is_empty() {
             margins.top = margins.top.max(1.6 * sizes.tick);
-            let factor = width(&self.y.2.factor, sizes.tick, Weight::Regular);
+            let factor = width(&self.y.2.factor, sizes.tick, FontStyle::Normal);
             margins.left = margins.left.max(TICK + factor + 4.0);
         }
         match self.legend_place {
@@ -183,10 +184,10 @@ impl<'p> ScaledPanel<'p> {
         let x_label = if self.has_x_numbers { self.panel.x.label.as_str() } else { "" };
         let labels = (x_label, self.panel.y.label.as_str());
         draw_axes(canvas, &plot, (&self.x.2, &self.y.2), labels, sizes)?;
-        let whole = width(&self.title, sizes.title, Weight::Bold);
+        let whole = width(&self.title, sizes.title, FontStyle::Bold);
         let title = text(sizes.title * (room.width() / whole).min(1.0), HPos::Left, VPos::Center, BLACK);
         let above = (window.left, window.top - 0.85 * sizes.title);
-        canvas.text(&self.title, above, TextSpec { weight: Weight::Bold, ..title })?;
+        canvas.text(&self.title, above, TextSpec { weight: FontStyle::Bold, ..title })?;
         if !self.has_data {
             let middle = (0.5 * (window.left + window.right), 0.5 * (window.top + window.bottom));
             canvas.text("no data", middle, text(sizes.label, HPos::Center, VPos::Center, AXIS))?;
