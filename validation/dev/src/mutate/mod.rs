@@ -8,8 +8,8 @@ use crate::arguments::{MutateAction, MutateArguments};
 use crate::case::{Tier, share_out};
 use crate::error::DevError;
 use crate::mutation::{
-    CHOICE, Detection, DetectionTally, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, page, run_trial,
-    table,
+    CHOICE, Detection, MutantRun, Mutation, MutationOutcome, Mutations, Scope, build, holds, page, run_trial, table,
+    tally,
 };
 use crate::output::{FileError, OutputFolder};
 use crate::report::{self, CaseReport, Report, Terminal};
@@ -109,7 +109,7 @@ fn all(command: &MutateArguments, session: &mut Session<'_>) -> Result<Exit, Dev
     drop(program);
     let survives = |finding: &MutationOutcome| finding.error.generated && !finding.catch.is_certain();
     let is_noticed = |finding: &MutationOutcome| matches!(finding.catch, Detection::Test(_));
-    let by_cases = of_cases.is_empty() || DetectionTally::of(&findings).holds() && !findings.iter().any(survives);
+    let by_cases = of_cases.is_empty() || holds(tally(&findings)) && !findings.iter().any(survives);
     let holds = by_cases && of_tests.iter().all(is_noticed);
     findings.extend(of_tests);
     std::fs::write(claimed.staging().join("mutation.md"), page(&findings))

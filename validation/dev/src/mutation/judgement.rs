@@ -121,61 +121,38 @@ fn broken_gates<'a>(case: &'a str, right: &'a MutantRun, wrong: &'a MutantRun) -
     })
 }
 
-/// Errors by their strongest witness.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct DetectionTally {
-    /// By a gate.
-    pub gate: usize,
-    /// By a run that diverged or a program that stopped.
-    pub stop: usize,
-    /// By a test alone.
-    pub test: usize,
-    /// By the snapshot alone.
-    pub snapshot: usize,
-    /// By nothing.
-    pub nothing: usize,
+/// Numbers of errors by their strongest witness: a gate, a run that diverged or a program that stopped, a test alone, the snapshot
+/// alone, nothing.
+#[must_use]
+pub fn tally(findings: &[MutationOutcome]) -> [usize; 5] {
+    let mut tally = [0; 5];
+    for finding in findings {
+        let place = match finding.catch {
+            Detection::Gate(_) => 0,
+            Detection::Stop(_) => 1,
+            Detection::Test(_) => 2,
+            Detection::Snapshot => 3,
+            Detection::Nothing => 4,
+        };
+        tally[place] += 1;
+    }
+    tally
 }
 
-impl DetectionTally {
-    /// Counts.
-    #[must_use]
-    pub fn of(findings: &[MutationOutcome]) -> Self {
-        let mut tally = Self::default();
-        for finding in findings {
-            *match finding.catch {
-                Detection::Gate(_) => &mut tally.gate,
-                Detection::Stop(_) => &mut tally.stop,
-                Detection::Test(_) => &mut tally.test,
-                Detection::Snapshot => &mut tally.snapshot,
-                Detection::Nothing => &mut tally.nothing,
-            } += 1;
-        }
-        tally
-    }
+/// Shares of the errors that were noticed, and that make `bagnold report` fail on its own, by a gate or a divergence `[-]`.
+#[must_use]
+pub fn shares_caught(tally: [usize; 5]) -> (f64, f64) {
+    let all: usize = tally.iter().sum();
+    let [gate, stop, .., nothing] = tally;
+    let share = |part: usize| part as f64 / all.max(1) as f64;
+    (share(all - nothing), share(gate + stop))
+}
 
-    /// All errors.
-    #[must_use]
-    pub fn all(&self) -> usize {
-        self.gate + self.stop + self.test + self.snapshot + self.nothing
-    }
-
-    /// Share of the errors that were noticed `[-]`.
-    #[must_use]
-    pub fn caught(&self) -> f64 {
-        (self.all() - self.nothing) as f64 / self.all().max(1) as f64
-    }
-
-    /// Share of the errors that make `bagnold report` fail on its own, by a gate or a divergence `[-]`.
-    #[must_use]
-    pub fn gated(&self) -> f64 {
-        (self.gate + self.stop) as f64 / self.all().max(1) as f64
-    }
-
-    /// Whether both shares are as large as they must be.
-    #[must_use]
-    pub fn holds(&self) -> bool {
-        self.caught() >= super::LEAST_CAUGHT && self.gated() >= super::LEAST_GATED
-    }
+/// Whether both shares are as large as they must be.
+#[must_use]
+pub fn holds(tally: [usize; 5]) -> bool {
+    let (caught, gated) = shares_caught(tally);
+    caught >= super::LEAST_CAUGHT && gated >= super::LEAST_GATED
 }
 
 #[cfg(test)]
@@ -226,10 +203,9 @@ mod tests {
 
     #[test]
     fn shares_count_divergence_with_the_gates() {
-        let tally = DetectionTally { gate: 15, stop: 2, test: 0, snapshot: 2, nothing: 1 };
-        assert_eq!((tally.all(), tally.caught(), tally.gated()), (20, 0.95, 0.85));
-        assert!(tally.holds());
-        assert!(!DetectionTally { nothing: 2, snapshot: 1, ..tally }.holds());
-        assert!(!DetectionTally { stop: 1, snapshot: 3, ..tally }.holds());
+        assert_eq!(shares_caught([15, 2, 0, 2, 1]), (0.95, 0.85));
+        assert!(holds([15, 2, 0, 2, 1]));
+        assert!(!holds([15, 2, 0, 1, 2]));
+        assert!(!holds([15, 1, 0, 3, 1]));
     }
 }

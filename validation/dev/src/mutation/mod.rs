@@ -23,7 +23,7 @@ mod trial;
 
 pub use copy::{CHOICE, CopyError, TestProgram, TestTarget, build, build_tests};
 pub use draw::{Draw, DrawProgress, TracedCase};
-pub use judgement::{Broken, Detection, DetectionTally, MutationComparison, MutationOutcome, judge};
+pub use judgement::{Broken, Detection, MutationComparison, MutationOutcome, holds, judge, shares_caught, tally};
 pub use page::{drawn_line, drawn_page, page, table};
 pub use record::{FILE, Mutation, Mutations, SourceReplacement};
 pub use trial::{MutantRun, Scope, run_trial};

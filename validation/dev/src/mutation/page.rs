@@ -1,6 +1,6 @@
 //! The findings as a table for the terminal and as Markdown.
 
-use super::{Detection, DetectionTally, LEAST_CAUGHT, LEAST_GATED, MutationOutcome};
+use super::{Detection, LEAST_CAUGHT, LEAST_GATED, MutationOutcome, shares_caught, tally};
 use crate::number::short_digits;
 use std::fmt::Write as _;
 
@@ -37,28 +37,18 @@ fn witness(finding: &MutationOutcome) -> String {
 
 /// The shares in a sentence each, with what they must be.
 fn shares(findings: &[MutationOutcome]) -> String {
-    let tally = DetectionTally::of(findings);
-    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
-    if tally.all() > 0 && tally.gated() == 0.0 && tally.snapshot == 0 {
-        return format!(
-            "{} errors: {} caught by their tests, {} by nothing.\n",
-            tally.all(),
-            tally.test,
-            tally.nothing
-        );
+    let all = findings.len();
+    let tally = tally(findings);
+    let [gate, stop, test, snapshot, nothing] = tally;
+    if all > 0 && gate + stop + snapshot == 0 {
+        return format!("{all} errors: {test} caught by their tests, {nothing} by nothing.\n");
     }
+    let (caught, gated) = shares_caught(tally);
+    let [caught, least_caught, gated, least_gated] =
+        [caught, LEAST_CAUGHT, gated, LEAST_GATED].map(|share| format!("{:.1} %", 100.0 * share));
     format!(
-        "{} errors: {} caught by a gate, {} by a run that stopped, {} by the snapshot only, {} by nothing.\n\
-         Caught: {} (at least {}). By a gate or a stop: {} (at least {}).\n",
-        tally.all(),
-        tally.gate,
-        tally.stop,
-        tally.snapshot,
-        tally.nothing,
-        percent(tally.caught()),
-        percent(LEAST_CAUGHT),
-        percent(tally.gated()),
-        percent(LEAST_GATED),
+        "{all} errors: {gate} caught by a gate, {stop} by a run that stopped, {snapshot} by the snapshot only, {nothing} by nothing.\n\
+         Caught: {caught} (at least {least_caught}). By a gate or a stop: {gated} (at least {least_gated}).\n",
     )
 }
 
@@ -111,20 +101,21 @@ fn share_interval(part: usize, all: usize) -> (f64, f64) {
 /// The findings of a draw as Markdown: its title and a sentence on how it was drawn, shares with their intervals, a row per mutation.
 #[must_use]
 pub fn drawn_page(sentence: &str, findings: &[MutationOutcome]) -> String {
-    let tally = DetectionTally::of(findings);
+    let all = findings.len().max(1);
+    let [gate, stop, test, snapshot, nothing] = tally(findings);
     let mut text =
         format!("# Drawn mutations\n\n{sentence}\n\n| killed by | mutations | share % | 95 % interval % |\n");
     text += "| --- | --- | --- | --- |\n";
     for (by, part) in [
-        ("a gate", tally.gate),
-        ("a run that stopped", tally.stop),
-        ("a gate or a run that stopped", tally.gate + tally.stop),
-        ("a test alone", tally.test),
-        ("the snapshot alone", tally.snapshot),
-        ("nothing: survived", tally.nothing),
+        ("a gate", gate),
+        ("a run that stopped", stop),
+        ("a gate or a run that stopped", gate + stop),
+        ("a test alone", test),
+        ("the snapshot alone", snapshot),
+        ("nothing: survived", nothing),
     ] {
-        let (lower, upper) = share_interval(part, tally.all().max(1));
-        let share = part as f64 / tally.all().max(1) as f64;
+        let (lower, upper) = share_interval(part, all);
+        let share = part as f64 / all as f64;
         text += &format!("| {by} | {part} | {:.0} | {:.0} … {:.0} |\n", 100.0 * share, 100.0 * lower, 100.0 * upper);
     }
     text + "\n" + &rows(findings, ("s", |finding| format!("{:.1}", finding.wall_seconds)))
