@@ -71,22 +71,9 @@ fn all_data(outcome: &CalibrationResult) -> Vec<(String, &DatumComparison)> {
 }
 
 fn data(outcome: &CalibrationResult) -> Vec<Vec<String>> {
-    let head = [
-        "use",
-        "block",
-        "quantity",
-        "unit",
-        "datum",
-        "lower",
-        "upper",
-        "model",
-        "residual [-]",
-        "scatter [-]",
-        "predicted lower",
-        "predicted upper",
-        "source",
-    ];
-    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let numbers = "datum,lower,upper,model,residual [-],scatter [-],predicted lower,predicted upper";
+    let head = format!("use,block,quantity,unit,{numbers},source");
+    let mut rows = vec![head.split(',').map(str::to_owned).collect::<Vec<_>>()];
     for (name, datum) in all_data(outcome) {
         let numbers = [datum.datum, datum.band.0, datum.band.1, datum.model, datum.residual, datum.scatter]
             .map(|value| value.to_string());
