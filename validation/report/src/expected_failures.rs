@@ -184,14 +184,14 @@ mod tests {
     use crate::metric::Limit;
 
     const LIST: &str = r#"
-[[failure]]
-case = "bagnold"
-metric = "velocity_l2"
-variant = "resolution=40"
-best_value = 0.9
-date = "2025-01-31"
-reason = "slip at the wall"
-"#;
+    [[failure]]
+    case = "bagnold"
+    metric = "velocity_l2"
+    variant = "resolution=40"
+    best_value = 0.9
+    date = "2025-01-31"
+    reason = "slip at the wall"
+    "#;
 
     fn read(text: &str) -> Result<ExpectedFailures, ParameterError> {
         let folder = tempfile::tempdir().expect("folder");
