@@ -134,7 +134,7 @@ mod tests {
     fn pairs_of_letters_stand_closer_and_marks_are_above_their_letters() {
         // advance of A, and the pair A V, by another reader
         for (weight, advance, pair) in [(FontStyle::Normal, 1401.0, -131.0), (FontStyle::Bold, 1585.0, -139.0)] {
-            let width = |text: &str| weight.font().expect("font").glyphs(text).1;
+            let width = |text: &str| font(weight).expect("font").0.glyphs(text).1;
             assert_eq!((width("A"), width("AV") - width("A") - width("V")), (advance, pair));
             assert_eq!(width("VV"), 2.0 * width("V"));
             let top = |text: &str| outline(text, 1.0, weight).expect("font").expect("ink").0.bounds().top();
@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn letters_of_formulas_are_in_the_font_and_blanks_have_no_ink() {
         for letter in "−√⁻°²ηφτμδγρθ∞∫→⅔₀′βΔŪ…".chars() {
-            let (glyphs, _) = FontStyle::Normal.font().expect("font").glyphs(&letter.to_string());
+            let (glyphs, _) = font(FontStyle::Normal).expect("font").0.glyphs(&letter.to_string());
             assert_ne!(glyphs[0].0, GlyphId::NOTDEF, "{letter}");
             assert!(outline(&letter.to_string(), 10.0, FontStyle::Normal).expect("font").is_some(), "{letter}");
         }
