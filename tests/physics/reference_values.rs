@@ -255,11 +255,7 @@ fn curves_of_the_fed_slope_are_those_of_their_formulas() {
             layer_height: point[1],
             gravity: 9.81,
             solid_fraction: GLASS_BEADS.solid_fraction,
-            grain_diameter: law.grain_diameter,
-            grain_density: law.grain_density,
-            static_friction: law.static_friction,
-            limiting_friction: law.limiting_friction,
-            reference_inertia: law.reference_inertia,
+            grains: law,
         };
         let layer = NonlocalLayer { layer, cooperativity: 0.48, surface: FieldBoundary::Vanishing };
         let discharge = density * point[1] * layer.steady(400).expect("a steady flow").depth_mean();

@@ -17,35 +17,18 @@ pub struct BagnoldProfile {
     pub inclination: f64,
     /// Gravity g `[m/s²]`.
     pub gravity: f64,
-    /// Grain diameter D `[m]`.
-    pub grain_diameter: f64,
-    /// Grain density ρ_s `[kg/m³]`.
-    pub grain_density: f64,
+    /// Grains: diameter D `[m]`, density ρ_s `[kg/m³]`, friction coefficients μ_s of slow flow and μ_2 that fast flow tends to `[-]`,
+    /// and the inertial number I_0 `[-]` at which friction is midway.
+    pub grains: MuI,
     /// Solid fraction φ `[-]`; the bulk density is φ ρ_s.
     pub solid_fraction: f64,
-    /// Friction coefficient μ_s `[-]` of slow flow.
-    pub static_friction: f64,
-    /// Friction coefficient μ_2 `[-]` that fast flow tends to.
-    pub limiting_friction: f64,
-    /// Inertial number I_0 `[-]` at which friction is midway.
-    pub reference_inertia: f64,
 }
 
 impl BagnoldProfile {
     /// The layer of a height `[m]` of grains of μ(I), at a solid fraction and a gravity `[m/s²]`, on a slope `[°]`.
     #[must_use]
     pub fn of(grains: &MuI, layer_height: f64, solid_fraction: f64, gravity: f64, slope_angle: f64) -> Self {
-        Self {
-            layer_height,
-            inclination: slope_angle.to_radians(),
-            gravity,
-            grain_diameter: grains.grain_diameter,
-            grain_density: grains.grain_density,
-            solid_fraction,
-            static_friction: grains.static_friction,
-            limiting_friction: grains.limiting_friction,
-            reference_inertia: grains.reference_inertia,
-        }
+        Self { layer_height, inclination: slope_angle.to_radians(), gravity, grains: *grains, solid_fraction }
     }
 
     /// Refuses parameters for which neither the profile nor its transient is defined.
@@ -53,16 +36,16 @@ impl BagnoldProfile {
         LayerError::unless_positive([
             ("layer_height", self.layer_height),
             ("gravity", self.gravity),
-            ("grain_diameter", self.grain_diameter),
-            ("grain_density", self.grain_density),
+            ("grain_diameter", self.grains.grain_diameter),
+            ("grain_density", self.grains.grain_density),
             ("solid_fraction", self.solid_fraction),
-            ("static_friction", self.static_friction),
-            ("reference_inertia", self.reference_inertia),
+            ("static_friction", self.grains.static_friction),
+            ("reference_inertia", self.grains.reference_inertia),
         ])?;
         let refuse = |field, value, rule| Err(LayerError::Parameter { field, value, rule });
-        if !(self.limiting_friction > self.static_friction && self.limiting_friction.is_finite()) {
+        if !(self.grains.limiting_friction > self.grains.static_friction && self.grains.limiting_friction.is_finite()) {
             let rule = "finite and greater than static_friction";
-            return refuse("limiting_friction", self.limiting_friction, rule);
+            return refuse("limiting_friction", self.grains.limiting_friction, rule);
         }
         if self.inclination.is_nan() || self.inclination.abs() >= std::f64::consts::FRAC_PI_2 {
             return refuse("inclination", self.inclination, "within ±π/2 rad");
@@ -74,8 +57,10 @@ impl BagnoldProfile {
     #[must_use]
     pub fn inertial_number(&self) -> Option<f64> {
         let tangent = libm::tan(self.inclination);
-        (tangent >= self.static_friction && tangent < self.limiting_friction)
-            .then(|| self.reference_inertia * (tangent - self.static_friction) / (self.limiting_friction - tangent))
+        (tangent >= self.grains.static_friction && tangent < self.grains.limiting_friction).then(|| {
+            self.grains.reference_inertia * (tangent - self.grains.static_friction)
+                / (self.grains.limiting_friction - tangent)
+        })
     }
 
     /// Velocity u `[m/s]` at a height y `[m]` above the bed, equation (36); that of the surface above the layer.
@@ -83,14 +68,15 @@ impl BagnoldProfile {
     pub fn velocity(&self, height: f64) -> Option<f64> {
         let depth = self.depth_below_surface(height);
         let integral = self.layer_height * self.layer_height.sqrt() - depth * depth.sqrt();
-        Some(2.0 / 3.0 * self.inertial_number()? * self.fall_scale() / self.grain_diameter * integral)
+        Some(2.0 / 3.0 * self.inertial_number()? * self.fall_scale() / self.grains.grain_diameter * integral)
     }
 
     /// Shear rate du/dy `[1/s]` at a height `[m]`.
     #[must_use]
     pub fn shear_rate(&self, height: f64) -> Option<f64> {
         Some(
-            self.inertial_number()? * self.fall_scale() / self.grain_diameter * self.depth_below_surface(height).sqrt(),
+            self.inertial_number()? * self.fall_scale() / self.grains.grain_diameter
+                * self.depth_below_surface(height).sqrt(),
         )
     }
 
@@ -109,7 +95,7 @@ impl BagnoldProfile {
     /// Bulk density φ ρ_s `[kg/m³]`.
     #[must_use]
     pub fn bulk_density(&self) -> f64 {
-        self.solid_fraction * self.grain_density
+        self.solid_fraction * self.grains.grain_density
     }
 
     /// Pressure ρ g cosθ (h − y) `[Pa]` at a height `[m]`, steady or not.
@@ -142,12 +128,14 @@ pub(crate) fn glass_beads(degrees: f64) -> BagnoldProfile {
         layer_height: 0.01,
         inclination: degrees.to_radians(),
         gravity: 9.81,
-        grain_diameter: 0.5e-3,
-        grain_density: 2500.0,
+        grains: MuI {
+            static_friction: 0.382,
+            limiting_friction: 0.643,
+            reference_inertia: 0.279,
+            grain_diameter: 0.5e-3,
+            grain_density: 2500.0,
+        },
         solid_fraction: 0.6,
-        static_friction: 0.382,
-        limiting_friction: 0.643,
-        reference_inertia: 0.279,
     }
 }
 
@@ -165,7 +153,8 @@ mod tests {
             let velocity = |y: f64| layer.velocity(y).expect("steady");
             let shear_rate = (velocity(height + step) - velocity(height - step)) / (2.0 * step);
             assert!((shear_rate / layer.shear_rate(height).expect("steady") - 1.0).abs() < 1e-6);
-            let inertia = shear_rate * layer.grain_diameter / (layer.pressure(height) / layer.grain_density).sqrt();
+            let inertia =
+                shear_rate * layer.grains.grain_diameter / (layer.pressure(height) / layer.grains.grain_density).sqrt();
             let friction = 0.382 + (0.643 - 0.382) / (1.0 + 0.279 / inertia);
             let weight = 1500.0 * 9.81 * libm::sin(layer.inclination) * (0.01 - height);
             assert!((friction * layer.pressure(height) / weight - 1.0).abs() < 1e-6);
@@ -204,7 +193,9 @@ mod tests {
         let good = glass_beads(24.0);
         for bad in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
             assert!(BagnoldProfile { layer_height: bad, ..good }.check().is_err());
-            let error = BagnoldProfile { limiting_friction: bad, ..good }.check().expect_err("refused");
+            let error = BagnoldProfile { grains: MuI { limiting_friction: bad, ..good.grains }, ..good }
+                .check()
+                .expect_err("refused");
             assert!(error.to_string().contains("limiting_friction"), "{error}");
         }
         assert!(BagnoldProfile { inclination: 1.6, ..good }.check().is_err());

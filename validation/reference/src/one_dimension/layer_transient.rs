@@ -83,9 +83,10 @@ impl LayerTransient {
         let faces = (0..cells).map(|j| {
             let pressure = layer.pressure(j as f64 * width);
             Face {
-                static_stress: layer.static_friction * pressure / layer.bulk_density(),
-                limiting_stress: layer.limiting_friction * pressure / layer.bulk_density(),
-                rate: layer.reference_inertia * (pressure / layer.grain_density).sqrt() / layer.grain_diameter,
+                static_stress: layer.grains.static_friction * pressure / layer.bulk_density(),
+                limiting_stress: layer.grains.limiting_friction * pressure / layer.bulk_density(),
+                rate: layer.grains.reference_inertia * (pressure / layer.grains.grain_density).sqrt()
+                    / layer.grains.grain_diameter,
                 distance: if j == 0 { 0.5 * width } else { width },
             }
         });

@@ -3,6 +3,7 @@
 use super::*;
 use crate::one_dimension::bagnold_profile::glass_beads;
 use crate::one_dimension::table::{number, rows};
+use bagnold_solver::material::rheology::MuI;
 
 fn from_rest(degrees: f64, cells: usize, time_step: f64, duration: f64) -> (LayerTransient, TransientHistory) {
     let mut layer = LayerTransient::from_rest(glass_beads(degrees), cells, time_step).expect("accepted");
@@ -87,8 +88,9 @@ fn explicit_elastic_depth_mean(layer: &BagnoldProfile, cells: usize, duration: f
         for j in 0..cells {
             let shear = if j == 0 { velocity[0] / (0.5 * width) } else { (velocity[j] - velocity[j - 1]) / width };
             let pressure = layer.gravity * libm::cos(layer.inclination) * (layer.layer_height - j as f64 * width);
-            let (low, high) = (layer.static_friction * pressure, layer.limiting_friction * pressure);
-            let rate = layer.reference_inertia * (layer.solid_fraction * pressure).sqrt() / layer.grain_diameter;
+            let (low, high) = (layer.grains.static_friction * pressure, layer.grains.limiting_friction * pressure);
+            let rate =
+                layer.grains.reference_inertia * (layer.solid_fraction * pressure).sqrt() / layer.grains.grain_diameter;
             let trial: f64 = stress[j] + stiffness * step * shear;
             let relaxation = rate * stiffness * step;
             let (sum, product) = (high + trial + relaxation, high * trial + low * relaxation);
@@ -159,5 +161,12 @@ fn bad_resolutions_are_refused() {
     assert!(LayerTransient::from_rest(layer, 1, 0.01).is_err());
     assert!(LayerTransient::from_rest(layer, 10, f64::NAN).is_err());
     assert!(LayerTransient::from_profile(layer, 10, 0.01, |_| f64::NAN).is_err());
-    assert!(LayerTransient::from_rest(BagnoldProfile { limiting_friction: 0.3, ..layer }, 10, 0.01).is_err());
+    assert!(
+        LayerTransient::from_rest(
+            BagnoldProfile { grains: MuI { limiting_friction: 0.3, ..layer.grains }, ..layer },
+            10,
+            0.01
+        )
+        .is_err()
+    );
 }

@@ -9,7 +9,7 @@
 //!
 //! The steady flow is solved in finite volumes by Newton's method from above, where the equation is concave in g.
 
-use super::fluidity_balance::FluidityBalance;
+use super::fluidity_balance::{cooperativity_length, steady_fluidity};
 use super::{BagnoldProfile, LayerError};
 use bagnold_solver::material::rheology::field::FieldBoundary;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -64,32 +64,20 @@ impl NonlocalProfile {
 }
 
 impl NonlocalLayer {
-    /// Growth R `[-]` of a small fluidity under a friction coefficient μ `[-]`.
-    #[must_use]
-    pub fn growth(&self, friction: f64) -> f64 {
-        let (low, high) = (self.layer.static_friction, self.layer.limiting_friction);
-        (high - low) * (friction - low) / (high - friction)
-    }
-
-    /// Length ξ = A d/√|R| `[m]` over which a fluidity decays where the local law is at rest, or by which a layer flows.
-    #[must_use]
-    pub fn cooperativity_length(&self, friction: f64) -> f64 {
-        self.cooperativity * self.layer.grain_diameter / self.growth(friction).abs().sqrt()
-    }
-
     /// Thickness h_stop `[m]` above which a layer on this slope flows; none where the local law stops every layer or none.
     #[must_use]
     pub fn stopping_thickness(&self) -> Option<f64> {
         let tangent = libm::tan(self.layer.inclination);
-        (tangent > self.layer.static_friction && tangent < self.layer.limiting_friction)
-            .then(|| self.phase() * self.cooperativity_length(tangent))
+        (tangent > self.layer.grains.static_friction && tangent < self.layer.grains.limiting_friction)
+            .then(|| self.phase() * cooperativity_length(&self.layer.grains, self.cooperativity, tangent))
     }
 
     /// Slope `[rad]` below which this layer stops.
     #[must_use]
     pub fn stopping_angle(&self) -> f64 {
-        let (low, high) = (self.layer.static_friction, self.layer.limiting_friction);
-        let growth = (self.cooperativity * self.layer.grain_diameter * self.phase() / self.layer.layer_height).powi(2);
+        let (low, high) = (self.layer.grains.static_friction, self.layer.grains.limiting_friction);
+        let growth =
+            (self.cooperativity * self.layer.grains.grain_diameter * self.phase() / self.layer.layer_height).powi(2);
         libm::atan(((high - low) * low + growth * high) / (high - low + growth))
     }
 
@@ -109,24 +97,14 @@ impl NonlocalLayer {
         self.layer.check()?;
         LayerError::unless_several(cells)?;
         let friction = libm::tan(self.layer.inclination);
-        if friction >= self.layer.limiting_friction {
+        if friction >= self.layer.grains.limiting_friction {
             let rule = "below the arctangent of limiting_friction";
             return Err(LayerError::Parameter { field: "inclination", value: self.layer.inclination, rule });
         }
         let width = self.layer.layer_height / cells as f64;
         let heights: Vec<f64> = (0..cells).map(|cell| (cell as f64 + 0.5) * width).collect();
-        let growth = self.growth(friction);
-        let range = self.layer.limiting_friction - self.layer.static_friction;
-        let damping: Vec<f64> = heights
-            .iter()
-            .map(|&height| {
-                let rate = (self.layer.pressure(height) / self.layer.grain_density).sqrt() / self.layer.grain_diameter;
-                range / self.layer.reference_inertia * friction / rate
-            })
-            .collect();
-        let coupling = (self.cooperativity * self.layer.grain_diameter / width).powi(2);
-        let balance = FluidityBalance { coupling, growth: &vec![growth; cells], damping: &damping, ends: self.ends() };
-        let fluidities = balance.solution()?;
+        let stresses: Vec<(f64, f64)> = heights.iter().map(|&height| (self.layer.pressure(height), friction)).collect();
+        let fluidities = steady_fluidity((&self.layer.grains, self.cooperativity), width, &stresses, self.ends())?;
         let mut below = 0.0;
         let velocities = fluidities
             .iter()

@@ -1,5 +1,6 @@
 use super::*;
 use crate::one_dimension::nonlocal_transient::NonlocalTransient;
+use bagnold_solver::material::rheology::MuI;
 
 /// Glass beads of 0.5 mm on a slope `[°]`, as thick as some grains.
 fn beads(degrees: f64, grains: f64, surface: FieldBoundary) -> NonlocalLayer {
@@ -9,12 +10,14 @@ fn beads(degrees: f64, grains: f64, surface: FieldBoundary) -> NonlocalLayer {
             layer_height: grains * grain_diameter,
             inclination: degrees.to_radians(),
             gravity: 9.81,
-            grain_diameter,
-            grain_density: 2450.0,
+            grains: MuI {
+                static_friction: 0.3819,
+                limiting_friction: 0.6435,
+                reference_inertia: 0.279,
+                grain_diameter,
+                grain_density: 2450.0,
+            },
             solid_fraction: 0.6,
-            static_friction: 0.3819,
-            limiting_friction: 0.6435,
-            reference_inertia: 0.279,
         },
         cooperativity: 0.48,
         surface,

@@ -12,7 +12,7 @@
 //! ξ(0) = A d √(μ_2/(Δμ μ_s)).
 
 use super::LayerError;
-use super::fluidity_balance::FluidityBalance;
+use super::fluidity_balance::steady_fluidity;
 use bagnold_solver::material::rheology::MuI;
 use bagnold_solver::material::rheology::field::FieldBoundary;
 
@@ -107,19 +107,6 @@ impl ShearStress {
 }
 
 impl NonlocalShear {
-    /// Growth R `[-]` of a small fluidity under a friction coefficient μ `[-]`.
-    #[must_use]
-    pub fn growth(&self, friction: f64) -> f64 {
-        let (low, high) = (self.grains.static_friction, self.grains.limiting_friction);
-        (high - low) * (friction - low) / (high - friction)
-    }
-
-    /// Length ξ = A d/√|R| `[m]` over which a fluidity decays under a uniform μ below μ_s.
-    #[must_use]
-    pub fn cooperativity_length(&self, friction: f64) -> f64 {
-        self.cooperativity * self.grains.grain_diameter / self.growth(friction).abs().sqrt()
-    }
-
     /// The steady flow, solved on a number of cells; at rest where no fluidity can grow.
     ///
     /// # Errors
@@ -131,20 +118,11 @@ impl NonlocalShear {
         let width = self.thickness / cells as f64;
         let distances: Vec<f64> = (0..cells).map(|cell| (cell as f64 + 0.5) * width).collect();
         let stresses: Vec<(f64, f64)> = distances.iter().map(|&y| self.stress.at(y, self.thickness)).collect();
-        let range = self.grains.limiting_friction - self.grains.static_friction;
-        let (mut growth, mut damping) = (Vec::with_capacity(cells), Vec::with_capacity(cells));
-        for &(pressure, friction) in &stresses {
-            if friction >= self.grains.limiting_friction {
-                let rule = "below limiting_friction everywhere";
-                return Err(LayerError::Parameter { field: "stress ratio", value: friction, rule });
-            }
-            growth.push(self.growth(friction));
-            let rate = (pressure / self.grains.grain_density).sqrt() / self.grains.grain_diameter;
-            damping.push(range / self.grains.reference_inertia * friction / rate);
+        if let Some(&(_, value)) = stresses.iter().find(|stress| stress.1 >= self.grains.limiting_friction) {
+            let rule = "below limiting_friction everywhere";
+            return Err(LayerError::Parameter { field: "stress ratio", value, rule });
         }
-        let coupling = (self.cooperativity * self.grains.grain_diameter / width).powi(2);
-        let balance = FluidityBalance { coupling, growth: &growth, damping: &damping, ends: self.ends };
-        let fluidities = balance.solution()?;
+        let fluidities = steady_fluidity((&self.grains, self.cooperativity), width, &stresses, self.ends)?;
         let frictions: Vec<f64> = stresses.iter().map(|stress| stress.1).collect();
         let mut velocities = vec![0.0; cells];
         let mut beyond = 0.0;

@@ -1,4 +1,5 @@
 use super::*;
+use crate::one_dimension::fluidity_balance::{cooperativity_length, growth};
 
 const DIAMETER: f64 = 0.5e-3;
 
@@ -44,7 +45,7 @@ fn shot(of: &NonlocalShear) -> (f64, f64) {
     let steps = 4000;
     let step = of.thickness / f64::from(steps);
     let length = of.cooperativity * BEADS.grain_diameter;
-    let slope = |y: f64, g: f64| -of.growth(of.stress.at(y, of.thickness).1) * g / (length * length);
+    let slope = |y: f64, g: f64| -growth(&of.grains, of.stress.at(y, of.thickness).1) * g / (length * length);
     let (mut g, mut rise, mut least) = (1.0, 0.0, f64::MAX);
     for index in 0..steps {
         let y = f64::from(index) * step;
@@ -108,7 +109,7 @@ fn a_heap_without_side_friction_stops_like_a_layer() {
     {
         let stress = ShearStress::Heap { slope, weight: 14_000.0, side_friction: 1e-12 };
         let of = |grains| beads(grains, stress, [surface, FieldBoundary::Vanishing]);
-        let stopping = phase * of(1.0).cooperativity_length(slope) / DIAMETER;
+        let stopping = phase * cooperativity_length(&BEADS, 0.48, slope) / DIAMETER;
         let flows = |times: f64| of(times * stopping).steady(2000).expect("a state").fastest > 0.0;
         assert!(!flows(0.999) && flows(1.001), "{stopping} d with {surface:?}");
     }
@@ -125,7 +126,7 @@ fn the_tail_of_a_heap_decays_as_in_another_program() {
             assert!((found - expected).abs() < 0.0055, "{found} d at {below} d and {degrees}°");
         }
     }
-    let limit = chute(1.0, 0.5, FieldBoundary::NoFlux).cooperativity_length(0.0) / DIAMETER;
+    let limit = cooperativity_length(&BEADS, 0.48, 0.0) / DIAMETER;
     let expected = 0.48 * (0.6435_f64 / (0.2616 * 0.3819)).sqrt();
     assert!((limit - expected).abs() < 1e-12 && (limit - 1.22).abs() < 0.0051, "{limit} d");
 }
@@ -138,7 +139,7 @@ fn a_far_tail_decays_over_the_length_of_the_law() {
     let profile = of.steady(9000).expect("steady");
     let at = |grains: f64| profile.fluidities[(grains / 45.0 * 9000.0) as usize];
     let found = 4.0 * DIAMETER / (at(28.0) / at(32.0)).ln();
-    let expected = of.cooperativity_length(0.0);
+    let expected = cooperativity_length(&of.grains, of.cooperativity, 0.0);
     assert!(at(0.0) > 1.0 && at(32.0) > 0.0, "{} and {}", at(0.0), at(32.0));
     assert!((found / expected - 1.0).abs() < 1e-5, "{} d for {} d", found / DIAMETER, expected / DIAMETER);
 }

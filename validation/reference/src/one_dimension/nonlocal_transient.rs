@@ -4,7 +4,7 @@
 //! width; the stress is relaxed at the end of a step, and the fluidity takes its diffusion, its decay and its square at the end
 //! and its growth at the start, so that it stays positive. A wave needs 2.5 steps across a cell.
 
-use super::fluidity_balance::faces;
+use super::fluidity_balance::{faces, growth};
 use super::tridiagonal::solve;
 use crate::one_dimension::{LayerError, NonlocalLayer};
 
@@ -54,7 +54,8 @@ impl NonlocalTransient {
         let (width, friction) = (layer.layer.layer_height / cells as f64, libm::tan(start));
         let heights = (0..cells).map(|cell| (cell as f64 + 0.5) * width);
         let pressure: Vec<f64> = heights.clone().map(|height| layer.layer.pressure(height)).collect();
-        let rate = |pressure: &f64| (pressure / layer.layer.grain_density).sqrt() / layer.layer.grain_diameter;
+        let rate =
+            |pressure: &f64| (pressure / layer.layer.grains.grain_density).sqrt() / layer.layer.grains.grain_diameter;
         Ok(Self {
             relaxation_time,
             shear_modulus,
@@ -114,16 +115,16 @@ impl NonlocalTransient {
 
     fn relax_fluidity(&mut self, time_step: f64) {
         let (layer, cells) = (self.layer.layer, self.fluidity.len());
-        let coupling = (self.layer.cooperativity * layer.grain_diameter / self.width).powi(2);
-        let range = layer.limiting_friction - layer.static_friction;
+        let coupling = (self.layer.cooperativity * layer.grains.grain_diameter / self.width).powi(2);
+        let range = layer.grains.limiting_friction - layer.grains.static_friction;
         let inverse = self.relaxation_time / time_step;
         let (mut diagonal, mut right) = (vec![0.0; cells], vec![0.0; cells]);
         for cell in 0..cells {
             let (pressure, fluidity) = (self.pressure[cell], self.fluidity[cell]);
             let friction = self.stress[cell] / pressure;
-            let growth = self.layer.growth(friction.min(layer.static_friction + STEEPEST * range));
-            let rate = (pressure / layer.grain_density).sqrt() / layer.grain_diameter;
-            let square = range / layer.reference_inertia * friction.abs() / rate;
+            let growth = growth(&layer.grains, friction.min(layer.grains.static_friction + STEEPEST * range));
+            let rate = (pressure / layer.grains.grain_density).sqrt() / layer.grains.grain_diameter;
+            let square = range / layer.grains.reference_inertia * friction.abs() / rate;
             diagonal[cell] =
                 inverse + faces(self.layer.ends(), cell, cells) * coupling - growth.min(0.0) + square * fluidity;
             right[cell] = (inverse + growth.max(0.0)) * fluidity;

@@ -19,7 +19,7 @@ const MOST: f64 = 100.0;
 pub fn time_to_steadiness(layer: &BagnoldProfile, share: f64) -> Option<f64> {
     let steady = layer.depth_mean()?;
     let acceleration =
-        layer.gravity * (libm::sin(layer.inclination) - layer.static_friction * libm::cos(layer.inclination));
+        layer.gravity * (libm::sin(layer.inclination) - layer.grains.static_friction * libm::cos(layer.inclination));
     let step = steady / acceleration / STEPS;
     let mut transient = LayerTransient::from_rest(*layer, CELLS, step).ok()?;
     for _ in 0..(MOST * STEPS) as usize {

@@ -47,10 +47,11 @@ impl SteadyErrors {
 fn stress_errors(profile: &DepthProfile, exact: &BagnoldProfile) -> Vec<f64> {
     let tangent = libm::tan(exact.inclination);
     let error = |(bin, rate): (usize, f64)| {
-        let speed = (profile.pressure[bin] / exact.grain_density).sqrt();
-        let inertial_number = rate * exact.grain_diameter / speed;
-        let friction = exact.static_friction
-            + (exact.limiting_friction - exact.static_friction) / (1.0 + exact.reference_inertia / inertial_number);
+        let speed = (profile.pressure[bin] / exact.grains.grain_density).sqrt();
+        let inertial_number = rate * exact.grains.grain_diameter / speed;
+        let friction = exact.grains.static_friction
+            + (exact.grains.limiting_friction - exact.grains.static_friction)
+                / (1.0 + exact.grains.reference_inertia / inertial_number);
         (friction / tangent - 1.0).abs()
     };
     let inside = |(bin, _): &(usize, f64)| (0.1..=0.9).contains(&(profile.height[*bin] / exact.layer_height));

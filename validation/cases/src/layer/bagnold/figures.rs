@@ -44,7 +44,7 @@ fn set_up(run: &BagnoldFlow) -> String {
     format!(
         " Layer of {:.0} mm, grains of {:.2} mm, solid fraction {:.2}, {} rows.",
         1e3 * exact.layer_height,
-        1e3 * exact.grain_diameter,
+        1e3 * exact.grains.grain_diameter,
         exact.solid_fraction,
         run.layer.resolution
     )

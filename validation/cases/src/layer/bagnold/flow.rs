@@ -174,7 +174,7 @@ impl Flow for BagnoldFlow {
         };
         // A layer tilted until it fails carries the static friction when it starts. From no stress at all it would
         // first fall freely until the elastic shear is wound up, which at 22° is a sixth of its steady velocity.
-        let friction = start.static_friction.min(libm::tan(start.inclination));
+        let friction = start.grains.static_friction.min(libm::tan(start.inclination));
         let shear_stress = |y: f64| match self.start {
             LayerStart::Profile => start.shear_stress(y),
             LayerStart::Rest => friction * start.pressure(y),
@@ -191,7 +191,7 @@ impl BagnoldFlow {
         let profile = self.profile();
         match profile.inertial_number() {
             Some(_) => Fate::Steady,
-            None if libm::tan(profile.inclination) <= profile.static_friction => Fate::Arrest,
+            None if libm::tan(profile.inclination) <= profile.grains.static_friction => Fate::Arrest,
             None => Fate::Runaway,
         }
     }

@@ -27,7 +27,7 @@ impl BagnoldFlow {
         let profile = self.profile();
         let (inertia, mean) = (profile.inertial_number()?, profile.depth_mean()?);
         let spacing = self.layer.layer_height / self.layer.resolution as f64;
-        let agitation = inertia * profile.solid_fraction.sqrt() * spacing / profile.grain_diameter;
+        let agitation = inertia * profile.solid_fraction.sqrt() * spacing / profile.grains.grain_diameter;
         let fall = self.layer.gravity * self.layer.layer_height * libm::cos(self.slope_angle.to_radians());
         let froude_number = mean / fall.sqrt();
         if agitation > largest {
@@ -36,7 +36,7 @@ impl BagnoldFlow {
                 "N = I √φ Δ/D is {agitation:.2}; above {largest} layers sink and become unsteady: set `resolution = {rows}` or a gentler slope"
             ));
         }
-        if profile.static_friction > STEEPEST {
+        if profile.grains.static_friction > STEEPEST {
             return Some(format!(
                 "a static friction above {STEEPEST} is ill-posed at small inertial numbers: a layer of 0.8 flows 5 % too fast"
             ));

@@ -254,8 +254,8 @@ fn arrest((run, record): &Record) -> Vec<Metric> {
 
 fn runaway((run, record): &Record) -> Metric {
     let profile = run.profile();
-    let least_possible =
-        profile.gravity * (libm::sin(profile.inclination) - profile.limiting_friction * libm::cos(profile.inclination));
+    let least_possible = profile.gravity
+        * (libm::sin(profile.inclination) - profile.grains.limiting_friction * libm::cos(profile.inclination));
     LEAST_ACCELERATION
         .of(&run.variant(), least_acceleration(&particle_history(&record.data)) / least_possible)
         .exactly(1.0, "g (sinθ − μ_2 cosθ), the limit of infinite inertial number")

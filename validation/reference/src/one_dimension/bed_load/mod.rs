@@ -212,7 +212,7 @@ impl BedLoadLayer {
     pub fn check(&self) -> Result<(), LayerError> {
         let Self { stream, closures, .. } = self;
         let refuse = |field, value, rule| Err(LayerError::Parameter { field, value, rule });
-        let positive = [
+        LayerError::unless_positive([
             ("slope", stream.slope),
             ("flow_depth", stream.flow_depth),
             ("gravity", stream.gravity),
@@ -228,12 +228,7 @@ impl BedLoadLayer {
             ("largest_fraction", closures.largest_fraction),
             ("karman", closures.karman),
             ("bed_roughness_fade_length", closures.grain_roughness.bed_roughness_fade_length),
-        ];
-        for (field, value) in positive {
-            if !(value > 0.0 && value.is_finite()) {
-                return refuse(field, value, "finite and greater than 0");
-            }
-        }
+        ])?;
         let not_negative = [
             ("dilation", closures.dilation),
             ("origin_depth", closures.grain_roughness.origin_depth),
