@@ -112,7 +112,7 @@ pub mod incompressible {
 
     /// These rows, and what fixes the level of the pressure.
     pub fn pressure_operator(state: &mut State<2>) -> PressurePoisson<2> {
-        let mut poisson = PressurePoisson::new();
+        let mut poisson = PressurePoisson::default();
         fill_pressure_rows(state, &mut poisson);
         poisson.find_gauge(&state.phases.fluid, state.scene.numerics.surface);
         poisson

@@ -93,7 +93,7 @@ impl<const D: usize> State<D> {
             search: Search::new(&scene.domain, numerics.search_skin),
             viscosities: Viscosities::new(&phases),
             columns,
-            system: VelocitySystem::new(),
+            system: VelocitySystem::default(),
             projection: Projection::new(),
             shifts: Vec::new(),
             time: 0.0,

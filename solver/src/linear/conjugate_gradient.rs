@@ -60,8 +60,8 @@ pub(crate) struct ConjugateGradient<T> {
     iterations: u64,
 }
 
-impl<T: Unknown> ConjugateGradient<T> {
-    pub(crate) fn new() -> Self {
+impl<T: Unknown> Default for ConjugateGradient<T> {
+    fn default() -> Self {
         Self {
             residual: Vec::new(),
             direction: Vec::new(),
@@ -72,7 +72,9 @@ impl<T: Unknown> ConjugateGradient<T> {
             iterations: 0,
         }
     }
+}
 
+impl<T: Unknown> ConjugateGradient<T> {
     /// Goes on counting from so many iterations.
     pub(crate) fn count_from(&mut self, iterations: u64) {
         self.iterations = iterations;

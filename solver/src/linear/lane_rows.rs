@@ -133,8 +133,8 @@ impl<C: Coefficients> RowGroup<'_, C> {
     }
 }
 
-impl<C: Coefficients> LaneRows<C> {
-    pub(crate) fn new() -> Self {
+impl<C: Coefficients> Default for LaneRows<C> {
+    fn default() -> Self {
         Self {
             rows: 0,
             stride: 1,
@@ -146,7 +146,9 @@ impl<C: Coefficients> LaneRows<C> {
             set: InstructionSet::best(),
         }
     }
+}
 
+impl<C: Coefficients> LaneRows<C> {
     /// Fills `rows` rows of at most `stride` entries. `fill` gets the first row of a group, the group and what `beside`
     /// has for it.
     pub(crate) fn fill<S>(

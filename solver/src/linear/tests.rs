@@ -66,7 +66,7 @@ impl Dense {
     ) -> Result<(), NotConverged> {
         let sums = self.row_sums();
         let of_constant = deflated.then_some(sums.as_slice());
-        let mut solver = ConjugateGradient::new();
+        let mut solver = ConjugateGradient::default();
         solver.solve(unknown, right_side, &mut self.factors(), of_constant, criterion, |x, out| {
             for (a, out) in out.iter_mut().enumerate() {
                 *out = x.iter().enumerate().fold(Vector::zeros(), |sum, (b, x)| sum + x * self.at(a, b));
@@ -75,7 +75,7 @@ impl Dense {
     }
 
     fn solve_numbers(&self, unknown: &mut [f64], right_side: &[f64], criterion: Criterion) -> Result<(), NotConverged> {
-        let mut solver = ConjugateGradient::new();
+        let mut solver = ConjugateGradient::default();
         let outcome = solver.solve(unknown, right_side, &mut self.factors(), None, criterion, |x, out| {
             for (a, out) in out.iter_mut().enumerate() {
                 *out = x.iter().enumerate().map(|(b, x)| x * self.at(a, b)).sum();
@@ -179,7 +179,7 @@ fn blocks_of_factors_lead_to_the_same_solution() {
     apply(&exact, &mut right);
     let mut factors = IncompleteCholesky::default();
     factors.factorise(chain.0, 2, &chain);
-    let mut solver = ConjugateGradient::new();
+    let mut solver = ConjugateGradient::default();
     let mut found = vec![0.0; chain.0];
     solver.solve(&mut found, &right, &mut factors, None, TIGHT, apply).expect("a solution");
     let worst = found.iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
@@ -203,7 +203,7 @@ fn a_singular_system_names_its_row() {
     for a in 0..6 {
         matrix.value[a * 6 + a] = if a == 3 { 0.0 } else { 2.0 };
     }
-    let outcome = ConjugateGradient::new().solve(
+    let outcome = ConjugateGradient::default().solve(
         &mut [0.0; 6],
         &[0.0, 0.0, 0.0, 5.0, 0.0, 0.0],
         &mut vec![0.5, 0.5, 0.5, 1.0, 0.5, 0.5],
@@ -243,7 +243,7 @@ fn rows_in_lanes_give_the_product_that_their_entries_give_one_by_one() {
             .collect();
         let diagonal: Vec<f64> = (0..rows).map(|_| random.random::<f64>()).collect();
         let u: Vec<_> = (0..rows).map(|_| Vector::<2>::new(random.random(), random.random())).collect();
-        let mut lanes = LaneRows::<Single>::new();
+        let mut lanes = LaneRows::<Single>::default();
         let mut seen = vec![0; rows];
         // twice: what is left of longer rows must not come back
         for shortest in [0, 1] {
@@ -256,7 +256,7 @@ fn rows_in_lanes_give_the_product_that_their_entries_give_one_by_one() {
             });
         }
         let mut product = vec![Vector::zeros(); rows];
-        TwoRows { first: &LaneRows::new(), all: &lanes }.subtract_from_diagonal(&diagonal, &u, &mut product);
+        TwoRows { first: &LaneRows::default(), all: &lanes }.subtract_from_diagonal(&diagonal, &u, &mut product);
         for row in 0..rows {
             let kept: Vec<_> = entries[row].iter().skip(1).map(|&(b, value)| (b, single(value))).collect();
             assert_eq!(lanes.row(row).collect::<Vec<_>>(), kept, "row {row} of {rows}");

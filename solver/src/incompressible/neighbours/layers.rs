@@ -23,7 +23,7 @@ pub(crate) struct Places<'a, const D: usize> {
 }
 
 /// The layers of a search.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Layers<const D: usize> {
     /// Layer of every free particle, phase after phase.
     layer: Vec<u32>,
@@ -55,10 +55,6 @@ impl<const D: usize> Layers<D> {
         let travels = vec![(Vector::zeros(), Vector::zeros()); saved.held.len()];
         *self = Self { layer: saved.layer, held: saved.held, travels, periodic: saved.periodic };
         Ok(())
-    }
-
-    pub(crate) fn new() -> Self {
-        Self { layer: Vec::new(), held: Vec::new(), travels: Vec::new(), periodic: false }
     }
 
     /// Sorts the particles of all phases into layers at least as thick as the longest reach and two skins `[m]`.

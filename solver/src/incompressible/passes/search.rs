@@ -19,7 +19,7 @@ pub struct Search<const D: usize> {
 
 impl<const D: usize> Search<D> {
     pub(crate) fn new(domain: &Domain<D>, skin: f64) -> Self {
-        Self { periods: Periods::of(domain), skin, layers: Layers::new(), searches: 0 }
+        Self { periods: Periods::of(domain), skin, layers: Layers::default(), searches: 0 }
     }
 
     /// The layers of the last search.

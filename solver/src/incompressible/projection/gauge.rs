@@ -1,9 +1,10 @@
 //! Level of the pressure: fixed by a surface, otherwise a mean of zero.
 
 /// Reference that fixes the level of the pressure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Gauge {
     /// A surface.
+    #[default]
     Surface,
     /// Nothing.
     Free,

@@ -55,7 +55,7 @@ struct Prediction<'a, const D: usize> {
 
 impl<const D: usize> Projection<D> {
     pub(super) fn new() -> Self {
-        Self { fluid: PressurePoisson::new(), sediment: PressurePoisson::new(), mixture: Mixture::new() }
+        Self { fluid: PressurePoisson::default(), sediment: PressurePoisson::default(), mixture: Mixture::new() }
     }
 
     /// Makes the predicted velocities of each phase free of divergence and moves its particles.

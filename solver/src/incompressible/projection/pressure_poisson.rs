@@ -37,7 +37,7 @@ use crate::vector::Vector;
 pub(crate) const LATTICE_ROWS: usize = 4096;
 
 /// Coefficients, reused from step to step.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct PressurePoisson<const D: usize> {
     links: LaneRows<LinkChunk<D>>,
     /// Σ_b g_ab + 2 (Σ_w g_aw·n) n `[1/m]`.
@@ -57,22 +57,6 @@ pub struct PressurePoisson<const D: usize> {
 }
 
 impl<const D: usize> PressurePoisson<D> {
-    pub(crate) fn new() -> Self {
-        Self {
-            links: LaneRows::new(),
-            own: Vec::new(),
-            diagonal: Vec::new(),
-            held: Vec::new(),
-            right_side: Vec::new(),
-            gradient: Vec::new(),
-            deviation: Vec::new(),
-            gauge: Gauge::Surface,
-            factors: IncompleteCholesky::default(),
-            lattices: Lattices::new(),
-            solver: ConjugateGradient::new(),
-        }
-    }
-
     /// Goes on counting from so many iterations.
     pub(crate) fn count_from(&mut self, iterations: u64) {
         self.solver.count_from(iterations);
@@ -197,11 +181,11 @@ impl<const D: usize> PressurePoisson<D> {
         self.gauge.take_mean_out(&mut right_side);
         let criterion = Criterion { tolerance: numerics.pressure_tolerance, most_iterations: MOST_ITERATIONS };
         let stabilisation = numerics.stabilisation;
-        let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
+        let mut solver = std::mem::take(&mut self.solver);
         let mut gradient = std::mem::take(&mut self.gradient);
         let mut deviation = std::mem::take(&mut self.deviation);
         let mut factors = std::mem::take(&mut self.factors);
-        let mut lattices = std::mem::replace(&mut self.lattices, Lattices::new());
+        let mut lattices = std::mem::take(&mut self.lattices);
         let operator = |p: &[f64], product: &mut [f64]| {
             self.gauge.apply(p, product, &mut deviation, |p, product| {
                 self.apply(p, product, &mut gradient, &phase.at_surface, eliminated, stabilisation);

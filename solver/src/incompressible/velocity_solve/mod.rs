@@ -21,7 +21,7 @@ use crate::vector::Vector;
 const MILD_FRICTION: f64 = 0.5;
 
 /// Rows of M + Δt K: the fluid's free particles first, then the sediment's.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct VelocitySystem<const D: usize> {
     /// Δt k_ab `[kg]` of the fluid's viscous pairs.
     couplings: LaneRows<Single>,
@@ -47,23 +47,6 @@ pub struct VelocitySystem<const D: usize> {
 }
 
 impl<const D: usize> VelocitySystem<D> {
-    pub(crate) fn new() -> Self {
-        Self {
-            couplings: LaneRows::new(),
-            coupled: Vec::new(),
-            beside: LaneRows::new(),
-            diagonal: Vec::new(),
-            of_constant: Vec::new(),
-            inertia: Vec::new(),
-            momentum: Vec::new(),
-            velocity: Vec::new(),
-            change: Vec::new(),
-            inverse_diagonal: Vec::new(),
-            factors: IncompleteCholesky::default(),
-            solver: ConjugateGradient::new(),
-        }
-    }
-
     /// Room for `rows` rows.
     pub(crate) fn resize(&mut self, rows: usize) {
         for array in [&mut self.diagonal, &mut self.of_constant, &mut self.inertia] {

@@ -66,8 +66,8 @@ pub(crate) struct Lattices<const D: usize> {
     inverse_diagonal: Vec<f64>,
 }
 
-impl<const D: usize> Lattices<D> {
-    pub(crate) fn new() -> Self {
+impl<const D: usize> Default for Lattices<D> {
+    fn default() -> Self {
         Self {
             levels: Vec::new(),
             number: 0,
@@ -82,7 +82,9 @@ impl<const D: usize> Lattices<D> {
             inverse_diagonal: Vec::new(),
         }
     }
+}
 
+impl<const D: usize> Lattices<D> {
     /// Lays lattices over particles a spacing `[m]` apart for an operator with the inverse diagonal that is given (0 for a row
     /// that is no unknown), the stiffness κ and the hold h of every row.
     pub(crate) fn lay(

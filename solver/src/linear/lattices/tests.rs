@@ -53,7 +53,7 @@ impl Springs {
     fn lattices(&self) -> Lattices<2> {
         let upper = self.cells[0] as f64 * SPACING;
         let domain = Domain { axes: [AxisBoundary::Periodic { lower: 0.0, upper }, AxisBoundary::Open] };
-        let mut lattices = Lattices::new();
+        let mut lattices = Lattices::default();
         let inverse = (0..self.positions.len()).map(|a| 1.0 / self.diagonal(a));
         lattices.lay(&self.positions, &domain, SPACING, inverse, |a| (1.0, self.held(a)));
         lattices
@@ -63,7 +63,7 @@ impl Springs {
         let mut random = Pcg64Mcg::seed_from_u64(4);
         let right: Vec<f64> = self.positions.iter().map(|x| 1.0 + x[1] + random.random::<f64>()).collect();
         let mut found = vec![0.0; right.len()];
-        let mut solver = ConjugateGradient::new();
+        let mut solver = ConjugateGradient::default();
         let criterion = Criterion { tolerance: 1e-6, most_iterations: 1000 };
         let apply = |p: &[f64], out: &mut [f64]| self.apply(p, out);
         solver.solve(&mut found, &right, &mut self.lattices(), None, criterion, apply).expect("a solution");

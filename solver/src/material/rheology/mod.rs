@@ -364,8 +364,7 @@ macro_rules! rheology {
             pub fn largest_viscosity(&self, pressure: f64) -> f64 {
                 match self {
                     $(Self::$viscous(law) => law.largest_viscosity(pressure),)*
-                    $(Self::$plastic(_) => 0.0,)*
-                    $(Self::$keeper(_) => 0.0,)*
+                    _ => 0.0,
                 }
             }
 
@@ -398,11 +397,7 @@ macro_rules! rheology {
             #[inline]
             #[must_use]
             pub fn is_plastic(&self) -> bool {
-                match self {
-                    $(Self::$viscous(_) => false,)*
-                    $(Self::$plastic(_) => true,)*
-                    $(Self::$keeper(_) => true,)*
-                }
+                !matches!(self, $(Self::$viscous(_))|*)
             }
 
             /// Elastic part of a plastic material, by its distance below the yield `[-]`: 1 where the equivalent shear
@@ -472,9 +467,8 @@ macro_rules! rheology {
             #[must_use]
             pub fn field(&self) -> Option<LawField> {
                 match self {
-                    $(Self::$viscous(_) => None,)*
-                    $(Self::$plastic(_) => None,)*
                     $(Self::$keeper(law) => Some(law.field()),)*
+                    _ => None,
                 }
             }
 
@@ -482,9 +476,8 @@ macro_rules! rheology {
             #[must_use]
             pub fn memories(&self) -> &[LawField] {
                 match self {
-                    $(Self::$viscous(_) => &[],)*
-                    $(Self::$plastic(_) => &[],)*
                     $(Self::$keeper(law) => law.memories(),)*
+                    _ => &[],
                 }
             }
 
@@ -492,9 +485,8 @@ macro_rules! rheology {
             #[must_use]
             pub fn pore_liquid(&self) -> Option<PoreLiquid> {
                 match self {
-                    $(Self::$viscous(_) => None,)*
-                    $(Self::$plastic(_) => None,)*
                     $(Self::$keeper(law) => law.pore_liquid(),)*
+                    _ => None,
                 }
             }
 
@@ -503,9 +495,8 @@ macro_rules! rheology {
             #[must_use]
             pub fn dilates(&self) -> bool {
                 match self {
-                    $(Self::$viscous(_) => false,)*
-                    $(Self::$plastic(_) => false,)*
                     $(Self::$keeper(law) => law.dilates(),)*
+                    _ => false,
                 }
             }
 
@@ -515,9 +506,8 @@ macro_rules! rheology {
             #[must_use]
             pub fn plastic_volume_strain<R: Real>(&self, field: R) -> R {
                 match self {
-                    $(Self::$viscous(_) => R::splat(0.0),)*
-                    $(Self::$plastic(_) => R::splat(0.0),)*
                     $(Self::$keeper(law) => law.plastic_volume_strain(field),)*
+                    _ => R::splat(0.0),
                 }
             }
 
@@ -526,9 +516,8 @@ macro_rules! rheology {
             #[must_use]
             pub fn field_in_flow(&self, shear_rate: f64, stress_ratio: f64) -> Option<f64> {
                 match self {
-                    $(Self::$viscous(_) => None,)*
-                    $(Self::$plastic(_) => None,)*
                     $(Self::$keeper(law) => Some(law.field_in_flow(shear_rate, stress_ratio)),)*
+                    _ => None,
                 }
             }
         }

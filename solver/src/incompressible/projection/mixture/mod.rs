@@ -98,8 +98,8 @@ impl<const D: usize> Mixture<D> {
             deviation: Vec::new(),
             push: Vec::new(),
             mean_gradient: Vector::zeros(),
-            lattices: Lattices::new(),
-            solver: ConjugateGradient::new(),
+            lattices: Lattices::default(),
+            solver: ConjugateGradient::default(),
         }
     }
 
@@ -234,10 +234,10 @@ impl<const D: usize> Mixture<D> {
             right_side.fill(0.0);
         }
         let criterion = Criterion { tolerance: numerics.pressure_tolerance, most_iterations: MOST_ITERATIONS };
-        let mut solver = std::mem::replace(&mut self.solver, ConjugateGradient::new());
+        let mut solver = std::mem::take(&mut self.solver);
         let mut deviation = std::mem::take(&mut self.deviation);
         let mut inverse = std::mem::take(&mut self.inverse_diagonal);
-        let mut lattices = std::mem::replace(&mut self.lattices, Lattices::new());
+        let mut lattices = std::mem::take(&mut self.lattices);
         let many = inverse.len() >= LATTICE_ROWS;
         if many {
             let row = |a: usize| (self.mobility[a], self.held[a] * self.mobility[a]);
