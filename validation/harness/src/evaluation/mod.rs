@@ -137,19 +137,15 @@ pub fn evaluate(
         results.iter_mut().try_for_each(|result| draw_measured(result, overlay))?;
         Ok(results)
     });
+    let failed = |reason: &str| EvaluationRecord::failed(&key, &case, reason);
     match std::panic::catch_unwind(simulate) {
-        Ok(Ok(results)) => Ok(results.into_iter().next().map_or_else(
-            || EvaluationRecord::failed(&key, &case, "nothing was simulated"),
-            |result| EvaluationRecord::of(&key, &result),
-        )),
+        Ok(Ok(results)) => Ok(results
+            .first()
+            .map_or_else(|| failed("nothing was simulated"), |result| EvaluationRecord::of(&key, result))),
         Ok(Err(error @ (ParameterError::Field(_) | ParameterError::Scene(_) | ParameterError::Changed { .. }))) => {
-            Ok(EvaluationRecord::failed(&key, &case, &error.to_string()))
+            Ok(failed(&error.to_string()))
         }
         Ok(Err(error)) => Err(error),
-        Err(_) => Ok(EvaluationRecord::failed(
-            &key,
-            &case,
-            "a run panicked, which is an error of the program; please report it",
-        )),
+        Err(_) => Ok(failed("a run panicked, which is an error of the program; please report it")),
     }
 }

@@ -40,7 +40,7 @@ impl MetricValue {
 }
 
 /// A finished evaluation.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 pub struct EvaluationRecord {
     /// Key of the evaluation, 32 hexadecimal digits.
     pub key: String,
@@ -75,14 +75,7 @@ impl EvaluationRecord {
     /// A record without numbers.
     #[must_use]
     pub fn failed(key: &str, case: &str, reason: &str) -> Self {
-        Self {
-            key: key.to_owned(),
-            case: case.to_owned(),
-            state_hash: String::new(),
-            metrics: Vec::new(),
-            tables: Vec::new(),
-            failure: Some(reason.to_owned()),
-        }
+        Self { key: key.to_owned(), case: case.to_owned(), failure: Some(reason.to_owned()), ..Self::default() }
     }
 
     /// The record in a file; `None` if there is none, it is damaged or it belongs to another key.

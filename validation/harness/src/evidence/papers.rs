@@ -103,9 +103,7 @@ impl Printed {
         let is_above = self.at_least.is_none_or(|bound| value >= bound);
         is_above && self.at_most.is_none_or(|bound| value <= bound)
     }
-}
 
-impl Printed {
     /// Whether a number known to ± `expanded` is told from the other side of what is printed: within a range half as wide, or as far from an
     /// end.
     #[must_use]

@@ -16,12 +16,13 @@ pub use variant::{Value, Variant};
 use serde::{Deserialize, Serialize};
 
 /// Kind of reference that a verdict rests on; the four are never mixed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum MetricKind {
     /// The run's own account: nothing is lost, and mass, momentum and energy add up. It says nothing of the physics.
     Bookkeeping,
     /// Against an exact solution of the model's own equations, or a convergence order.
+    #[default]
     Verification,
     /// Against an experiment, a published fit or other people's simulations.
     Validation,
@@ -178,7 +179,7 @@ pub const DIVERGED: &str = "its run diverged, so that no number of it means anyt
 pub const COVERAGE: f64 = 2.0;
 
 /// One judged or observed number.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 #[must_use]
 pub struct Metric {
     /// Stable snake_case name, such as `velocity_l2`.
@@ -221,15 +222,8 @@ impl Metric {
             variant: variant.clone(),
             value,
             unit: unit.to_owned(),
-            reference: None,
-            kind: MetricKind::Verification,
-            gate: None,
-            leads: false,
-            remark: None,
-            uncertainty: Uncertainty::default(),
-            prediction: None,
             snapshot_tolerance: 1e-6,
-            snapshot_floor: 0.0,
+            ..Self::default()
         }
     }
 

@@ -114,12 +114,8 @@ pub fn halves(name: &str, caption: &str, frames: &[&Frame], view: &View) -> Figu
     let mut panels: Vec<Panel> = Vec::new();
     for frame in frames {
         let mut panel = Panel::new(&view.clock(frame.time, 2), x.clone(), y.clone());
-        let field = |points, values, label: &str, limit| Field {
-            points,
-            values,
-            label: label.to_owned(),
-            diameter: view.spacing / unit,
-            limits: Some((0.0, limit)),
+        let field = |points: Vec<(f64, f64)>, values: Vec<f64>, label: &str, limit| {
+            Field::new(label, view.spacing / unit, (0.0, limit), points, values)
         };
         panel.field = Some(field(places(frame, -1.0), frame.speeds(), "|v| [m/s]", fastest));
         panel.opposite = Some(field(places(frame, 1.0), frame.pressures(), "p [kPa]", deepest));

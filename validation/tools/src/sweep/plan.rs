@@ -238,11 +238,8 @@ impl SweepPlan {
                     tier: request.tier.unwrap_or_default(),
                     folder,
                     point: point.values.iter().map(|(.., value)| value.to_string()).collect(),
-                    key: String::new(),
-                    particle_steps: 0.0,
-                    parameters_toml: String::new(),
                     only: request.only.clone(),
-                    refusal: None,
+                    ..SweepRun::default()
                 };
                 match request.prepare(registry, &self.file, &settings, limits) {
                     Ok(prepared) => {

@@ -17,7 +17,7 @@ use std::str::FromStr;
 ///
 /// A value is a word, a number, several of them joined by `_` (the runs behind a metric) or a range `3..8` (a part of a
 /// single run). In files and on the page a variant is its text.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
 #[must_use]
 pub struct Variant {
     parts: Vec<(String, Value)>,
@@ -147,12 +147,6 @@ impl Ord for Variant {
 impl PartialOrd for Variant {
     fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
         Some(self.cmp(other))
-    }
-}
-
-impl std::hash::Hash for Variant {
-    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
-        self.to_string().hash(state);
     }
 }
 

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 /// Value of a key of a variant, by its text: a name `rest`, a number `40`, a range `3..8`, or numbers of several runs `10_20_40`.
 /// It is built by `From`, which gives each number one text: 1 and 1.0 are the same.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Value(String);
 
 impl Value {
