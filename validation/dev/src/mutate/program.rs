@@ -121,7 +121,7 @@ impl Program {
         number: usize,
         limit: Duration,
     ) -> Result<(), String> {
-        let name = format!("{number}-{}-{}", test.target, only.unwrap_or("all"));
+        let name = format!("{number}-{}-{}", test.target.name, only.unwrap_or("all"));
         let (printed, threads) = (self.file(&name), rayon::current_num_threads().to_string());
         let file = File::create(&printed).map_err(|error| error.to_string())?;
         let mut command = Command::new(&test.path);
@@ -134,16 +134,16 @@ impl Program {
             || std::fs::read(&printed).map(|text| String::from_utf8_lossy(&text).into_owned()).unwrap_or_default();
         let has_failed = || text().lines().any(|line| line.starts_with("test ") && line.ends_with(FAILED));
         let (status, said) =
-            ended(&mut command, limit, has_failed).map_err(|reason| format!("{}: {reason}", test.target))?;
+            ended(&mut command, limit, has_failed).map_err(|reason| format!("{}: {reason}", test.target.name))?;
         let text = text();
         let results = text.lines().filter_map(|line| line.strip_prefix("test ")?.split_once(" ... "));
         // the program takes the name as a part of others
         let mut results = results.filter(|(name, _)| only.is_none_or(|own| name.rsplit("::").next() == Some(own)));
         if status.success() {
-            return results.next().map(drop).ok_or_else(|| format!("{}: no test of this name", test.target));
+            return results.next().map(drop).ok_or_else(|| format!("{}: no test of this name", test.target.name));
         }
         let failed = results.find(|(_, result)| *result == FAILED.trim_start_matches(" ... "));
-        Err(format!("{}: {}", test.target, failed.map_or(&*said, |(name, _)| name)))
+        Err(format!("{}: {}", test.target.name, failed.map_or(&*said, |(name, _)| name)))
     }
 }
 

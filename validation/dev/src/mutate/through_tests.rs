@@ -68,6 +68,6 @@ fn run(program: &Program, programs: &[TestProgram], test: &str, number: usize, l
     let (file, function) = test.split_once("::").unwrap_or((test, ""));
     let target = TestTarget::of(file).ok_or_else(|| format!("{file}: no source of tests"))?;
     let own = programs.iter().find(|own| own.target == target);
-    let own = own.ok_or_else(|| format!("{target} is not built"))?;
+    let own = own.ok_or_else(|| format!("{} is not built", target.name))?;
     program.test(own, Some(function), number, limit)
 }

@@ -6,9 +6,9 @@ use crate::input::{FieldError, WRITTEN_BY_HAND, read_text};
 use crate::output::FileError;
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::{fmt, io};
 
 /// By which the copy is told the number of the mutation; none or 0 for the program as it is; a file, to write there the numbers of the
 /// mutations whose expressions it reaches.
@@ -110,7 +110,7 @@ const SUITE: &str = "suite";
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct TestTarget {
     package: String,
-    name: String,
+    pub(crate) name: String,
     is_library: bool,
 }
 
@@ -140,12 +140,6 @@ impl TestTarget {
     #[must_use]
     pub fn physics(&self) -> &'static [&'static str] {
         if self.name == SUITE { &["invariants::", "convergence::", "determinism::"] } else { &[] }
-    }
-}
-
-impl fmt::Display for TestTarget {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.name)
     }
 }
 
