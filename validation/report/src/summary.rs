@@ -31,8 +31,7 @@ pub fn of_case(judged: &JudgedCase<'_>, terminal: Terminal) -> String {
     let predictions = if is_sound { predictions(&case.metrics) } else { String::new() };
     // a user asks for the verdict of a check or a measurement of their own
     let is_own = |own: &JudgedMetric<'_>| own.metric.gate_owner() == GateOwner::User;
-    let is_shown =
-        |own: &JudgedMetric<'_>| terminal.is_verbose || own.severity != Some(Severity::Pass) || is_own(own);
+    let is_shown = |own: &JudgedMetric<'_>| terminal.is_verbose || own.severity != Some(Severity::Pass) || is_own(own);
     let hidden = judged.metrics.iter().filter(|own| !is_shown(own)).count();
     let hidden =
         if hidden > 0 { format!("{} that pass: shown with -v\n", plural(hidden, "row")) } else { String::new() };
