@@ -5,18 +5,12 @@ use super::{Axis, AxisRatio, Band, Field, Figure, Mark, Panel, Scale, Series};
 impl Axis {
     /// A linear axis that fits its data.
     pub fn linear(label: &str) -> Self {
-        Self { label: label.to_owned(), scale: Scale::Linear, limits: None, ratio: None, names: Vec::new() }
+        Self { label: label.to_owned(), scale: Scale::Linear, limits: None, ratio: None }
     }
 
     /// A logarithmic axis that fits its data.
     pub fn logarithmic(label: &str) -> Self {
-        Self { label: label.to_owned(), scale: Scale::Logarithmic, limits: None, ratio: None, names: Vec::new() }
-    }
-
-    /// A vertical axis with a name for each of the places 1, 2, …, and a row of text for each.
-    pub fn named(names: Vec<String>) -> Self {
-        let end = names.len() as f64 + 0.6;
-        Self { names, ..Self::linear("").between(0.4, end) }
+        Self { label: label.to_owned(), scale: Scale::Logarithmic, limits: None, ratio: None }
     }
 
     /// The same axis between fixed limits.

@@ -5,7 +5,7 @@ use super::error::FigureError;
 use super::glyphs;
 use plotters::style::FontStyle;
 use roxmltree::{Document, Node};
-use tiny_skia::{Path, PathBuilder, Rect, Transform};
+use tiny_skia::{Path, PathBuilder, Point, Rect, Transform};
 
 /// Pen and fill of an element.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +22,14 @@ pub(super) trait Surface {
     fn fill(&mut self, area: &Path, paint: Paint);
     /// A path as a line of a width.
     fn stroke(&mut self, line: &Path, width: f32, paint: Paint);
+    /// Discs of a radius.
+    fn dots(&mut self, centres: &[Point], radius: f32, paint: Paint) {
+        let mut discs = PathBuilder::new();
+        centres.iter().for_each(|centre| discs.push_circle(centre.x, centre.y, radius));
+        if let Some(discs) = discs.finish() {
+            self.fill(&discs, paint);
+        }
+    }
 }
 
 /// Width and height of a drawing in its own units.
@@ -77,9 +85,8 @@ fn element(node: Node<'_, '_>, surface: &mut impl Surface) -> Result<(), FigureE
             }
         }
         "path" => {
-            if let Some(discs) = dots(attribute(node, "d")?, number(node, "stroke-width")? / 2.0)? {
-                surface.fill(&discs, paint(node, "stroke")?);
-            }
+            let centres = dots(attribute(node, "d")?)?;
+            surface.dots(&centres, number(node, "stroke-width")? / 2.0, paint(node, "stroke")?);
         }
         "text" => text(node, surface)?,
         other => return Err(FigureError::Svg(format!("an element `{other}` that no figure has"))),
@@ -159,13 +166,12 @@ fn polyline(node: Node<'_, '_>, closed: bool) -> Result<Option<Path>, FigureErro
     Ok(path.finish())
 }
 
-/// Discs for the dots that a round pen makes of `M x y h0 m dx dy h0 …`.
-fn dots(steps: &str, radius: f32) -> Result<Option<Path>, FigureError> {
+/// Places of the dots that a round pen makes of `M x y h0 m dx dy h0 …`.
+fn dots(steps: &str) -> Result<Vec<Point>, FigureError> {
     let wrong =
         || FigureError::Svg(format!("a path of other than dots, `{}`", steps.chars().take(40).collect::<String>()));
     let rest = steps.strip_prefix('M').ok_or_else(wrong)?;
-    let mut path = PathBuilder::new();
-    let (mut x, mut y) = (0.0, 0.0);
+    let (mut centres, mut x, mut y) = (Vec::new(), 0.0, 0.0);
     for step in rest.split('m') {
         let step = step.strip_suffix("h0").ok_or_else(wrong)?;
         // the sign of the second number may stand for the gap before it
@@ -173,7 +179,7 @@ fn dots(steps: &str, radius: f32) -> Result<Option<Path>, FigureError> {
         let (right, down) = step.split_at(gap.ok_or_else(wrong)?.0);
         x += right.parse::<f32>().map_err(|_| wrong())?;
         y += down.trim_start().parse::<f32>().map_err(|_| wrong())?;
-        path.push_circle(x, y, radius);
+        centres.push(Point::from_xy(x, y));
     }
-    Ok(path.finish())
+    Ok(centres)
 }

@@ -39,6 +39,8 @@ impl Default for FigureFormat {
 impl FigureFormat {
     /// For a page that shows the figure 800 px wide.
     pub const SCREEN: Self = Self { sheet: SCREEN_WIDTH, scale: 1.0, paper: None };
+    /// The same with half of the pixels, which an animation has.
+    pub const HALF: Self = Self { scale: 0.5, ..Self::SCREEN };
     /// For a page that shows the figure about 300 px wide, with letters of the usual size.
     pub const SMALL: Self = Self { sheet: 640.0, scale: 1.0, paper: None };
 

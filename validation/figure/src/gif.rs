@@ -5,16 +5,13 @@ use super::animation::Animation;
 use super::error::FigureError;
 use super::format::FigureFormat;
 use super::palette::FIRST;
-use super::{put, raster, render};
+use super::{raster, render};
 use plotters::style::RGBColor;
 use rayon::prelude::*;
 use std::borrow::Cow;
-use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use tiny_skia::Pixmap;
 
-/// Pixels of the animation over those of a figure's sheet: 800 px wide, what a page shows.
-const SCALE: f32 = 0.5;
 /// Duration of the last picture `[s]`.
 const LAST_SECONDS: f64 = 2.0;
 /// The palette's index for "as in the picture before".
@@ -48,7 +45,10 @@ pub fn encode(animation: &Animation) -> Result<Vec<u8>, FigureError> {
         .frames
         .par_iter()
         .map(|frame| {
-            let pixels = raster::pixels(&render::svg(&animation.figure(frame), FigureFormat::SCREEN)?, SCALE)?;
+            let pixels = raster::pixels(
+                &render::svg(&animation.figure(frame), FigureFormat::HALF)?,
+                FigureFormat::HALF.scale as f32,
+            )?;
             Ok(IndexedImage::of(&pixels))
         })
         .collect::<Result<_, FigureError>>()?;
@@ -144,14 +144,6 @@ impl IndexedImage {
     }
 }
 
-/// Draws `animation` into `folder` as `NAME.gif`; the folder is made if it is missing.
-///
-/// # Errors
-/// If the name is no file name, there is no picture, drawing fails, or the file cannot be written.
-pub fn write_animation(animation: &Animation, folder: &Path) -> Result<PathBuf, FigureError> {
-    put(folder, &animation.name, "gif", &encode(animation)?)
-}
-
 /// The palette's colour that is nearest in RGB; the first of equals.
 fn nearest([red, green, blue]: [u8; 3], palette: &[RGBColor]) -> u8 {
     let square = |a: u8, b: u8| (i32::from(a) - i32::from(b)).pow(2);
@@ -224,7 +216,7 @@ mod tests {
             }
         }
         let last = render::svg(&animation.figure(&animation.frames[2]), FigureFormat::SCREEN).expect("SVG");
-        let expected = IndexedImage::of(&raster::pixels(&last, SCALE).expect("raster"));
+        let expected = IndexedImage::of(&raster::pixels(&last, FigureFormat::HALF.scale as f32).expect("raster"));
         assert!(canvas == expected.indices);
     }
 

@@ -13,9 +13,9 @@
 //! let figure = Figure::new("profile", "Velocity over the depth of a film.", vec![panel]);
 //!
 //! let folder = tempfile::tempdir().expect("a folder");
-//! let files = bagnold_figure::write(&figure, folder.path()).expect("drawn");
-//! assert!(std::fs::read_to_string(&files.svg).expect("written").contains("y/h [-]"));
-//! assert_eq!(bagnold_figure::size_of(&files.png).expect("a picture").0, 1600);
+//! let picture = bagnold_figure::write(&figure, folder.path()).expect("drawn");
+//! assert!(std::fs::read_to_string(picture.with_extension("svg")).expect("written").contains("y/h [-]"));
+//! assert_eq!(bagnold_figure::size_of(&picture).expect("a picture").0, 1600);
 //! ```
 
 mod animation;
@@ -51,7 +51,7 @@ mod tests;
 pub use animation::{Animation, AnimationFrame};
 pub use error::FigureError;
 pub use format::FigureFormat;
-pub use gif::{encode as encode_gif, write_animation};
+pub use gif::encode as encode_gif;
 pub use size::size_of;
 pub use table::csv;
 
@@ -70,8 +70,6 @@ pub struct Axis {
     pub limits: Option<(f64, f64)>,
     /// Quantity and scale of a dimensionless axis, for an axis with one scale for all curves.
     pub ratio: Option<AxisRatio>,
-    /// Names of the places 1, 2, … of a vertical axis in place of numbers; empty for numbers.
-    pub names: Vec<String>,
 }
 
 /// A quantity over a scale: x/r0 is x `[m]` over r0.
@@ -182,28 +180,20 @@ pub struct Figure {
     pub columns: usize,
 }
 
-/// The files of a written figure.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FigureFiles {
-    /// The vector file.
-    pub svg: PathBuf,
-    /// The raster file, 1600 px wide.
-    pub png: PathBuf,
-}
-
 /// Draws `figure` for the screen into `folder` as `NAME.svg`, `NAME.png` and `NAME.pdf`, with its data in `NAME.csv`; the
-/// folder is made if it is missing.
+/// folder is made if it is missing. The path of the PNG, which is 1600 px wide.
 ///
 /// # Errors
 /// If the name is no file name, drawing fails, or a file cannot be written.
-pub fn write(figure: &Figure, folder: &Path) -> Result<FigureFiles, FigureError> {
+pub fn write(figure: &Figure, folder: &Path) -> Result<PathBuf, FigureError> {
     let drawn = render::svg(figure, FigureFormat::SCREEN)?;
     let raster = render::png(&drawn, FigureFormat::SCREEN)?;
     let page = render::pdf(&drawn, FigureFormat::SCREEN)?;
     let put = |ending: &str, bytes: &[u8]| put(folder, &figure.name, ending, bytes);
     put("pdf", &page)?;
     put("csv", csv(figure).as_bytes())?;
-    Ok(FigureFiles { svg: put("svg", drawn.as_bytes())?, png: put("png", &raster)? })
+    put("svg", drawn.as_bytes())?;
+    put("png", &raster)
 }
 
 /// Writes a file of a figure into a folder, which is made if it is missing; its path.

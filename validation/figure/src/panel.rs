@@ -74,7 +74,7 @@ impl<'p> ScaledPanel<'p> {
         let x_wanted = (plot_wide / (5.0 * sizes.tick)).clamp(2.0, 8.0) as usize;
         let x_ticks = uncrowded(x, plot_wide, sizes.tick, x_wanted);
         let y_wanted = (plot_high / (3.0 * sizes.tick)).clamp(2.0, 8.0) as usize;
-        let y_ticks = if panel.y.names.is_empty() { ticks(y.0, y.1, y_wanted) } else { Ticks::named(&panel.y.names) };
+        let y_ticks = ticks(y.0, y.1, y_wanted);
         Self {
             panel,
             title,
@@ -109,12 +109,6 @@ impl<'p> ScaledPanel<'p> {
         self.has_x_numbers = false;
         self.x.2.factor.clear();
         self.x.2.major.iter_mut().for_each(|tick| tick.label.clear());
-    }
-
-    /// Height of a plot whose places have names: a line of text each.
-    pub(super) fn named_height(&self) -> Option<f64> {
-        let rows = self.panel.y.names.len() as f64;
-        (rows > 0.0).then_some((rows + 0.2) * 1.7 * self.sizes.tick)
     }
 
     /// Decides on which side the legend stands, given the plot that the panel would have with none outside.

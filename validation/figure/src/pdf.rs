@@ -37,8 +37,9 @@ pub(super) fn page(svg: &str, unit: f64) -> Result<Vec<u8>, FigureError> {
     ]))
 }
 
-fn packed(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
-    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+/// Deflated bytes.
+pub(super) fn packed(bytes: &[u8]) -> std::io::Result<Vec<u8>> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::best());
     encoder.write_all(bytes)?;
     encoder.finish()
 }
@@ -67,15 +68,18 @@ struct Content {
 }
 
 impl Content {
-    fn add(&mut self, path: &Path, prefix: &str, operator: &str, paint: Paint) {
+    /// Sets opacity and colour of what follows.
+    fn set(&mut self, paint: Paint, colour: &str) {
         let percent = (100.0 * paint.opacity).round() as u32;
         if !self.opacities.contains(&percent) {
             self.opacities.push(percent);
         }
         let [red, green, blue] = paint.colour.map(|channel| f64::from(channel) / 255.0);
-        let colour = if operator == "S" { "RG" } else { "rg" };
         // writing to a string cannot fail
-        let _ = writeln!(self.text, "/g{percent} gs {red:.3} {green:.3} {blue:.3} {colour}{prefix}");
+        let _ = writeln!(self.text, "/g{percent} gs {red:.3} {green:.3} {blue:.3} {colour}");
+    }
+
+    fn add(&mut self, path: &Path, operator: &str) {
         let mut at = Point::zero();
         let mut write = |points: &[Point], operator: &str| {
             for point in points {
@@ -115,11 +119,23 @@ fn short(value: f32) -> f32 {
 
 impl Surface for Content {
     fn fill(&mut self, area: &Path, paint: Paint) {
-        self.add(area, "", "f", paint);
+        self.set(paint, "rg");
+        self.add(area, "f");
     }
 
     fn stroke(&mut self, line: &Path, width: f32, paint: Paint) {
-        self.add(line, &format!(" {width} w"), "S", paint);
+        self.set(paint, &format!("RG {width} w"));
+        self.add(line, "S");
+    }
+
+    /// Lines without a length and with round ends.
+    fn dots(&mut self, centres: &[Point], radius: f32, paint: Paint) {
+        self.set(paint, &format!("RG {} w 1 J", 2.0 * radius));
+        for centre in centres {
+            let (x, y) = (short(centre.x), short(centre.y));
+            let _ = writeln!(self.text, "{x} {y} m {x} {y} l");
+        }
+        self.text.push_str("S 0 J\n");
     }
 }
 

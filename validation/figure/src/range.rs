@@ -40,7 +40,7 @@ impl Range {
 
     /// The interval of a colour scale: no margin.
     pub(super) fn of_colours(limits: Option<(f64, f64)>, values: &[f64]) -> Self {
-        let axis = Axis { label: String::new(), scale: Scale::Linear, limits, ratio: None, names: Vec::new() };
+        let axis = Axis { label: String::new(), scale: Scale::Linear, limits, ratio: None };
         let (range, _) = Self::fit(&axis, Scale::Linear, values.iter().copied());
         if limits.is_some_and(|(lower, upper)| range.lower == lower.min(upper) && range.upper == lower.max(upper)) {
             return range;
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     fn fit(values: &[f64], scale: Scale, limits: Option<(f64, f64)>) -> (Range, bool) {
-        let axis = Axis { label: String::new(), scale, limits, ratio: None, names: Vec::new() };
+        let axis = Axis { label: String::new(), scale, limits, ratio: None };
         Range::fit(&axis, scale, values.iter().copied())
     }
 

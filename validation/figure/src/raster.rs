@@ -3,7 +3,10 @@
 use super::canvas::UNITS_PER_PIXEL;
 use super::elements::{self, Paint, Surface};
 use super::error::FigureError;
-use tiny_skia::{FillRule, LineCap, LineJoin, Path, Pixmap, Stroke, Transform};
+use super::pdf::packed;
+use flate2::Crc;
+use std::collections::HashMap;
+use tiny_skia::{FillRule, LineCap, LineJoin, Path, Pixmap, PremultipliedColorU8, Stroke, Transform};
 
 /// The pixels of a drawing at `scale` times its own size.
 ///
@@ -13,8 +16,8 @@ pub(super) fn pixels(svg: &str, scale: f32) -> Result<Pixmap, FigureError> {
     let document = elements::parse(svg)?;
     let (width, height) = elements::size(&document)?;
     let scale = scale / UNITS_PER_PIXEL as f32;
-    // what is a whole number but for rounding stays one
-    let pixels = |length: f32| (length * scale - 1e-3).ceil() as u32;
+    // what is a whole number but for rounding stays one; a row that the sheet covers in part is left out
+    let pixels = |length: f32| (length * scale + 1e-3) as u32;
     let pixmap = Pixmap::new(pixels(width), pixels(height));
     let mut sheet = Sheet {
         pixels: pixmap.ok_or_else(|| FigureError::Raster(format!("no memory for {width} × {height} units")))?,
@@ -22,6 +25,54 @@ pub(super) fn pixels(svg: &str, scale: f32) -> Result<Pixmap, FigureError> {
     };
     elements::draw(&document, &mut sheet)?;
     Ok(sheet.pixels)
+}
+
+/// Colours of a palette, at most.
+const PALETTE: usize = 256;
+
+type Colour = [u8; 3];
+
+/// Pixels of an opaque sheet as a PNG without filters, which packs even colours best: by a palette where that has all colours, else
+/// in three channels.
+pub(super) fn png(sheet: &Pixmap) -> Result<Vec<u8>, FigureError> {
+    let colour = |pixel: &PremultipliedColorU8| [pixel.red(), pixel.green(), pixel.blue()];
+    // five bits a channel: a difference in smoothed edges alone
+    let coarse = |pixel: &PremultipliedColorU8| colour(pixel).map(|channel| channel & 0xf8 | channel >> 5);
+    let by_palette = indexed(sheet.pixels().iter().map(colour));
+    let by_palette = by_palette.or_else(|| indexed(sheet.pixels().iter().map(coarse)));
+    let (kind, palette, bytes) = match by_palette {
+        Some((palette, indices)) => (3, palette, indices),
+        None => (2, Vec::new(), sheet.pixels().iter().flat_map(colour).collect()),
+    };
+    let (width, height) = (sheet.width(), sheet.height());
+    // each row begins with its filter: none
+    let rows = bytes.chunks(bytes.len() / height as usize).flat_map(|row| [&[0], row].concat());
+    let packed = packed(&rows.collect::<Vec<u8>>()).map_err(|error| FigureError::Raster(error.to_string()))?;
+    let head = [&width.to_be_bytes()[..], &height.to_be_bytes(), &[8, kind, 0, 0, 0]].concat();
+    let mut file = b"\x89PNG\r\n\x1a\n".to_vec();
+    let chunks = [(b"IHDR", head), (b"PLTE", palette.concat()), (b"IDAT", packed), (b"IEND", Vec::new())];
+    for (name, data) in chunks.iter().filter(|(name, data)| *name != b"PLTE" || !data.is_empty()) {
+        let mut sum = Crc::new();
+        sum.update(*name);
+        sum.update(data);
+        file.extend((data.len() as u32).to_be_bytes());
+        file.extend([&name[..], data, &sum.sum().to_be_bytes()].concat());
+    }
+    Ok(file)
+}
+
+/// The colours of pixels in the order in which they come, and the place of each pixel's among them; none of too many colours.
+fn indexed(pixels: impl Iterator<Item = Colour>) -> Option<(Vec<Colour>, Vec<u8>)> {
+    let (mut places, mut palette) = (HashMap::new(), Vec::new());
+    let place = |colour: Colour| {
+        let place = *places.entry(colour).or_insert(palette.len());
+        if place == palette.len() {
+            palette.push(colour);
+        }
+        (place < PALETTE).then_some(place as u8)
+    };
+    let indices = pixels.map(place).collect::<Option<Vec<u8>>>()?;
+    Some((palette, indices))
 }
 
 struct Sheet {
@@ -50,7 +101,6 @@ fn ink(Paint { colour: [red, green, blue], opacity }: Paint) -> tiny_skia::Paint
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tiny_skia::PremultipliedColorU8;
 
     fn drawn(elements: &str) -> Result<Pixmap, FigureError> {
         pixels(&format!("<svg width=\"20\" height=\"10\" viewBox=\"0 0 80 40\">{elements}</svg>"), 1.0)

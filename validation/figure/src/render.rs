@@ -5,8 +5,7 @@ use super::canvas::UNITS_PER_PIXEL;
 use super::error::FigureError;
 use super::format::FigureFormat;
 use super::pdf::page;
-use super::raster::pixels;
-use super::sheet;
+use super::{raster, sheet};
 
 /// Draws `figure` as SVG; the same data give the same bytes on any machine.
 ///
@@ -21,7 +20,7 @@ pub fn svg(figure: &Figure, format: FigureFormat) -> Result<String, FigureError>
 /// # Errors
 /// If the text is no SVG of [`svg`], or too large to rasterise.
 pub fn png(svg: &str, format: FigureFormat) -> Result<Vec<u8>, FigureError> {
-    pixels(svg, format.scale as f32)?.encode_png().map_err(|error| FigureError::Raster(error.to_string()))
+    raster::png(&raster::pixels(svg, format.scale as f32)?)
 }
 
 /// Turns an SVG of [`svg`] in the same format into a page of PDF.

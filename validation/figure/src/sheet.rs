@@ -153,8 +153,7 @@ fn layout(panels: &[ScaledPanel<'_>], columns: usize, column_width: f64, aspect:
 }
 
 fn plot_height(panel: &ScaledPanel<'_>, width: f64, aspect: f64) -> f64 {
-    let usual = || panel.named_height().unwrap_or(width * aspect);
-    panel.aspect().map_or_else(usual, |own| (width * own).clamp(LOWEST, TALLEST))
+    panel.aspect().map_or(width * aspect, |own| (width * own).clamp(LOWEST, TALLEST))
 }
 
 /// Panels of a sheet with several are called (a), (b), …, so that a caption can name them.

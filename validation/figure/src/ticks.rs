@@ -22,14 +22,6 @@ pub(super) struct Ticks {
     pub(super) factor: String,
 }
 
-impl Ticks {
-    /// Names at the places 1, 2, ….
-    pub(super) fn named(names: &[String]) -> Self {
-        let tick = |(place, name): (usize, &String)| Tick { value: place as f64 + 1.0, label: name.clone() };
-        Self { major: names.iter().enumerate().map(tick).collect(), ..Self::default() }
-    }
-}
-
 /// Ticks for `range`, about `wanted` of them.
 pub(super) fn ticks(range: Range, scale: Scale, wanted: usize) -> Ticks {
     match scale {

@@ -29,7 +29,7 @@ pub fn draw<'f>(figures: impl IntoIterator<Item = &'f Figure>, folder: &Path) ->
             Ok(written) => drawn.push(PageFigure {
                 name: figure.name.clone(),
                 caption: figure.caption.clone(),
-                size: figure::size_of(&written.png),
+                size: figure::size_of(&written),
             }),
             Err(error @ FigureError::Write { .. }) => return Err(error),
             Err(error) => tracing::error!("figure {}: failed to {error}", figure.name),
