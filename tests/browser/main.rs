@@ -15,6 +15,10 @@ use std::collections::{BTreeMap, BTreeSet};
 const PRINTING_RETRIES: u32 = 5;
 /// Height of the overview on a laptop `[px]`.
 const HIGHEST: u64 = 10_000;
+/// Height of a case's page `[px]`.
+const HIGHEST_CASE: u64 = 12_000;
+/// Size of a report of the quick tier `[B]`.
+const LARGEST: u64 = 120_000_000;
 /// Pages that an overview of two dozen cases may take on paper.
 const MOST_PRINTED: usize = 24;
 
@@ -196,6 +200,60 @@ async fn readme_page_and_numbers_have_one_tally() {
     }
 }
 
+/// Files below a folder by their paths from it.
+fn files(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
+    let (mut found, mut open) = (Vec::new(), vec![folder.to_owned()]);
+    while let Some(here) = open.pop() {
+        for path in std::fs::read_dir(here).expect("a folder").flatten().map(|entry| entry.path()) {
+            if path.is_dir() { open.push(path) } else { found.push(path) }
+        }
+    }
+    found.iter().map(|path| path.strip_prefix(folder).expect("below").to_owned()).collect()
+}
+
+#[test]
+fn pictures_of_readme_are_those_of_the_report() {
+    let workspace = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let readme = std::fs::read_to_string(workspace.join("README.md")).expect("README.md");
+    let gallery = files(&workspace.join("reports/gallery"));
+    assert_eq!(gallery.len(), 2, "a flow and a verdict: {gallery:?}");
+    for name in &gallery {
+        let read = |path: std::path::PathBuf| std::fs::read(&path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+        let [shown, current] =
+            [workspace.join("reports/gallery"), folder().join("figures")].map(|all| read(all.join(name)));
+        assert!(shown == current, "copy figures/{0} of the report to reports/gallery/{0}", name.display());
+        assert!(readme.contains(&format!("src=\"reports/gallery/{}\"", name.display())), "{name:?}");
+    }
+}
+
+#[test]
+fn a_quick_report_is_small() {
+    let bytes = |name: &std::path::PathBuf| std::fs::metadata(folder().join(name)).expect("a file").len();
+    let own = |name: &std::path::PathBuf| {
+        ["figures", "cases"].iter().any(|part| name.starts_with(part))
+            || name.extension().is_some_and(|own| own == "html")
+    };
+    let all: u64 = files(&folder()).iter().filter(|name| own(name)).map(bytes).sum();
+    assert!(all <= LARGEST, "{all} bytes of the report");
+}
+
+#[tokio::test]
+async fn pages_of_cases_have_a_flow_and_are_not_too_long() {
+    let browser = Browser::open(1280, 720).await;
+    let mut flows = 0;
+    for page in addresses().into_iter().filter(|page| page.contains("/cases/")) {
+        browser.client.goto(&page).await.expect(&page);
+        let height = browser.ask("return document.documentElement.scrollHeight").await;
+        assert!(height.as_u64().is_some_and(|height| height <= HIGHEST_CASE), "{page}: {height} px");
+        let first = browser.ask("return document.querySelector('figure img')?.currentSrc ?? ''").await;
+        flows += usize::from(first.as_str().is_some_and(|own| own.ends_with(".gif") || own.ends_with("snapshot.png")));
+        let still = "return [...document.querySelectorAll('img[src$=\".gif\"]')].every((own) => \
+                     own.parentElement.querySelector('source')?.media.includes('prefers-reduced-motion'))";
+        assert_eq!(browser.ask(still).await, json!(true), "{page}: an animation that cannot be stopped");
+    }
+    assert!(flows > 30, "{flows} pages begin with a flow");
+}
+
 #[tokio::test]
 async fn figures_of_a_case_lie_above_its_tables() {
     let browser = Browser::open(1280, 720).await;
@@ -222,7 +280,8 @@ async fn every_figure_leads_to_its_files() {
         browser.client.goto(&page).await.expect(&page);
         let all = browser.ask(script).await;
         for links in all.as_array().into_iter().flatten().map(list) {
-            if links.iter().any(|link| link.ends_with(".gif")) {
+            // animations and pictures of flows have no other files
+            if !links.iter().any(|link| link.ends_with(".svg")) {
                 continue;
             }
             for ending in [".svg", ".png", ".pdf", ".csv"] {

@@ -6,7 +6,7 @@ use super::origin::{provenance, seconds};
 use super::rows::{rows, vanished};
 use super::template::fill;
 use super::view::{VerdictMark, typed};
-use super::{DrawnFigure, Report, power};
+use super::{CaseReport, DrawnFigure, Report, power};
 use crate::case::RunSummary;
 use crate::evidence::shipped_tables;
 use crate::metric::{self, Metric, MetricKind, Variant};
@@ -42,6 +42,12 @@ pub(super) fn tables(case: &str) -> impl Iterator<Item = (&'static str, &'static
         let own = name.strip_prefix(case)?.strip_prefix('/')?;
         Some((own, text))
     })
+}
+
+/// The figures of a case among those of all.
+pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<DrawnFigure>], case: &CaseReport) -> &'d [DrawnFigure] {
+    let position = report.cases.iter().position(|other| std::ptr::eq(other, case));
+    position.and_then(|position| drawn.get(position)).map_or(&[][..], Vec::as_slice)
 }
 
 fn case(judged: &JudgedCase<'_>, drawn: &[DrawnFigure]) -> Value {
@@ -201,7 +207,7 @@ mod tests {
         let drawn = ["scaling", "velocity-sand-0.9-20", "velocity-sand-3-20"].map(|name| DrawnFigure {
             caption: caption.to_owned(),
             name: name.to_owned(),
-            moves: false,
+            files: crate::FIGURE_FILES,
             size: None,
             failure: None,
         });

@@ -1,7 +1,7 @@
 //! Comparisons with measurements after ASME V&V 20: the error E of a prediction beside the uncertainty u_val with which it is known, from the
 //! spacing and repetitions (u_num), the inputs (u_input) and the reference (u_D).
 //!
-//! |E| ≤ u_val: the model is validated at the level u_val, and nothing finer can be said. Beyond it the model's own error is
+//! |E| ≤ u_val: the model is validated to ± u_val. Beyond it the model's own error is
 //! |E| − u_val at least. What is not known is not zero: it is named, u_val is then a lower bound, and an error beyond it proves nothing
 //! of the model yet.
 
@@ -77,7 +77,7 @@ impl<'r> Comparison<'r> {
         self.metric.uncertainty.standard()
     }
 
-    /// u_val over the size of the reference: the level at which a comparison validates; none where the reference is 0 or nothing is
+    /// u_val over the size of the reference: none where the reference is 0 or nothing is
     /// known.
     #[must_use]
     pub fn level(&self) -> Option<f64> {
@@ -116,6 +116,16 @@ pub fn comparisons(report: &Report) -> Vec<QuantityComparisons<'_>> {
         }
     }
     groups.into_iter().collect()
+}
+
+/// Place of a comparison's verdict: within its uncertainty, beyond it, beyond what is known of it, open.
+pub(super) fn verdict(compared: &Comparison<'_>) -> usize {
+    match compared.model_error() {
+        ModelError::Within(_) => 0,
+        ModelError::AtLeast(_) => 1,
+        ModelError::BeyondKnown(_) => 2,
+        ModelError::Unknown => 3,
+    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
-//! The page of the comparisons with measurements: a figure and a table per quantity.
+//! The page of the comparisons with measurements: a figure of each quantity with several, and a table of all.
 
-use super::comparison::{self, Comparison, ModelError, QuantityComparisons};
-use super::comparison_figure::verdict;
+use super::Report;
+use super::comparison::{self, Comparison, ModelError, QuantityComparisons, verdict};
 use super::rows::signed;
 use super::template::fill;
-use super::view::{VerdictMark, anchor};
-use super::{DrawnFigure, Report};
+use super::view::{VerdictMark, anchor, words};
 use crate::evidence::StatedUncertainty;
 use crate::metric::{ComparisonPart, Metric, UncertaintyComponent};
 use crate::number::{two_digits, with_unit};
@@ -14,15 +13,10 @@ use serde_json::{Value, json};
 const NOT_KNOWN: &str = "not known";
 
 /// Fills the template of the page; none where nothing is compared with measurements.
-pub(super) fn render(
-    report: &Report,
-    drawn: &[DrawnFigure],
-    scatter: Vec<Value>,
-) -> Option<Result<String, minijinja::Error>> {
+pub(super) fn render(report: &Report, scatter: Vec<Value>) -> Option<Result<String, minijinja::Error>> {
     let groups = comparison::comparisons(report);
     let all = || groups.iter().flat_map(|(_, own)| own);
     let count = |place: usize| all().filter(|compared| verdict(compared) == place).count();
-    let quantities = groups.iter().enumerate().map(|(place, group)| quantity(group, drawn.get(place)));
     let page = json!({
         "title": report.title,
         "tier": report.tier.name(),
@@ -33,12 +27,12 @@ pub(super) fn render(
         "without_input": all().filter(|compared| compared.input.is_none()).count(),
         "levels": levels(all()),
         "scatter": scatter,
-        "quantities": quantities.collect::<Vec<_>>(),
+        "quantities": groups.iter().map(quantity).collect::<Vec<_>>(),
     });
     (!groups.is_empty()).then(|| fill("comparisons.html", &page))
 }
 
-/// Least, middle and greatest level of the comparisons that are within their uncertainty, where the reference is not 0 `[%]`.
+/// Least, middle and greatest relative u_val of the comparisons that are within their uncertainty, where the reference is not 0 `[%]`.
 fn levels<'c>(all: impl Iterator<Item = &'c Comparison<'c>>) -> Option<[String; 3]> {
     let is_within = |compared: &&Comparison<'_>| matches!(compared.model_error(), ModelError::Within(_));
     let mut levels: Vec<f64> = all.filter(is_within).filter_map(Comparison::level).collect();
@@ -47,9 +41,8 @@ fn levels<'c>(all: impl Iterator<Item = &'c Comparison<'c>>) -> Option<[String; 
     Some([of(0)?, of(levels.len() / 2)?, of(levels.len().checked_sub(1)?)?])
 }
 
-fn quantity(((name, _), own): &QuantityComparisons<'_>, drawn: Option<&DrawnFigure>) -> Value {
-    let rows: Vec<Value> = own.iter().map(row).collect();
-    json!({ "name": name.replace('_', " "), "figure": drawn, "rows": rows })
+fn quantity(((name, _), own): &QuantityComparisons<'_>) -> Value {
+    json!({ "name": words(name), "rows": own.iter().map(row).collect::<Vec<_>>() })
 }
 
 fn row(compared: &Comparison<'_>) -> Value {
@@ -65,7 +58,7 @@ fn row(compared: &Comparison<'_>) -> Value {
         own.map(|own| format!("{}: {}", two_digits(own.standard), own.source)).collect::<Vec<_>>().join("; ")
     };
     let (look, word, statement) = match compared.model_error() {
-        ModelError::Within(own) => (VerdictMark::PASS, "validated", format!("at the level {} and no finer", unit(own))),
+        ModelError::Within(own) => (VerdictMark::PASS, "validated", format!("to ± {}", unit(own))),
         ModelError::AtLeast(own) => {
             (VerdictMark::EXPECTED, "model error", format!("model error of at least {}", unit(own)))
         }

@@ -20,16 +20,20 @@ pub(super) fn write_figure(figure: &Figure, folder: &Path, drawings: &Drawings) 
     put("png", &pixels)
 }
 
-/// Writes `NAME.png` for a small place on a page into a folder; its path.
-pub(super) fn write_small(figure: &Figure, folder: &Path, drawings: &Drawings) -> Result<PathBuf, FigureError> {
+/// Writes `NAME.png` in a format into a folder; its path.
+pub(super) fn write_picture(
+    figure: &Figure,
+    folder: &Path,
+    drawings: &Drawings,
+    format: FigureFormat,
+) -> Result<PathBuf, FigureError> {
     check_name(&figure.name)?;
-    let format = FigureFormat::SMALL;
     let draw = || render::png(&render::svg(figure, format)?, format);
     let pixels = drawings.bytes(&drawings.key(&(figure, format)), "png", draw)?;
     put(folder, &figure.name, "png", &pixels)
 }
 
-/// Writes `NAME.gif` into a folder; its path.
+/// Writes `NAME.gif` and, for who wants nothing to move, its middle picture `NAME.png` into a folder; the path of the GIF.
 pub(super) fn write_animation(
     animation: &Animation,
     folder: &Path,
@@ -37,6 +41,9 @@ pub(super) fn write_animation(
 ) -> Result<PathBuf, FigureError> {
     check_name(&animation.name)?;
     let moving = drawings.bytes(&drawings.key(animation), "gif", || encode_gif(animation))?;
+    if let Some(middle) = animation.frames.get(animation.frames.len() / 2) {
+        write_picture(&animation.figure(middle), folder, drawings, FigureFormat::HALF)?;
+    }
     put(folder, &animation.name, "gif", &moving)
 }
 

@@ -4,7 +4,7 @@
 use super::expected_failures::ListStatus;
 use super::judgement::{JudgedCase, JudgedMetric, Rank, Severity};
 use super::rows::{signed, statement};
-use super::view::{VerdictMark, anchor};
+use super::view::{VerdictMark, anchor, words};
 use crate::metric::{GateOwner, Limit, Metric, Quantity, Value, Variant};
 use crate::number::with_unit;
 use serde_json::json;
@@ -53,7 +53,7 @@ pub(super) fn of(cases: &[JudgedCase<'_>]) -> Vec<serde_json::Value> {
 
 /// The name of a quantity in words.
 fn in_words(name: &str) -> String {
-    let words = name.replace('_', " ");
+    let words = words(name);
     words.chars().take(1).flat_map(char::to_uppercase).chain(words.chars().skip(1)).collect()
 }
 

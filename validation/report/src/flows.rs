@@ -1,7 +1,6 @@
 //! The four flows that the first page opens with: a figure, its number, and how far each is validated.
 
-use super::comparison::{Comparison, comparisons};
-use super::comparison_figure;
+use super::comparison::{self, Comparison, comparisons};
 use super::judgement::{JudgedCase, Judgement, KINDS, Tally};
 use super::power::rejected_inputs;
 use super::view::VerdictMark;
@@ -114,15 +113,14 @@ const FLOWS: [Flow; 4] = [
     },
 ];
 
-/// The figure that stands for a case: that of its flow, else its first.
+/// The figure of a case that stands for its flow.
 pub(super) fn figure_of(case: &CaseReport) -> Option<&Figure> {
-    let named = FLOWS.iter().flat_map(|flow| flow.figures).find(|(name, _)| *name == case.name);
-    let found = named.and_then(|(_, name)| case.figures.iter().find(|figure| figure.name == *name));
-    found.or(case.figures.first())
+    let (_, name) = FLOWS.iter().flat_map(|flow| flow.figures).find(|(name, _)| *name == case.name)?;
+    case.figures.iter().find(|figure| figure.name == *name)
 }
 
-/// The flows that the report has a case of. `drawn` holds the figures of the cases in the report's order, `small` those of the
-/// table of cases.
+/// The flows that the report has a case of. `drawn` holds the figures of the cases in the report's order, `small` the small
+/// pictures.
 pub(super) fn panels(judgement: &Judgement<'_>, drawn: &[Vec<DrawnFigure>], small: &[DrawnFigure]) -> Vec<Value> {
     FLOWS.iter().filter_map(|flow| panel(flow, judgement, drawn, small)).collect()
 }
@@ -195,7 +193,7 @@ fn verdict(compared: &[&Comparison<'_>], cases: &[&CaseReport], judgement: &Judg
     let mut add = |mark: VerdictMark, text: String| lines.push(json!({ "mark": mark, "text": text }));
     let all = compared.len();
     for (place, (mark, says)) in STATEMENTS.into_iter().enumerate() {
-        let own = || compared.iter().filter(|own| comparison_figure::verdict(own) == place);
+        let own = || compared.iter().filter(|own| comparison::verdict(own) == place);
         let shares = own().map(|own| own.model_error().size() / own.measured().abs()).filter(|share| share.is_finite());
         let share = span(shares, |share| two_digits(100.0 * share));
         let share = share.map_or_else(String::new, |span| format!("{span} % of the reference"));

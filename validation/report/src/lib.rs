@@ -4,7 +4,6 @@ mod baseline;
 mod case_page;
 mod committed;
 pub mod comparison;
-mod comparison_figure;
 mod comparison_page;
 pub mod coverage;
 mod coverage_page;
@@ -14,6 +13,7 @@ mod error;
 mod exit;
 mod expected_failures;
 mod failures;
+mod flow_picture;
 mod flows;
 mod gate_list;
 mod judgement;
@@ -69,7 +69,7 @@ use bagnold_number as number;
 use case::{CaseResult, Features, Registry, Tier};
 use control::ControlTrial;
 use evidence::Paper;
-use figure::{Figure, FigureError};
+use figure::{Figure, FigureError, FigureFormat};
 use input::FieldError;
 use measured::Measurements;
 use metric::{Metric, Quantity};
@@ -197,17 +197,22 @@ impl Deref for CaseReport {
 struct DrawnFigure {
     caption: String,
     name: String,
-    /// A GIF, instead of an SVG with a PNG.
-    moves: bool,
+    /// Endings of its files, what the picture leads to first.
+    files: &'static [&'static str],
     /// Width and height of the picture `[px]`, so that the page does not move when it comes.
     size: Option<(u32, u32)>,
     /// Reason why there is no picture; none if there is one.
     failure: Option<String>,
 }
 
+/// Files of a figure, of an animation, and of a picture alone.
+const FIGURE_FILES: &[&str] = &["svg", "png", "pdf", "csv"];
+const ANIMATION_FILES: &[&str] = &["gif", "png"];
+const PICTURE_FILES: &[&str] = &["png"];
+
 /// Writes a report into `folder`: `index.html`, `papers.html`, `papers.json`, `coverage.html`, `comparisons.html`, `print.html` with all pages as one, `figures/CASE/NAME.{svg,png,pdf,csv,gif}`, in
 /// `cases/CASE/` the case's page `index.html`, `metrics.json`, `case.toml` and `reference/NAME.csv`, and what the cases say
-/// together as `metrics.json`, all metrics as `metrics.csv`, small pictures in `figures/overview/CASE.png` and `figures/scatter/QUANTITY.{svg,png,pdf,csv}`. Files of the same names are replaced, others are left
+/// together as `metrics.json`, all metrics as `metrics.csv`, small pictures of flows in `figures/overview/CASE.png` and `figures/scatter/QUANTITY.{svg,png,pdf,csv}`. Files of the same names are replaced, others are left
 /// alone.
 ///
 /// Earlier drawings are taken from `drawings`. A figure that cannot be drawn does not spoil the report: the page says
@@ -227,7 +232,7 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
         let name = &judged.case.name;
         let place = folder.join("cases").join(name);
         put_case(judged, &place)?;
-        let pictures = page::pictures(report, &drawn, judged.case);
+        let pictures = case_page::pictures(report, &drawn, judged.case);
         let text = case_page::render(report, judged, pictures, Some(neighbours(report, name)))?;
         chapters.push(Chapter::of(format!("case-{name}"), &text));
         put(&place.join("index.html"), &text)?;
@@ -247,8 +252,7 @@ fn write(judgement: &Judgement<'_>, folder: &Path, drawings: &Drawings) -> Resul
     }
     let quantities = scatter::quantities(report);
     let compared = draw_in(scatter::FOLDER, &scatter::figures(&quantities))?;
-    let beside = draw_in(comparison_figure::FOLDER, &comparison_figure::figures(report))?;
-    if let Some(text) = comparison_page::render(report, &beside, scatter::rows(&quantities, &compared)) {
+    if let Some(text) = comparison_page::render(report, scatter::rows(&quantities, &compared)) {
         add("comparisons", text?)?;
     }
     add("gates", page::gates(judgement)?)?;
@@ -306,20 +310,29 @@ fn neighbours(report: &Report, name: &str) -> serde_json::Value {
     })
 }
 
+/// The flow, in motion if it can be, before the figures, and other animations behind them.
 fn draw(case: &CaseReport, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
-    let mut drawn = draw_figures(&case.figures, folder, drawings)?;
     let animations = case.animations.par_iter().map(|animation| {
         let written = drawing::write_animation(animation, folder, drawings);
-        as_drawn(&animation.name, &animation.caption, true, written)
+        as_drawn(&animation.name, &animation.caption, ANIMATION_FILES, written)
     });
-    drawn.extend(animations.collect::<Result<Vec<DrawnFigure>, ReportError>>()?);
+    let mut moving = animations.collect::<Result<Vec<DrawnFigure>, ReportError>>()?.into_iter();
+    let still = || {
+        let picture = flow_picture::of_case(case)?;
+        let written = drawing::write_picture(&picture, folder, drawings, FigureFormat::HALF);
+        Some(as_drawn(&picture.name, &picture.caption, PICTURE_FILES, written))
+    };
+    let flow = moving.next().map(Ok).or_else(still).transpose()?;
+    let mut drawn: Vec<DrawnFigure> = flow.into_iter().collect();
+    drawn.extend(draw_figures(&case.figures, folder, drawings)?);
+    drawn.extend(moving);
     Ok(drawn)
 }
 
 fn draw_figures(figures: &[Figure], folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
     let draw = |figure: &Figure| {
         let written = drawing::write_figure(figure, folder, drawings);
-        as_drawn(&figure.name, &figure.caption, false, written)
+        as_drawn(&figure.name, &figure.caption, FIGURE_FILES, written)
     };
     figures.par_iter().map(draw).collect()
 }
@@ -334,13 +347,14 @@ fn with_numbers(mut figures: Vec<Figure>) -> Vec<Figure> {
     figures
 }
 
-/// The first panel of the figure that stands for each case, named like the case.
+/// The first panel of each figure that stands for a flow of the project, named like its case.
 fn draw_small(report: &Report, folder: &Path, drawings: &Drawings) -> Result<Vec<DrawnFigure>, ReportError> {
     let draw = |case: &CaseReport| {
         let figure = flows::figure_of(case)?;
         let panels = figure.panels.iter().take(1).cloned().collect();
         let small = Figure { name: case.name.clone(), panels, ..figure.clone() };
-        Some(as_drawn(&case.name, &figure.caption, false, drawing::write_small(&small, folder, drawings)))
+        let written = drawing::write_picture(&small, folder, drawings, FigureFormat::SMALL);
+        Some(as_drawn(&small.name, &small.caption, PICTURE_FILES, written))
     };
     report.cases.par_iter().filter_map(draw).collect()
 }
@@ -350,7 +364,7 @@ fn draw_small(report: &Report, folder: &Path, drawings: &Drawings) -> Result<Vec
 fn as_drawn(
     name: &str,
     caption: &str,
-    moves: bool,
+    files: &'static [&'static str],
     written: Result<PathBuf, FigureError>,
 ) -> Result<DrawnFigure, ReportError> {
     let (size, failure) = match written {
@@ -361,7 +375,7 @@ fn as_drawn(
             (None, Some(error.to_string()))
         }
     };
-    Ok(DrawnFigure { caption: caption.to_owned(), name: name.to_owned(), moves, size, failure })
+    Ok(DrawnFigure { caption: caption.to_owned(), name: name.to_owned(), files, size, failure })
 }
 
 /// Writes a file, and before it the folder that it lies in.

@@ -1,7 +1,7 @@
 //! Cases on the first page: a line with a picture each, and every gate in one table; `metrics.csv` with all metrics.
 
 use super::DrawnFigure;
-use super::case_page::case_statement;
+use super::case_page::{case_statement, pictures};
 use super::judgement::{JudgedCase, JudgedMetric, Judgement, Rank};
 use super::rows::{margin_share, row, whole};
 use super::view::VerdictMark;
@@ -13,14 +13,15 @@ use serde_json::{Value, json};
 pub(super) const FOLDER: &str = "overview";
 
 /// The list of cases, the least margin first.
-pub(super) fn case_lines(judged: &[JudgedCase<'_>], small: &[DrawnFigure]) -> Vec<Value> {
-    let mut lines: Vec<(f64, Value)> = judged.iter().map(|case| case_line(case, small)).collect();
+pub(super) fn case_lines(judgement: &Judgement<'_>, drawn: &[Vec<DrawnFigure>]) -> Vec<Value> {
+    let line = |case: &JudgedCase<'_>| case_line(case, pictures(judgement.report, drawn, case.case).first());
+    let mut lines: Vec<(f64, Value)> = judgement.cases.iter().map(line).collect();
     lines.sort_by(|one, other| one.0.total_cmp(&other.0));
     lines.into_iter().map(|(_, line)| line).collect()
 }
 
 /// A case's least margin, infinite without gates, and its line.
-fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> (f64, Value) {
+fn case_line(judged: &JudgedCase<'_>, picture: Option<&DrawnFigure>) -> (f64, Value) {
     let case = judged.case;
     // what is exact passes by nothing
     let counts =
@@ -29,7 +30,7 @@ fn case_line(judged: &JudgedCase<'_>, small: &[DrawnFigure]) -> (f64, Value) {
     let least = gates.filter_map(|judged| margin_share(judged.metric)).min_by(f64::total_cmp);
     let line = json!({
         "mark": VerdictMark::of_rank(judged.rank()),
-        "picture": small.iter().find(|drawn| drawn.name == case.name && drawn.failure.is_none()),
+        "picture": picture.filter(|drawn| drawn.failure.is_none()),
         "name": case.name,
         "summary": case.summary,
         "statement": case_statement(judged),

@@ -8,11 +8,11 @@ use super::overview;
 use super::papers::Status;
 use super::template::fill;
 use super::view::{VerdictMark, typed};
-use super::{CaseReport, DrawnFigure, Exit, Report, comparison, moved};
+use super::{DrawnFigure, Exit, comparison, moved};
 use crate::metric::MetricKind;
 use serde_json::{Value, json};
 
-/// Fills the template; `drawn` holds the figures of the report's cases in the report's order, `small` a picture a case.
+/// Fills the template; `drawn` holds the figures of the report's cases in the report's order, `small` those of the flows.
 pub(super) fn render(
     judgement: &Judgement<'_>,
     (drawn, small): (&[Vec<DrawnFigure>], &[DrawnFigure]),
@@ -24,7 +24,7 @@ pub(super) fn render(
         "banner": banner(judgement),
         "counts": counts(judgement),
         "flows": flows::panels(judgement, drawn, small),
-        "cases": overview::case_lines(&judgement.cases, small),
+        "cases": overview::case_lines(judgement, drawn),
         "moved": moved::table(judgement),
         "papers": papers(judgement),
         "has_coverage": report.features.is_some(),
@@ -55,12 +55,6 @@ pub(super) fn gates(judgement: &Judgement<'_>) -> Result<String, minijinja::Erro
         "script": include_str!("template/page.js"),
     });
     fill("gates.html", &page)
-}
-
-/// The figures of a case among those of all.
-pub(super) fn pictures<'d>(report: &Report, drawn: &'d [Vec<DrawnFigure>], case: &CaseReport) -> &'d [DrawnFigure] {
-    let position = report.cases.iter().position(|other| std::ptr::eq(other, case));
-    position.and_then(|position| drawn.get(position)).map_or(&[][..], Vec::as_slice)
 }
 
 /// Effect of a change: new failures and values that moved from the baseline, then all gates.

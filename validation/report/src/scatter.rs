@@ -1,6 +1,7 @@
 //! Bias and scatter of every quantity that is compared with experiments or published fits often enough.
 
 use super::judgement::{Judgement, KINDS};
+use super::view::words;
 use super::{DrawnFigure, Report, with_numbers};
 use crate::evidence::StatedUncertainty;
 use crate::figure::{Axis, Figure, Panel};
@@ -82,7 +83,7 @@ pub(super) fn figures(quantities: &[QuantityBias]) -> Vec<Figure> {
 /// δ (1 ± 2 σ_M) E.
 fn figure(quantity: &QuantityBias) -> Figure {
     let unit = &quantity.unit;
-    let axis = |what: &str| Axis::logarithmic(&format!("{what} {} [{unit}]", quantity.quantity.replace('_', " ")));
+    let axis = |what: &str| Axis::logarithmic(&format!("{what} {} [{unit}]", words(&quantity.quantity)));
     let all = quantity.cases.iter().flat_map(|(_, own)| own);
     let (least, most) = all.fold((f64::INFINITY, 0.0_f64), |(least, most), of| {
         (least.min(of.measured.min(of.predicted)), most.max(of.measured.max(of.predicted)))

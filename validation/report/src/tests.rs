@@ -68,13 +68,7 @@ pub(super) fn place(text: &str, part: &str) -> usize {
 }
 
 pub(super) fn drawing(name: &str) -> Figure {
-    let axis = |label: &str| Axis {
-        label: label.to_owned(),
-        scale: Scale::Linear,
-        limits: None,
-        ratio: None,
-        names: Vec::new(),
-    };
+    let axis = |label: &str| Axis { label: label.to_owned(), scale: Scale::Linear, limits: None, ratio: None };
     let panel = Panel {
         title: String::new(),
         x: axis("u [m/s]"),
@@ -88,13 +82,7 @@ pub(super) fn drawing(name: &str) -> Figure {
 }
 
 fn moving(name: &str, frames: usize) -> Animation {
-    let axis = Axis {
-        label: "x [m]".to_owned(),
-        scale: Scale::Linear,
-        limits: Some((0.0, 1.0)),
-        ratio: None,
-        names: Vec::new(),
-    };
+    let axis = Axis { label: "x [m]".to_owned(), scale: Scale::Linear, limits: Some((0.0, 1.0)), ratio: None };
     let frame = AnimationFrame {
         title: "t = 0 s".to_owned(),
         points: vec![[0.5, 0.5]],

@@ -1,6 +1,7 @@
 //! The page of the validated space: in which regimes each quantity was compared with measurements, and what that predicts.
 
 use super::template::fill;
+use super::view::words;
 use super::{CaseReport, DrawnFigure, Report};
 use crate::evidence::{HeldOutDatum, HeldOutJudgement, ValidatedComparison, ValidationSet, WAY_OF_FRONT};
 use crate::figure::{Axis, Figure, Panel};
@@ -23,10 +24,10 @@ struct Group {
 
 /// The ways of fronts together, then every quantity by itself.
 fn groups(set: &'static ValidationSet) -> Vec<Group> {
-    let way = Group { name: "way of a front".to_owned(), quantities: WAY_OF_FRONT.to_vec() };
+    let way = Group { name: "front displacement".to_owned(), quantities: WAY_OF_FRONT.to_vec() };
     let names: BTreeSet<&str> = set.comparisons.iter().map(|row| row.quantity.as_str()).collect();
     let single = names.into_iter().filter(|name| !WAY_OF_FRONT.contains(name));
-    let single = single.map(|name| Group { name: name.replace('_', " "), quantities: vec![name] });
+    let single = single.map(|name| Group { name: words(name), quantities: vec![name] });
     std::iter::once(way).chain(single).collect()
 }
 
@@ -47,7 +48,7 @@ fn figure(set: &ValidationSet, group: &Group) -> Option<Figure> {
         panel.bands.iter_mut().for_each(|band| band.label.clear());
     }
     let caption = format!(
-        "{}: prediction over measurement with ± u_val, over the numbers of the regime. The band holds 95 % of further ratios.",
+        "{}: prediction over measurement with ± u_val, over the numbers of the regime. The band is the 95 % prediction interval.",
         group.name
     );
     (!panels.is_empty()).then(|| Figure::new(&group.name.replace(' ', "-"), &caption, panels))
@@ -65,7 +66,7 @@ fn panel(set: &ValidationSet, names: &[&str], number: usize) -> Option<Panel> {
     let mut panel = Panel::new("", x, if is_wide { Axis::logarithmic(label) } else { Axis::linear(label) });
     let ends = [ends.0, ends.1];
     if let Some((least, most)) = interval {
-        panel.band("95 % of further ratios", ends.map(|x| (x, least, most)));
+        panel.band("95 % prediction interval", ends.map(|x| (x, least, most)));
     }
     panel.reference("prediction = measurement", ends.map(|x| (x, 1.0)));
     let cases: BTreeSet<&str> = set.ratios(names).map(|(row, _)| row.case.as_str()).collect();

@@ -47,6 +47,16 @@ impl VerdictMark {
     }
 }
 
+/// The words of a name with underscores: `after_0_66_s` is "after 0.66 s".
+pub(super) fn words(name: &str) -> String {
+    let is_number = |word: &str| word.bytes().all(|byte| byte.is_ascii_digit());
+    let join = |text: String, word: &str| {
+        let is_decimal = is_number(word) && text.rsplit(' ').next().is_some_and(is_number);
+        format!("{text}{}{word}", if is_decimal { '.' } else { ' ' })
+    };
+    name.split('_').map(str::to_owned).reduce(|text, word| join(text, &word)).unwrap_or_default()
+}
+
 /// Link target of a metric's row: letters, digits, points and dashes.
 pub(super) fn anchor(case: &str, metric: &str, variant: &Variant) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || c == '.' || c == '-' || c == '_' { c } else { '-' };

@@ -124,7 +124,7 @@ pub fn drawn_page(sentence: &str, findings: &[MutationOutcome]) -> String {
 /// The findings as Markdown, with the shares.
 #[must_use]
 pub fn page(findings: &[MutationOutcome]) -> String {
-    let rows = rows(findings, ("values drifted", |finding| finding.drifted.to_string()));
+    let rows = rows(findings, ("values moved", |finding| finding.drifted.to_string()));
     format!("# Mutations\n\n{}\n{rows}", shares(findings))
 }
 
