@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Packages and parts of a case's folder that see runs which have ended.
-const JUDGING: [&str; 2] = ["validation/inference/src/inference/", "validation/tools/"];
+const JUDGING: [&str; 3] = ["validation/inference/src/inference/", "validation/tools/", "validation/harness/src/page/"];
 pub(crate) const JUDGING_PARTS: [&str; 2] = ["metrics", "figures"];
 
 /// Name of what drawings depend on besides their data.

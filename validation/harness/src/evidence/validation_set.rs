@@ -42,7 +42,7 @@ pub struct ValidatedComparison {
     pub slope_angle: Option<f64>,
     /// I `[-]`.
     pub inertial_number: Option<f64>,
-    /// d/h `[-]`.
+    /// D/h `[-]`.
     pub grain_ratio: Option<f64>,
 }
 
@@ -297,7 +297,7 @@ mod tests {
         assert!(found.warnings[1].starts_with("θ [°] is not known"), "{:?}", found.warnings);
         let of_grains = FlowRegime { grain_ratio: Some(0.01), ..known };
         let found = set.predict(&["run_out"], of_grains, 2.0).expect("four comparisons");
-        assert_eq!(found.warnings, ["d/h = 0.01 is known of nothing that was validated"]);
+        assert_eq!(found.warnings, ["D/h = 0.01 is known of nothing that was validated"]);
         assert_eq!(set.predict(&["height"], known, 2.0), None);
     }
 

@@ -10,15 +10,15 @@ pub struct FlowRegime {
     pub aspect_ratio: Option<f64>,
     /// Slope θ of the bed `[°]`.
     pub slope_angle: Option<f64>,
-    /// I = U d/(h √(g h)) of the whole flow `[-]`: with its largest root mean square of the speed U over its height h at the start, and
+    /// I = U D/(h √(g h)) of the whole flow `[-]`: with its largest root mean square of the speed U over its height h at the start, and
     /// the pressure below it.
     pub inertial_number: Option<f64>,
-    /// Diameter of the grains over that height, or over the depth of the flow, d/h `[-]`.
+    /// Diameter of the grains over that height, or over the depth of the flow, D/h `[-]`.
     pub grain_ratio: Option<f64>,
 }
 
 /// Names of a regime's numbers, in the order of [`FlowRegime::numbers`].
-pub const REGIME_NUMBERS: [&str; 4] = ["a = h/r", "θ [°]", "I", "d/h"];
+pub const REGIME_NUMBERS: [&str; 4] = ["a = h/r", "θ [°]", "I", "D/h"];
 
 impl FlowRegime {
     /// That of a stream of a depth `[m]` on a slope tanθ `[-]`, over grains of a diameter `[m]`.
@@ -36,7 +36,7 @@ impl FlowRegime {
         Self { inertial_number: diameter.and_then(inertia), grain_ratio: diameter.and_then(over_height), ..self }
     }
 
-    /// a, θ `[°]`, I and d/h.
+    /// a, θ `[°]`, I and D/h.
     #[must_use]
     pub const fn numbers(&self) -> [Option<f64>; 4] {
         [self.aspect_ratio, self.slope_angle, self.inertial_number, self.grain_ratio]
@@ -79,7 +79,7 @@ mod tests {
     #[test]
     fn the_numbers_of_a_flow_follow_from_its_lengths() {
         let regime = FlowRegime { aspect_ratio: Some(2.0), ..FlowRegime::default() };
-        // U = √(g h): I = d/h
+        // U = √(g h): I = D/h
         let speed = (9.81_f64 * 0.1).sqrt();
         let flow = regime.of_grains(Some(1e-3), 0.1, speed, 9.81);
         assert!(flow.inertial_number.is_some_and(|inertia| (inertia - 0.01).abs() < 1e-12));
