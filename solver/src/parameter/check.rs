@@ -240,7 +240,7 @@ fn kind_in_words(shape: &Shape<'_>) -> String {
         Shape::List(_) => "an array in brackets, such as [1.0, 2.0] or [\"newtonian\"]",
         Shape::Tuple(items) => return format!("an array of {} values", items.len()),
         Shape::Number => "a number",
-        Shape::Integer { signed: false } => "a whole number that is not negative",
+        Shape::Integer { signed: false } => "a whole number in digits alone, not negative",
         Shape::Integer { signed: true } => "a whole number",
         Shape::Text => "a string",
         Shape::Flag => "true or false",

@@ -12,7 +12,7 @@ pub fn schema() -> Schema {
     let mut schema = Schema::from(settings.into_generator().into_root_schema_for::<StudyText>());
     drop_null(&mut schema);
     schema["title"] = "bagnold: study".into();
-    schema["description"] = "A study of one's own: what is simulated, what of it is measured, what judges it.".into();
+    schema["description"] = "A study: what is simulated, what of it is measured, what judges it.".into();
     schema["oneOf"] = one_of(&["case", "base"]);
     schema["required"] = json!(["study", "summary", "checks"]);
     let checks = &mut schema["properties"]["checks"];

@@ -127,7 +127,7 @@ fn wrong_values_are_refused_with_the_type_they_should_have() {
     );
     assert_eq!(
         message("rows = -3", &[]),
-        "layer.toml: `rows` is -3, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
+        "layer.toml: `rows` is -3, but must be a whole number in digits alone, not negative; `bagnold show layer` prints a valid value"
     );
     assert_eq!(
         message("grains.packing = \"latice\"", &[]),
@@ -167,11 +167,11 @@ fn settings_of_a_wrong_form_path_or_type_are_refused() {
     );
     assert_eq!(
         message("", &["rows=many"]),
-        "`--set rows=many`: `rows` is many, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
+        "`--set rows=many`: `rows` is many, but must be a whole number in digits alone, not negative; `bagnold show layer` prints a valid value"
     );
     assert_eq!(
         message("", &["rows=1\ndepth=3"]),
-        "`--set rows=1\\ndepth=3`: `rows` is 1\\ndepth=3, but must be a whole number that is not negative; `bagnold show layer` prints a valid value"
+        "`--set rows=1\\ndepth=3`: `rows` is 1\\ndepth=3, but must be a whole number in digits alone, not negative; `bagnold show layer` prints a valid value"
     );
 }
 
