@@ -20,7 +20,8 @@ fn book() -> PathBuf {
 
 fn pages() -> Vec<PathBuf> {
     let entries = std::fs::read_dir(book()).expect("docs/src");
-    let mut pages: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let entries = entries.flatten().map(|entry| entry.path());
+    let mut pages: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|own| own == "md")).collect();
     pages.sort();
     assert!(pages.len() > 5, "{pages:?}");
     pages
@@ -81,7 +82,32 @@ fn follow(page: &Path, store: &Path) -> usize {
             _ => {}
         }
     }
+    for figure in figures(&text) {
+        let shown = std::fs::read(book().join(figure)).unwrap_or_else(|error| panic!("{figure}: {error}"));
+        let made = folder.path().join(figure.trim_start_matches("figures/").replacen("--", "/figures/", 1));
+        let is_current = std::fs::read(&made).is_ok_and(|made| made == shown);
+        if !is_current {
+            let kept = book().join("../../target/reference").join(figure.trim_start_matches("figures/"));
+            let _ = kept.parent().map(std::fs::create_dir_all);
+            let copied = std::fs::copy(&made, &kept);
+            panic!("{}: {figure} is not what the commands make; copied to {kept:?}: {copied:?}", page.display());
+        }
+    }
     commands
+}
+
+/// Pictures of a page: `figures/OUT--NAME.png` is what its commands leave as `OUT/figures/NAME.png`.
+fn figures(page: &str) -> impl Iterator<Item = &str> {
+    let targets = ["](", "]: "].into_iter().flat_map(|begin| page.split(begin).skip(1));
+    targets.filter_map(|rest| rest.split([')', '\n']).next()).filter(|own| own.starts_with("figures/"))
+}
+
+#[test]
+fn tutorials_and_the_chapters_on_equations_and_limits_have_a_figure() {
+    for page in ["introduction", "own-sand", "own-geometry", "overlay", "equations", "limits"] {
+        let text = std::fs::read_to_string(book().join(format!("{page}.md"))).expect("readable");
+        assert!(figures(&text).next().is_some(), "{page}.md");
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ use bagnold_validation::REGISTRY;
 use bagnold_validation::cli::Arguments;
 use clap::{Arg, Command, CommandFactory};
 use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 /// First line of a generated page.
@@ -16,7 +17,9 @@ const NOTICE: &str = "<!-- Generated; `cargo test --test suite documentation` te
 
 /// Compares a page with its text; a page that differs is written to `target/reference`.
 pub(crate) fn assert_page(name: &str, text: &str) {
-    let text = format!("{NOTICE}{}\n", text.trim_end());
+    // readers see no comment
+    let told = text.trim_end().replacen("\n\n", "\n\n*This page is generated from the program.*\n\n", 1);
+    let text = format!("{NOTICE}{told}\n");
     let page = book().join(name);
     if std::fs::read_to_string(&page).is_ok_and(|old| old == text) {
         return;
@@ -175,12 +178,20 @@ fn write_below(page: &mut String, path: &str, schema: &Value) {
     }
 }
 
+/// The fields of a file, without those that another one has with the same words.
 fn write_file(page: &mut String, title: &str, schema: &Value) {
-    let _ = writeln!(page, "## {title}\n\n| field | type | default | description |\n|---|---|---|---|");
+    let mut rows = String::new();
     for (name, field) in schema["properties"].as_object().into_iter().flatten() {
-        write_field(page, name, field);
+        write_field(&mut rows, name, field);
     }
-    page.push('\n');
+    let known: BTreeSet<&str> = page.lines().collect();
+    let (again, new): (Vec<&str>, Vec<&str>) = rows.lines().partition(|row| known.contains(row));
+    let mut section = format!("## {title}\n\n");
+    if !again.is_empty() {
+        let _ = writeln!(section, "Further fields, {} of them, are those of the files above.\n", again.len());
+    }
+    let _ = writeln!(section, "| field | type | default | description |\n|---|---|---|---|\n{}\n", new.join("\n"));
+    page.push_str(&section);
 }
 
 #[test]
@@ -206,16 +217,35 @@ fn fields_are_those_of_the_schemas() {
 }
 
 #[test]
+fn catalogue_is_that_of_the_registry() {
+    let mut page = "# Cases and studies\n\n`bagnold list` prints this list, `bagnold show NAME` the parameters, `bagnold run NAME` runs one.\n\n\
+        ## Cases in Rust\n\n| case | what it is |\n|---|---|\n"
+        .to_owned();
+    for case in REGISTRY.cases() {
+        let _ = writeln!(page, "| `{}` | {} |", case.name(), cell(case.summary()));
+    }
+    page.push_str(
+        "\n## Studies\n\nScene files with checks, in `validation/studies`:\n\n| study | what it is |\n|---|---|\n",
+    );
+    for study in REGISTRY.studies() {
+        let _ = writeln!(page, "| `{}` | {} |", study.name(), cell(study.summary()));
+    }
+    assert_page("cases.md", &page);
+}
+
+#[test]
 fn metrics_are_those_of_the_cases() {
     let mut page = "# Metrics\n\nEach value stands in `metrics.json` and on the page of its case, with its reference and limit.\n\n\
         | kind | compared with |\n|---|---|\n| verification | the equations of the model |\n| validation | measurements or published fits \
         |\n| statement | statements of the two papers |\n| bookkeeping | balances of the run |\n\n⟨ ⟩ is a mean.\n\n"
         .to_owned();
+    let mut rows: BTreeMap<String, &str> = BTreeMap::new();
     let mut write = |case: &dyn AnyCase| {
         if case.quantities().is_empty() {
             return;
         }
         let _ = writeln!(page, "## {}\n\n| metric | unit | kind | definition |\n|---|---|---|---|", case.name());
+        let mut again: BTreeMap<&str, Vec<String>> = BTreeMap::new();
         for own in case.quantities() {
             let kind = match own.kind {
                 MetricKind::Validation => "validation",
@@ -223,7 +253,16 @@ fn metrics_are_those_of_the_cases() {
                 MetricKind::Verification => "verification",
                 MetricKind::Bookkeeping => "bookkeeping",
             };
-            let _ = writeln!(page, "| `{}` | {} | {kind} | {} |", own.name, own.unit, cell(own.description));
+            let row = format!("| `{}` | {} | {kind} | {} |", own.name, own.unit, cell(own.description));
+            if let Some(&first) = rows.get(&row) {
+                again.entry(first).or_default().push(format!("`{}`", own.name));
+            } else {
+                let _ = writeln!(page, "{row}");
+                rows.insert(row, case.name());
+            }
+        }
+        for (first, names) in again {
+            let _ = writeln!(page, "| {} | | | as in `{first}` |", names.join(", "));
         }
         page.push('\n');
     };

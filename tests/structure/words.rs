@@ -8,6 +8,21 @@ use std::path::{Path, PathBuf};
 const QUESTIONS: [&str; 7] = ["What", "How", "Where", "When", "Which", "Who", "Why"];
 /// House words that have a standard word.
 const BANNED: [&str; 6] = ["nobody", "somebody", "likewise", "of one's own", "told apart", " is no "];
+/// Words that nothing prints, each for a standard one.
+const NEVER_PRINTED: [&str; 12] = [
+    "known defect",
+    "drifted",
+    "accepted anew",
+    "deliberate error",
+    "way of a front",
+    "further ratio",
+    "is right",
+    "cannot tell",
+    "at the level",
+    "nobody",
+    "one's own",
+    "told apart",
+];
 /// Words of a sentence at most.
 const LONGEST_SENTENCE: usize = 35;
 /// Characters of a line of prose at most.
@@ -205,6 +220,39 @@ fn messages_are_short() {
         }
     }
     assert_none(&long);
+}
+
+/// Texts between quotes in the lines of code of a file, without its unit tests.
+fn literals(code: &str) -> Vec<String> {
+    let code = code.split("#[cfg(test)]").next().unwrap_or_default();
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    lines.flat_map(|line| line.split('"').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>()).collect()
+}
+
+#[test]
+fn what_is_printed_uses_standard_words() {
+    let mut printed: Vec<(PathBuf, Vec<String>)> = Vec::new();
+    for path in files("validation", "html") {
+        let page = text(&path);
+        // a number before a word of several things is wrong of one
+        let parts = page.split("length }} ").skip(1).filter(|rest| rest.starts_with(char::is_alphabetic));
+        let counted = parts.map(|rest| rest.chars().take_while(|letter| *letter != '<').collect::<String>());
+        let one: Vec<String> = counted.filter(|rest| !rest.contains("{%")).collect();
+        assert!(one.is_empty(), "{}: {one:?}", path.display());
+        printed.push((path, vec![page]));
+    }
+    let sources = files("validation", "rs").into_iter().chain(files("solver/src", "rs"));
+    let is_test = |part: &str| part == "tests" || part.ends_with("tests.rs");
+    let sources = sources.filter(|path| !path.iter().any(|part| is_test(&part.to_string_lossy())));
+    printed.extend(sources.map(|path| (path.clone(), literals(&text(&path)))));
+    printed.extend(files("validation/studies", "toml").into_iter().map(|path| (path.clone(), vec![text(&path)])));
+    let mut found = Vec::new();
+    for (path, texts) in printed {
+        let all = texts.iter().map(|text| text.to_lowercase()).collect::<Vec<_>>();
+        let is_printed = |word: &&&str| all.iter().any(|text| text.contains(**word));
+        found.extend(NEVER_PRINTED.iter().filter(is_printed).map(|word| format!("{}: {word}", path.display())));
+    }
+    assert_none(&found);
 }
 
 /// Number of words of a text, symbols left out.
