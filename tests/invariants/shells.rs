@@ -246,7 +246,7 @@ pub(crate) fn gated() -> Scene<2> {
     let mut gate = shell("gate", &plate);
     gate.roughness = Surface::Smooth;
     let up = |y: f64| Vector::<2>::new(0.0, y);
-    gate.motion = Motion { times: vec![0.0, 0.01, 0.06], displacements: vec![up(0.0), up(0.0), up(0.1)] };
+    gate.motion = Motion { times: vec![0.0, 0.01, 0.06], displacements: vec![up(0.0), up(0.0), up(0.1)], load: None };
     scene.enclosure.walls = vec![floor, gate];
     scene
 }

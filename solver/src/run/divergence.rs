@@ -3,11 +3,14 @@
 
 use crate::vector::Vector;
 
+/// The particle of what is not a particle's.
+pub(crate) const NO_PARTICLE: u32 = u32::MAX;
+
 /// A run that has left the range in which its model makes sense.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "diverged at t = {time:.6} s (step {step}): the {quantity} of particle {particle} at {} is {value:.4e} {unit}{rule}",
-    self.place()
+    "diverged at t = {time:.6} s (step {step}): the {quantity}{} is {value:.4e} {unit}{rule}",
+    self.subject()
 )]
 pub struct Divergence<const D: usize> {
     /// Time `[s]`.
@@ -29,8 +32,11 @@ pub struct Divergence<const D: usize> {
 }
 
 impl<const D: usize> Divergence<D> {
-    fn place(&self) -> String {
+    fn subject(&self) -> String {
+        if self.particle == NO_PARTICLE {
+            return String::new();
+        }
         let coordinates: Vec<String> = self.position.iter().map(|x| format!("{x:.4e}")).collect();
-        format!("({}) m", coordinates.join(", "))
+        format!(" of particle {} at ({}) m", self.particle, coordinates.join(", "))
     }
 }

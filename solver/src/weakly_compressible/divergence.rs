@@ -28,6 +28,13 @@ pub enum Quantity {
         /// Name of the wall.
         wall: String,
     },
+    /// Travel of a wall under a load `[m]`.
+    LoadedWall {
+        /// Name of the wall.
+        wall: String,
+        /// End of its way.
+        end: String,
+    },
     /// Pressure before the rows of an inlet `[Pa]`.
     InflowPressure {
         /// Name of the inlet.
@@ -64,6 +71,7 @@ impl Quantity {
                 ("number of neighbours", "or more", format!(", above the {limit} that a neighbour list row can hold"))
             }
             Self::Penetration { wall } => ("distance", "m", format!(" before the wall `{wall}`: it has passed it")),
+            Self::LoadedWall { wall, end } => ("travel of a wall", "m", format!(": `{wall}` under its load {end}")),
             Self::InflowPressure { inlet, limit } => {
                 let rule = format!(
                     ", above the {limit:.4e} Pa that compress the material by a tenth: the inlet `{inlet}` is blocked, since the \

@@ -87,10 +87,12 @@ impl<const D: usize> Simulation<D> {
         ForeignState::check("wall particles", particles.wall_count(), state.particles.wall_count())?;
         ForeignState::check("walls", walls.len(), state.walls.len())?;
         ForeignState::check("walls of segments", books.impulses.len(), facet_walls)?;
-        let motions =
-            state.enclosure.walls[..facet_walls - state.enclosure.inlets.len()].iter().map(|wall| &wall.motion);
+        ForeignState::check("walls under loads", books.travels.len(), facet_walls)?;
+        let begun_at = state.enclosure.displacements.clone();
+        state.enclosure.restore(books, saved.time);
         let moved: Vec<Vector<D>> =
-            motions.map(|motion| motion.displacement(saved.time) - motion.displacement(0.0)).collect();
+            state.enclosure.displacements.iter().zip(begun_at).map(|(now, begun)| now - begun).collect();
+        let moved = &moved[..facet_walls - state.enclosure.inlets.len()];
         let is_at_its_place = |&index: &usize| {
             let wall = (particles.wall[index] as usize).checked_sub(walls.len());
             let (Some(moved), Some(place)) =
@@ -107,7 +109,7 @@ impl<const D: usize> Simulation<D> {
         let whole = particles.are_complete(images.len(), begun, &state.model.rheology)
             && images.belong_to(real)
             && particles.walls_are_below(walls.len() + facet_walls)
-            && books.outflow.sides.len() == 2 * D
+            && state.enclosure.books.outflow.sides.len() == 2 * D
             && list.belongs_to(flow, real, real + images.len() + 1);
         ForeignState::check("whole sets of arrays", usize::from(whole), 1)?;
         state.particles = particles;
@@ -124,7 +126,6 @@ impl<const D: usize> Simulation<D> {
         state.relative_speed = saved.relative_speed;
         state.diffusivity = saved.diffusivity;
         state.displacement = saved.displacement;
-        state.enclosure.restore(books, saved.time);
         state.enclosure.assign_owners(&state.particles, &state.images);
         Ok(Self { state })
     }

@@ -130,6 +130,9 @@ impl<const D: usize> State<D> {
         let filled = self.search.run(&mut self.particles, &mut self.images, &mut self.model);
         self.displacement = 0.0;
         self.enclosure.assign_owners(&self.particles, &self.images);
+        if let Some(found) = self.enclosure.find_driven_out(self.model.equation_of_state.sound_speed()) {
+            return Err(self.diverged(found));
+        }
         filled.map_err(|crowded| {
             self.divergence(crowded.particle, Quantity::Neighbours { limit: LARGEST_ROW }, LARGEST_ROW as f64)
         })

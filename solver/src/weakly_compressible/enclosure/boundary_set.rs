@@ -40,6 +40,7 @@ impl<const D: usize> BoundarySet<D> {
             for (quantity, sound) in [
                 ("corner of a wall's segments", corners.into_iter().all(|corner| corner.sum().is_finite())),
                 ("table of a wall's motion", wall.motion.is_sound() && begun),
+                ("load of a wall", wall.motion.load.is_none_or(|load| load.is_sound())),
             ] {
                 if !sound {
                     let rule = "finite, with times that rise from rest";

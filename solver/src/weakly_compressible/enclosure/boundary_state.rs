@@ -5,6 +5,7 @@ use super::boundary_set::{BoundarySet, Exits, OutflowBySide};
 use super::facet_grid::FacetGrid;
 use super::facet_wall::{BackingParticle, FacetWall};
 use super::inlet::{Inflow, Inlet};
+use super::wall_load::WallTravel;
 use crate::run::ForeignState;
 use crate::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -46,6 +47,8 @@ pub(crate) struct BoundaryState<const D: usize> {
 pub(crate) struct Books<const D: usize> {
     /// Impulse that each facet wall has given to the flow since the start `[kg m/s]`.
     pub(crate) impulses: Vec<Vector<D>>,
+    /// State of each facet wall under a load.
+    pub(crate) travels: Vec<WallTravel>,
     pub(crate) outflow: OutflowBySide<D>,
     pub(crate) inflow: Inflow<D>,
     /// Impulse that implicit viscous steps have left out since the start `[kg m/s]`.
@@ -68,15 +71,15 @@ impl<const D: usize> BoundaryState<D> {
         let first_particles = (walls.len() - inlets.len()..walls.len()).map(before).collect();
         let range = 0.5 * spacing;
         let none = vec![Vector::zeros(); walls.len()];
-        let displacements = walls.iter().map(|wall| wall.motion.displacement(0.0)).collect();
-        Self {
+        let travels = walls.iter().map(|wall| WallTravel::of(wall.motion.load.as_ref())).collect();
+        let mut state = Self {
             plane_walls,
             grids: walls.iter().map(|wall| FacetGrid::new(&wall.facets, range)).collect(),
             range,
             exits,
             first_particles,
             begun: flow as u32,
-            displacements,
+            displacements: none.clone(),
             last: none.clone(),
             velocities: none.clone(),
             owners: Vec::new(),
@@ -84,6 +87,7 @@ impl<const D: usize> BoundaryState<D> {
             gone: Vec::new(),
             books: Books {
                 impulses: none,
+                travels,
                 outflow: OutflowBySide::default(),
                 inflow: Inflow::none(inlets.len()),
                 unsolved: Vector::zeros(),
@@ -91,21 +95,29 @@ impl<const D: usize> BoundaryState<D> {
             inlets,
             frame,
             walls,
-        }
+        };
+        state.place_walls(0.0);
+        state
     }
 
     /// Continues from books and a time.
     pub(crate) fn restore(&mut self, books: Books<D>, time: f64) {
         self.books = books;
+        self.place_walls(time);
+    }
+
+    fn place_walls(&mut self, time: f64) {
         for wall in 0..self.walls.len() {
             self.displacements[wall] = self.place(wall, time);
         }
     }
 
-    /// Largest speed of any facet wall at any time, relative to the frame `[m/s]`.
+    /// Largest speed of any facet wall at any time by its table, and by its load now, relative to the frame `[m/s]`.
     pub(crate) fn largest_speed(&self) -> f64 {
         let inlets = self.inlets.iter().map(|inlet| inlet.largest_speed() + self.frame.norm());
-        self.walls.iter().map(|wall| wall.motion.largest_speed(&self.frame)).chain(inlets).fold(0.0, f64::max)
+        let walls = self.walls.iter().zip(&self.books.travels);
+        let walls = walls.map(|(wall, travel)| wall.motion.largest_speed(&self.frame) + travel.speed.abs());
+        walls.chain(inlets).fold(0.0, f64::max)
     }
 
     /// Whether there is nothing, neither facet walls nor open sides.
@@ -122,7 +134,7 @@ impl<const D: usize> BoundaryState<D> {
     pub(super) fn place(&self, wall: usize, time: f64) -> Vector<D> {
         match wall.checked_sub(self.first_inlet()) {
             Some(inlet) => self.inlets[inlet].displacement(time, self.books.inflow.inlets[inlet].rows),
-            None => self.walls[wall].motion.displacement(time),
+            None => self.walls[wall].motion.displacement(time) + self.by_load(wall, |travel| travel.distance),
         }
     }
 
@@ -130,8 +142,14 @@ impl<const D: usize> BoundaryState<D> {
     pub(crate) fn velocity(&self, wall: usize, time: f64) -> Vector<D> {
         match wall.checked_sub(self.first_inlet()) {
             Some(inlet) => self.inlets[inlet].direction() * self.inlets[inlet].speed(time),
-            None => self.walls[wall].motion.velocity(time),
+            None => self.walls[wall].motion.velocity(time) + self.by_load(wall, |travel| travel.speed),
         }
+    }
+
+    /// What a wall has of a distance or a speed along its load; zero without one.
+    fn by_load(&self, wall: usize, part: impl Fn(&WallTravel) -> f64) -> Vector<D> {
+        let load = self.walls[wall].motion.load.as_ref();
+        load.map_or_else(Vector::zeros, |load| load.direction * part(&self.books.travels[wall]))
     }
 
     /// Identity of the next particle that an inlet sets free.

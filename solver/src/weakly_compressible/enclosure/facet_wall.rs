@@ -1,6 +1,7 @@
-//! A wall of facets of any shape, at rest or moved along by a table of times.
+//! A wall of facets of any shape, at rest, moved along by a table of times, or under a load.
 
 use super::facet::Facet;
+use super::wall_load::WallLoad;
 use crate::vector::Vector;
 use crate::weakly_compressible::walls::Surface;
 
@@ -26,23 +27,25 @@ pub struct BackingParticle<const D: usize> {
     pub volume: f64,
 }
 
-/// Displacements of a wall over time, linear between the times and constant beyond them.
+/// Displacements of a wall over time, linear between the times and constant beyond them, and a load that moves it further.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Motion<const D: usize> {
     /// Times `[s]`, rising.
     pub times: Vec<f64>,
     /// Displacements `[m]` at these times, as many.
     pub displacements: Vec<Vector<D>>,
+    /// Load, under which it moves freely.
+    pub load: Option<WallLoad<D>>,
 }
 
 impl<const D: usize> Motion<D> {
     /// Whether it ever moves.
     #[must_use]
     pub fn is_rest(&self) -> bool {
-        self.times.len() < 2
+        self.times.len() < 2 && self.load.is_none()
     }
 
-    /// Displacement at a time `[m]`.
+    /// Displacement by the table at a time `[m]`.
     #[must_use]
     pub fn displacement(&self, time: f64) -> Vector<D> {
         let after = self.times.partition_point(|&t| t <= time);
@@ -57,7 +60,7 @@ impl<const D: usize> Motion<D> {
         }
     }
 
-    /// Velocity right after a time `[m/s]`.
+    /// Velocity by the table right after a time `[m/s]`.
     #[must_use]
     pub fn velocity(&self, time: f64) -> Vector<D> {
         let after = self.times.partition_point(|&t| t <= time);
@@ -71,7 +74,7 @@ impl<const D: usize> Motion<D> {
     /// The largest speed that it ever has relative to a velocity `[m/s]`, between the first and the last of its times.
     #[must_use]
     pub fn largest_speed(&self, frame: &Vector<D>) -> f64 {
-        let rest = if self.is_rest() { frame.norm() } else { 0.0 };
+        let rest = if self.times.len() < 2 { frame.norm() } else { 0.0 };
         (1..self.times.len()).map(|k| (self.slope(k) - frame).norm()).fold(rest, f64::max)
     }
 
@@ -117,7 +120,8 @@ mod tests {
     #[test]
     fn a_table_of_times_moves_between_its_rows_and_rests_beyond_them() {
         let up = |y: f64| Vector::<2>::new(0.0, y);
-        let motion = Motion { times: vec![0.1, 0.2, 0.4], displacements: vec![up(0.0), up(0.3), up(0.3)] };
+        let displacements = vec![up(0.0), up(0.3), up(0.3)];
+        let motion = Motion { times: vec![0.1, 0.2, 0.4], displacements, load: None };
         assert!(motion.is_sound() && !motion.is_rest());
         for (time, place, speed) in [(0.0, 0.0, 0.0), (0.15, 0.15, 3.0), (0.3, 0.3, 0.0), (9.0, 0.3, 0.0)] {
             assert!((motion.displacement(time) - up(place)).norm() < 1e-15, "{time}");
@@ -125,7 +129,7 @@ mod tests {
         }
         assert!((motion.largest_speed(&up(0.0)) - 3.0).abs() < 1e-14);
         assert!((motion.largest_speed(&up(2.0)) - 2.0).abs() < 1e-14, "where it rests");
-        let backwards = Motion { times: vec![0.2, 0.1], displacements: vec![up(0.0); 2] };
+        let backwards = Motion { times: vec![0.2, 0.1], displacements: vec![up(0.0); 2], load: None };
         assert!(!backwards.is_sound() && Motion::<2>::default().is_rest());
     }
 

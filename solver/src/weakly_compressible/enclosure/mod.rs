@@ -3,7 +3,7 @@
 //!
 //! The kernel calls a narrow interface. A scene holds a [`BoundarySet`]; [`backing`] and [`mesh_backing`] lay the dummy particles of
 //! its walls; the state holds a `BoundaryState`. That one has a method for each place in a step: `release` and `assign_owners` at a
-//! neighbour search, `feed` before a step, `book_wall_forces` after the forces, `touch` after the velocities, `advance` with the
+//! neighbour search, `feed` before a step, `book_wall_forces` after the forces, `press` and `touch` after the velocities, `advance` with the
 //! positions. This folder reads particles, passes and walls of the kernel, but neither its scene nor its state.
 
 pub mod backing;
@@ -23,6 +23,7 @@ pub mod inlet;
 mod lattice_cell;
 mod mesh;
 pub mod mesh_backing;
+pub mod wall_load;
 
 pub use boundary_set::BoundarySet;
 pub use feed_rate::FeedRate;

@@ -34,7 +34,8 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         for (k, wall) in self.walls.iter().enumerate() {
             let sound = wall
                 .check(self.spacing, (upper - lower).max())
-                .and_then(|()| check_motion(&wall.motion(), S::Wall::GIVEN_BY));
+                .and_then(|()| check_motion(&wall.motion(), S::Wall::GIVEN_BY))
+                .and_then(|()| self.check_load(wall));
             sound.map_err(|error| error.within(&format!("walls[{k}]")))?;
         }
         self.check_pore_liquid()?;
@@ -87,7 +88,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let down = self.down();
         for (k, gauge) in self.gauges.iter().enumerate() {
             let within = |error: ParameterError| error.within(&format!("gauges[{k}]"));
-            if let Measurand::Force { wall } = gauge.measure(&down) {
+            if let Measurand::Force { wall } | Measurand::Position { wall } = gauge.measure(&down) {
                 names::check_wall("wall", wall, self.barriers().map(|(name, _)| name)).map_err(within)?;
             }
             gauge.check(self.spacing, &down).and_then(|()| self.check_direction(gauge)).map_err(within)?;
@@ -107,7 +108,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
                 Measurand::Flux(_) => 0.0,
                 Measurand::Depth(depth) if depth.direction[axis].abs() < 1e-9 => 0.5 * depth.width,
                 Measurand::Probe(probe) => probe.reach * self.spacing,
-                Measurand::Depth(_) | Measurand::Force { .. } => continue,
+                Measurand::Depth(_) | Measurand::Force { .. } | Measurand::Position { .. } => continue,
             };
             let places = gauge.places();
             let all = |way: f64, plane: f64| places.iter().all(|place| way * (place[axis] - plane) > margin);
@@ -229,11 +230,11 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
     fn check_scales(&self) -> Result<(), ParameterError> {
         names::check_times(self.interval, self.duration)?;
         rules::count("pictures", self.pictures, 1, 100, "three or four are usual")?;
-        if vector(&self.gravity).norm() == 0.0 && self.pressure <= 0.0 {
+        if vector(&self.gravity).norm() == 0.0 && self.start_pressure() <= 0.0 {
             let none = shown(&[0.0; D]);
             let level = "0, ".repeat(D - 1);
             let remedy = format!(
-                "the stiffness is measured by it: give it in m/s², such as [{level}-9.81], or a `pressure` to start with"
+                "the stiffness is measured by it: give it in m/s², such as [{level}-9.81], or a `pressure` to start with, or a `load` on a wall"
             );
             return Err(ParameterError::field("gravity", &none, &format!("unlike {none}"), &remedy));
         }
@@ -279,6 +280,7 @@ mod tests {
         let motion = |rows: &[[f64; 4]]| Motion {
             times: rows.iter().map(|row| row[0]).collect(),
             displacements: rows.iter().map(|row| Vector::<3>::new(row[1], row[2], row[3])).collect(),
+            load: None,
         };
         let checked = |rows: &[[f64; 4]]| check_motion(&motion(rows), "corners").map_err(|error| error.to_string());
         assert_eq!(checked(&[]), Ok(()));

@@ -80,6 +80,7 @@ impl<const D: usize> Memory<D> {
     ) -> Vec<f64> {
         let elapsed = simulation.time() - self.time;
         let per_time = |change: f64| if elapsed > 0.0 { change / elapsed } else { 0.0 };
+        let place_of = |wall: &str| simulation.facet_walls().iter().position(|own| own.name == wall);
         match measure {
             Measurand::Front(line) => {
                 let side = self.above_beds.get(gauge).copied().flatten();
@@ -87,10 +88,12 @@ impl<const D: usize> Memory<D> {
             }
             Measurand::Depth(depth) => vec![depth.thickness(simulation.spacing(), periods, snapshot)],
             Measurand::Probe(probe) => probe.values(simulation, periods, snapshot),
+            Measurand::Position { wall } => {
+                let place = place_of(wall).map(|k| simulation.facet_wall_displacements()[k]);
+                place.unwrap_or_else(Vector::zeros).iter().copied().collect()
+            }
             Measurand::Force { wall } => {
-                let Some(k) = simulation.facet_walls().iter().position(|own| own.name == *wall) else {
-                    return vec![0.0; D];
-                };
+                let Some(k) = place_of(wall) else { return vec![0.0; D] };
                 let before = self.impulses.get(k).copied().unwrap_or_else(Vector::zeros);
                 // the wall feels the opposite of what it gives
                 (before - simulation.facet_wall_impulses()[k]).iter().map(|&change| per_time(change)).collect()

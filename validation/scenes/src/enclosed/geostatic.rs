@@ -122,6 +122,7 @@ mod tests {
             surface: Surface::Smooth,
             both_sides: false,
             motion: Vec::new(),
+            load: None,
         };
         let tier: PlaneFlow = quick();
         let none = DomainSide::None;

@@ -25,7 +25,12 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
 
     /// Walls, open sides and inlets for the solver.
     pub(super) fn enclosure(&self) -> BoundarySet<D> {
-        let walls = self.walls.iter().map(SceneWall::facet_wall).collect();
+        let wall = |wall: &S::Wall| {
+            let mut facet_wall = wall.facet_wall();
+            facet_wall.motion.load = self.load_of(wall);
+            facet_wall
+        };
+        let walls = self.walls.iter().map(wall).collect();
         BoundarySet { walls, exits: self.sides.exits(), inlets: self.feeds(), frame: self.frame() }
     }
 

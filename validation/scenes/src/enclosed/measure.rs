@@ -30,6 +30,11 @@ pub enum Measurand<'a, const D: usize> {
         /// Name of the wall.
         wall: &'a str,
     },
+    /// Displacement of a wall since the start.
+    Position {
+        /// Name of the wall.
+        wall: &'a str,
+    },
     /// Mass that crosses an opening.
     Flux(Opening<D>),
 }

@@ -33,6 +33,7 @@ pub mod sides;
 mod sound;
 mod start;
 mod surfaces;
+mod wall_load;
 mod yields;
 
 pub use flow::{Dimension, SceneFlow, SceneStart};
@@ -44,6 +45,7 @@ pub use observation::{FedMass, OutflowRecord, SceneObservation};
 pub use scene_case::SceneCase;
 pub use settling::BodyPreparation;
 pub use sides::DomainSide;
+pub use wall_load::GivenLoad;
 
 #[cfg(test)]
 use crate::case::{RunList, Tier};

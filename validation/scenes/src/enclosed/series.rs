@@ -66,6 +66,10 @@ fn columns<S: Dimension<D>, const D: usize>(measure: &Measurand<'_, D>) -> Vec<G
             let along = |axis: &&str| column(&format!("force along {axis}"), "force", force);
             ["x", "y", "z"].iter().take(D).map(along).collect()
         }
+        Measurand::Position { .. } => {
+            let along = |axis: &&str| column(&format!("displacement along {axis}"), "displacement", "m");
+            ["x", "y", "z"].iter().take(D).map(along).collect()
+        }
         Measurand::Flux(_) => {
             vec![column("mass that has crossed", "mass", mass), column("mean flux since the last row", "flux", flux)]
         }

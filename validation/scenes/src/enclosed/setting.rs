@@ -1,7 +1,7 @@
 //! Bodies, walls, inlets and gauges, which the plane and space each give in their own way.
 
 use super::given::PlainData;
-use super::{GivenRate, Measurand};
+use super::{GivenLoad, GivenRate, Measurand};
 use crate::case::ParameterError;
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion};
@@ -57,8 +57,11 @@ pub trait SceneWall<const D: usize>: PlainData {
     /// The wall for the solver.
     fn facet_wall(&self) -> FacetWall<D>;
 
-    /// Its motion from the start.
+    /// Its motion from the start, without that by its load.
     fn motion(&self) -> Motion<D>;
+
+    /// Its load.
+    fn load(&self) -> Option<GivenLoad<Vector<D>>>;
 
     /// Number of triangles, which take time before the run; a polyline has none.
     fn triangle_count(&self) -> usize {

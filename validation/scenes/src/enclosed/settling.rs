@@ -13,7 +13,7 @@ use crate::checkpoint::is_interrupted;
 use bagnold_solver::material::rheology::{Newtonian, Rheology};
 use bagnold_solver::vector::{Tensor, Vector};
 use bagnold_solver::weakly_compressible::enclosure::FeedRate;
-use bagnold_solver::weakly_compressible::scene::{Flow, Scene};
+use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 pub enum BodyPreparation {
     /// Nothing: the run starts with the particles as they were displaced.
     None,
-    /// Bodies come to rest on walls, which stay where they are at the start meanwhile, and by their friction; they then get their
+    /// Bodies come to rest on walls, which stay where they are at the start meanwhile or give way to their loads, and by their friction; they then get their
     /// velocities.
     Settled,
     /// Grains find their places as a liquid does, and start with the stress that holds them: the weight of the material above across
@@ -106,12 +106,15 @@ where
         elapsed += simulation.time();
         let snapshot = simulation.snapshot();
         check_held(&scene, &snapshot.position, (peak, rest))?;
+        for (wall, way) in resting.enclosure.walls.iter_mut().zip(simulation.facet_wall_displacements()) {
+            wall.motion.load.iter_mut().for_each(|load| load.travel = way.dot(&load.direction));
+        }
         let flow = &mut resting.flow;
         (flow.position, flow.density, flow.stress) = (snapshot.position, snapshot.density, snapshot.stress);
         low = if peak <= rest.speed { low + 1 } else { 0 };
         if low == rest.peaks {
             resting.flow.velocity = scene.flow.velocity.clone();
-            return Ok((Scene { flow: resting.flow, ..scene }, elapsed));
+            return Ok((begun(scene, resting), elapsed));
         }
     }
 }
@@ -132,9 +135,17 @@ where
     let rheology = Rheology::Newtonian(Newtonian { viscosity: 0.0 });
     let mut liquid = Scene { rheology, gravity: across, ..scene.clone() };
     liquid.flow.stress.fill(Tensor::zeros());
-    let (liquid, elapsed) = settled(liquid, RestCriterion { speed: f64::INFINITY, peaks: PEAKS_OF_LIQUID, ..rest })?;
-    let flow = Flow { stress: scene.flow.stress, ..liquid.flow };
-    Ok((Scene { flow, ..scene }, elapsed))
+    let (mut liquid, elapsed) = settled(liquid, RestCriterion { speed: f64::INFINITY, peaks: PEAKS_OF_LIQUID, ..rest })?;
+    liquid.flow.stress = scene.flow.stress.clone();
+    Ok((begun(scene, liquid), elapsed))
+}
+
+/// A scene with the flow of another one at rest, and with the travels of its walls under loads.
+fn begun<const D: usize>(mut scene: Scene<D>, resting: Scene<D>) -> Scene<D> {
+    for (wall, at_rest) in scene.enclosure.walls.iter_mut().zip(&resting.enclosure.walls) {
+        wall.motion.load = at_rest.motion.load;
+    }
+    Scene { flow: resting.flow, ..scene }
 }
 
 /// Root mean square of the speed of the flow `[m/s]`.

@@ -57,15 +57,20 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let cause = if self.scale(fall) > fall {
             format!("½ u², u = {} m/s between what can touch", four_digits(self.relative_speed()))
         } else {
-            format!("g H + p/ρ, H = {} m, p = {} Pa", four_digits(self.height()), four_digits(self.pressure))
+            format!("g H + p/ρ, H = {} m, p = {} Pa", four_digits(self.height()), four_digits(self.start_pressure()))
         };
         format!("stiffness {} times {cause}", self.stiffness())
     }
 
-    /// Weight of the scene's height and pressure at the start, over the density `[m²/s²]`: the square of the speed that
+    /// Weight of the scene's height, and pressure at the start or of loads, over the density `[m²/s²]`: the square of the speed that
     /// either gives.
     pub(super) fn fall(&self) -> f64 {
-        self.pull().norm() * self.height() + self.pressure / self.bulk.density(&self.material)
+        self.pull().norm() * self.height() + self.start_pressure() / self.bulk.density(&self.material)
+    }
+
+    /// The larger of the pressure at the start and that of loads `[Pa]`.
+    pub(super) fn start_pressure(&self) -> f64 {
+        self.pressure.max(self.load_pressure())
     }
 
     /// Largest relative speed of what can touch `[m/s]`: bodies, the inflow of inlets, and walls.
@@ -110,7 +115,7 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         let steady = |velocity: Vector<D>| vec![Vector::zeros(), velocity * FOR_EVER];
         bodies
             .chain(fed)
-            .map(|velocity| Motion { times: vec![0.0, FOR_EVER], displacements: steady(velocity) })
+            .map(|velocity| Motion { times: vec![0.0, FOR_EVER], displacements: steady(velocity), load: None })
             .collect()
     }
 
@@ -220,6 +225,7 @@ mod tests {
             surface: setting::rough(),
             both_sides: false,
             motion,
+            load: None,
         }
     }
 

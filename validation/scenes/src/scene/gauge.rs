@@ -63,6 +63,13 @@ pub enum PlaneGauge {
         /// Name of the wall.
         wall: String,
     },
+    /// Displacement of a wall since the start.
+    Position {
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
+        name: String,
+        /// Name of the wall.
+        wall: String,
+    },
     /// Mass that crosses a line from its right to its left, seen along it: together, and per time.
     Flux {
         /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
@@ -80,6 +87,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
         | Self::Depth { name, .. }
         | Self::Probe { name, .. }
         | Self::Force { name, .. }
+        | Self::Position { name, .. }
         | Self::Flux { name, .. }) = self;
         name
     }
@@ -100,6 +108,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
             }
             Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
             Self::Force { wall, .. } => Measurand::Force { wall },
+            Self::Position { wall, .. } => Measurand::Position { wall },
             Self::Flux { from, to, .. } => {
                 let (corner, to): (Vector<2>, Vector<2>) = (vector(from), vector(to));
                 let along = to - corner;
@@ -113,7 +122,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
         match self {
             Self::Front { from, to, .. } | Self::Flux { from, to, .. } => vec![vector(from), vector(to)],
             Self::Depth { at, .. } | Self::Probe { at, .. } => vec![vector(at)],
-            Self::Force { .. } => Vec::new(),
+            Self::Force { .. } | Self::Position { .. } => Vec::new(),
         }
     }
 
@@ -123,7 +132,7 @@ impl setting::SceneGauge<2> for PlaneGauge {
                 let to = vector::<2>(to);
                 check_line(&to, (to - vector::<2>(from)).norm(), spacing, "")
             }
-            Self::Depth { .. } | Self::Probe { .. } | Self::Force { .. } => Ok(()),
+            Self::Depth { .. } | Self::Probe { .. } | Self::Force { .. } | Self::Position { .. } => Ok(()),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::PlaneVector;
 use super::body::check_crossing;
 use crate::case::ParameterError;
 use crate::enclosed::setting::{self, vector};
-use crate::enclosed::{DomainSide, sides};
+use crate::enclosed::{DomainSide, GivenLoad, sides};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion, Side};
 use bagnold_solver::weakly_compressible::walls::Surface;
@@ -45,6 +45,9 @@ pub struct WallLine {
     /// at rest.
     #[serde(default)]
     pub motion: Vec<(f64, f64, f64)>,
+    /// Load, under which the wall moves freely along one direction; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<GivenLoad<PlaneVector>>,
 }
 
 fn left() -> FlowSide {
@@ -83,7 +86,12 @@ impl setting::SceneWall<2> for WallLine {
         Motion {
             times: self.motion.iter().map(|row| row.0).collect(),
             displacements: self.motion.iter().map(|row| Vector::<2>::new(row.1, row.2)).collect(),
+            load: None,
         }
+    }
+
+    fn load(&self) -> Option<GivenLoad<Vector<2>>> {
+        self.load.as_ref().map(GivenLoad::with_vector)
     }
 
     fn hull(&self) -> Vec<Vector<2>> {
@@ -149,6 +157,7 @@ mod tests {
             surface: Surface::Rough,
             both_sides: false,
             motion: Vec::new(),
+            load: None,
         };
         let normals = |points, flow| -> Vec<Vector<2>> {
             let mut normals: Vec<Vector<2>> =

@@ -66,6 +66,13 @@ pub enum SpaceGauge {
         /// Name of the wall.
         wall: String,
     },
+    /// Displacement of a wall since the start.
+    Position {
+        /// Name of the gauge: letters, digits and hyphens, unlike those of other gauges.
+        name: String,
+        /// Name of the wall.
+        wall: String,
+    },
     /// Mass that crosses a parallelogram towards the side from which its corners are seen against the clock: together,
     /// and per time.
     Flux {
@@ -82,6 +89,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
         | Self::Depth { name, .. }
         | Self::Probe { name, .. }
         | Self::Force { name, .. }
+        | Self::Position { name, .. }
         | Self::Flux { name, .. }) = self;
         name
     }
@@ -105,6 +113,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
             }
             Self::Probe { at, spacings, .. } => Measurand::Probe(Probe { at: vector(at), reach: 0.5 * spacings }),
             Self::Force { wall, .. } => Measurand::Force { wall },
+            Self::Position { wall, .. } => Measurand::Position { wall },
             Self::Flux { corners, .. } => {
                 let [corner, one, other] = edges(corners);
                 let normal = one.cross(&other);
@@ -123,7 +132,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 vec![corner, corner + one, corner + other, corner + one + other]
             }
             Self::Depth { at, .. } | Self::Probe { at, .. } => vec![vector(at)],
-            Self::Force { .. } => Vec::new(),
+            Self::Force { .. } | Self::Position { .. } => Vec::new(),
         }
     }
 
@@ -144,7 +153,7 @@ impl setting::SceneGauge<3> for SpaceGauge {
                 let (value, rule) = (format!("{}, …", shown(&corner)), "three corners that are not in line");
                 Err(ParameterError::field("corners", value, rule, "give a corner and the two next to it"))
             }
-            Self::Depth { .. } | Self::Probe { .. } | Self::Force { .. } => Ok(()),
+            Self::Depth { .. } | Self::Probe { .. } | Self::Force { .. } | Self::Position { .. } => Ok(()),
         }
     }
 }

@@ -4,7 +4,7 @@ use super::SpaceVector;
 use super::openings::Openings;
 use crate::case::ParameterError;
 use crate::enclosed::setting::{self, shown, vector};
-use crate::enclosed::{DomainSide, shapes, sides};
+use crate::enclosed::{DomainSide, GivenLoad, shapes, sides};
 use crate::input::PackedTriangles;
 use crate::output::caution;
 use bagnold_number::four_digits;
@@ -62,6 +62,9 @@ pub struct SpaceWall {
     /// Motion: time `[s]`, displacement along x, y and z `[m]`, linear between the rows; empty for a wall at rest.
     #[serde(default)]
     pub motion: Vec<(f64, f64, f64, f64)>,
+    /// Load, under which the wall moves freely along one direction; none where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub load: Option<GivenLoad<SpaceVector>>,
 }
 
 /// Triangles around one corner at most: particles near it look at all of them.
@@ -137,7 +140,12 @@ impl setting::SceneWall<3> for SpaceWall {
         Motion {
             times: self.motion.iter().map(|row| row.0).collect(),
             displacements: self.motion.iter().map(|row| Vector::<3>::new(row.1, row.2, row.3)).collect(),
+            load: None,
         }
+    }
+
+    fn load(&self) -> Option<GivenLoad<Vector<3>>> {
+        self.load.as_ref().map(GivenLoad::with_vector)
     }
 
     /// The corners of its box: a mesh has many.
@@ -279,6 +287,7 @@ mod tests {
                 surface: Surface::Rough,
                 both_sides: false,
                 motion: Vec::new(),
+                load: None,
             }
         }
     }

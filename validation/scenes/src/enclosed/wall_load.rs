@@ -1,0 +1,120 @@
+//! Loads on walls, as a case file gives them, and what they are for the solver.
+
+use super::SceneFlow;
+use super::flow::Dimension;
+use super::setting::{SceneBody, SceneWall, shown};
+use super::shapes;
+use super::sides::SceneSides;
+use crate::case::ParameterError;
+use bagnold_solver::parameter::{at_least, positive};
+use bagnold_solver::vector::Vector;
+use bagnold_solver::weakly_compressible::enclosure::wall_load::WallLoad;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Rate of the damper in times that sound needs across the material below `[-]`: a critical one has 2.8.
+const USUAL_DAMPING: f64 = 2.0;
+/// Part of a table's way along the load, over the way, that is rounding `[-]`.
+const ROUNDING: f64 = 1e-9;
+
+/// Load on a wall, under which it moves freely along one direction.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(rename = "GivenLoad")]
+pub struct GivenLoad<P> {
+    /// Direction of the load and of the wall's motion, by its components, of any length `[-]`.
+    pub direction: P,
+    /// Pressure on the area of the wall across the direction and between the sides of the domain `[Pa]`; unless `force` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("give it in Pa; turn `direction` for a wall that is pulled"))]
+    pub pressure: Option<f64>,
+    /// Force `[N]`, in 2-D per metre of depth `[N/m]`; unless `pressure` is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("give it in N, in 2-D in N/m; turn `direction` for a wall that is pulled"))]
+    pub force: Option<f64>,
+    /// Mass of the wall `[kg]`, in 2-D per metre of depth `[kg/m]`; half of that of the material below it where it is left out. Its weight is
+    /// not added to the load.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = positive("leave it out for half of the mass of the material below the wall"))]
+    pub mass: Option<f64>,
+    /// Rate of a damper of the wall `[1/s]`, which takes nothing at rest; twice the sound speed over the height of the material where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = at_least(0.0, "0 for a wall that swings freely"))]
+    pub damping: Option<f64>,
+}
+
+impl<P> GivenLoad<P> {
+    /// The load with a vector for its direction.
+    pub(crate) fn with_vector<const D: usize>(&self) -> GivenLoad<Vector<D>>
+    where
+        P: Copy + Into<[f64; D]>,
+    {
+        let Self { direction, pressure, force, mass, damping } = *self;
+        GivenLoad { direction: Vector::<D>::from(direction.into()), pressure, force, mass, damping }
+    }
+}
+
+impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
+    /// The load of a wall for the solver.
+    pub(super) fn load_of(&self, wall: &S::Wall) -> Option<WallLoad<D>> {
+        let given = wall.load()?;
+        let (direction, area) = (given.direction.normalize(), self.area_across(wall, &given));
+        let spans = self.bodies.iter().map(|body| body.span(&direction));
+        let (low, high) =
+            spans.fold((f64::INFINITY, f64::NEG_INFINITY), |all, own| (all.0.min(own.0), all.1.max(own.1)));
+        let (height, state) = (high - low, self.equation_of_state());
+        Some(WallLoad {
+            direction,
+            force: given.force.unwrap_or_else(|| given.pressure.unwrap_or_default() * area),
+            mass: given.mass.unwrap_or(0.5 * state.reference_density * area * height),
+            damping: given.damping.unwrap_or(USUAL_DAMPING * state.sound_speed() / height),
+            travel: 0.0,
+        })
+    }
+
+    /// The largest pressure of any load `[Pa]`.
+    pub(super) fn load_pressure(&self) -> f64 {
+        let of_wall = |wall: &S::Wall| {
+            let given = wall.load()?;
+            given.pressure.or(given.force.map(|force| force / self.area_across(wall, &given)))
+        };
+        self.walls.iter().filter_map(of_wall).fold(0.0, f64::max)
+    }
+
+    /// Area of a wall across its load: of its box between the sides of the domain, but not more than that of the wall `[m^(D-1)]`.
+    fn area_across(&self, wall: &S::Wall, load: &GivenLoad<Vector<D>>) -> f64 {
+        let (lower, upper) = self.sides.clip(shapes::around(wall.hull()));
+        let (edges, direction) = (upper - lower, load.direction.normalize());
+        let face = |axis: usize| (0..D).filter(|other| *other != axis).map(|other| edges[other]).product::<f64>();
+        (0..D).map(|axis| direction[axis].abs() * face(axis)).sum::<f64>().min(wall.measure())
+    }
+
+    /// Refuses a load without a size or a direction, on no wall, or against a table.
+    pub(super) fn check_load(&self, wall: &S::Wall) -> Result<(), ParameterError> {
+        let Some(given) = wall.load() else { return Ok(()) };
+        let refused = |field: &str, value: String, rule: &str, remedy: &str| {
+            Err(ParameterError::field(&format!("load.{field}"), value, rule, remedy))
+        };
+        let direction = given.direction;
+        if !(direction.norm() > 0.0 && direction.norm().is_finite()) {
+            return refused("direction", shown(&direction), "a direction of some length", "point it into the material");
+        }
+        if given.pressure.is_some() == given.force.is_some() {
+            let value = if given.force.is_some() { "given beside `force`" } else { "absent, as is `force`" };
+            return refused("pressure", value.to_owned(), "given, or else `force`", "give one of the two");
+        }
+        if self.area_across(wall, &given) <= 0.0 {
+            let value = format!("{}, along the wall `{}`", shown(&direction), wall.name());
+            return refused("direction", value, "one across the wall", "point it into the material");
+        }
+        if self.bodies.is_empty() && (given.mass.is_none() || given.damping.is_none()) {
+            return refused("mass", "absent".to_owned(), "given without bodies, as `damping`", "no material is below it");
+        }
+        let along = |way: &&Vector<D>| way.dot(&direction).abs() > ROUNDING * way.norm() * direction.norm();
+        if let Some(way) = wall.motion().displacements.iter().find(along) {
+            let value = format!("{}, and `motion` goes along it by {}", shown(&direction), shown(way));
+            return refused("direction", value, "across the ways of `motion`", "the load moves it along: leave that out");
+        }
+        Ok(())
+    }
+}
