@@ -11,6 +11,7 @@ mod frames;
 mod free_fall;
 mod incompressible;
 mod inlets;
+mod loads;
 mod memories;
 mod meshes;
 mod momentum_balance;

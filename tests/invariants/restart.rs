@@ -4,6 +4,7 @@
 use crate::invariants::determinism::column;
 use crate::invariants::fields;
 use crate::invariants::inlets;
+use crate::invariants::loads;
 use crate::invariants::memories;
 use crate::invariants::patches::{self, GRAINS, SYRUP, bed, simulation};
 use crate::invariants::shells;
@@ -130,6 +131,12 @@ fn walls_of_segments_and_open_sides_go_on_in_the_same_bits() {
     let mut narrow = shells::gated();
     narrow.side_walls = Some(SideWalls { width: 0.1, friction: 0.3 });
     check(&narrow);
+}
+
+#[test]
+fn walls_under_loads_go_on_in_the_same_bits() {
+    check(&loads::pressed(30.0));
+    check(&loads::pressed_in_space());
 }
 
 #[test]

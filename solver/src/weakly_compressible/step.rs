@@ -18,7 +18,7 @@ impl<const D: usize> State<D> {
         self.find_accelerations(time_step)?;
         self.enclosure.book_wall_forces(&self.model, &self.particles, &self.pairs, time_step);
         self.update_velocity(time_step)?;
-        self.enclosure.press(time_step);
+        self.enclosure.press(&mut self.particles, &self.images, (self.time, time_step));
         self.touch_facets(time_step, self.model.contact_friction)?;
         self.rub_on_side_walls(time_step);
         self.extend_velocity_to_walls();

@@ -11,6 +11,8 @@ use super::facet::Facet;
 use crate::run::NO_PARTICLE;
 use crate::vector::Vector;
 use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
+use crate::weakly_compressible::particles::Particles;
+use crate::weakly_compressible::walls::Images;
 use serde::{Deserialize, Serialize};
 
 /// Distance behind a facet from which on a corner has passed it, over the range of contact `[-]`: walls slide along each other.
@@ -66,13 +68,15 @@ impl WallTravel {
 }
 
 impl<const D: usize> BoundaryState<D> {
-    /// Moves walls by their loads in a step `[s]`; their particles follow with the positions of the flow.
-    pub(crate) fn press(&mut self, time_step: f64) {
-        let books = &mut self.books;
-        for (wall, (travel, impulse)) in self.walls.iter().zip(books.travels.iter_mut().zip(&books.impulses)) {
-            if let Some(load) = &wall.motion.load {
-                travel.advance(load, impulse.dot(&load.direction), time_step);
-            }
+    /// Steps the velocities of walls under loads from a time on `[s]`; their particles follow with the positions of the flow.
+    pub(crate) fn press(&mut self, particles: &mut Particles<D>, images: &Images<D>, (time, time_step): (f64, f64)) {
+        for wall in 0..self.walls.len() {
+            let Some(load) = &self.walls[wall].motion.load else { continue };
+            let given = self.books.impulses[wall].dot(&load.direction);
+            self.books.travels[wall].advance(load, given, time_step);
+            let velocity = self.velocity(wall, time);
+            particles.move_walls(self.plane_walls + wall, &[Vector::zeros()], |_| velocity);
+            images.copy_wall_vectors(&mut particles.walls.velocity);
         }
     }
 

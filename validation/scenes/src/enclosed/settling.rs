@@ -105,10 +105,10 @@ where
         }
         elapsed += simulation.time();
         let snapshot = simulation.snapshot();
-        check_held(&scene, &snapshot.position, (peak, rest))?;
         for (wall, way) in resting.enclosure.walls.iter_mut().zip(simulation.facet_wall_displacements()) {
             wall.motion.load.iter_mut().for_each(|load| load.travel = way.dot(&load.direction));
         }
+        check_held(&resting, &scene.flow.position, &snapshot.position, (peak, rest))?;
         let flow = &mut resting.flow;
         (flow.position, flow.density, flow.stress) = (snapshot.position, snapshot.density, snapshot.stress);
         low = if peak <= rest.speed { low + 1 } else { 0 };
@@ -157,13 +157,14 @@ fn rms_speed<const D: usize>(simulation: &Simulation<D>) -> f64 {
     (squares / mass.iter().sum::<f64>()).sqrt()
 }
 
-/// Refuses bodies of which a particle has left or gone farther than a spacing, at a root mean square of the speed `[m/s]`.
+/// Refuses bodies of which a particle has left its start or gone farther than a spacing and the way of loads, at a root mean square of the
+/// speed `[m/s]`.
 fn check_held<const D: usize>(
     scene: &Scene<D>,
+    starts: &[Vector<D>],
     places: &[Vector<D>],
     (speed, rest): (f64, RestCriterion),
 ) -> Result<(), ParameterError> {
-    let starts = &scene.flow.position;
     if places.len() < starts.len() {
         let left = starts.len() - places.len();
         return Err(refused_for(&format!("{left} particles leave by open sides before the bodies rest"), "", SUPPORT));
@@ -173,7 +174,9 @@ fn check_held<const D: usize>(
     let ways: Vec<_> =
         starts.iter().zip(places).map(|(start, place)| periods.unwrapped(place, start).0 - start).collect();
     let far = |one: &usize, other: &usize| ways[*one].norm().total_cmp(&ways[*other].norm());
-    let Some(index) = (0..ways.len()).max_by(far).filter(|index| ways[*index].norm() > FARTHEST * scene.spacing) else {
+    let loads = scene.enclosure.walls.iter().filter_map(|wall| wall.motion.load.as_ref());
+    let farthest = loads.map(|load| load.travel.abs()).fold(0.0, f64::max) + FARTHEST * scene.spacing;
+    let Some(index) = (0..ways.len()).max_by(far).filter(|index| ways[*index].norm() > farthest) else {
         return Ok(());
     };
     let parts: Vec<String> = starts[index].iter().map(|part| format!("{part:.4}")).collect();
