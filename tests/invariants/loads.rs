@@ -54,7 +54,8 @@ where
     advance(&mut simulation, 1);
     // the contacts of the last step count in the next one, and the damper takes its rate times the travel
     let speed = (travel(&simulation) - before) / (simulation.time() - time);
-    let impulse = load.force * simulation.time() - load.mass * (speed + load.damping * (travel(&simulation) - load.travel));
+    let impulse =
+        load.force * simulation.time() - load.mass * (speed + load.damping * (travel(&simulation) - load.travel));
     let missing = given(&simulation) - impulse;
     assert!(missing.abs() < 1e-3 * impulse, "{missing} of {impulse} kg m/s");
     let borne = given(&simulation) / (load.force * time);

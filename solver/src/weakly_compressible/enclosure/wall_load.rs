@@ -100,7 +100,8 @@ impl<const D: usize> BoundaryState<D> {
             }
             let meets = |other: &usize| {
                 let (theirs, shift) = (&self.walls[*other].facets, shift - self.displacements[*other]);
-                *other != wall && (self.is_passed(theirs, facets, shift, way) || self.is_passed(facets, theirs, -shift, -way))
+                *other != wall
+                    && (self.is_passed(theirs, facets, shift, way) || self.is_passed(facets, theirs, -shift, -way))
             };
             let other = (0..self.walls.len()).find(meets)?;
             Some(told(format!("meets `{}`", self.walls[other].name)))
@@ -130,13 +131,8 @@ mod tests {
 
     #[test]
     fn a_load_falls_freely_and_a_damper_ends_at_its_speed() {
-        let load = WallLoad::<2> {
-            direction: Vector::<2>::new(0.0, -1.0),
-            force: 6.0,
-            mass: 2.0,
-            damping: 0.0,
-            travel: 0.5,
-        };
+        let load =
+            WallLoad::<2> { direction: Vector::<2>::new(0.0, -1.0), force: 6.0, mass: 2.0, damping: 0.0, travel: 0.5 };
         let mut travel = WallTravel::of(Some(&load));
         (0..1000).for_each(|_| travel.advance(&load, 0.0, 1e-3));
         assert!((travel.speed - 3.0).abs() < 1e-12 && (travel.distance - 2.0).abs() < 2e-3, "{travel:?}");

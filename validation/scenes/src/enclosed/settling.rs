@@ -135,7 +135,8 @@ where
     let rheology = Rheology::Newtonian(Newtonian { viscosity: 0.0 });
     let mut liquid = Scene { rheology, gravity: across, ..scene.clone() };
     liquid.flow.stress.fill(Tensor::zeros());
-    let (mut liquid, elapsed) = settled(liquid, RestCriterion { speed: f64::INFINITY, peaks: PEAKS_OF_LIQUID, ..rest })?;
+    let (mut liquid, elapsed) =
+        settled(liquid, RestCriterion { speed: f64::INFINITY, peaks: PEAKS_OF_LIQUID, ..rest })?;
     liquid.flow.stress = scene.flow.stress.clone();
     Ok((begun(scene, liquid), elapsed))
 }

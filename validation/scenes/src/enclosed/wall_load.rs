@@ -99,21 +99,36 @@ impl<S: Dimension<D>, const D: usize> SceneFlow<S, D> {
         if !(direction.norm() > 0.0 && direction.norm().is_finite()) {
             return refused("direction", shown(&direction), "a direction of some length", "point it into the material");
         }
-        if given.pressure.is_some() == given.force.is_some() {
-            let value = if given.force.is_some() { "given beside `force`" } else { "absent, as is `force`" };
-            return refused("pressure", value.to_owned(), "given, or else `force`", "give one of the two");
+        match (given.pressure, given.force) {
+            (Some(_), Some(force)) => {
+                return refused("force", force.to_string(), "absent beside `pressure`", "give one of the two");
+            }
+            (None, None) => {
+                return refused("pressure", "absent".to_owned(), "given where `force` is not", "give one of the two");
+            }
+            _ => {}
         }
         if self.area_across(wall, &given) <= 0.0 {
             let value = format!("{}, along the wall `{}`", shown(&direction), wall.name());
             return refused("direction", value, "one across the wall", "point it into the material");
         }
         if self.bodies.is_empty() && (given.mass.is_none() || given.damping.is_none()) {
-            return refused("mass", "absent".to_owned(), "given without bodies, as `damping`", "no material is below it");
+            return refused(
+                "mass",
+                "absent".to_owned(),
+                "given without bodies, as `damping`",
+                "no material is below it",
+            );
         }
         let along = |way: &&Vector<D>| way.dot(&direction).abs() > ROUNDING * way.norm() * direction.norm();
         if let Some(way) = wall.motion().displacements.iter().find(along) {
             let value = format!("{}, and `motion` goes along it by {}", shown(&direction), shown(way));
-            return refused("direction", value, "across the ways of `motion`", "the load moves it along: leave that out");
+            return refused(
+                "direction",
+                value,
+                "across the ways of `motion`",
+                "the load moves it along: leave that out",
+            );
         }
         Ok(())
     }
