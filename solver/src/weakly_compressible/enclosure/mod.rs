@@ -21,6 +21,7 @@ mod feed_rate;
 mod inflow_step;
 pub mod inlet;
 mod lattice_cell;
+mod loaded_step;
 mod mesh;
 pub mod mesh_backing;
 pub mod wall_load;

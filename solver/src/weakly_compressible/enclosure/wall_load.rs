@@ -6,17 +6,11 @@
 //! act on the wall. The velocity of a step follows from the impulses that the wall has given to the flow since the last one, contacts of
 //! that step included: over a run their sum is the impulse of the load and the damper less the momentum of the wall, up to rounding.
 
-use super::boundary_state::BoundaryState;
-use super::facet::Facet;
-use crate::run::NO_PARTICLE;
 use crate::vector::Vector;
-use crate::weakly_compressible::divergence::{OutOfRange, Quantity};
-use crate::weakly_compressible::particles::Particles;
-use crate::weakly_compressible::walls::Images;
 use serde::{Deserialize, Serialize};
 
-/// Distance behind a facet from which on a corner has passed it, over the range of contact `[-]`: walls slide along each other.
-const PASSED: f64 = 1e-6;
+/// Relative error of a unit vector, and of a place on a facet over the range of contact `[-]`: walls slide along each other.
+pub(super) const ROUNDING: f64 = 1e-6;
 
 /// Load on a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +31,7 @@ impl<const D: usize> WallLoad<D> {
     /// Whether it can move a wall.
     pub(super) fn is_sound(&self) -> bool {
         let finite = self.force.is_finite() && self.travel.is_finite() && self.damping >= 0.0;
-        finite && self.mass > 0.0 && (self.direction.norm() - 1.0).abs() < PASSED
+        finite && self.mass > 0.0 && (self.direction.norm() - 1.0).abs() < ROUNDING
     }
 }
 
@@ -59,69 +53,11 @@ impl WallTravel {
     }
 
     /// Takes a step `[s]`, after the flow has got an impulse along the load `[kg m/s]`.
-    fn advance<const D: usize>(&mut self, load: &WallLoad<D>, given: f64, time_step: f64) {
+    pub(super) fn advance<const D: usize>(&mut self, load: &WallLoad<D>, given: f64, time_step: f64) {
         let pushed = load.force * time_step - (given - self.given);
         self.speed = (self.speed + pushed / load.mass) / (1.0 + load.damping * time_step);
         self.distance += self.speed * time_step;
         self.given = given;
-    }
-}
-
-impl<const D: usize> BoundaryState<D> {
-    /// Steps the velocities of walls under loads from a time on `[s]`; their particles follow with the positions of the flow.
-    pub(crate) fn press(&mut self, particles: &mut Particles<D>, images: &Images<D>, (time, time_step): (f64, f64)) {
-        for wall in 0..self.walls.len() {
-            let Some(load) = &self.walls[wall].motion.load else { continue };
-            let given = self.books.impulses[wall].dot(&load.direction);
-            self.books.travels[wall].advance(load, given, time_step);
-            let velocity = self.velocity(wall, time);
-            particles.move_walls(self.plane_walls + wall, &[Vector::zeros()], |_| velocity);
-            images.copy_wall_vectors(&mut particles.walls.velocity);
-        }
-    }
-
-    /// The first wall that its load has driven faster than sound `[m/s]`, out of the domain or into another wall.
-    pub(crate) fn find_driven_out(&self, sound_speed: f64) -> Option<OutOfRange> {
-        let loads = self.walls.iter().enumerate().filter_map(|(wall, of)| Some((wall, of.motion.load.as_ref()?)));
-        let found = |(wall, load): (usize, &WallLoad<D>)| {
-            let WallTravel { distance, speed, .. } = self.books.travels[wall];
-            let told = |end: String| (wall, distance, end);
-            if speed.abs() > sound_speed {
-                return Some(told(format!("moves at {speed:.4e} m/s, faster than sound")));
-            }
-            let way = load.direction * (distance - load.travel);
-            let (shift, facets) = (self.displacements[wall], &self.walls[wall].facets);
-            let leaves = |corner: &Vector<D>| {
-                let place = corner + shift;
-                self.exits.side(&place).is_some() && self.exits.side(&(place - way)).is_none()
-            };
-            if facets.iter().flat_map(|facet| &facet.corners).any(leaves) {
-                return Some(told("leaves the domain by an open side".to_owned()));
-            }
-            let meets = |other: &usize| {
-                let (theirs, shift) = (&self.walls[*other].facets, shift - self.displacements[*other]);
-                *other != wall
-                    && (self.is_passed(theirs, facets, shift, way) || self.is_passed(facets, theirs, -shift, -way))
-            };
-            let other = (0..self.walls.len()).find(meets)?;
-            Some(told(format!("meets `{}`", self.walls[other].name)))
-        };
-        let (wall, value, end) = loads.filter_map(found).next()?;
-        let wall = self.walls[wall].name.clone();
-        Some(OutOfRange { index: 0, identity: NO_PARTICLE, quantity: Quantity::LoadedWall { wall, end }, value })
-    }
-
-    /// Whether a corner of facets, displaced by a shift `[m]`, has passed other facets from their front on the last way to it `[m]`.
-    fn is_passed(&self, facets: &[Facet<D>], of: &[Facet<D>], shift: Vector<D>, way: Vector<D>) -> bool {
-        let tolerance = PASSED * self.range;
-        of.iter().flat_map(|facet| &facet.corners).any(|corner| {
-            let place = corner + shift;
-            facets.iter().any(|facet| {
-                let (before, after) = (facet.height(&(place - way)), facet.height(&place));
-                let met = place - way * (after / (after - before));
-                before >= -tolerance && after < -tolerance && (facet.nearest(&met) - met).norm() <= tolerance
-            })
-        })
     }
 }
 

@@ -6,7 +6,7 @@ use super::setting::{SceneBody, SceneWall, shown};
 use super::shapes;
 use super::sides::SceneSides;
 use crate::case::ParameterError;
-use bagnold_solver::parameter::{at_least, positive};
+use bagnold_solver::parameter::{at_least, between, positive};
 use bagnold_solver::vector::Vector;
 use bagnold_solver::weakly_compressible::enclosure::wall_load::WallLoad;
 use schemars::JsonSchema;
@@ -30,12 +30,12 @@ pub struct GivenLoad<P> {
     pub pressure: Option<f64>,
     /// Force `[N]`, in 2-D per metre of depth `[N/m]`; unless `pressure` is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = positive("give it in N, in 2-D in N/m; turn `direction` for a wall that is pulled"))]
+    #[schemars(transform = between(1e-12, 1e12, "give it in N, in 2-D in N/m; turn `direction` for a wall that is pulled"))]
     pub force: Option<f64>,
     /// Mass of the wall `[kg]`, in 2-D per metre of depth `[kg/m]`; half of that of the material below it where it is left out. Its weight is
     /// not added to the load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = positive("leave it out for half of the mass of the material below the wall"))]
+    #[schemars(transform = between(1e-12, 1e12, "leave it out for half of the mass of the material below the wall"))]
     pub mass: Option<f64>,
     /// Rate of a damper of the wall `[1/s]`, which takes nothing at rest; twice the sound speed over the height of the material where it is left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
