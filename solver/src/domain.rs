@@ -53,6 +53,16 @@ impl<const D: usize> Domain<D> {
         }
     }
 
+    /// The shortest of a way and its images along periodic axes.
+    pub(crate) fn shortest(&self, mut way: Vector<D>) -> Vector<D> {
+        for (part, boundary) in way.iter_mut().zip(&self.axes) {
+            if let AxisBoundary::Periodic { lower, upper } = boundary {
+                *part -= (*part / (upper - lower)).round() * (upper - lower);
+            }
+        }
+        way
+    }
+
     /// Exchanges a particle behind a mirror plane for its image in front of it: by symmetry the same flow. Without
     /// this a particle that the pressure squeezes through the plane would be lost to the flow.
     pub(crate) fn reflect(

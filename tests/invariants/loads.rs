@@ -2,8 +2,9 @@
 
 use crate::invariants::patches::{Disorder, SPACING, advance, block, open_scene, simulation};
 use crate::invariants::shells::shell;
+use bagnold_solver::domain::AxisBoundary;
 use bagnold_solver::vector::Vector;
-use bagnold_solver::weakly_compressible::enclosure::facet_wall::FacetWall;
+use bagnold_solver::weakly_compressible::enclosure::facet_wall::{FacetWall, Motion};
 use bagnold_solver::weakly_compressible::enclosure::wall_load::WallLoad;
 use bagnold_solver::weakly_compressible::scene::Scene;
 use bagnold_solver::weakly_compressible::simulation::{Compiled, Simulation};
@@ -25,7 +26,18 @@ pub(crate) fn pressed(damping: f64) -> Scene<2> {
     scene
 }
 
-/// The same in space, on a floor that is wide enough.
+/// Grains between two plates over a period, of which the upper one slides and is pressed down.
+pub(crate) fn sheared() -> Scene<2> {
+    let mut scene = pressed(30.0);
+    scene.domain.axes[0] = AxisBoundary::Periodic { lower: 0.0, upper: 0.14 };
+    let mut lid = shell("lid", &[[0.3, 0.127], [-0.1, 0.127]]);
+    let displacements = vec![Vector::zeros(), Vector::<2>::new(2.0, 0.0)];
+    lid.motion = Motion { times: vec![0.0, 1.0], displacements, load: scene.enclosure.walls[1].motion.load };
+    scene.enclosure.walls = vec![shell("floor", &[[-0.1, 0.0], [0.3, 0.0]]), lid];
+    scene
+}
+
+/// Grains in space under a lid, on a floor that is wide enough.
 pub(crate) fn pressed_in_space() -> Scene<3> {
     let mut scene = open_scene(block([7, 7, 7], Disorder::FULL, 5));
     let plate = |height: f64, lower: f64, upper: f64| {

@@ -137,6 +137,7 @@ fn walls_of_segments_and_open_sides_go_on_in_the_same_bits() {
 fn walls_under_loads_go_on_in_the_same_bits() {
     check(&loads::pressed(30.0));
     check(&loads::pressed_in_space());
+    check(&loads::sheared());
 }
 
 #[test]

@@ -101,7 +101,7 @@ impl<const D: usize> Simulation<D> {
                 return true;
             };
             let begun = state.particles.position[state.particles.flow_count() + index];
-            (place - begun - moved).norm() < MISPLACED * scene_spacing
+            state.search.domain.shortest(place - begun - moved).norm() < MISPLACED * scene_spacing
         };
         let count = particles.wall_count();
         let placed = (0..count).filter(is_at_its_place).count();
